@@ -1,0 +1,268 @@
+//! The seam between the grader and a student's code: calls go in, answers come out, and a stop says why there is none.
+//!
+//! One trait, several transports: the script in this process, a worker process, later a remote client. All carry these types and
+//! give the same bits.
+
+use serde::{Deserialize, Serialize};
+
+/// Runs one submission for one task.
+pub trait Controller {
+    /// Calls one of the submission's functions.
+    ///
+    /// # Errors
+    /// [`Stop`] if there is no answer; the controller is not called again after that.
+    fn call(&mut self, call: &Call) -> Result<Answer, Stop>;
+}
+
+/// What a controller is opened with, once per task.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Opening {
+    /// File name of the submission, as the student knows it.
+    pub file: String,
+    /// The submission's text.
+    pub source: String,
+    /// Name of the task.
+    pub task: String,
+    /// The robot of the task.
+    pub robot: RobotFacts,
+    /// What `observation.target` holds.
+    pub target: Value,
+    /// What the code may use up.
+    pub budgets: Budgets,
+}
+
+/// A value as it crosses the boundary.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// The unit value.
+    Nothing,
+    /// A truth value.
+    Boolean(bool),
+    /// A number; whole numbers too.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// A list, a vector, or a matrix as a list of rows.
+    List(Vec<Value>),
+    /// A map in the order of its keys.
+    Map(Vec<(String, Value)>),
+    /// Something that cannot cross; its type's name.
+    Other(String),
+}
+
+/// What a submission may know of the robot: the map `robot`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RobotFacts {
+    /// The robot's name.
+    pub name: String,
+    /// Names of the joints that move, in the order of `q`.
+    pub joint_names: Vec<String>,
+    /// The dimensions of the robot file: numbers and lists of numbers.
+    pub dimensions: Vec<(String, Value)>,
+    /// Lower position limits, shape `(n)`; minus infinity where there is none \[rad or m\].
+    pub lower: Vec<f64>,
+    /// Upper position limits, shape `(n)`; infinity where there is none \[rad or m\].
+    pub upper: Vec<f64>,
+    /// Effort limits of the task's servo, shape `(n)`; infinity where there is none \[N m or N\].
+    pub effort: Vec<f64>,
+}
+
+/// A call of one of the submission's functions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Call {
+    /// `forward_kinematics(robot, q)`.
+    ForwardKinematics {
+        /// The robot of the case.
+        robot: RobotFacts,
+        /// Joint positions \[rad or m\].
+        q: Vec<f64>,
+    },
+    /// `inverse_kinematics(robot, position)`.
+    InverseKinematics {
+        /// The robot of the case.
+        robot: RobotFacts,
+        /// Position of the TCP in the lab's frame \[m\].
+        position_m: [f64; 3],
+    },
+    /// `init(robot, task)`, once before the first `Control`; a submission without `init` answers nothing.
+    Init,
+    /// `control(observation)`.
+    Control(Observation),
+}
+
+/// What `control` sees; task, target and sensors are those of the [`Opening`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Observation {
+    /// The tick.
+    pub tick: u64,
+    /// Its time \[s\].
+    pub time_s: f64,
+    /// The control period \[s\].
+    pub dt_s: f64,
+    /// Joint positions \[rad or m\].
+    pub q: Vec<f64>,
+    /// Joint velocities \[rad/s or m/s\].
+    pub qd: Vec<f64>,
+    /// Joint efforts of the tick before \[N m or N\].
+    pub effort: Vec<f64>,
+    /// Position of the TCP in the lab's frame \[m\].
+    pub tcp_m: [f64; 3],
+}
+
+/// What came of a call.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    /// What the function returned.
+    pub value: Value,
+    /// Lines it printed.
+    pub log: Vec<String>,
+    /// Values it plotted, by name, in order.
+    pub plots: Vec<(String, f64)>,
+    /// Operations it used.
+    pub operations: u64,
+}
+
+/// A place in the submission, both from one, the column in characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Place {
+    /// The line.
+    pub line: usize,
+    /// The column.
+    pub column: usize,
+}
+
+/// What a student did that cannot run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mistake {
+    /// What is wrong, in a lowercase fragment with names and values.
+    pub message: String,
+    /// Where, if the host knows.
+    pub place: Option<Place>,
+    /// Something to do.
+    pub help: Option<String>,
+}
+
+/// Why a call has no answer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Stop {
+    /// The submission cannot be read as a program.
+    DidNotBuild(Mistake),
+    /// It has no such function; `help` names the nearest one, or says what its parameters should be.
+    Missing {
+        /// The function's name and parameters: `control(observation)`.
+        function: String,
+        /// Something to do.
+        help: Option<String>,
+    },
+    /// It failed while running.
+    Crashed(Mistake),
+    /// It used up a budget.
+    OverBudget {
+        /// Which.
+        budget: Budget,
+        /// The budget's value.
+        limit: u64,
+        /// Where it ran out, if the host knows.
+        place: Option<Place>,
+    },
+    /// This machine's clock or memory ended it; says nothing about the work.
+    HostLimit(HostLimit),
+    /// The grader failed; the student is not at fault.
+    GraderFault(String),
+    /// The person at the terminal asked to stop.
+    Interrupted,
+}
+
+/// What a submission may use up; all are counted, none is timed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Budget {
+    /// Operations of one call.
+    OperationsPerCall,
+    /// Operations of a whole task.
+    OperationsPerTask,
+    /// Functions calling functions.
+    CallDepth,
+    /// Expressions inside expressions.
+    ExpressionDepth,
+    /// Elements of one list.
+    ListSize,
+    /// Characters of one text.
+    TextSize,
+    /// Entries of one map.
+    MapSize,
+    /// Lines printed in a task.
+    LogLines,
+    /// Values plotted in a task.
+    PlotSamples,
+    /// Bytes of the submission.
+    SourceBytes,
+}
+
+impl Budget {
+    /// What it counts, in words: `operations in one call`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OperationsPerCall => "operations in one call",
+            Self::OperationsPerTask => "operations in one task",
+            Self::CallDepth => "functions calling functions",
+            Self::ExpressionDepth => "expressions inside each other",
+            Self::ListSize => "elements in one list",
+            Self::TextSize => "characters in one text",
+            Self::MapSize => "entries in one map",
+            Self::LogLines => "printed lines in one task",
+            Self::PlotSamples => "plotted values in one task",
+            Self::SourceBytes => "bytes of source",
+        }
+    }
+}
+
+/// A limit of the machine, not of the submission.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum HostLimit {
+    /// The wall clock or CPU time of the worker.
+    Time,
+    /// The memory of the worker.
+    Memory,
+}
+
+/// The value of every budget.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Budgets {
+    /// Operations of one call.
+    pub operations_per_call: u64,
+    /// Operations of a whole task.
+    pub operations_per_task: u64,
+    /// Functions calling functions.
+    pub call_depth: u64,
+    /// Expressions inside expressions.
+    pub expression_depth: u64,
+    /// Elements of one list.
+    pub list_size: u64,
+    /// Characters of one text.
+    pub text_size: u64,
+    /// Entries of one map.
+    pub map_size: u64,
+    /// Lines printed in a task.
+    pub log_lines: u64,
+    /// Values plotted in a task.
+    pub plot_samples: u64,
+    /// Bytes of the submission.
+    pub source_bytes: u64,
+}
+
+impl Default for Budgets {
+    fn default() -> Self {
+        Self {
+            operations_per_call: 50_000,
+            operations_per_task: 10_000_000,
+            call_depth: 32,
+            expression_depth: 64,
+            list_size: 4_000,
+            text_size: 4_000,
+            map_size: 256,
+            log_lines: 1_000,
+            plot_samples: 50_000,
+            source_bytes: 65_536,
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The grade record `kinemark-grade/1`: the one value every format is rendered from.
+//!
+//! No clock, no path, no host is in it: the same submission gives the same bytes.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Verdict;
+
+/// The version of the record this build writes.
+pub const FORMAT: &str = "kinemark-grade/1";
+
+/// A graded run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grade {
+    /// Always `kinemark-grade/1`.
+    pub format: String,
+    /// The engine and its version, such as `kinemark 0.1.0`.
+    pub engine: String,
+    /// `graded` with the staff's reference and hidden cases, `practice` without.
+    pub mode: GradeMode,
+    /// The lab.
+    pub lab: Part,
+    /// The robot file.
+    pub robot: Part,
+    /// The submission; `name` is its file name.
+    pub submission: Part,
+    /// The staff's reference folder, if it took part.
+    pub reference: Option<Part>,
+    /// The worst verdict of the tasks.
+    pub verdict: Verdict,
+    /// Points earned.
+    pub points: f64,
+    /// Points there are.
+    pub max_points: f64,
+    /// One per task, in the lab's order.
+    pub tasks: Vec<TaskGrade>,
+}
+
+/// Whether hidden cases took part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GradeMode {
+    /// Visible cases only.
+    Practice,
+    /// Visible and hidden cases.
+    Graded,
+}
+
+/// Something that took part, by name and content.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Its name.
+    pub name: String,
+    /// BLAKE3 of its bytes, in hexadecimal.
+    pub digest: String,
+}
+
+/// The kind of a task.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TaskKind {
+    /// A function is called on cases.
+    Function,
+    /// A simulated run under `control`.
+    Motion,
+}
+
+/// One task, graded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TaskGrade {
+    /// Its name in the lab file.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Its kind.
+    pub kind: TaskKind,
+    /// Its outcome.
+    pub verdict: Verdict,
+    /// Points earned.
+    pub points: f64,
+    /// Points there are.
+    pub max_points: f64,
+    /// What stopped the submission, if something did.
+    pub stopped: Option<Stopped>,
+    /// Its checks, in the lab's order.
+    pub checks: Vec<CheckGrade>,
+    /// Known mistakes that the answers agree with.
+    pub diagnoses: Vec<Diagnosis>,
+    /// Visible cases of a function task, each with its answer.
+    pub cases: Vec<CaseGrade>,
+    /// Hidden cases of a function task, counted by class.
+    pub hidden: Vec<HiddenClass>,
+    /// Operations the submission used.
+    pub operations: u64,
+    /// Lines the submission printed (the first 200).
+    pub log: Vec<LogEntry>,
+    /// Identity of what the submission did.
+    pub digests: Digests,
+}
+
+/// What stopped a submission in a task.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stopped {
+    /// What happened.
+    pub message: String,
+    /// Something to do.
+    pub help: Option<String>,
+    /// Line in the submission, from one.
+    pub line: Option<usize>,
+    /// Column in that line, in characters, from one.
+    pub column: Option<usize>,
+    /// The line itself.
+    pub source_line: Option<String>,
+    /// The tick of a motion task at which it happened.
+    pub tick: Option<u64>,
+    /// The time of that tick \[s\].
+    pub time_s: Option<f64>,
+    /// The visible case of a function task in which it happened, or the class of a hidden one.
+    pub case: Option<String>,
+}
+
+/// How much of a check's points was earned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// All of them.
+    Full,
+    /// Some of them.
+    Partial,
+    /// None of them.
+    None,
+    /// None, because a check it needs earned none, or the submission was stopped before.
+    NotJudged,
+}
+
+/// One check, graded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CheckGrade {
+    /// Its name in the lab file.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// Points earned.
+    pub points: f64,
+    /// Points there are.
+    pub max_points: f64,
+    /// What was measured against the band.
+    pub measure: Option<Measure>,
+    /// Why points were lost, worst first; empty where none were.
+    pub evidence: Vec<Evidence>,
+    /// One thing to do next, where points were lost.
+    pub next_step: Option<String>,
+}
+
+/// A measured value and the band it was judged by: `full` earns all points, `zero` none, between them they fall linearly.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Measure {
+    /// What was measured, such as `mean position error`.
+    pub quantity: String,
+    /// The value; absent where it is not finite.
+    pub value: Option<f64>,
+    /// Unit of value and band; empty for a ratio.
+    pub unit: String,
+    /// The value that earns all points.
+    pub full: f64,
+    /// The value that earns none.
+    pub zero: f64,
+}
+
+impl Measure {
+    /// How far the value lies inside `full` (positive) or outside it (negative), in the unit of the measure.
+    pub fn margin(&self) -> Option<f64> {
+        let toward = if self.zero >= self.full { 1.0 } else { -1.0 };
+        self.value.map(|value| (self.full - value) * toward)
+    }
+}
+
+/// A fact that cost points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// What happened, in a sentence with its numbers.
+    pub message: String,
+    /// The signal it shows in, such as `tcp`, `q[1]`, `effort[0]`, or the function called.
+    pub signal: String,
+    /// The tick of a motion task at which it first went wrong, or at its worst.
+    pub tick: Option<u64>,
+    /// The time of that tick \[s\].
+    pub time_s: Option<f64>,
+    /// The visible case of a function task, or the class of hidden ones.
+    pub case: Option<String>,
+    /// The value there.
+    pub value: Option<f64>,
+    /// The limit it was held against.
+    pub limit: Option<f64>,
+    /// Unit of value and limit.
+    pub unit: String,
+}
+
+/// A known mistake that the answers agree with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Diagnosis {
+    /// The mistake's name in the reference folder.
+    pub mistake: String,
+    /// The mistake in words.
+    pub says: String,
+    /// Answers that show the mistake.
+    pub agreeing: u32,
+    /// Answers in which the mistake would show.
+    pub telling: u32,
+}
+
+/// A visible case of a function task.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CaseGrade {
+    /// Its name.
+    pub name: String,
+    /// What the function was given.
+    pub given: String,
+    /// What it answered.
+    pub answer: String,
+    /// What would have been right, where telling it gives no other task away.
+    pub expected: Option<String>,
+    /// Error of the answer \[m\]; absent where there is none or it is not finite.
+    pub error_m: Option<f64>,
+    /// Whether the answer is within the band's `full`.
+    pub good: bool,
+}
+
+/// Hidden cases of one class: only their number is told.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HiddenClass {
+    /// The class of case, such as `unequal links`.
+    pub class: String,
+    /// Cases with a good answer.
+    pub good: u32,
+    /// Cases there are.
+    pub total: u32,
+}
+
+/// A line the submission printed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LogEntry {
+    /// The tick of the call in a motion task, the number of the case in a function task.
+    pub at: u64,
+    /// The text.
+    pub text: String,
+}
+
+/// Identity of what a submission did in a task, in hexadecimal BLAKE3.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Digests {
+    /// Of the whole run, or of all answers in order.
+    pub all: String,
+    /// Of every simulated second of a motion task.
+    pub seconds: Vec<SecondDigests>,
+}
+
+/// Digests of one simulated second.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SecondDigests {
+    /// Joint positions.
+    pub q: String,
+    /// Joint velocities.
+    pub qd: String,
+    /// Commands.
+    pub command: String,
+    /// Efforts.
+    pub effort: String,
+    /// TCP poses.
+    pub tcp: String,
+}

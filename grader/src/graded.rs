@@ -1,0 +1,84 @@
+//! A graded run: the record, and what the renderers draw from besides it.
+
+use kinemark_sim::control::Mode;
+use kinemark_sim::robot::Robot;
+use kinemark_sim::trace::Trace;
+
+use crate::grade::Grade;
+
+/// The grade of a submission with the runs it rests on.
+#[derive(Debug, Clone)]
+pub struct GradedRun {
+    /// The record.
+    pub grade: Grade,
+    /// The motion tasks that ran, in the lab's order.
+    pub runs: Vec<TaskRun>,
+}
+
+/// One motion task as it ran.
+#[derive(Debug, Clone)]
+pub struct TaskRun {
+    /// The task's name.
+    pub task: String,
+    /// The robot that moved.
+    pub robot: Robot,
+    /// The frame in which the TCP, the goals and the paths are told.
+    pub seen_from: String,
+    /// The servo's mode: what the command means.
+    pub mode: Mode,
+    /// Effort limits of the servo, shape `(n)`; infinity where there is none \[N m or N\].
+    pub effort_limits: Vec<f64>,
+    /// What the run recorded, up to its end or to where it stopped.
+    pub trace: Trace,
+    /// Where the TCP was to go, in order.
+    pub goals: Vec<Goal>,
+    /// The reference solution's TCP path, if the lab has one.
+    pub reference_tcp: Option<TcpPath>,
+    /// The curves that checks judged, in the lab's order.
+    pub curves: Vec<Curve>,
+}
+
+/// A place the TCP is to reach and to stay at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Position in the lab's frame \[m\].
+    pub position_m: [f64; 3],
+    /// How long to stay \[s\].
+    pub dwell_s: f64,
+    /// Distance that earns all points \[m\].
+    pub full_m: f64,
+    /// Distance that earns none \[m\].
+    pub zero_m: f64,
+    /// First and last tick of the stay that was judged, if one was found.
+    pub stay: Option<(u64, u64)>,
+}
+
+/// TCP positions at a fixed period, from time zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TcpPath {
+    /// Time from one point to the next \[s\].
+    pub period_s: f64,
+    /// Positions in the lab's frame \[m\].
+    pub points_m: Vec<[f64; 3]>,
+}
+
+/// A curve over time that a check judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The check's name.
+    pub check: String,
+    /// What is drawn, such as `distance to the goal`.
+    pub title: String,
+    /// Unit of the values; empty for a ratio.
+    pub unit: String,
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Values.
+    pub values: Vec<f64>,
+    /// The value that earns all points, drawn as a line.
+    pub full: Option<f64>,
+    /// The value that earns none, drawn as a line.
+    pub zero: Option<f64>,
+    /// Moments worth a mark, with what they are.
+    pub marks: Vec<(f64, String)>,
+}

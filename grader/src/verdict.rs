@@ -1,0 +1,49 @@
+//! The verdicts of a task and the order in which they win.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The outcome of a task, worst first; of a whole grade, the worst of its tasks.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The grader failed; the student is not at fault. No points are decided.
+    GraderFault,
+    /// This machine's clock or memory ended the task; it says nothing about the work. No points are decided.
+    HostLimit,
+    /// The submission cannot be read as a program.
+    DidNotBuild,
+    /// The submission failed while running.
+    Crashed,
+    /// The submission used up a counted budget.
+    OverBudget,
+    /// The submission returned something of the wrong shape, or a number that is not finite.
+    InvalidOutput,
+    /// It ran, and some check is not full.
+    Missed,
+    /// Every check is full.
+    Passed,
+}
+
+impl Verdict {
+    /// The verdict's word, as in the grade record.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GraderFault => "grader-fault",
+            Self::HostLimit => "host-limit",
+            Self::DidNotBuild => "did-not-build",
+            Self::Crashed => "crashed",
+            Self::OverBudget => "over-budget",
+            Self::InvalidOutput => "invalid-output",
+            Self::Missed => "missed",
+            Self::Passed => "passed",
+        }
+    }
+
+    /// Whether points are decided: not where the grader or its machine failed.
+    pub fn is_decided(self) -> bool {
+        !matches!(self, Self::GraderFault | Self::HostLimit)
+    }
+}

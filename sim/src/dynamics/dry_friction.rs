@@ -1,0 +1,86 @@
+//! Dry friction over one step: the effort, within `±dry_friction`, that brings each joint as near to rest as it can.
+//!
+//! A sign function inside the integrator would chatter around rest. Instead the effort is decided once a step and held, like a
+//! servo's: it stops a joint that can be stopped within the step (so a joint sticks exactly), and opposes motion with its full
+//! value otherwise. The joints are coupled through the mass matrix, so the efforts are found together by projected Gauss-Seidel.
+//!
+//! Source: Stewart & Trinkle, *An implicit time-stepping scheme for rigid body dynamics* (1996), restricted to joint friction.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::crba::Crba;
+use crate::robot::Robot;
+
+/// Sweeps over the joints. The iteration contracts on any positive definite matrix; 40 sweeps leave less than rounding on arms.
+const SWEEPS: usize = 40;
+
+/// Room for the friction efforts of one robot; does nothing for a robot without dry friction.
+#[derive(Debug, Clone)]
+pub struct DryFriction {
+    crba: Crba,
+    limits: Vec<f64>,
+    /// The mass matrix, then its inverse.
+    matrix: DMatrix<f64>,
+    rates: DVector<f64>,
+    efforts: Vec<f64>,
+    present: bool,
+}
+
+impl DryFriction {
+    /// Room for `robot`.
+    pub fn new(robot: &Robot) -> Self {
+        let n = robot.n();
+        let mut limits = vec![0.0; n];
+        for body in robot.bodies() {
+            limits[body.q_index] = body.dry_friction;
+        }
+        Self {
+            crba: Crba::new(robot),
+            present: limits.iter().any(|limit| *limit > 0.0),
+            limits,
+            matrix: DMatrix::zeros(n, n),
+            rates: DVector::zeros(n),
+            efforts: vec![0.0; n],
+        }
+    }
+
+    /// Whether the robot has any dry friction.
+    pub fn is_present(&self) -> bool {
+        self.present
+    }
+
+    /// The friction efforts to hold over the step, shape `(n)`, where `qdd` is the acceleration without them.
+    ///
+    /// All zero if the mass matrix is not positive definite: the step itself then reports the singular joint.
+    pub fn efforts(
+        &mut self,
+        robot: &Robot,
+        dt_s: f64,
+        q: &[f64],
+        qd: &[f64],
+        qdd: &[f64],
+    ) -> &[f64] {
+        let n = self.limits.len();
+        self.efforts.fill(0.0);
+        self.crba.fill(robot, q, &mut self.matrix);
+        let Some(inverse) = self.matrix.clone().cholesky().map(|c| c.inverse()) else {
+            return &self.efforts;
+        };
+        for i in 0..n {
+            self.rates[i] = qd[i] + dt_s * qdd[i];
+        }
+        for _ in 0..SWEEPS {
+            for i in 0..n {
+                let per_effort = dt_s * inverse[(i, i)];
+                let wanted = self.efforts[i] - self.rates[i] / per_effort;
+                let next = wanted.clamp(-self.limits[i], self.limits[i]);
+                let change = next - self.efforts[i];
+                self.efforts[i] = next;
+                for j in 0..n {
+                    self.rates[j] += dt_s * inverse[(j, i)] * change;
+                }
+            }
+        }
+        &self.efforts
+    }
+}

@@ -1,0 +1,37 @@
+//! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`aba`]), energy
+//! ([`energy`]), dry friction as it acts over a step ([`dry_friction`]), and the smooth step ([`smooth`]).
+//!
+//! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
+//! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is
+//! `-damping qd - dry_friction sign(qd)`; `sign(0)` is 0. `armature` adds to the diagonal of the mass matrix.
+//!
+//! Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), ch. 5 to 7, whose spatial accelerations are restated here as
+//! classical ones.
+
+pub mod aba;
+pub mod crba;
+pub mod dry_friction;
+pub mod energy;
+pub mod rnea;
+pub mod smooth;
+
+use nalgebra::Vector3;
+
+pub use aba::{SingularMassMatrix, forward_dynamics};
+pub use crba::mass_matrix;
+pub use energy::{Energy, energy};
+pub use rnea::{bias_effort, gravity_effort, inverse_dynamics};
+
+/// Standard gravity in the world, z up \[m/s²\].
+pub const GRAVITY_M_S2: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
+
+/// Sign with `sign(0) = 0`: a joint at rest has no dry friction of its own direction.
+pub(crate) fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}

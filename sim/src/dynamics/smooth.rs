@@ -1,0 +1,98 @@
+//! The smooth step: classical Runge-Kutta of order four over the articulated-body algorithm, effort held over the step.
+//!
+//! This is the seam where contact joins: a step takes a state and held efforts and leaves the next state.
+
+use nalgebra::Vector3;
+
+use super::aba::{Aba, SingularMassMatrix};
+use super::dry_friction::DryFriction;
+use crate::robot::Robot;
+
+/// Integrates one robot with a fixed step; all its room is allocated once.
+#[derive(Debug, Clone)]
+pub struct SmoothStep {
+    dt_s: f64,
+    gravity_m_s2: Vector3<f64>,
+    aba: Aba,
+    friction: DryFriction,
+    held: Vec<f64>,
+    stage_q: Vec<f64>,
+    stage_qd: Vec<f64>,
+    /// Velocities and accelerations of the four stages.
+    rates: [Vec<f64>; 4],
+    slopes: [Vec<f64>; 4],
+}
+
+impl SmoothStep {
+    /// A step of `dt_s` for `robot` under `gravity_m_s2` (world).
+    pub fn new(robot: &Robot, gravity_m_s2: Vector3<f64>, dt_s: f64) -> Self {
+        let room = || vec![0.0; robot.n()];
+        Self {
+            dt_s,
+            gravity_m_s2,
+            aba: Aba::new(robot),
+            friction: DryFriction::new(robot),
+            held: room(),
+            stage_q: room(),
+            stage_qd: room(),
+            rates: [room(), room(), room(), room()],
+            slopes: [room(), room(), room(), room()],
+        }
+    }
+
+    /// Moves `(q, qd)` on by one step under `effort`, held; all slices have shape `(n)`. Allocates nothing without dry friction.
+    ///
+    /// # Errors
+    /// [`SingularMassMatrix`] if a joint moves no inertia; the state is then unchanged.
+    pub fn advance(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        let n = q.len();
+        let dt = self.dt_s;
+        self.held[..n].copy_from_slice(&effort[..n]);
+        if self.friction.is_present() {
+            let slope = &mut self.slopes[0];
+            self.aba
+                .acceleration(robot, &self.gravity_m_s2, q, qd, effort, slope)?;
+            let friction = self.friction.efforts(robot, dt, q, qd, slope);
+            for (held, friction) in self.held.iter_mut().zip(friction) {
+                *held += friction;
+            }
+        }
+        // stages at 0, dt/2, dt/2, dt
+        for stage in 0..4 {
+            let (stage_q, stage_qd) = (&mut self.stage_q[..n], &mut self.stage_qd[..n]);
+            if stage == 0 {
+                stage_q.copy_from_slice(q);
+                stage_qd.copy_from_slice(qd);
+            } else {
+                let reach = if stage == 3 { dt } else { 0.5 * dt };
+                let (rate, slope) = (&self.rates[stage - 1][..n], &self.slopes[stage - 1][..n]);
+                for i in 0..n {
+                    stage_q[i] = q[i] + reach * rate[i];
+                    stage_qd[i] = qd[i] + reach * slope[i];
+                }
+            }
+            self.rates[stage][..n].copy_from_slice(stage_qd);
+            self.aba.acceleration(
+                robot,
+                &self.gravity_m_s2,
+                stage_q,
+                stage_qd,
+                &self.held,
+                &mut self.slopes[stage],
+            )?;
+        }
+        let sixth = dt / 6.0;
+        let ([r0, r1, r2, r3], [s0, s1, s2, s3]) = (&self.rates, &self.slopes);
+        for i in 0..n {
+            q[i] += sixth * (r0[i] + 2.0 * (r1[i] + r2[i]) + r3[i]);
+            qd[i] += sixth * (s0[i] + 2.0 * (s1[i] + s2[i]) + s3[i]);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,104 @@
+//! Forward kinematics: the pose of every body, and through it of every frame, in the world.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::joint::JointPositions;
+use crate::robot::model::{Attachment, Body};
+use crate::robot::{Frame, Robot};
+use crate::spatial::{Pose, pose};
+
+/// Where a moving body is: its axes in the world's, and its origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Placed {
+    pub(crate) world_from_body: Matrix3<f64>,
+    pub(crate) position: Vector3<f64>,
+}
+
+impl Placed {
+    pub(crate) const WORLD: Self = Self {
+        world_from_body: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        position: Vector3::new(0.0, 0.0, 0.0),
+    };
+
+    /// Places `body` on its parent at the joint position `q`.
+    #[inline]
+    pub(crate) fn on(parent: &Self, body: &Body, q: f64) -> Self {
+        let origin = parent.position + parent.world_from_body * body.p_body_in_parent;
+        let still = parent.world_from_body * body.parent_from_body;
+        if body.turns {
+            let (s, c) = libm::sincos(q);
+            // turning about z mixes the first two columns only
+            let x = still.column(0) * c + still.column(1) * s;
+            let y = still.column(1) * c - still.column(0) * s;
+            Self {
+                world_from_body: Matrix3::from_columns(&[x, y, still.column(2).into_owned()]),
+                position: origin,
+            }
+        } else {
+            Self {
+                world_from_body: still,
+                position: origin + still.column(2) * q,
+            }
+        }
+    }
+
+    /// The joint's axis in the world.
+    #[inline]
+    pub(crate) fn axis(&self) -> Vector3<f64> {
+        self.world_from_body.column(2).into_owned()
+    }
+}
+
+/// The poses of all frames of a robot in the world, for one `q`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FramePoses {
+    pub(crate) placed: Vec<Placed>,
+}
+
+impl FramePoses {
+    /// Room for the poses of `robot`, at `q = 0` until [`FramePoses::update`].
+    pub fn new(robot: &Robot) -> Self {
+        let mut poses = Self {
+            placed: vec![Placed::WORLD; robot.bodies().len()],
+        };
+        poses.update(robot, &vec![0.0; robot.n()]);
+        poses
+    }
+
+    /// Moves every body to `q` \[rad or m\], shape `(n)`. Allocates nothing.
+    ///
+    /// # Panics
+    /// If `q` has another length than [`Robot::n`], or `robot` is not the one the poses were made for.
+    pub fn update(&mut self, robot: &Robot, q: &[f64]) {
+        assert_eq!(q.len(), robot.n(), "one position per joint that moves");
+        for (i, body) in robot.bodies().iter().enumerate() {
+            let parent = body.parent.map_or(Placed::WORLD, |p| self.placed[p]);
+            self.placed[i] = Placed::on(&parent, body, q[body.q_index]);
+        }
+    }
+
+    /// The pose `world_from_frame`.
+    pub fn world_from(&self, frame: &Frame) -> Pose {
+        let Attachment {
+            body,
+            body_from_here,
+        } = &frame.attachment;
+        match body {
+            None => *body_from_here,
+            Some(body) => {
+                let Placed {
+                    world_from_body,
+                    position,
+                } = self.placed[*body];
+                pose(world_from_body, position) * body_from_here
+            }
+        }
+    }
+}
+
+/// The poses of all frames of `robot` at `q`.
+pub fn forward_kinematics(robot: &Robot, q: &JointPositions) -> FramePoses {
+    let mut poses = FramePoses::new(robot);
+    poses.update(robot, q.as_slice());
+    poses
+}

@@ -1,0 +1,31 @@
+//! Robots, kinematics, dynamics, control and the deterministic run.
+//!
+//! This crate knows no lab, mark, file or terminal: it is handed text and numbers and returns values.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`source`] | text from outside, and errors that point into it |
+//! | [`robot`] | the immutable robot and its TOML description |
+//! | [`joint`] | vectors over the joints that move |
+//! | [`spatial`] | poses, twists, symmetric tensors |
+//! | [`kinematics`] | where frames are and how they move |
+//! | [`dynamics`] | RNEA, CRBA, ABA, energy, the smooth step |
+//! | [`control`] | joint servos: command in, effort out |
+//! | [`ticks`] | time as whole numbers of physics steps |
+//! | [`run`] | the tick loop: observe, control, servo, step |
+//! | [`trace`] | the columns of one run and their digests |
+//!
+//! Conventions: SI units and radians; the world is z-up; `a_from_b` maps coordinates in `b` to coordinates in `a`; Jacobian
+//! rows are `[linear; angular]`; arrays over joints follow the file order of the joints that move. All transcendental functions
+//! come from `libm`, so that every platform computes the same bits.
+
+pub mod control;
+pub mod dynamics;
+pub mod joint;
+pub mod kinematics;
+pub mod robot;
+pub mod run;
+pub mod source;
+pub mod spatial;
+pub mod ticks;
+pub mod trace;

@@ -1,0 +1,146 @@
+//! Everything that can be wrong with a robot's description.
+
+use crate::source::{Located, Problem};
+
+/// A problem in a robot description, with its place.
+pub type RobotError = Located<RobotProblem>;
+
+/// What is wrong with a robot description.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message says what its variant is")]
+pub enum RobotProblem {
+    #[error("{message}")]
+    Toml {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("robot format {found} is not known")]
+    UnknownFormat { found: i64 },
+    #[error("{message}")]
+    Expression {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("a robot needs at least one link")]
+    NoLinks,
+    #[error("{what} `{name}` is there twice")]
+    Duplicate { what: &'static str, name: String },
+    #[error("{what} name {name:?} cannot be used")]
+    BadName { what: &'static str, name: String },
+    #[error("no link is called `{name}`")]
+    UnknownLink { name: String, help: String },
+    #[error("link `{link}` is moved by two joints: `{first}` and `{second}`")]
+    TwoParents {
+        link: String,
+        first: String,
+        second: String,
+    },
+    #[error("link `{link}` is the first link, fixed to the world, and cannot be a joint's child")]
+    RootIsChild { link: String },
+    #[error("no joint holds link `{link}`")]
+    Detached { link: String, root: String },
+    #[error("joint `{joint}` closes a cycle: `{link}` would carry itself")]
+    Cycle { joint: String, link: String },
+    #[error("{message}")]
+    Axis { message: String },
+    #[error("{what} must be {expected}, got {found}")]
+    OutOfRange {
+        what: String,
+        expected: &'static str,
+        found: String,
+    },
+    #[error("{message}")]
+    Inertia { message: String, help: String },
+    #[error("{message}")]
+    Origin { message: String, help: String },
+    #[error("{message}")]
+    Limit { message: String, help: String },
+    #[error("no dimension `{name}` in this robot")]
+    UnknownDimension { name: String, help: String },
+    #[error("dimension `{name}` is {expected} and cannot become {found}")]
+    DimensionShape {
+        name: String,
+        expected: String,
+        found: String,
+    },
+}
+
+impl Problem for RobotProblem {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Toml { .. } => "robot::toml",
+            Self::UnknownFormat { .. } => "robot::unknown_format",
+            Self::Expression { .. } => "robot::expression",
+            Self::NoLinks => "robot::no_links",
+            Self::Duplicate { .. } => "robot::duplicate",
+            Self::BadName { .. } => "robot::bad_name",
+            Self::UnknownLink { .. } => "robot::unknown_link",
+            Self::TwoParents { .. } => "robot::two_parents",
+            Self::RootIsChild { .. } => "robot::root_is_child",
+            Self::Detached { .. } => "robot::detached",
+            Self::Cycle { .. } => "robot::cycle",
+            Self::Axis { .. } => "robot::axis",
+            Self::OutOfRange { .. } => "robot::out_of_range",
+            Self::Inertia { .. } => "robot::inertia",
+            Self::Origin { .. } => "robot::origin",
+            Self::Limit { .. } => "robot::limit",
+            Self::UnknownDimension { .. } => "robot::unknown_dimension",
+            Self::DimensionShape { .. } => "robot::dimension_shape",
+        }
+    }
+
+    fn label(&self) -> String {
+        match self {
+            Self::Toml { .. } => "here".to_owned(),
+            Self::UnknownFormat { .. } => "this version reads format 1".to_owned(),
+            Self::Expression { .. } => "in this expression".to_owned(),
+            Self::NoLinks => "no [[links]]".to_owned(),
+            Self::Duplicate { .. } => "the second one".to_owned(),
+            Self::BadName { .. } => "this name".to_owned(),
+            Self::UnknownLink { .. } => "not a link of this robot".to_owned(),
+            Self::TwoParents { .. } => "the second joint that moves it".to_owned(),
+            Self::RootIsChild { .. } => "the root".to_owned(),
+            Self::Detached { .. } => "hangs in the air".to_owned(),
+            Self::Cycle { .. } => "this joint".to_owned(),
+            Self::Axis { .. } => "this axis".to_owned(),
+            Self::OutOfRange { .. } => "out of range".to_owned(),
+            Self::Inertia { .. } => "this inertia".to_owned(),
+            Self::Origin { .. } => "this origin".to_owned(),
+            Self::Limit { .. } => "this limit".to_owned(),
+            Self::UnknownDimension { .. } | Self::DimensionShape { .. } => {
+                "the dimensions of this robot".to_owned()
+            }
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            Self::Toml { help, .. } | Self::Expression { help, .. } => help.clone(),
+            Self::UnknownFormat { .. } => Some("write `format = 1`".to_owned()),
+            Self::NoLinks => Some("add a [[links]] table: the first link is the root".to_owned()),
+            Self::Duplicate { .. } => Some("give each its own name".to_owned()),
+            Self::BadName { .. } => {
+                Some("a name is not empty, and `world` is taken by the world itself".to_owned())
+            }
+            Self::UnknownLink { help, .. }
+            | Self::Inertia { help, .. }
+            | Self::Origin { help, .. }
+            | Self::Limit { help, .. }
+            | Self::UnknownDimension { help, .. } => Some(help.clone()),
+            Self::TwoParents { .. } => {
+                Some("a link hangs on one joint; remove one of the two".to_owned())
+            }
+            Self::RootIsChild { .. } => {
+                Some("put the link that stands still first, or turn the joint around".to_owned())
+            }
+            Self::Detached { root, .. } => Some(format!(
+                "add a joint with this link as its child; only `{root}`, the first link, needs none"
+            )),
+            Self::Cycle { .. } => Some("follow parents to the first link".to_owned()),
+            Self::Axis { .. } => {
+                Some("an axis has three numbers, in the child's frame, not all zero".to_owned())
+            }
+            Self::OutOfRange { .. } | Self::DimensionShape { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Robots that the tests share: the course's arm, and trees drawn from a seed.
+
+use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::source::Source;
+
+/// Reads a robot from text.
+pub(crate) fn robot(text: &str) -> Robot {
+    let file = RobotFile::parse(Source::new("robot.toml", text)).expect("readable");
+    file.build(&[]).expect("a robot")
+}
+
+/// The arm of the course.
+pub(crate) fn rrbot() -> Robot {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../labs/robots/rrbot.toml");
+    robot(&std::fs::read_to_string(path).expect("labs/robots/rrbot.toml"))
+}
+
+/// A stream of numbers in [0, 1), the same for the same seed.
+pub(crate) struct Numbers(u64);
+
+impl Numbers {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number in `[low, high)`.
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        // SplitMix64 (Steele, Lea & Flood 2014)
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub(crate) fn vector(&mut self, n: usize, size: f64) -> Vec<f64> {
+        (0..n).map(|_| self.between(-size, size)).collect()
+    }
+}
+
+/// A tree of `joints` joints of all kinds with skew axes, turned inertias, damping and armature.
+pub(crate) fn random_tree(seed: u64, joints: usize) -> Robot {
+    let mut r = Numbers::new(seed);
+    let mut text = String::from("format = 1\nname = \"tree\"\n[[links]]\nname = \"l0\"\n");
+    let triple = |v: Vec<f64>| format!("[{}, {}, {}]", v[0], v[1], v[2]);
+    for j in 1..=joints {
+        let com = triple(r.vector(3, 0.2));
+        // diag(a, b, c) with a < b + c and so on, then a little off-diagonal
+        let (a, b, c) = (
+            r.between(0.02, 0.03),
+            r.between(0.02, 0.03),
+            r.between(0.02, 0.03),
+        );
+        let off = r.vector(3, 0.002);
+        text += &format!(
+            "[[links]]\nname = \"l{j}\"\ninertia = {{ mass_kg = {}, com_m = {com}, tensor_kg_m2 = [{a}, {b}, {c}, {}, {}, {}] }}\n",
+            r.between(0.3, 2.0),
+            off[0],
+            off[1],
+            off[2]
+        );
+    }
+    for j in 1..=joints {
+        let parent = r.between(0.0, j as f64) as usize;
+        let kind = ["revolute", "prismatic", "continuous", "fixed"][if j == 1 {
+            0
+        } else {
+            r.between(0.0, 4.0) as usize
+        }];
+        let (xyz, rpy, axis) = (
+            triple(r.vector(3, 0.5)),
+            triple(r.vector(3, 180.0)),
+            triple(r.vector(3, 1.0)),
+        );
+        text += &format!(
+            "[[joints]]\nname = \"j{j}\"\ntype = \"{kind}\"\nparent = \"l{parent}\"\nchild = \"l{j}\"\norigin = {{ xyz_m = {xyz}, rpy_deg = {rpy} }}\n"
+        );
+        if kind != "fixed" {
+            text += &format!(
+                "axis = {axis}\ndamping = {}\narmature = {}\n",
+                r.between(0.0, 0.5),
+                r.between(0.0, 0.1)
+            );
+        }
+    }
+    robot(&text)
+}

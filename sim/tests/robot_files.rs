@@ -1,0 +1,50 @@
+//! Robot files: what they may say, and that both ways of saying a thing agree.
+
+use kinemark_sim::joint::JointPositions;
+use kinemark_sim::kinematics::forward_kinematics;
+
+use crate::arms::{robot, rrbot};
+
+#[test]
+fn the_course_arm_is_what_its_table_says() {
+    let robot = rrbot();
+    let names: Vec<&str> = robot
+        .moving_joints()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    assert_eq!(names, ["shoulder", "elbow"]);
+    assert!((robot.mass_kg() - 2.0).abs() < 1e-15);
+    let frames: Vec<&str> = robot
+        .frames()
+        .iter()
+        .map(|frame| frame.name.as_str())
+        .collect();
+    assert_eq!(frames, ["base", "upper", "forearm", "tcp", "lab"]);
+    // straight up, and exactly so
+    let poses = forward_kinematics(&robot, &JointPositions::zeros(2));
+    let tcp = poses.world_from(robot.tcp()).translation.vector;
+    assert_eq!((tcp.x, tcp.y, tcp.z), (0.0, 0.05, 4.0));
+}
+
+#[test]
+fn three_ways_to_say_a_rotation_agree() {
+    let frame = |origin: &str| {
+        let text = format!(
+            "format = 1\nname = \"r\"\n[[links]]\nname = \"a\"\n[[frames]]\nname = \"f\"\nlink = \"a\"\norigin = {origin}\n"
+        );
+        let robot = robot(&text);
+        let poses = forward_kinematics(&robot, &JointPositions::zeros(0));
+        poses.world_from(robot.frame("f").expect("f"))
+    };
+    let rpy = frame("{ rpy_deg = [0, 0, 30] }");
+    let axis = frame("{ axis = [0, 0, 2], angle_deg = 30 }");
+    let (c, s) = (0.75_f64.sqrt(), 0.5);
+    let axes = frame(&format!(
+        "{{ x_axis = [{c}, {s}, 0], y_axis = [{}, {c}, 0] }}",
+        -s
+    ));
+    for other in [axis, axes] {
+        let error = (rpy.rotation.matrix() - other.rotation.matrix()).amax();
+        assert!(error < 1e-15, "{error:.1e}");
+    }
+}
