@@ -1,5 +1,31 @@
-//! Lab and submission in, graded run out. No terminal, no clock, no process: what must not differ between machines lives here.
+//! Lab and submission in, graded run out. No terminal, no clock, no process, no file: what must not differ between machines
+//! lives here.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`lab`] | labs, their hidden cases and known mistakes |
+//! | [`controller`] | the seam to a student's code: calls, answers, stops |
+//! | [`submission`] | the script host |
+//! | [`grading`] | the way from lab and submission to a graded run |
+//! | [`cases`], [`motion`] | a function task, a motion task |
+//! | [`check`] | one file per check |
+//! | [`diagnose`] | known mistakes, recognised |
+//! | [`grade`], [`verdict`] | the record every format is rendered from |
+//! | [`graded`] | the record with the runs it rests on |
+
+pub mod answer;
+pub mod cases;
+pub mod check;
 pub mod controller;
+pub mod diagnose;
 pub mod grade;
 pub mod graded;
+pub mod grading;
+pub mod lab;
+pub mod log;
+pub mod motion;
+pub mod quantity;
+pub mod report;
+pub mod stopped;
+pub mod submission;
 pub mod verdict;

@@ -14,40 +14,40 @@ use nalgebra::{Matrix2, Matrix4, Vector2, Vector3};
 /// Dimensions, masses and damping of a planar arm with two revolute joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planar2r {
-    /// Height of the shoulder above the foot of the base, along x [m].
+    /// Height of the shoulder above the foot of the base, along x \[m\].
     pub base_height_m: f64,
-    /// Length of the upper link, shoulder to elbow [m].
+    /// Length of the upper link, shoulder to elbow \[m\].
     pub l1_m: f64,
-    /// Length of the lower link, elbow to TCP [m].
+    /// Length of the lower link, elbow to TCP \[m\].
     pub l2_m: f64,
-    /// Offset of the upper link along z [m].
+    /// Offset of the upper link along z \[m\].
     pub offset_z1_m: f64,
-    /// Offset of the lower link from the upper one along z [m].
+    /// Offset of the lower link from the upper one along z \[m\].
     pub offset_z2_m: f64,
-    /// Mass of the upper link [kg].
+    /// Mass of the upper link \[kg\].
     pub m1_kg: f64,
-    /// Mass of the lower link [kg].
+    /// Mass of the lower link \[kg\].
     pub m2_kg: f64,
-    /// Distance of the upper link's centre of mass from the shoulder, along the link [m].
+    /// Distance of the upper link's centre of mass from the shoulder, along the link \[m\].
     pub com1_m: f64,
-    /// Distance of the lower link's centre of mass from the elbow, along the link [m].
+    /// Distance of the lower link's centre of mass from the elbow, along the link \[m\].
     pub com2_m: f64,
-    /// Inertia of the upper link about z through its centre of mass [kg m²].
+    /// Inertia of the upper link about z through its centre of mass \[kg m²\].
     pub i1_com_kg_m2: f64,
-    /// Inertia of the lower link about z through its centre of mass [kg m²].
+    /// Inertia of the lower link about z through its centre of mass \[kg m²\].
     pub i2_com_kg_m2: f64,
-    /// Viscous damping of each joint [N m s/rad].
+    /// Viscous damping of each joint \[N m s/rad\].
     pub joint_damping_n_m_s: f64,
-    /// Acceleration of gravity, towards -x [m/s²].
+    /// Acceleration of gravity, towards -x \[m/s²\].
     pub gravity_m_s2: f64,
 }
 
 /// Where the arm is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
-    /// Shoulder and elbow angle [rad].
+    /// Shoulder and elbow angle \[rad\].
     pub q_rad: Vector2<f64>,
-    /// Shoulder and elbow rate [rad/s].
+    /// Shoulder and elbow rate \[rad/s\].
     pub qd_rad_s: Vector2<f64>,
 }
 
@@ -56,30 +56,30 @@ pub struct JointState {
 pub enum IkSolutions {
     /// A point inside the workspace: two ways.
     Branches {
-        /// The way with `0 < q₂ < π` [rad].
+        /// The way with `0 < q₂ < π` \[rad\].
         elbow_plus_rad: Vector2<f64>,
-        /// The way with `-π < q₂ < 0` [rad].
+        /// The way with `-π < q₂ < 0` \[rad\].
         elbow_minus_rad: Vector2<f64>,
     },
     /// On the outer circle, to rounding: both branches meet with `q₂ = 0`. The Jacobian is singular.
     Straight {
-        /// The only way [rad].
+        /// The only way \[rad\].
         q_rad: Vector2<f64>,
     },
     /// On the inner circle of unequal links, to rounding: both branches meet with `q₂ = π`. The Jacobian is singular.
     Folded {
-        /// The only way, up to full turns [rad].
+        /// The only way, up to full turns \[rad\].
         q_rad: Vector2<f64>,
     },
     /// On the shoulder with equal links: folded (`q₂ = ±π`) with any shoulder angle.
     AnyShoulderAngle,
     /// Out of reach.
     Unreachable {
-        /// Distance of the point from the shoulder [m]; infinite for a point that is not finite.
+        /// Distance of the point from the shoulder \[m\]; infinite for a point that is not finite.
         distance_m: f64,
-        /// The least distance the arm reaches, `|l₁ - l₂|` [m].
+        /// The least distance the arm reaches, `|l₁ - l₂|` \[m\].
         nearest_m: f64,
-        /// The greatest distance the arm reaches, `l₁ + l₂` [m].
+        /// The greatest distance the arm reaches, `l₁ + l₂` \[m\].
         farthest_m: f64,
     },
 }
@@ -119,7 +119,7 @@ impl Planar2r {
         }
     }
 
-    /// Returns the position of the TCP in the lab frame [m].
+    /// Returns the position of the TCP in the lab frame \[m\].
     ///
     /// Source: equation 9 of the lab.
     pub fn p_tcp_in_lab(&self, q_rad: Vector2<f64>) -> Vector3<f64> {
@@ -133,7 +133,7 @@ impl Planar2r {
         )
     }
 
-    /// Returns the pose of the TCP in the lab frame, shape `(4, 4)`, homogeneous [m]; the TCP's x lies along the lower link.
+    /// Returns the pose of the TCP in the lab frame, shape `(4, 4)`, homogeneous \[m\]; the TCP's x lies along the lower link.
     pub fn lab_from_tcp(&self, q_rad: Vector2<f64>) -> Matrix4<f64> {
         let Trig { s12, c12, .. } = Trig::of(q_rad);
         let p = self.p_tcp_in_lab(q_rad);
@@ -147,7 +147,7 @@ impl Planar2r {
         pose
     }
 
-    /// Returns the Jacobian of the TCP position, shape `(2, 2)` [m/rad].
+    /// Returns the Jacobian of the TCP position, shape `(2, 2)` \[m/rad\].
     ///
     /// Rows are the x and y velocity of the TCP in the lab frame, columns the shoulder and elbow rates. Loses rank where
     /// the arm is straight or folded (`sin q₂ = 0`).
@@ -161,12 +161,12 @@ impl Planar2r {
         Matrix2::new(-l1 * s1 - l2 * s12, -l2 * s12, l1 * c1 + l2 * c12, l2 * c12)
     }
 
-    /// Returns the determinant of the Jacobian, `l₁ l₂ sin q₂` [m²/rad²].
+    /// Returns the determinant of the Jacobian, `l₁ l₂ sin q₂` \[m²/rad²\].
     pub fn jacobian_determinant(&self, q_rad: Vector2<f64>) -> f64 {
         self.l1_m * self.l2_m * libm::sin(q_rad.y)
     }
 
-    /// Returns every way to put the TCP on `(x, y)` of the lab frame [m].
+    /// Returns every way to put the TCP on `(x, y)` of the lab frame \[m\].
     ///
     /// A point off a circle of the workspace by no more than rounding counts as on it. Never gives NaN.
     ///
@@ -223,7 +223,7 @@ impl Planar2r {
         }
     }
 
-    /// Returns the mass matrix `M(q)`, shape `(2, 2)`, symmetric [kg m²].
+    /// Returns the mass matrix `M(q)`, shape `(2, 2)`, symmetric \[kg m²\].
     pub fn mass_matrix(&self, q_rad: Vector2<f64>) -> Matrix2<f64> {
         let about_elbow = self.i2_com_kg_m2 + self.m2_kg * self.com2_m * self.com2_m;
         let about_shoulder = self.i1_com_kg_m2 + self.m1_kg * self.com1_m * self.com1_m;
@@ -234,13 +234,13 @@ impl Planar2r {
         Matrix2::new(m11, m12, m12, about_elbow)
     }
 
-    /// Returns the inertia that an effort at the elbow feels while the shoulder turns freely, `M₂₂ - M₁₂²/M₁₁` [kg m²].
+    /// Returns the inertia that an effort at the elbow feels while the shoulder turns freely, `M₂₂ - M₁₂²/M₁₁` \[kg m²\].
     pub fn elbow_inertia_with_free_shoulder_kg_m2(&self, q2_rad: f64) -> f64 {
         let m = self.mass_matrix(Vector2::new(0.0, q2_rad));
         m.m22 - m.m12 * m.m12 / m.m11
     }
 
-    /// Returns the efforts that hold the arm still, shape `(2)` [N m]: the slope of the potential energy.
+    /// Returns the efforts that hold the arm still, shape `(2)` \[N m\]: the slope of the potential energy.
     pub fn gravity_efforts_n_m(&self, q_rad: Vector2<f64>) -> Vector2<f64> {
         let Trig { s1, s12, .. } = Trig::of(q_rad);
         let lower = -self.gravity_m_s2 * self.m2_kg * self.com2_m * s12;
@@ -248,7 +248,7 @@ impl Planar2r {
         Vector2::new(upper + lower, lower)
     }
 
-    /// Returns the bias `C(q, q̇) q̇ + G(q)`, shape `(2)` [N m]: Coriolis, centrifugal and gravity terms, no damping.
+    /// Returns the bias `C(q, q̇) q̇ + G(q)`, shape `(2)` \[N m\]: Coriolis, centrifugal and gravity terms, no damping.
     pub fn bias_n_m(&self, state: &JointState) -> Vector2<f64> {
         let h = self.m2_kg * self.l1_m * self.com2_m * libm::sin(state.q_rad.y);
         let (w1, w2) = (state.qd_rad_s.x, state.qd_rad_s.y);
@@ -256,7 +256,7 @@ impl Planar2r {
         coriolis + self.gravity_efforts_n_m(state.q_rad)
     }
 
-    /// Returns the efforts of the motors for an acceleration, `M q̈ + C q̇ + G + b q̇`, shape `(2)` [N m].
+    /// Returns the efforts of the motors for an acceleration, `M q̈ + C q̇ + G + b q̇`, shape `(2)` \[N m\].
     pub fn inverse_dynamics_n_m(
         &self,
         state: &JointState,
@@ -266,7 +266,7 @@ impl Planar2r {
         self.mass_matrix(state.q_rad) * qdd_rad_s2 + self.bias_n_m(state) + damping
     }
 
-    /// Returns the acceleration under efforts of the motors, shape `(2)` [rad/s²].
+    /// Returns the acceleration under efforts of the motors, shape `(2)` \[rad/s²\].
     ///
     /// The mass matrix is positive definite, hence invertible, for every arm whose links both have inertia.
     pub fn forward_dynamics_rad_s2(
@@ -284,14 +284,14 @@ impl Planar2r {
         ) / determinant
     }
 
-    /// Returns the kinetic energy [J].
+    /// Returns the kinetic energy \[J\].
     pub fn kinetic_energy_j(&self, state: &JointState) -> f64 {
         0.5 * state
             .qd_rad_s
             .dot(&(self.mass_matrix(state.q_rad) * state.qd_rad_s))
     }
 
-    /// Returns the potential energy [J], zero at the height of the shoulder.
+    /// Returns the potential energy \[J\], zero at the height of the shoulder.
     pub fn potential_energy_j(&self, q_rad: Vector2<f64>) -> f64 {
         let Trig { c1, c12, .. } = Trig::of(q_rad);
         let height1_m = self.com1_m * c1;
@@ -299,7 +299,7 @@ impl Planar2r {
         self.gravity_m_s2 * (self.m1_kg * height1_m + self.m2_kg * height2_m)
     }
 
-    /// Returns kinetic plus potential energy [J], the latter zero at the height of the shoulder.
+    /// Returns kinetic plus potential energy \[J\], the latter zero at the height of the shoulder.
     ///
     /// It grows by the power of the efforts, `τ·q̇`, less that of damping, `b |q̇|²`.
     pub fn energy_j(&self, state: &JointState) -> f64 {
@@ -307,12 +307,12 @@ impl Planar2r {
     }
 }
 
-/// Inertia of a box about the axis through its centre of mass across its length and one width [kg m²].
+/// Inertia of a box about the axis through its centre of mass across its length and one width \[kg m²\].
 pub fn box_inertia_about_com_kg_m2(mass_kg: f64, length_m: f64, width_m: f64) -> f64 {
     mass_kg * (length_m * length_m + width_m * width_m) / 12.0
 }
 
-/// Inertia of a box about an axis across its end, half its length from the centre of mass [kg m²].
+/// Inertia of a box about an axis across its end, half its length from the centre of mass \[kg m²\].
 ///
 /// Equation 5 of the lab, which leaves the width out and gives N m² for its unit (errata 003-13): with no width, the
 /// slender rod.

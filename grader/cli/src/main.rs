@@ -1,1 +1,36 @@
-fn main() {}
+//! The command `kinemark`: reads what was typed, calls the grader, prints, and returns the documented exit code.
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+mod args;
+mod commands;
+mod disk;
+mod failure;
+mod interrupt;
+mod output;
+mod places;
+mod report_folder;
+mod worker;
+
+fn main() -> ExitCode {
+    let args = match args::Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // help and version are no errors; anything else is a matter of usage
+            let code = if error.use_stderr() {
+                failure::USAGE
+            } else {
+                0
+            };
+            // a closed pipe is no reason to fail
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    match commands::run(args) {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}

@@ -31,11 +31,11 @@ pub(super) struct ExponentialSum {
 /// The part of the sum whose poles are close to each other.
 #[derive(Debug, Clone)]
 struct Cluster {
-    /// `p₁ … p_m` [1/s].
+    /// `p₁ … p_m` \[1/s\].
     poles: Vec<ComplexTwoDouble>,
     /// `g[p₁], g[p₁ p₂], … g[p₁ … p_m]`.
     coefficients: Vec<ComplexTwoDouble>,
-    /// The largest real part of a pole [1/s].
+    /// The largest real part of a pole \[1/s\].
     growth: f64,
     /// Poles and magnitudes of coefficients as doubles, for evaluation.
     rounded_poles: Vec<Complex<f64>>,
@@ -120,7 +120,7 @@ impl ExponentialSum {
             .sum()
     }
 
-    /// The largest real part of a pole [1/s], `None` for the empty sum.
+    /// The largest real part of a pole \[1/s\], `None` for the empty sum.
     pub(super) fn slowest_growth(&self) -> Option<f64> {
         self.clusters
             .iter()
@@ -274,7 +274,7 @@ impl Cluster {
             .sum()
     }
 
-    /// The largest magnitude of a pole [1/s].
+    /// The largest magnitude of a pole \[1/s\].
     fn speed(&self) -> f64 {
         self.rounded_poles
             .iter()

@@ -5,25 +5,25 @@
 
 use super::transfer_function::{TransferFunction, TransferFunctionError};
 
-/// Gains of a PID controller whose output is a torque [N m].
+/// Gains of a PID controller whose output is a torque \[N m\].
 ///
 /// Units are those of a position loop; in a velocity loop each gains a factor s, since the error is in rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PidGains {
-    /// Proportional gain [N m/rad].
+    /// Proportional gain \[N m/rad\].
     pub kp: f64,
-    /// Integral gain [N m/(rad s)].
+    /// Integral gain \[N m/(rad s)\].
     pub ki: f64,
-    /// Derivative gain [N m s/rad].
+    /// Derivative gain \[N m s/rad\].
     pub kd: f64,
 }
 
 /// One joint that turns freely but for viscous damping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPlant {
-    /// Moment of inertia `J` about the joint [kg m²].
+    /// Moment of inertia `J` about the joint \[kg m²\].
     pub inertia_kg_m2: f64,
-    /// Viscous damping `b` [N m s/rad].
+    /// Viscous damping `b` \[N m s/rad\].
     pub damping_n_m_s: f64,
 }
 
@@ -49,7 +49,7 @@ pub struct PidLoop {
 }
 
 impl PidLoop {
-    /// From reference to position [rad/rad]: `(Kd s² + Kp s + Ki) / (J s³ + (b + Kd) s² + Kp s + Ki)`.
+    /// From reference to position \[rad/rad\]: `(Kd s² + Kp s + Ki) / (J s³ + (b + Kd) s² + Kp s + Ki)`.
     ///
     /// This is what equation 6 of the virtual-robotics lab is meant to be (errata 003-01);
     /// [`Self::equation_6_as_printed`] is what it prints.
@@ -64,7 +64,7 @@ impl PidLoop {
         TransferFunction::new(&self.controller(derivative), &self.position_denominator())
     }
 
-    /// From reference to velocity [(rad/s)/(rad/s)]: `(Kd s² + Kp s + Ki) / ((J + Kd) s² + (b + Kp) s + Ki)`.
+    /// From reference to velocity \[(rad/s)/(rad/s)\]: `(Kd s² + Kp s + Ki) / ((J + Kd) s² + (b + Kp) s + Ki)`.
     ///
     /// With the derivative on the error the response jumps to `Kd/(J + Kd)` at once. Without `Kd` this is the PI loop.
     /// It is what equation 7 of the virtual-robotics lab is meant to be (errata 003-02);
@@ -80,7 +80,7 @@ impl PidLoop {
         TransferFunction::new(&self.controller(derivative), &self.velocity_denominator())
     }
 
-    /// From a disturbing torque at the joint to position [rad/(N m)], in the position loop:
+    /// From a disturbing torque at the joint to position \[rad/(N m)\], in the position loop:
     /// `s / (J s³ + (b + Kd) s² + Kp s + Ki)`. Returns to zero if `Ki > 0`.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl PidLoop {
         TransferFunction::new(&[1.0, 0.0], &self.position_denominator())
     }
 
-    /// From a disturbing torque at the joint to velocity [(rad/s)/(N m)], in the velocity loop:
+    /// From a disturbing torque at the joint to velocity \[(rad/s)/(N m)\], in the velocity loop:
     /// `s / ((J + Kd) s² + (b + Kp) s + Ki)`. Returns to zero if `Ki > 0`.
     ///
     /// # Errors

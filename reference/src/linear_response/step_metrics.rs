@@ -2,7 +2,9 @@
 //!
 //! Each search splits the time line until a bound on the change of the curve (or of its derivatives) decides what an
 //! interval holds: nothing, or a monotone piece, on which bisection is safe. Beyond a horizon the bounds tend to zero,
-//! so a time constant of 10⁴ s costs as little as one of a millisecond.
+//! so a time constant of 10⁴ s costs as little as one of a millisecond. What costs is ringing that lasts for many
+//! thousands of cycles while a slow part of the response creeps along the level sought: each cycle is then looked at.
+//! The loops of [`super::PidLoop`] do not behave so; products of unrelated slow and undamped factors can.
 
 use std::fmt;
 
@@ -16,15 +18,15 @@ use super::transfer_function::{StepResponse, TransferFunction};
 /// All are relative to the steady state, so a negative one is treated as its mirror image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepMetrics {
-    /// From the first crossing of 10 % to that of 90 % [s].
+    /// From the first crossing of 10 % to that of 90 % \[s\].
     pub rise_time_10_90_s: f64,
-    /// First crossing of 10 % of the steady state [s]; 0 where the value just after the step is there already.
+    /// First crossing of 10 % of the steady state \[s\]; 0 where the value just after the step is there already.
     pub t10_s: f64,
-    /// First crossing of 90 % of the steady state [s]; 0 where the value just after the step is there already.
+    /// First crossing of 90 % of the steady state \[s\]; 0 where the value just after the step is there already.
     pub t90_s: f64,
-    /// Last time outside the band of ±2 % [s]; 0 if never outside.
+    /// Last time outside the band of ±2 % \[s\]; 0 if never outside.
     pub settling_time_2pct_s: f64,
-    /// Last time outside the band of ±5 % [s]; 0 if never outside.
+    /// Last time outside the band of ±5 % \[s\]; 0 if never outside.
     pub settling_time_5pct_s: f64,
     /// How far the peak exceeds the steady state, in percent of it; 0 if it does not.
     pub overshoot_pct: f64,
@@ -32,7 +34,7 @@ pub struct StepMetrics {
     pub undershoot_pct: f64,
     /// The furthest value on the side of the steady state; the steady state itself where it is never exceeded.
     pub peak: f64,
-    /// When the peak is reached [s]; `None` where the steady state is never exceeded.
+    /// When the peak is reached \[s\]; `None` where the steady state is never exceeded.
     pub peak_time_s: Option<f64>,
     /// What the response tends to.
     pub steady_state: f64,
@@ -45,7 +47,7 @@ pub struct StepMetrics {
 pub enum StepMetricsError {
     /// A pole has a real part that is not negative, so there is no steady state.
     NotStable {
-        /// The pole with the largest real part [1/s].
+        /// The pole with the largest real part \[1/s\].
         pole: Complex<f64>,
     },
     /// The response returns to zero, as a sensitivity does: nothing to be relative to.
@@ -138,7 +140,7 @@ enum Wanted {
 }
 
 impl Curve {
-    /// A time after which `|f|` stays below `size` [s].
+    /// A time after which `|f|` stays below `size` \[s\].
     fn horizon_s(&self, size: f64) -> f64 {
         let Some(growth) = self.f().slowest_growth() else {
             return 0.0;

@@ -102,14 +102,14 @@ impl TransferFunction {
         self.denominator.coefficients()
     }
 
-    /// Poles [1/s] with multiplicity, by rising real part, then falling imaginary part.
+    /// Poles \[1/s\] with multiplicity, by rising real part, then falling imaginary part.
     ///
     /// Right to a double's accuracy for single and double poles, to about 1e-10 of the magnitude for triple ones.
     pub fn poles(&self) -> Vec<Complex<f64>> {
         rounded_roots(&self.denominator.roots())
     }
 
-    /// Zeros [1/s] with multiplicity, in the order and accuracy of [`Self::poles`].
+    /// Zeros \[1/s\] with multiplicity, in the order and accuracy of [`Self::poles`].
     pub fn zeros(&self) -> Vec<Complex<f64>> {
         rounded_roots(&self.numerator.roots())
     }
@@ -177,7 +177,7 @@ impl StepResponse {
         }
     }
 
-    /// The time derivative of the response at `t_s` [1/s], from the right at the step; zero before it.
+    /// The time derivative of the response at `t_s` \[1/s\], from the right at the step; zero before it.
     pub fn slope(&self, t_s: f64) -> f64 {
         if t_s < 0.0 {
             0.0
@@ -298,7 +298,8 @@ mod tests {
     #[test]
     fn an_overflowing_response_is_infinite_and_not_nan() {
         for denominator in [[1.0, -2.0, 5.0], [1.0, -3.0, 2.0], [1.0, -2.0, 1.0]] {
-            assert_eq!(step(&[1.0], &denominator).value(1e5).abs(), f64::INFINITY);
+            let value = step(&[1.0], &denominator).value(1e5);
+            assert!(value.is_infinite(), "{value}");
         }
     }
 }

@@ -1,0 +1,174 @@
+//! `kinemark robot eval`: one request per line in, one answer per line out, in order; a bad request is answered with an error and
+//! the stream goes on.
+
+mod operation;
+mod request;
+mod simulate;
+
+use std::io::{BufRead as _, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
+use std::path::Path;
+use std::process::ExitCode;
+
+use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::source::{Source, suggest};
+use serde_json::{Map, Value};
+
+use crate::args::{EvalArgs, PlaceArgs};
+use crate::failure::{BROKEN, Failure, LOST};
+use crate::{disk, places};
+
+/// A longer line is refused unread.
+const MOST_LINE_BYTES: u64 = 16 << 20;
+
+/// Why a request is not answered: a documented code, and words.
+#[derive(Debug)]
+pub(super) struct Refusal {
+    pub(super) code: &'static str,
+    pub(super) message: String,
+}
+
+impl Refusal {
+    pub(super) fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+        }
+    }
+}
+
+/// Answers requests until the input ends.
+pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
+    let robot = robot(&args.robot, &args.places)?;
+    let mut input = BufReader::new(std::io::stdin());
+    let mut output = BufWriter::new(std::io::stdout());
+    let mut refused = false;
+    loop {
+        let mut line = Vec::new();
+        let read = (&mut input)
+            .take(MOST_LINE_BYTES)
+            .read_until(b'\n', &mut line)
+            .map_err(|error| stream_failure(&error))?;
+        if read == 0 {
+            break;
+        }
+        let cut = line.last() != Some(&b'\n') && read as u64 == MOST_LINE_BYTES;
+        if cut {
+            skip_line(&mut input)?;
+        }
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        let answer = if cut {
+            let refusal = Refusal::new(
+                "too-large",
+                format!("a line has at most {MOST_LINE_BYTES} bytes"),
+            );
+            with_id(None, Err(refusal))
+        } else {
+            answer(&robot, &line)
+        };
+        refused |= answer.contains_key("error");
+        let written = serde_json::to_writer(&mut output, &Value::Object(answer))
+            .map_err(std::io::Error::from)
+            .and_then(|()| output.write_all(b"\n"))
+            // a caller waits for each answer
+            .and_then(|()| output.flush());
+        match written {
+            Ok(()) => {}
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
+            Err(error) => return Err(stream_failure(&error)),
+        }
+    }
+    Ok(if refused {
+        ExitCode::from(LOST)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+fn stream_failure(error: &std::io::Error) -> Failure {
+    Failure::fault(
+        format!(
+            "requests or answers could not be passed on: {}",
+            disk::plain(error)
+        ),
+        "check the pipe",
+    )
+}
+
+/// Reads on to the end of a line without keeping it.
+fn skip_line(input: &mut impl std::io::BufRead) -> Result<(), Failure> {
+    loop {
+        let seen = input.fill_buf().map_err(|error| stream_failure(&error))?;
+        let (used, ended) = match seen.iter().position(|byte| *byte == b'\n') {
+            Some(end) => (end + 1, true),
+            None => (seen.len(), seen.is_empty()),
+        };
+        input.consume(used);
+        if ended {
+            return Ok(());
+        }
+    }
+}
+
+fn answer(robot: &Robot, line: &[u8]) -> Map<String, Value> {
+    let request: Value = match serde_json::from_slice(line) {
+        Ok(request) => request,
+        Err(error) => return with_id(None, Err(Refusal::new("bad-json", error.to_string()))),
+    };
+    let Value::Object(mut request) = request else {
+        let refusal = Refusal::new(
+            "bad-request",
+            "a request is an object, such as {\"op\": \"info\"}",
+        );
+        return with_id(None, Err(refusal));
+    };
+    let id = request.remove("id");
+    with_id(id, operation::answer(robot, request))
+}
+
+fn with_id(id: Option<Value>, answer: Result<Map<String, Value>, Refusal>) -> Map<String, Value> {
+    let mut whole = Map::new();
+    whole.insert("id".to_owned(), id.unwrap_or(Value::Null));
+    match answer {
+        Ok(fields) => whole.extend(fields),
+        Err(Refusal { code, message }) => {
+            let error = serde_json::json!({ "code": code, "message": message });
+            whole.insert("error".to_owned(), error);
+        }
+    }
+    whole
+}
+
+/// The robot of a file, or a robot of the labs by its name.
+fn robot(path: &Path, args: &PlaceArgs) -> Result<Robot, Failure> {
+    let source = if path.exists() || path.extension().is_some() || path.components().count() > 1 {
+        disk::read(path, "a robot file", 16 << 20)?
+    } else {
+        let (files, _) = places::labs(args)?;
+        let name = path.to_string_lossy();
+        match files.read(&format!("robots/{name}.toml")) {
+            Ok(Some(text)) => Source::new(format!("robots/{name}.toml"), text),
+            Ok(None) => {
+                let known: Vec<String> = files
+                    .list("robots")
+                    .iter()
+                    .filter_map(|file| Some(file.strip_suffix(".toml")?.to_owned()))
+                    .collect();
+                return Err(Failure::usage(
+                    format!("there is no robot file or robot `{name}`"),
+                    &suggest(&name, "robots", known.iter().map(String::as_str)),
+                ));
+            }
+            Err(why) => {
+                return Err(Failure::broken(
+                    format!("robot `{name}`: {why}"),
+                    "save it as UTF-8 text",
+                ));
+            }
+        }
+    };
+    let file = RobotFile::parse(source).map_err(|error| Failure::diagnostic(BROKEN, error))?;
+    file.build(&[])
+        .map_err(|error| Failure::diagnostic(BROKEN, error))
+}

@@ -1,0 +1,93 @@
+//! `kinemark grade`: one submission, graded and reported.
+
+use std::process::ExitCode;
+
+use kinemark_grader::grading::{self, Host, InProcess};
+use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::report;
+use kinemark_grader::verdict::Verdict;
+
+use crate::args::GradeArgs;
+use crate::failure::{FAULT, Failure, LOST};
+use crate::worker::WorkerHost;
+use crate::{disk, interrupt, output, places, report_folder};
+
+/// A submission larger than this is not read; its own budget, which is counted, is far below.
+const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
+
+/// Grades, writes the folder, prints.
+pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let (files, labs_folder) = places::labs(&args.places)?;
+    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let reference = places::reference(&args.staff, labs_folder.as_deref())?;
+    let staff = match &reference {
+        Some(reference) => staff_of(reference, &lab, args)?,
+        None => None,
+    };
+    let submission = disk::read(&args.submission, "a submission", MOST_SUBMISSION_BYTES)?;
+    report_folder::refuse_foreign(&args.out)?;
+
+    let mut in_process = InProcess;
+    let mut workers = WorkerHost {
+        progress: (!args.in_process).then(|| progress(lab.tasks.len())),
+    };
+    let host: &mut dyn Host = if args.in_process {
+        &mut in_process
+    } else {
+        &mut workers
+    };
+    let graded = grading::grade(&lab, staff.as_ref(), &submission, host);
+    if let Some(progress) = &workers.progress {
+        progress.finish_and_clear();
+    }
+    let graded = graded.map_err(|_| Failure::interrupted())?;
+
+    // the grade is told before anything is written: a full disk must not lose it
+    if args.json {
+        output::print_json(&graded.grade)?;
+    } else {
+        output::print(&report::text::text(&graded.grade))?;
+    }
+    report_folder::write(&args.out, &lab, &submission, &graded)?;
+    if !args.json {
+        let report = args.out.join("report.html");
+        output::print(&format!("report: {}\n", report.display()))?;
+    }
+    Ok(exit_code(graded.grade.verdict))
+}
+
+fn staff_of(reference: &dyn Files, lab: &Lab, args: &GradeArgs) -> Result<Option<Staff>, Failure> {
+    let staff = Staff::load(reference, lab, args.staff.salt.as_deref())?;
+    if staff.is_none() && args.staff.reference.is_some() {
+        return Err(Failure::usage(
+            format!(
+                "{} has no solution for lab `{}`",
+                reference.name(),
+                lab.name
+            ),
+            "check the folder, or leave --reference out to practise",
+        ));
+    }
+    Ok(staff)
+}
+
+fn progress(tasks: usize) -> indicatif::ProgressBar {
+    let bar = indicatif::ProgressBar::new(tasks as u64);
+    if let Ok(style) = indicatif::ProgressStyle::with_template("{pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn exit_code(verdict: Verdict) -> ExitCode {
+    match verdict {
+        Verdict::Passed => ExitCode::SUCCESS,
+        Verdict::GraderFault | Verdict::HostLimit => ExitCode::from(FAULT),
+        Verdict::DidNotBuild
+        | Verdict::Crashed
+        | Verdict::OverBudget
+        | Verdict::InvalidOutput
+        | Verdict::Missed => ExitCode::from(LOST),
+    }
+}

@@ -1,0 +1,60 @@
+//! `kinemark labs`: which labs there are.
+
+use std::process::ExitCode;
+
+use kinemark_grader::lab::{Lab, load::lab_names};
+use kinemark_grader::quantity::points;
+use serde::Serialize;
+
+use crate::args::LabsArgs;
+use crate::failure::Failure;
+use crate::{output, places};
+
+#[derive(Serialize)]
+struct Row {
+    name: String,
+    title: String,
+    summary: String,
+    tasks: Vec<String>,
+    points: f64,
+}
+
+/// Lists the labs; a broken one is an error that names its place.
+pub(crate) fn run(args: &LabsArgs) -> Result<ExitCode, Failure> {
+    let (files, _) = places::labs(&args.places)?;
+    let mut rows = Vec::new();
+    for name in lab_names(files.as_ref()) {
+        let lab = Lab::load(files.as_ref(), &name)?;
+        rows.push(Row {
+            points: lab.tasks.iter().map(|task| task.max_points()).sum(),
+            tasks: lab.tasks.iter().map(|task| task.name.clone()).collect(),
+            title: lab.title,
+            summary: lab.summary,
+            name,
+        });
+    }
+    if args.json {
+        output::print_json(&rows)?;
+    } else {
+        let mut text = String::new();
+        for row in &rows {
+            text += &format!(
+                "{:<16} {}\n{:<16} {}\n{:<16} {} points: {}\n",
+                row.name,
+                row.title,
+                "",
+                row.summary,
+                "",
+                points(row.points),
+                row.tasks.join(", ")
+            );
+        }
+        if rows.is_empty() {
+            text = format!("no labs in {}\n", files.name());
+        } else {
+            text += "\nStart one with `kinemark new NAME`.\n";
+        }
+        output::print(&text)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

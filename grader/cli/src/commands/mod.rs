@@ -1,0 +1,27 @@
+//! One file per subcommand.
+
+mod completions;
+mod eval;
+mod grade;
+mod labs;
+mod new;
+mod verify;
+
+use std::process::ExitCode;
+
+use crate::args::{Args, Command, RobotCommand};
+use crate::failure::Failure;
+use crate::worker;
+
+/// Runs what was typed.
+pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
+    match args.command {
+        Command::Grade(args) => grade::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Labs(args) => labs::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),
+        Command::Completions(args) => completions::run(&args),
+        Command::Worker => Ok(worker::serve()),
+    }
+}

@@ -1,0 +1,77 @@
+//! `kinemark new`: a folder with a lab's starter and brief, and nothing of it overwritten.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use kinemark_grader::lab::Lab;
+use serde::Serialize;
+
+use crate::args::NewArgs;
+use crate::disk::plain;
+use crate::failure::Failure;
+use crate::{output, places};
+
+#[derive(Serialize)]
+struct Written {
+    lab: String,
+    files: Vec<PathBuf>,
+}
+
+/// Writes the folder.
+pub(crate) fn run(args: &NewArgs) -> Result<ExitCode, Failure> {
+    let (files, _) = places::labs(&args.places)?;
+    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
+    let read = |name: &str| match files.read(&format!("{}/{name}", lab.name)) {
+        Ok(Some(text)) => Ok(text),
+        Ok(None) => Err(Failure::broken(
+            format!("lab `{}` has no {name}", lab.name),
+            "a lab needs a starter.rhai and a brief.md beside its lab.toml",
+        )),
+        Err(why) => Err(Failure::broken(
+            format!("{name}: {why}"),
+            "save it as UTF-8 text",
+        )),
+    };
+    let mut written = vec![
+        (dir.join("submission.rhai"), read("starter.rhai")?),
+        (dir.join("brief.md"), read("brief.md")?),
+    ];
+    for name in files.list(&lab.name) {
+        if name.ends_with(".svg") {
+            written.push((dir.join(&name), read(&name)?));
+        }
+    }
+    if let Some((there, _)) = written.iter().find(|(path, _)| path.exists()) {
+        return Err(Failure::usage(
+            format!("`{}` is there already", there.display()),
+            "name another folder, or move your work away first: nothing is overwritten",
+        ));
+    }
+    let failed = |path: &PathBuf, error: &std::io::Error| {
+        Failure::fault(
+            format!("`{}` cannot be written: {}", path.display(), plain(error)),
+            "choose another folder",
+        )
+    };
+    std::fs::create_dir_all(&dir).map_err(|error| failed(&dir, &error))?;
+    for (path, text) in &written {
+        output::write_file(path, text.as_bytes()).map_err(|error| failed(path, &error))?;
+    }
+    let paths: Vec<PathBuf> = written.into_iter().map(|(path, _)| path).collect();
+    if args.json {
+        output::print_json(&Written {
+            lab: lab.name,
+            files: paths,
+        })?;
+    } else {
+        let submission = paths[0].display().to_string();
+        output::print(&format!(
+            "{}\nRead {}, then edit {submission} and run:\n  kinemark grade {} {submission}\n",
+            lab.title,
+            paths[1].display(),
+            lab.name
+        ))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

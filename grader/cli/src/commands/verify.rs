@@ -1,0 +1,194 @@
+//! `kinemark verify`: a report's submission graded again, and every digest compared.
+
+use std::process::ExitCode;
+
+use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
+use kinemark_grader::grading;
+use kinemark_grader::lab::{Lab, Staff};
+use serde::Serialize;
+
+use crate::args::VerifyArgs;
+use crate::disk::Folder;
+use crate::failure::{Failure, LOST};
+use crate::worker::WorkerHost;
+use crate::{interrupt, output, places, report_folder};
+
+/// What the comparison found.
+#[derive(Serialize)]
+struct Comparison {
+    same: bool,
+    differences: Vec<Difference>,
+    not_compared: Vec<String>,
+}
+
+/// One thing that is not as recorded.
+#[derive(Serialize)]
+struct Difference {
+    what: String,
+    task: Option<String>,
+    /// The first simulated second that differs.
+    second: Option<usize>,
+    /// The first signal of that second that differs.
+    signal: Option<&'static str>,
+    recorded: String,
+    now: String,
+}
+
+/// Grades again and compares.
+pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let report = report_folder::read(&args.folder)?;
+    let lab = Lab::load(&Folder::new(report.labs.clone()), &report.grade.lab.name)?;
+    let staff = match report.grade.mode {
+        GradeMode::Practice => None,
+        GradeMode::Graded => {
+            let (_, labs_folder) = places::labs(&args.places)?;
+            match places::reference(&args.staff, labs_folder.as_deref())? {
+                Some(reference) => Staff::load(&reference, &lab, args.staff.salt.as_deref())?,
+                None => None,
+            }
+        }
+    };
+    let mut host = WorkerHost::default();
+    let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
+    let now = graded.map_err(|_| Failure::interrupted())?.grade;
+    let comparison = compare(&report.grade, &now)?;
+    if args.json {
+        output::print_json(&comparison)?;
+    } else {
+        output::print(&text(&comparison, &report.grade))?;
+    }
+    Ok(if comparison.same {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(LOST)
+    })
+}
+
+fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
+    let mut differences = Vec::new();
+    let mut not_compared = Vec::new();
+    let mut parts = vec![
+        ("engine", recorded.engine.clone(), now.engine.clone()),
+        ("lab", recorded.lab.digest.clone(), now.lab.digest.clone()),
+        (
+            "robot",
+            recorded.robot.digest.clone(),
+            now.robot.digest.clone(),
+        ),
+        (
+            "submission",
+            recorded.submission.digest.clone(),
+            now.submission.digest.clone(),
+        ),
+    ];
+    let hidden_too = recorded.mode == now.mode;
+    if let (Some(before), Some(after)) = (&recorded.reference, &now.reference) {
+        parts.push(("reference", before.digest.clone(), after.digest.clone()));
+    }
+    for (what, recorded, now) in parts {
+        if recorded != now {
+            differences.push(Difference {
+                what: what.to_owned(),
+                task: None,
+                second: None,
+                signal: None,
+                recorded,
+                now,
+            });
+        }
+    }
+    for before in &recorded.tasks {
+        let Some(after) = now.tasks.iter().find(|task| task.name == before.name) else {
+            continue;
+        };
+        if before.kind == TaskKind::Function && !hidden_too {
+            not_compared.push(format!(
+                "task `{}`: its hidden cases are with the staff; give --reference DIR",
+                before.name
+            ));
+            continue;
+        }
+        differences.extend(task_difference(before, after));
+    }
+    // points, evidence and words too, where everything took part again
+    if differences.is_empty() && hidden_too && recorded != now {
+        differences.push(Difference {
+            what: "record".to_owned(),
+            task: None,
+            second: None,
+            signal: None,
+            recorded: format!("{} points", recorded.points),
+            now: format!("{} points", now.points),
+        });
+    }
+    Ok(Comparison {
+        same: differences.is_empty(),
+        differences,
+        not_compared,
+    })
+}
+
+fn task_difference(before: &TaskGrade, after: &TaskGrade) -> Option<Difference> {
+    if before.digests == after.digests {
+        return None;
+    }
+    let mut difference = Difference {
+        what: match before.kind {
+            TaskKind::Function => "answers".to_owned(),
+            TaskKind::Motion => "trace".to_owned(),
+        },
+        task: Some(before.name.clone()),
+        second: None,
+        signal: None,
+        recorded: before.digests.all.clone(),
+        now: after.digests.all.clone(),
+    };
+    let seconds = before.digests.seconds.iter().zip(&after.digests.seconds);
+    for (second, (old, new)) in seconds.enumerate() {
+        let signals = [
+            ("q", &old.q, &new.q),
+            ("qd", &old.qd, &new.qd),
+            ("command", &old.command, &new.command),
+            ("effort", &old.effort, &new.effort),
+            ("tcp", &old.tcp, &new.tcp),
+        ];
+        if let Some((signal, old, new)) = signals.into_iter().find(|(_, old, new)| old != new) {
+            difference.second = Some(second);
+            difference.signal = Some(signal);
+            difference.recorded.clone_from(old);
+            difference.now.clone_from(new);
+            break;
+        }
+    }
+    Some(difference)
+}
+
+fn text(comparison: &Comparison, recorded: &Grade) -> String {
+    let mut text = String::new();
+    for difference in &comparison.differences {
+        let mut place = difference.what.clone();
+        if let Some(task) = &difference.task {
+            place = format!("{place} of task `{task}`");
+        }
+        if let (Some(second), Some(signal)) = (difference.second, difference.signal) {
+            place = format!("{place}, first in second {second}, signal `{signal}`");
+        }
+        text += &format!(
+            "differs: {place}\n  recorded {}\n  now      {}\n",
+            difference.recorded, difference.now
+        );
+    }
+    for what in &comparison.not_compared {
+        text += &format!("not compared: {what}\n");
+    }
+    if comparison.same {
+        text += &format!(
+            "same bits: {} tasks of {}, {}\n",
+            recorded.tasks.len() - comparison.not_compared.len(),
+            recorded.lab.name,
+            recorded.submission.name
+        );
+    }
+    text
+}

@@ -1,0 +1,125 @@
+//! Reading files that people name: a folder of labs, a submission, a robot; never more than makes sense, always as UTF-8.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::lab::Files;
+use kinemark_sim::source::Source;
+
+use crate::failure::Failure;
+
+/// A folder as [`Files`].
+pub(crate) struct Folder {
+    path: PathBuf,
+}
+
+/// Labs, robots and references are written by people; above this a file is something else.
+const MOST_BYTES: u64 = 16 << 20;
+
+impl Folder {
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path }
+    }
+}
+
+impl Files for Folder {
+    fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    fn read(&self, path: &str) -> Result<Option<String>, String> {
+        // names in lab files stay inside the folder
+        if Path::new(path)
+            .components()
+            .any(|part| !matches!(part, std::path::Component::Normal(_)))
+        {
+            return Ok(None);
+        }
+        let full = self.path.join(path);
+        if !full.is_file() {
+            return Ok(None);
+        }
+        text_of(&full, MOST_BYTES).map(Some)
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path.join(folder))
+            .into_iter()
+            .flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+/// The text of a file of at most `most` bytes; why not, in words.
+fn text_of(path: &Path, most: u64) -> Result<String, String> {
+    let file = File::open(path).map_err(|error| plain(&error))?;
+    let mut bytes = Vec::new();
+    // one byte more tells a longer file without reading it
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| plain(&error))?;
+    if bytes.len() as u64 > most {
+        return Err(format!("more than {most} bytes"));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        format!("not text: byte {at} is no UTF-8")
+    })
+}
+
+/// An operating system's message without its number.
+pub(crate) fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    match text.split_once(" (os error") {
+        Some((message, _)) => message.to_lowercase(),
+        None => text,
+    }
+}
+
+/// Reads the file that a person named `path`, which should be `what`, of at most `most` bytes.
+pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure> {
+    let shown = path.display();
+    if path.is_dir() {
+        return Err(Failure::usage(
+            format!("`{shown}` is a folder, not {what}"),
+            "name the file itself",
+        ));
+    }
+    if !path.exists() {
+        return Err(Failure::usage(
+            format!("there is no file `{shown}`"),
+            &near_in_folder(path),
+        ));
+    }
+    match text_of(path, most) {
+        Ok(text) => {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            Ok(Source::new(name.to_string_lossy().into_owned(), text))
+        }
+        Err(why) => Err(Failure::usage(
+            format!("`{shown}` cannot be read as {what}: {why}"),
+            "save it as UTF-8 text",
+        )),
+    }
+}
+
+/// What lies near a path that does not exist.
+fn near_in_folder(path: &Path) -> String {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let wanted = path.file_name().unwrap_or_default().to_string_lossy();
+    let names = Folder::new(folder.to_owned()).list("");
+    let near = kinemark_sim::source::nearest(&wanted, names.iter().map(String::as_str));
+    match near {
+        Some(near) => format!("did you mean `{}`?", folder.join(near).display()),
+        None if folder.is_dir() => "check the path".to_owned(),
+        None => format!("there is no folder `{}` either", folder.display()),
+    }
+}

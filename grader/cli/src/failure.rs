@@ -1,0 +1,101 @@
+//! What ends a command early, with its exit code.
+
+use std::process::ExitCode;
+
+use kinemark_grader::lab::LoadError;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+
+/// Points lost, or a comparison that differs.
+pub(crate) const LOST: u8 = 1;
+/// The command line.
+pub(crate) const USAGE: u8 = 2;
+/// The lab, the robot, or the folder that was given.
+pub(crate) const BROKEN: u8 = 3;
+/// The grader or this machine.
+pub(crate) const FAULT: u8 = 4;
+/// As shells have it for Ctrl-C.
+pub(crate) const INTERRUPTED: u8 = 130;
+
+/// What ends a command early.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    code: u8,
+    diagnostic: Box<dyn Diagnostic + Send + Sync>,
+}
+
+/// A failure in words: what, and what to do.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+struct Words {
+    message: String,
+    #[help]
+    help: Option<String>,
+}
+
+impl Failure {
+    fn words(code: u8, message: String, help: Option<String>) -> Self {
+        Self {
+            code,
+            diagnostic: Box::new(Words { message, help }),
+        }
+    }
+
+    /// Something typed that cannot be.
+    pub(crate) fn usage(message: String, help: &str) -> Self {
+        Self::words(USAGE, message, Some(help.to_owned()))
+    }
+
+    /// A file or folder that was given and is not what it should be.
+    pub(crate) fn broken(message: String, help: &str) -> Self {
+        Self::words(BROKEN, message, Some(help.to_owned()))
+    }
+
+    /// This machine, or a fault of ours.
+    pub(crate) fn fault(message: String, help: &str) -> Self {
+        Self::words(FAULT, message, Some(help.to_owned()))
+    }
+
+    /// Ctrl-C.
+    pub(crate) fn interrupted() -> Self {
+        Self::words(
+            INTERRUPTED,
+            "interrupted; nothing was written".to_owned(),
+            None,
+        )
+    }
+
+    /// A diagnostic with a place in a file.
+    pub(crate) fn diagnostic(
+        code: u8,
+        diagnostic: impl Diagnostic + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            code,
+            diagnostic: Box::new(diagnostic),
+        }
+    }
+
+    /// Prints the failure for a person and gives the exit code.
+    pub(crate) fn report(self) -> ExitCode {
+        use std::io::Write as _;
+        let mut text = String::new();
+        let theme = GraphicalTheme::unicode();
+        let handler = GraphicalReportHandler::new_themed(theme).with_width(100);
+        // the handler writes to a string, which cannot fail
+        let _ = handler.render_report(&mut text, self.diagnostic.as_ref());
+        // anstream strips the colours where they do not belong
+        let _ = anstream::stderr().write_all(text.trim_end().as_bytes());
+        let _ = anstream::stderr().write_all(b"\n");
+        ExitCode::from(self.code)
+    }
+}
+
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Self {
+        let code = match error {
+            LoadError::UnknownLab { .. } => USAGE,
+            LoadError::Unreadable { .. } | LoadError::Lab(_) | LoadError::Robot(_) => BROKEN,
+        };
+        Self::diagnostic(code, error)
+    }
+}

@@ -1,0 +1,63 @@
+//! What leaves the command: standard output, and files that are whole or not there.
+
+use std::io::{ErrorKind, Write as _};
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::disk::plain;
+use crate::failure::Failure;
+
+/// Prints text; colours are stripped where they do not belong, and a reader that has gone away is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = anstream::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::fault(
+            format!("standard output cannot be written: {}", plain(&error)),
+            "free some space, or send it elsewhere",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a value as JSON, in lines a person can read.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = json(value)?;
+    print(&text)
+}
+
+/// A value as JSON, in lines a person can read, with a line end.
+pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => Ok(text + "\n"),
+        Err(error) => Err(Failure::fault(
+            format!("a value could not be written as JSON: {error}"),
+            "please report this",
+        )),
+    }
+}
+
+/// Writes a file whole: to a temporary file beside it, then renamed.
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    file.write_all(bytes)?;
+    readable(file.as_file())?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// Temporary files are private; what people asked for is theirs to share.
+#[cfg(unix)]
+fn readable(file: &std::fs::File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn readable(_: &std::fs::File) -> std::io::Result<()> {
+    Ok(())
+}

@@ -1,0 +1,211 @@
+//! The output folder of `kinemark grade`: written beside its place under another name, then renamed, so that it is whole or not
+//! there; and read back by `kinemark verify`.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::grade::Grade;
+use kinemark_grader::graded::{GradedRun, TaskRun};
+use kinemark_grader::lab::Lab;
+use kinemark_grader::log::{self, Attachment};
+use kinemark_grader::report::{self, plot::Plot};
+use kinemark_sim::source::Source;
+
+use crate::disk::{self, plain};
+use crate::failure::Failure;
+use crate::output;
+
+/// The record's file; a folder that has it is a report of ours.
+pub(crate) const RECORD: &str = "grade.json";
+/// The copy of the submission.
+pub(crate) const SUBMISSION: &str = "submission.rhai";
+/// The copy of lab and robot, in the shape of a labs folder.
+pub(crate) const LABS: &str = "lab";
+
+/// One file of the folder.
+struct OutFile {
+    path: String,
+    bytes: Vec<u8>,
+}
+
+impl OutFile {
+    fn new(path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        Self {
+            path: path.into(),
+            bytes: bytes.into(),
+        }
+    }
+}
+
+/// Writes the folder `out`. An earlier report there is replaced; anything else there is not touched.
+pub(crate) fn write(
+    out: &Path,
+    lab: &Lab,
+    submission: &Source,
+    graded: &GradedRun,
+) -> Result<(), Failure> {
+    refuse_foreign(out)?;
+    let files = files(lab, submission, graded)?;
+    let failed = |error: std::io::Error| {
+        Failure::fault(
+            format!(
+                "the report cannot be written to `{}`: {}",
+                out.display(),
+                plain(&error)
+            ),
+            "free some space or choose another folder with --out; the grade above stands, and nothing half-written is left",
+        )
+    };
+    let parent = match out.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(parent).map_err(failed)?;
+    // removed when dropped, whatever happens
+    let fresh = tempfile::Builder::new()
+        .prefix(".kinemark-")
+        .tempdir_in(parent)
+        .map_err(failed)?;
+    let folder = fresh.path().join("report");
+    for file in &files {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap_or(&folder)).map_err(failed)?;
+        output::write_file(&path, &file.bytes).map_err(failed)?;
+    }
+    let old = fresh.path().join("old");
+    if out.exists() {
+        std::fs::rename(out, &old).map_err(failed)?;
+    }
+    match std::fs::rename(&folder, out) {
+        Ok(()) => Ok(()),
+        Err(error) => {
+            // put the earlier report back; what went wrong is told either way
+            let _ = std::fs::rename(&old, out);
+            Err(failed(error))
+        }
+    }
+}
+
+/// Checks, before anything is graded, that `out` is free, empty, or an earlier report.
+pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    let help = "choose another folder with --out";
+    if out.is_file() {
+        return Err(Failure::usage(
+            format!("`{}` is a file, not a folder", out.display()),
+            help,
+        ));
+    }
+    let occupied = out.is_dir()
+        && !out.join(RECORD).is_file()
+        && std::fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied {
+        return Err(Failure::usage(
+            format!(
+                "`{}` holds files that are no Kinemark report",
+                out.display()
+            ),
+            help,
+        ));
+    }
+    Ok(())
+}
+
+fn files(lab: &Lab, submission: &Source, graded: &GradedRun) -> Result<Vec<OutFile>, Failure> {
+    let record = output::json(&graded.grade)?;
+    let lab_path = format!("{}/lab.toml", lab.name);
+    let robot_path = lab.robot_file.source().name().to_owned();
+    let plots: Vec<Vec<Plot>> = graded.runs.iter().map(report::plot::plots).collect();
+    let mut files = vec![
+        OutFile::new(RECORD, record.as_bytes()),
+        OutFile::new("report.html", report::html::html(graded, &plots)),
+        OutFile::new(SUBMISSION, submission.text()),
+        OutFile::new(format!("{LABS}/{lab_path}"), lab.source.text()),
+        OutFile::new(
+            format!("{LABS}/{robot_path}"),
+            lab.robot_file.source().text(),
+        ),
+    ];
+    if !lab.reference_paths.text.is_empty() {
+        files.push(OutFile::new(
+            format!("{LABS}/{}/reference-path.json", lab.name),
+            lab.reference_paths.text.as_str(),
+        ));
+    }
+    for (run, plots) in graded.runs.iter().zip(plots) {
+        for plot in plots {
+            files.push(OutFile::new(format!("plots/{}.svg", plot.name), plot.svg));
+        }
+        let log = log_of(run, lab, &graded.grade, &record)?;
+        files.push(OutFile::new(format!("{}/run.mcap", run.task), log));
+        let layout = log::layout(run);
+        files.push(OutFile::new(
+            format!("{}/run.layout.json", run.task),
+            layout,
+        ));
+    }
+    Ok(files)
+}
+
+fn log_of(run: &TaskRun, lab: &Lab, grade: &Grade, record: &str) -> Result<Vec<u8>, Failure> {
+    let layout = log::layout(run);
+    let attachments = [
+        (
+            "robot.toml",
+            "application/toml",
+            lab.robot_file.source().text(),
+        ),
+        ("lab.toml", "application/toml", lab.source.text()),
+        ("grade.json", "application/json", record),
+        ("run.layout.json", "application/json", layout.as_str()),
+    ]
+    .map(|(name, media_type, text)| Attachment {
+        name,
+        media_type,
+        bytes: text.as_bytes(),
+    });
+    log::mcap(run, grade, &attachments).map_err(|error| {
+        Failure::fault(
+            format!("the log of task `{}` failed: {error}", run.task),
+            "please report this",
+        )
+    })
+}
+
+/// A report read back.
+pub(crate) struct Report {
+    pub(crate) grade: Grade,
+    pub(crate) submission: Source,
+    pub(crate) labs: PathBuf,
+}
+
+/// Reads the folder of an earlier report.
+pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
+    if !folder.is_dir() {
+        return Err(Failure::usage(
+            format!("there is no folder `{}`", folder.display()),
+            "name the folder that `kinemark grade` wrote",
+        ));
+    }
+    let record_path = folder.join(RECORD);
+    if !record_path.is_file() {
+        return Err(Failure::broken(
+            format!("`{}` has no {RECORD}: it is no report", folder.display()),
+            "name the folder that `kinemark grade` wrote",
+        ));
+    }
+    let record = disk::read(&record_path, "a grade record", 64 << 20)?;
+    let grade: Grade = serde_json::from_str(record.text()).map_err(|error| {
+        Failure::broken(
+            format!(
+                "`{}` is no grade record this version reads: {error}",
+                record_path.display()
+            ),
+            "grade the submission again",
+        )
+    })?;
+    let text = disk::read(&folder.join(SUBMISSION), "the submission", 64 << 20)?;
+    Ok(Report {
+        submission: Source::new(grade.submission.name.as_str(), text.text()),
+        labs: folder.join(LABS),
+        grade,
+    })
+}

@@ -1,0 +1,205 @@
+//! From what a submission returned to what was asked for: shape and finiteness, or words for what came instead.
+
+use nalgebra::Vector3;
+
+use crate::controller::Value;
+use crate::quantity::trimmed;
+
+/// A position: three finite numbers \[m\].
+///
+/// # Errors
+/// What was returned instead, in words.
+pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
+    match numbers(value).as_deref() {
+        Some([x, y, z]) => finite(value, &[*x, *y, *z]).map(|()| Vector3::new(*x, *y, *z)),
+        _ => Err(format!(
+            "expected 3 numbers [x, y, z], got {}",
+            describe(value)
+        )),
+    }
+}
+
+/// Branches of `n` finite numbers each; one bare branch is accepted, and `[]` says there is none.
+///
+/// # Errors
+/// What was returned instead, in words; also more than `most` branches, so that an answer cannot be a guess at every sign.
+pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, String> {
+    let wrong = || {
+        Err(format!(
+            "expected a list of branches of {n} numbers each, one branch, or [], got {}",
+            describe(value)
+        ))
+    };
+    let Value::List(items) = value else {
+        return wrong();
+    };
+    let mut branches: Vec<Vec<f64>> = Vec::new();
+    if let Some(bare) = numbers(value)
+        && !items.is_empty()
+    {
+        branches.push(bare);
+    } else {
+        for item in items {
+            match numbers(item) {
+                Some(branch) => branches.push(branch),
+                None => return wrong(),
+            }
+        }
+    }
+    if branches.iter().any(|branch| branch.len() != n) {
+        return wrong();
+    }
+    if branches.len() > most {
+        return Err(format!(
+            "expected at most {most} branches, got {}: return the right ones only",
+            branches.len()
+        ));
+    }
+    for branch in &branches {
+        finite(value, branch)?;
+    }
+    Ok(branches)
+}
+
+/// A command: `n` finite numbers; one bare number where `n` is 1.
+///
+/// # Errors
+/// What was returned instead, in words.
+pub fn command(value: &Value, n: usize) -> Result<Vec<f64>, String> {
+    let found = match value {
+        Value::Number(number) if n == 1 => Some(vec![*number]),
+        value => numbers(value),
+    };
+    match found {
+        Some(numbers) if numbers.len() == n => finite(value, &numbers).map(|()| numbers),
+        _ => Err(format!(
+            "expected {n} numbers, one per joint, got {}",
+            describe(value)
+        )),
+    }
+}
+
+fn finite(value: &Value, numbers: &[f64]) -> Result<(), String> {
+    if numbers.iter().all(|number| number.is_finite()) {
+        Ok(())
+    } else {
+        Err(format!("expected finite numbers, got {}", describe(value)))
+    }
+}
+
+fn numbers(value: &Value) -> Option<Vec<f64>> {
+    let Value::List(items) = value else {
+        return None;
+    };
+    items
+        .iter()
+        .map(|item| match item {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        })
+        .collect()
+}
+
+/// A value in a few words: `[1, NaN]`, `the text "up"`, `nothing`.
+pub fn describe(value: &Value) -> String {
+    let text = match value {
+        Value::Nothing => {
+            "nothing (does the function end without a value, or with `;`?)".to_owned()
+        }
+        Value::Text(text) => format!("the text {text:?}"),
+        Value::Map(entries) => {
+            let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
+            format!("a map of {}", names.join(", "))
+        }
+        Value::Other(name) => format!("a value of type {name}"),
+        Value::List(_) | Value::Number(_) | Value::Boolean(_) => plain(value, 0),
+    };
+    const LONGEST: usize = 120;
+    if text.chars().count() > LONGEST {
+        let start: String = text.chars().take(LONGEST).collect();
+        format!("{start}…")
+    } else {
+        text
+    }
+}
+
+fn plain(value: &Value, depth: usize) -> String {
+    match value {
+        Value::Nothing => "()".to_owned(),
+        Value::Boolean(truth) => truth.to_string(),
+        Value::Number(number) if number.is_finite() => trimmed(*number, 6),
+        Value::Number(number) if number.is_nan() => "NaN".to_owned(),
+        Value::Number(number) => if *number > 0.0 {
+            "infinity"
+        } else {
+            "-infinity"
+        }
+        .to_owned(),
+        Value::Text(text) => format!("{text:?}"),
+        Value::List(_) if depth > 3 => "[…]".to_owned(),
+        Value::List(items) => {
+            let mut texts: Vec<String> = items
+                .iter()
+                .take(8)
+                .map(|item| plain(item, depth + 1))
+                .collect();
+            if items.len() > 8 {
+                texts.push(format!("… {} in all", items.len()));
+            }
+            format!("[{}]", texts.join(", "))
+        }
+        Value::Map(_) => "a map".to_owned(),
+        Value::Other(name) => name.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn list(values: &[f64]) -> Value {
+        Value::List(values.iter().copied().map(Value::Number).collect())
+    }
+
+    #[test]
+    fn a_position_is_three_finite_numbers() {
+        assert_eq!(
+            position(&list(&[1.0, 2.0, 3.0])),
+            Ok(Vector3::new(1.0, 2.0, 3.0))
+        );
+        assert!(
+            position(&list(&[1.0, 2.0]))
+                .unwrap_err()
+                .ends_with("got [1, 2]")
+        );
+        assert!(
+            position(&list(&[1.0, f64::NAN, 0.0]))
+                .unwrap_err()
+                .contains("[1, NaN, 0]")
+        );
+        assert!(position(&Value::Nothing).unwrap_err().contains("nothing"));
+    }
+
+    #[test]
+    fn branches_may_be_bare_many_or_none() {
+        let bare = list(&[1.0, 2.0]);
+        let both = Value::List(vec![list(&[1.0, 2.0]), list(&[3.0, 4.0])]);
+        assert_eq!(branches(&bare, 2, 2), Ok(vec![vec![1.0, 2.0]]));
+        assert_eq!(branches(&both, 2, 2).map(|b| b.len()), Ok(2));
+        assert_eq!(branches(&list(&[]), 2, 2), Ok(vec![]));
+        assert!(branches(&both, 2, 1).is_err());
+        assert!(branches(&list(&[1.0, 2.0, 3.0]), 2, 2).is_err());
+        assert!(branches(&Value::Number(1.0), 2, 2).is_err());
+    }
+
+    #[test]
+    fn a_single_joint_may_be_commanded_by_a_number() {
+        assert_eq!(command(&Value::Number(1.5), 1), Ok(vec![1.5]));
+        assert!(command(&Value::Number(1.5), 2).is_err());
+        assert!(
+            command(&list(&[1.0, f64::INFINITY]), 2)
+                .unwrap_err()
+                .contains("infinity")
+        );
+    }
+}

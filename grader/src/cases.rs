@@ -1,0 +1,261 @@
+//! Runs a function task: calls the submission on every case and measures each answer.
+
+use kinemark_sim::kinematics::forward_kinematics;
+use kinemark_sim::robot::{Dimension, Robot};
+use nalgebra::Vector3;
+
+use crate::answer;
+use crate::check::{Answered, CaseError, CaseFacts};
+use crate::controller::{Answer, Call, Controller, Opening, RobotFacts, Stop, Value};
+use crate::grade::LogEntry;
+use crate::grading::Host;
+use crate::lab::model::{Case, Function, Given, Lab};
+
+/// After so many failures the submission is not asked again: each costs a new start, and the reason is known.
+const MOST_FAILURES: usize = 3;
+
+/// A function task as it went.
+#[derive(Debug)]
+pub struct CasesRun<'a> {
+    /// One per case, in order.
+    pub facts: Vec<CaseFacts<'a>>,
+    /// The first stop, and the case it happened in.
+    pub stop: Option<(usize, Stop)>,
+    /// Operations used.
+    pub operations: u64,
+    /// Lines printed, each with the number of its case.
+    pub log: Vec<LogEntry>,
+    /// BLAKE3 of all answers, in order.
+    pub digest: blake3::Hash,
+}
+
+/// Calls the submission of `opening` on `cases`.
+pub fn run<'a>(
+    lab: &Lab,
+    function: Function,
+    cases: &'a [Case],
+    opening: &Opening,
+    host: &mut dyn Host,
+) -> CasesRun<'a> {
+    let mut controller: Option<Box<dyn Controller>> = None;
+    let mut stop: Option<(usize, Stop)> = None;
+    let mut failures = 0;
+    let mut hasher = blake3::Hasher::new();
+    let mut operations = 0;
+    let mut log = Vec::new();
+    let mut facts = Vec::with_capacity(cases.len());
+    for (i, case) in cases.iter().enumerate() {
+        // loading has built every case's robot once; a failure here is ours
+        let robot = match lab.robot_file.build(&case.dimensions) {
+            Ok(robot) => robot,
+            Err(error) => {
+                stop.get_or_insert((i, Stop::GraderFault(error.to_string())));
+                failures = MOST_FAILURES;
+                lab.robot.clone()
+            }
+        };
+        let mut answered = None;
+        if failures < MOST_FAILURES {
+            match ask(&mut controller, &robot, case, opening, host) {
+                Ok(answer) => {
+                    operations += answer.operations;
+                    hash_value(&mut hasher, &answer.value);
+                    log.extend(
+                        answer
+                            .log
+                            .into_iter()
+                            .map(|text| LogEntry { at: i as u64, text }),
+                    );
+                    answered = Some(answer.value);
+                }
+                Err(why) => {
+                    hasher.update(b"stopped");
+                    // what is wrong with the whole file, or with this machine, is so for every case
+                    failures = match why {
+                        Stop::Crashed(_) | Stop::OverBudget { .. } => failures + 1,
+                        _ => MOST_FAILURES,
+                    };
+                    controller = None;
+                    stop.get_or_insert((i, why));
+                }
+            }
+        }
+        facts.push(measure(lab, function, case, robot, answered.as_ref()));
+    }
+    CasesRun {
+        facts,
+        stop,
+        operations,
+        log,
+        digest: hasher.finalize(),
+    }
+}
+
+fn ask(
+    controller: &mut Option<Box<dyn Controller>>,
+    robot: &Robot,
+    case: &Case,
+    opening: &Opening,
+    host: &mut dyn Host,
+) -> Result<Answer, Stop> {
+    let open = match controller {
+        Some(open) => open,
+        None => controller.insert(host.open(opening)?),
+    };
+    let robot = robot_facts(robot, None);
+    open.call(&match &case.given {
+        Given::Q(q) => Call::ForwardKinematics {
+            robot,
+            q: q.clone(),
+        },
+        Given::Position { position_m, .. } => Call::InverseKinematics {
+            robot,
+            position_m: *position_m,
+        },
+    })
+}
+
+fn measure<'a>(
+    lab: &Lab,
+    function: Function,
+    case: &'a Case,
+    robot: Robot,
+    value: Option<&Value>,
+) -> CaseFacts<'a> {
+    let (answer, error) = match &case.given {
+        Given::Q(q) => {
+            let answer = match value.map(answer::position) {
+                None => Answered::Stopped,
+                Some(Ok(position)) => Answered::Position(position),
+                Some(Err(what)) => {
+                    Answered::Invalid(format!("{} returned {what}", function.name()))
+                }
+            };
+            let error_m = match (&answer, tcp_in_lab(lab, &robot, q)) {
+                (Answered::Position(position), Some(truth)) => (position - truth).norm(),
+                _ => f64::INFINITY,
+            };
+            (answer, CaseError::Position(error_m))
+        }
+        Given::Position {
+            position_m,
+            branches,
+        } => {
+            let most = (*branches).max(2) as usize;
+            let answer = match value.map(|value| answer::branches(value, robot.n(), most)) {
+                None => Answered::Stopped,
+                Some(Ok(branches)) => Answered::Branches(branches),
+                Some(Err(what)) => {
+                    Answered::Invalid(format!("{} returned {what}", function.name()))
+                }
+            };
+            let error = if *branches == 0 {
+                CaseError::Unreachable {
+                    said_so: answer == Answered::Branches(Vec::new()),
+                }
+            } else {
+                let target = Vector3::from(*position_m);
+                let mut branches_m: Vec<f64> = match &answer {
+                    Answered::Branches(found) => found
+                        .iter()
+                        .map(|q| {
+                            let reached = tcp_in_lab(lab, &robot, q);
+                            reached.map_or(f64::INFINITY, |p| (p - target).norm())
+                        })
+                        .collect(),
+                    _ => Vec::new(),
+                };
+                branches_m.sort_by(f64::total_cmp);
+                CaseError::Reach {
+                    branches_m,
+                    expected: *branches,
+                }
+            };
+            (answer, error)
+        }
+    };
+    CaseFacts {
+        case,
+        robot,
+        answer,
+        error,
+    }
+}
+
+/// Position of the TCP in the lab's frame \[m\]; `None` if `q` does not fit the robot.
+pub fn tcp_in_lab(lab: &Lab, robot: &Robot, q: &[f64]) -> Option<Vector3<f64>> {
+    let q = robot.positions(q).ok()?;
+    let poses = forward_kinematics(robot, &q);
+    let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
+    let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
+    Some(lab_from_tcp.translation.vector)
+}
+
+/// What a submission may know of `robot`; `effort_limits` are the task's, else the robot's own.
+pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts {
+    let dimensions = robot.dimensions().iter().map(|(name, dimension)| {
+        let value = match dimension {
+            Dimension::Number(number) => Value::Number(*number),
+            Dimension::List(list) => Value::List(list.iter().copied().map(Value::Number).collect()),
+        };
+        (name.to_owned(), value)
+    });
+    let joints = || robot.moving_joints();
+    RobotFacts {
+        name: robot.name().to_owned(),
+        joint_names: joints().map(|joint| joint.name.clone()).collect(),
+        dimensions: dimensions.collect(),
+        lower: joints()
+            .map(|j| j.limits.lower.unwrap_or(f64::NEG_INFINITY))
+            .collect(),
+        upper: joints()
+            .map(|j| j.limits.upper.unwrap_or(f64::INFINITY))
+            .collect(),
+        effort: effort_limits.unwrap_or_else(|| {
+            joints()
+                .map(|j| j.limits.effort.unwrap_or(f64::INFINITY))
+                .collect()
+        }),
+    }
+}
+
+fn hash_value(hasher: &mut blake3::Hasher, value: &Value) {
+    let text = |hasher: &mut blake3::Hasher, tag: &[u8], text: &str| {
+        hasher.update(tag);
+        hasher.update(&(text.len() as u64).to_le_bytes());
+        hasher.update(text.as_bytes());
+    };
+    match value {
+        Value::Nothing => {
+            hasher.update(b"n");
+        }
+        Value::Boolean(truth) => {
+            hasher.update(if *truth { b"t" } else { b"f" });
+        }
+        // every NaN is one NaN: its bits are not the same on every platform
+        Value::Number(number) if number.is_nan() => {
+            hasher.update(b"N");
+        }
+        Value::Number(number) => {
+            hasher.update(b"d");
+            hasher.update(&number.to_le_bytes());
+        }
+        Value::Text(t) => text(hasher, b"s", t),
+        Value::Other(name) => text(hasher, b"o", name),
+        Value::List(items) => {
+            hasher.update(b"l");
+            hasher.update(&(items.len() as u64).to_le_bytes());
+            for item in items {
+                hash_value(hasher, item);
+            }
+        }
+        Value::Map(entries) => {
+            hasher.update(b"m");
+            hasher.update(&(entries.len() as u64).to_le_bytes());
+            for (name, value) in entries {
+                text(hasher, b"k", name);
+                hash_value(hasher, value);
+            }
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! finish-time: when the last dwell was over \[s\].
+
+use super::{Finding, MotionFacts};
+use crate::grade::{Evidence, Measure};
+use crate::lab::model::Band;
+use crate::quantity::seconds;
+
+/// Judges the check.
+pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
+    let finish = facts
+        .stays
+        .last()
+        .map(|stay| (stay.last, facts.time_s(stay.last)));
+    let value = finish.map_or(f64::INFINITY, |(_, time_s)| time_s);
+    let score = band.score(value);
+    let mut evidence = Vec::new();
+    if let Some((tick, time_s)) = finish
+        && score < 1.0
+    {
+        let message = format!(
+            "the last dwell is over at {}, {} earns everything",
+            seconds(time_s),
+            seconds(band.full)
+        );
+        evidence.push(Evidence {
+            value: Some(time_s),
+            limit: Some(band.full),
+            unit: "s".to_owned(),
+            ..facts.evidence(message, "tcp".to_owned(), tick)
+        });
+    }
+    Finding {
+        score,
+        measure: Some(Measure {
+            quantity: "end of the last dwell".to_owned(),
+            value: finish.map(|(_, time_s)| time_s),
+            unit: "s".to_owned(),
+            full: band.full,
+            zero: band.zero,
+        }),
+        evidence,
+        next_step: "Start the next move as soon as the dwell is over.".to_owned(),
+        curve: None,
+    }
+}

@@ -1,0 +1,248 @@
+//! The checks, one file each: what is measured, the band it is held against, and the evidence where points are lost.
+
+pub mod effort_saturation;
+pub mod finish_time;
+pub mod fk_error;
+pub mod ik_branches;
+pub mod ik_reach;
+pub mod ik_unreachable;
+pub mod joint_limits;
+pub mod joint_reached;
+pub mod overshoot;
+pub mod pose_reached;
+pub mod stay;
+pub mod trajectory_match;
+
+use kinemark_sim::robot::Robot;
+use kinemark_sim::trace::Trace;
+use nalgebra::Vector3;
+
+use crate::grade::{Evidence, Measure};
+use crate::graded::{Curve, TcpPath};
+use crate::lab::model::{Case, Check, CheckKind, Function, MotionTask};
+use stay::Stay;
+
+/// What a check found.
+#[derive(Debug, Clone)]
+pub struct Finding {
+    /// The share of points earned, in `[0, 1]`.
+    pub score: f64,
+    /// What was measured.
+    pub measure: Option<Measure>,
+    /// Why points were lost, worst first.
+    pub evidence: Vec<Evidence>,
+    /// The next step where points were lost; the lab's own hint comes before it.
+    pub next_step: String,
+    /// The curve it judged.
+    pub curve: Option<Curve>,
+}
+
+/// A run as the checks of a motion task see it.
+#[derive(Debug)]
+pub struct MotionFacts<'a> {
+    /// The robot that moved.
+    pub robot: &'a Robot,
+    /// What was asked for.
+    pub motion: &'a MotionTask,
+    /// What was recorded.
+    pub trace: &'a Trace,
+    /// The best stay at each goal, in order; empty where the task has no goals or the run is shorter than the dwells.
+    pub stays: Vec<Stay>,
+    /// The reference's path.
+    pub reference: Option<&'a TcpPath>,
+}
+
+impl MotionFacts<'_> {
+    /// The time of a tick \[s\].
+    pub fn time_s(&self, tick: usize) -> f64 {
+        self.motion.periods.time_s(tick as u64)
+    }
+
+    /// The name of a joint by its index in `q`.
+    pub fn joint_name(&self, joint: usize) -> &str {
+        let found = self.robot.moving_joints().nth(joint);
+        found.map_or("?", |joint| joint.name.as_str())
+    }
+
+    /// A piece of evidence at a tick.
+    fn evidence(&self, message: String, signal: String, tick: usize) -> Evidence {
+        Evidence {
+            message,
+            signal,
+            tick: Some(tick as u64),
+            time_s: Some(self.time_s(tick)),
+            case: None,
+            value: None,
+            limit: None,
+            unit: String::new(),
+        }
+    }
+}
+
+/// One answer of a function task.
+#[derive(Debug, Clone)]
+pub struct CaseFacts<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// The robot of the case.
+    pub robot: Robot,
+    /// What the submission answered.
+    pub answer: Answered,
+    /// How far off it is, by the kind of the case.
+    pub error: CaseError,
+}
+
+impl CaseFacts<'_> {
+    /// What may be told of the case: its name, or the class of a hidden one.
+    pub fn told(&self) -> &str {
+        self.case.hidden_class.as_deref().unwrap_or(&self.case.name)
+    }
+
+    /// Whether its numbers may be told.
+    pub fn is_visible(&self) -> bool {
+        self.case.hidden_class.is_none()
+    }
+}
+
+/// What a submission answered, once its shape has been checked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Answered {
+    /// A position \[m\].
+    Position(Vector3<f64>),
+    /// Joint positions of every branch \[rad or m\].
+    Branches(Vec<Vec<f64>>),
+    /// Something of the wrong shape or not finite; in words.
+    Invalid(String),
+    /// Nothing: the submission was stopped in this case, or before.
+    Stopped,
+}
+
+/// How far off an answer is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CaseError {
+    /// Distance of the position \[m\]; infinite where there is no valid answer.
+    Position(f64),
+    /// Of a reachable target: distance of the position of each answered branch \[m\], best first.
+    Reach {
+        /// Distances \[m\]; empty where there is no valid answer.
+        branches_m: Vec<f64>,
+        /// How many branches there are.
+        expected: u32,
+    },
+    /// Of an unreachable target: whether the answer says so.
+    Unreachable {
+        /// It answered with an empty list.
+        said_so: bool,
+    },
+}
+
+/// Judges a check of a motion task.
+pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
+    match &check.kind {
+        CheckKind::JointReached {
+            joint,
+            position,
+            hold_ticks,
+            band,
+        } => joint_reached::judge(facts, *joint, *position, *hold_ticks, *band, &check.name),
+        CheckKind::PoseReached(band) => pose_reached::judge(facts, *band, &check.name),
+        CheckKind::FinishTime(band) => finish_time::judge(facts, *band),
+        CheckKind::Overshoot(band) => overshoot::judge(facts, *band, &check.name),
+        CheckKind::EffortSaturation(band) => effort_saturation::judge(facts, *band, &check.name),
+        CheckKind::JointLimits(band) => joint_limits::judge(facts, *band),
+        CheckKind::TrajectoryMatch {
+            span,
+            max_shift_ticks,
+            band,
+        } => trajectory_match::judge(facts, *span, *max_shift_ticks, *band),
+        CheckKind::FkError(_)
+        | CheckKind::IkReach(_)
+        | CheckKind::IkBranches(_)
+        | CheckKind::IkUnreachable => foreign(),
+    }
+}
+
+/// Judges a check of a function task.
+pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]) -> Finding {
+    match &check.kind {
+        CheckKind::FkError(band) => fk_error::judge(cases, *band, function),
+        CheckKind::IkReach(band) => ik_reach::judge(cases, *band, function),
+        CheckKind::IkBranches(band) => ik_branches::judge(cases, *band, function),
+        CheckKind::IkUnreachable => ik_unreachable::judge(cases, function),
+        CheckKind::JointReached { .. }
+        | CheckKind::PoseReached(_)
+        | CheckKind::FinishTime(_)
+        | CheckKind::Overshoot(_)
+        | CheckKind::EffortSaturation(_)
+        | CheckKind::JointLimits(_)
+        | CheckKind::TrajectoryMatch { .. } => foreign(),
+    }
+}
+
+/// A check in a task of the other kind: loading a lab rules it out.
+fn foreign() -> Finding {
+    unreachable!("a lab's checks fit their tasks once it is loaded")
+}
+
+/// Evidence of a function task's case.
+fn case_evidence(
+    function: Function,
+    facts: &CaseFacts<'_>,
+    message: String,
+    value: f64,
+    limit: f64,
+    unit: &str,
+) -> Evidence {
+    Evidence {
+        message,
+        signal: function.name().to_owned(),
+        tick: None,
+        time_s: None,
+        case: Some(facts.told().to_owned()),
+        value: value.is_finite().then_some(value),
+        limit: Some(limit),
+        unit: unit.to_owned(),
+    }
+}
+
+/// At most three visible cases, then hidden classes without their numbers: what a student can act on.
+fn summarise(
+    function: Function,
+    mut failed: Vec<(&CaseFacts<'_>, f64, String)>,
+    totals: &[&CaseFacts<'_>],
+    limit: f64,
+    unit: &str,
+) -> Vec<Evidence> {
+    // worst first; cases without a number are the worst of all
+    failed.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let visible = failed.iter().filter(|(facts, ..)| facts.is_visible());
+    let mut evidence: Vec<Evidence> = visible
+        .take(3)
+        .map(|(facts, value, message)| {
+            case_evidence(function, facts, message.clone(), *value, limit, unit)
+        })
+        .collect();
+    let mut classes: Vec<&str> = Vec::new();
+    for (facts, ..) in failed.iter().filter(|(facts, ..)| !facts.is_visible()) {
+        if !classes.contains(&facts.told()) {
+            classes.push(facts.told());
+        }
+    }
+    classes.sort_unstable();
+    for class in classes {
+        let of_class = |facts: &CaseFacts<'_>| !facts.is_visible() && facts.told() == class;
+        let lost = failed.iter().filter(|(facts, ..)| of_class(facts)).count();
+        let total = totals.iter().filter(|facts| of_class(facts)).count();
+        evidence.push(Evidence {
+            message: format!("{lost} of {total} hidden cases of the class \"{class}\" are off"),
+            signal: function.name().to_owned(),
+            tick: None,
+            time_s: None,
+            case: Some(class.to_owned()),
+            value: None,
+            limit: Some(limit),
+            unit: unit.to_owned(),
+        });
+    }
+    evidence
+}

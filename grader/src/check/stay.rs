@@ -1,0 +1,119 @@
+//! Stays: where in a run the TCP kept to each goal, in order, for as long as it had to.
+//!
+//! All choices of one window per goal, each after the one before, are compared; the one that earns most is taken, and of equal
+//! ones the earliest. So neither a pass through a goal on the way, nor a late return to it, can cost a point.
+
+use std::collections::VecDeque;
+
+use kinemark_sim::trace::Trace;
+
+use crate::lab::model::{Band, MotionGoal};
+
+/// A window of a run at a goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stay {
+    /// Its first tick.
+    pub first: usize,
+    /// Its last tick.
+    pub last: usize,
+    /// Greatest distance from the goal in it \[m\].
+    pub worst_m: f64,
+}
+
+/// The best stays, one per goal in order; empty where the run is too short for all dwells.
+pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> {
+    let ticks = trace.len();
+    // best value with the goals so far, their windows ending at or before a tick; and where the last one ends
+    let mut before = vec![0.0; ticks];
+    let mut choices: Vec<Vec<Option<usize>>> = Vec::new();
+    let mut worsts: Vec<Vec<f64>> = Vec::new();
+    for goal in goals {
+        let dwell = goal.dwell_ticks as usize;
+        let distances: Vec<f64> = (0..ticks)
+            .map(|tick| (trace.tcp_position(tick) - goal.position_m).norm())
+            .collect();
+        let worst = sliding_maximum(&distances, dwell + 1);
+        let mut best = vec![f64::NEG_INFINITY; ticks];
+        let mut choice = vec![None; ticks];
+        for last in 0..ticks {
+            if last > 0 {
+                best[last] = best[last - 1];
+                choice[last] = choice[last - 1];
+            }
+            if last < dwell {
+                continue;
+            }
+            let value = before[last - dwell] + worth(band, worst[last]);
+            if value > best[last] {
+                best[last] = value;
+                choice[last] = Some(last);
+            }
+        }
+        before = best;
+        choices.push(choice);
+        worsts.push(worst);
+    }
+    let mut stays = Vec::new();
+    let mut limit = ticks.checked_sub(1);
+    for (i, goal) in goals.iter().enumerate().rev() {
+        let Some(last) = limit.and_then(|limit| choices[i][limit]) else {
+            return Vec::new();
+        };
+        let first = last - goal.dwell_ticks as usize;
+        stays.push(Stay {
+            first,
+            last,
+            worst_m: worsts[i][last],
+        });
+        limit = Some(first);
+    }
+    stays.reverse();
+    stays
+}
+
+/// What a window is worth: its score; among windows that earn nothing, the nearer the better, but less than anything earned.
+fn worth(band: Band, worst_m: f64) -> f64 {
+    let score = band.score(worst_m);
+    if score > 0.0 {
+        score
+    } else {
+        -1e-9 * worst_m.min(1e6)
+    }
+}
+
+/// For every index the maximum of the `width` values that end there (fewer at the start).
+fn sliding_maximum(values: &[f64], width: usize) -> Vec<f64> {
+    let mut candidates: VecDeque<usize> = VecDeque::new();
+    let mut maxima = Vec::with_capacity(values.len());
+    for (i, value) in values.iter().enumerate() {
+        while candidates
+            .back()
+            .is_some_and(|&back| values[back] <= *value)
+        {
+            candidates.pop_back();
+        }
+        candidates.push_back(i);
+        if candidates[0] + width <= i {
+            candidates.pop_front();
+        }
+        maxima.push(values[candidates[0]]);
+    }
+    maxima
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sliding_maximum;
+
+    #[test]
+    fn the_sliding_maximum_is_the_plain_one() {
+        let values = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0];
+        for width in 1..6 {
+            for (i, maximum) in sliding_maximum(&values, width).iter().enumerate() {
+                let start = (i + 1).saturating_sub(width);
+                let plain = values[start..=i].iter().copied().fold(f64::MIN, f64::max);
+                assert_eq!(*maximum, plain, "width {width} at {i}");
+            }
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Diagnosis: does what the student did equal a known mistake where that mistake differs from the truth?
+//!
+//! A mistake is named only where it explains everything: the answers agree with it wherever it would show, are right elsewhere,
+//! and agree with no other mistake as well. A wrong diagnosis is worse than none.
+
+use crate::check::ik_branches::same_branch;
+use crate::check::stay::best_stays;
+use crate::check::{Answered, CaseError, CaseFacts};
+use crate::grade::Diagnosis;
+use crate::lab::model::{Band, MotionTask};
+use crate::lab::staff::Mutant;
+use kinemark_sim::trace::Trace;
+use nalgebra::Vector3;
+
+/// Fewer answers that would show a mistake could agree by chance.
+const LEAST_TELLING: usize = 3;
+/// Positions of one formula written in two ways differ by rounding only \[m\].
+const SAME_POSITION_M: f64 = 1e-6;
+
+/// What one mutant says about the answers.
+struct Agreement<'m> {
+    mutant: &'m Mutant,
+    agreeing: usize,
+    telling: usize,
+}
+
+impl Agreement<'_> {
+    fn diagnosis(&self) -> Diagnosis {
+        Diagnosis {
+            mistake: self.mutant.name.clone(),
+            says: self.mutant.says.clone(),
+            agreeing: self.agreeing as u32,
+            telling: self.telling as u32,
+        }
+    }
+}
+
+/// The one mistake that explains all, if there is exactly one: of two that do, the one that shows in more answers.
+fn clear(mut candidates: Vec<Agreement<'_>>) -> Vec<Diagnosis> {
+    candidates.retain(|c| c.telling > 0 && c.agreeing == c.telling);
+    candidates.sort_by(|a, b| b.telling.cmp(&a.telling));
+    match candidates.as_slice() {
+        [only] => vec![only.diagnosis()],
+        [first, second, ..] if first.telling > second.telling => vec![first.diagnosis()],
+        _ => Vec::new(),
+    }
+}
+
+/// Compares the student's answers with those of each mutant on the same cases.
+pub fn function_task<'m>(
+    student: &[CaseFacts<'_>],
+    mutants: impl Iterator<Item = (&'m Mutant, Vec<CaseFacts<'m>>)>,
+    band: Band,
+) -> Vec<Diagnosis> {
+    let mut candidates = Vec::new();
+    for (mutant, answers) in mutants {
+        let (mut agreeing, mut telling, mut right_elsewhere) = (0, 0, true);
+        for (student, mutant) in student.iter().zip(&answers) {
+            if is_wrong(mutant, band) {
+                telling += 1;
+                agreeing += usize::from(agrees(student, mutant));
+            } else {
+                right_elsewhere &= !is_wrong(student, band);
+            }
+        }
+        if telling >= LEAST_TELLING && right_elsewhere {
+            candidates.push(Agreement {
+                mutant,
+                agreeing,
+                telling,
+            });
+        }
+    }
+    clear(candidates)
+}
+
+/// Whether an answer is so far off that it earns nothing: a mistake shows there beyond doubt.
+fn is_wrong(facts: &CaseFacts<'_>, band: Band) -> bool {
+    match &facts.error {
+        CaseError::Position(error_m) => band.score(*error_m) <= 0.0,
+        CaseError::Reach { branches_m, .. } => {
+            branches_m.is_empty() || branches_m.iter().any(|error_m| band.score(*error_m) <= 0.0)
+        }
+        CaseError::Unreachable { said_so } => !said_so,
+    }
+}
+
+fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
+    match (&student.answer, &mutant.answer) {
+        (Answered::Position(a), Answered::Position(b)) => {
+            (a - b).norm() <= SAME_POSITION_M * (1.0 + b.norm())
+        }
+        // one branch may be left out: that is another matter, with a check of its own
+        (Answered::Branches(a), Answered::Branches(b)) => {
+            let found = |q: &Vec<f64>| b.iter().any(|other| close(student, q, other));
+            a.is_empty() == b.is_empty() && a.iter().all(found)
+        }
+        // "not a number" where the mistake gives none either
+        (Answered::Invalid(_), Answered::Invalid(_)) => true,
+        _ => false,
+    }
+}
+
+fn close(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
+    // the same configuration, and the same numbers but for whole circles to rounding
+    same_branch(facts, a, b)
+        && a.iter().zip(b).all(|(a, b)| {
+            let circle = 2.0 * std::f64::consts::PI;
+            let gap = (a - b).abs() % circle;
+            gap.min(circle - gap) <= 1e-6 || (a - b).abs() <= 1e-6
+        })
+}
+
+/// Compares where the student's run settled with where each mutant's run did.
+pub fn motion_task<'m>(
+    motion: &MotionTask,
+    band: Band,
+    student: &Trace,
+    mutants: impl Iterator<Item = (&'m Mutant, Trace)>,
+) -> Vec<Diagnosis> {
+    let same_m = 5e-4; // a quarter of a narrow band; a servo at rest is far inside it
+    let settled = settled_at(motion, student);
+    let mut candidates = Vec::new();
+    for (mutant, trace) in mutants {
+        let places = settled_at(motion, &trace);
+        if places.len() != motion.goals.len() || settled.len() != places.len() {
+            continue;
+        }
+        let (mut agreeing, mut telling) = (0, 0);
+        for ((goal, student), mutant) in motion.goals.iter().zip(&settled).zip(&places) {
+            if (mutant - goal.position_m).norm() > band.full {
+                telling += 1;
+                agreeing += usize::from((student - mutant).norm() <= same_m);
+            }
+        }
+        candidates.push(Agreement {
+            mutant,
+            agreeing,
+            telling,
+        });
+    }
+    clear(candidates)
+}
+
+/// Where a run stood during its best stay near each goal.
+fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
+    let near = Band {
+        full: 0.0,
+        zero: 0.25,
+    };
+    let stays = best_stays(trace, &motion.goals, near);
+    stays
+        .iter()
+        .map(|stay| trace.tcp_position(stay.last))
+        .collect()
+}

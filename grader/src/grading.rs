@@ -1,0 +1,570 @@
+//! From a lab and a submission to a graded run: every task in order, its checks, its diagnoses, the record.
+
+use kinemark_sim::source::Source;
+
+use crate::cases::{self, CasesRun};
+use crate::check::{self, Answered, CaseError, CaseFacts, Finding, MotionFacts, stay};
+use crate::controller::{Controller, Opening, Stop, Value};
+use crate::diagnose;
+use crate::grade::{
+    CaseGrade, CheckGrade, Diagnosis, Digests, FORMAT, Grade, GradeMode, HiddenClass, LogEntry,
+    Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
+};
+use crate::graded::{Goal, GradedRun, TaskRun, TcpPath};
+use crate::lab::model::{
+    Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
+};
+use crate::lab::{Staff, staff::Mutant};
+use crate::motion::{self, EarlyEnd, MotionRun};
+use crate::quantity::list;
+use crate::stopped;
+use crate::submission::ScriptController;
+use crate::verdict::Verdict;
+
+/// Lines of a submission's output that the record keeps.
+const MOST_LOG_LINES: usize = 200;
+
+/// Opens a submission for a task: in this process, or in a worker.
+pub trait Host {
+    /// Starts the submission of `opening`.
+    ///
+    /// # Errors
+    /// [`Stop`] if it cannot start.
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop>;
+
+    /// A task begins; for whoever shows progress.
+    fn begins(&mut self, _task: &str) {}
+}
+
+/// Runs submissions in this process.
+#[derive(Debug, Default)]
+pub struct InProcess;
+
+impl Host for InProcess {
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+        Ok(Box::new(ScriptController::open(opening)?))
+    }
+}
+
+/// The person at the terminal asked to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("interrupted")]
+pub struct Interrupted;
+
+/// Grades `submission` in `lab`; with `staff`, on hidden cases too, and with diagnoses.
+///
+/// # Errors
+/// [`Interrupted`] if the host says so; nothing else stops a grade.
+pub fn grade(
+    lab: &Lab,
+    staff: Option<&Staff>,
+    submission: &Source,
+    host: &mut dyn Host,
+) -> Result<GradedRun, Interrupted> {
+    let grader = Grader {
+        lab,
+        staff,
+        submission,
+    };
+    let mut tasks = Vec::new();
+    let mut runs = Vec::new();
+    for task in &lab.tasks {
+        host.begins(&task.title);
+        let (grade, run) = match &task.work {
+            TaskWork::Function(function) => (grader.function(task, function, host)?, None),
+            TaskWork::Motion(motion) => {
+                let (grade, run) = grader.motion(task, motion, host)?;
+                (grade, Some(run))
+            }
+        };
+        tasks.push(grade);
+        runs.extend(run);
+    }
+    let digest = |text: &str| blake3::hash(text.as_bytes()).to_hex().to_string();
+    let verdicts = tasks.iter().map(|task| task.verdict);
+    let grade = Grade {
+        format: FORMAT.to_owned(),
+        engine: engine(),
+        mode: if staff.is_some() {
+            GradeMode::Graded
+        } else {
+            GradeMode::Practice
+        },
+        lab: Part {
+            name: lab.name.clone(),
+            digest: digest(&format!(
+                "{}\n{}",
+                lab.source.text(),
+                lab.reference_paths.text
+            )),
+        },
+        robot: Part {
+            name: lab.robot.name().to_owned(),
+            digest: digest(lab.robot_file.source().text()),
+        },
+        submission: Part {
+            name: submission.name().to_owned(),
+            digest: digest(submission.text()),
+        },
+        reference: staff.map(|staff| Part {
+            name: lab.name.clone(),
+            digest: staff.digest.to_hex().to_string(),
+        }),
+        verdict: verdicts.min().unwrap_or(Verdict::Passed),
+        points: tasks.iter().map(|task| task.points).sum(),
+        max_points: tasks.iter().map(|task| task.max_points).sum(),
+        tasks,
+    };
+    Ok(GradedRun { grade, runs })
+}
+
+/// The engine and its version, as in grade records and logs.
+pub fn engine() -> String {
+    format!("kinemark {}", env!("CARGO_PKG_VERSION"))
+}
+
+struct Grader<'a> {
+    lab: &'a Lab,
+    staff: Option<&'a Staff>,
+    submission: &'a Source,
+}
+
+impl Grader<'_> {
+    fn opening(&self, task: &Task, submission: &Source) -> Opening {
+        let (robot, target) = match &task.work {
+            TaskWork::Function(_) => (cases::robot_facts(&self.lab.robot, None), Value::Nothing),
+            TaskWork::Motion(motion) => (
+                motion::facts_of(self.lab, motion),
+                motion::target_of(motion),
+            ),
+        };
+        Opening {
+            file: submission.name().to_owned(),
+            source: submission.text().to_owned(),
+            task: task.name.clone(),
+            robot,
+            target,
+            budgets: self.lab.budgets.clone(),
+        }
+    }
+
+    fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
+        let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
+        let name = task.name.clone();
+        all.iter()
+            .filter(move |mutant| mutant.tasks.contains(&name))
+    }
+
+    fn function(
+        &self,
+        task: &Task,
+        work: &FunctionTask,
+        host: &mut dyn Host,
+    ) -> Result<TaskGrade, Interrupted> {
+        let mut all: Vec<Case> = work.cases.clone();
+        all.extend_from_slice(self.staff.map_or(&[], |staff| staff.hidden(&task.name)));
+        let opening = self.opening(task, self.submission);
+        let run = cases::run(self.lab, work.function, &all, &opening, host);
+        let mut stopped_record = None;
+        let mut verdict = Verdict::Passed;
+        if let Some((case, stop)) = &run.stop {
+            verdict = stopped::verdict(stop).ok_or(Interrupted)?;
+            let mut record = stopped::record(stop, self.submission.text());
+            if matches!(stop, Stop::Crashed(_) | Stop::OverBudget { .. }) {
+                record.case = Some(run.facts[*case].told().to_owned());
+            }
+            stopped_record = Some(record);
+        }
+        let checks = judged(&task.checks, verdict.is_decided(), |check| {
+            check::judge_function(check, work.function, &run.facts)
+        });
+        let checks: Vec<CheckGrade> = checks.into_iter().map(|(check, _)| check).collect();
+        let invalid = run.facts.iter().find_map(|facts| match &facts.answer {
+            Answered::Invalid(what) => Some((facts.told().to_owned(), what.clone())),
+            _ => None,
+        });
+        if let (Some((case, what)), None) = (invalid, &stopped_record) {
+            verdict = verdict.min(Verdict::InvalidOutput);
+            stopped_record = Some(Stopped {
+                message: what,
+                help: None,
+                line: None,
+                column: None,
+                source_line: None,
+                tick: None,
+                time_s: None,
+                case: Some(case),
+            });
+        }
+        if checks.iter().any(|check| check.outcome != Outcome::Full) {
+            verdict = verdict.min(Verdict::Missed);
+        }
+        let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
+            Vec::new()
+        } else {
+            self.function_diagnoses(task, work.function, &all, &run)
+        };
+        let good = good_bands(&task.checks);
+        Ok(TaskGrade {
+            name: task.name.clone(),
+            title: task.title.clone(),
+            kind: TaskKind::Function,
+            verdict,
+            points: checks.iter().map(|check| check.points).sum(),
+            max_points: task.max_points(),
+            stopped: stopped_record,
+            checks,
+            diagnoses,
+            cases: run
+                .facts
+                .iter()
+                .filter(|facts| facts.is_visible())
+                .map(|facts| case_grade(self.lab, facts, good))
+                .collect(),
+            hidden: hidden_classes(&run.facts, good),
+            operations: run.operations,
+            log: run.log.into_iter().take(MOST_LOG_LINES).collect(),
+            digests: Digests {
+                all: run.digest.to_hex().to_string(),
+                seconds: Vec::new(),
+            },
+        })
+    }
+
+    fn function_diagnoses(
+        &self,
+        task: &Task,
+        function: Function,
+        all: &[Case],
+        student: &CasesRun<'_>,
+    ) -> Vec<Diagnosis> {
+        let mutants = self.mutants_of(task).map(|mutant| {
+            let opening = self.opening(task, &mutant.source);
+            let run = cases::run(self.lab, function, all, &opening, &mut InProcess);
+            (mutant, run.facts)
+        });
+        // mutants outlive the closure's borrow only if collected
+        let answers: Vec<(&Mutant, Vec<CaseFacts<'_>>)> = mutants.collect();
+        diagnose::function_task(
+            &student.facts,
+            answers.into_iter(),
+            good_bands(&task.checks),
+        )
+    }
+
+    fn motion(
+        &self,
+        task: &Task,
+        work: &MotionTask,
+        host: &mut dyn Host,
+    ) -> Result<(TaskGrade, TaskRun), Interrupted> {
+        let opening = self.opening(task, self.submission);
+        let MotionRun {
+            trace,
+            ended,
+            operations,
+        } = motion::run(self.lab, work, &opening, host);
+        let mut verdict = Verdict::Passed;
+        let mut stopped_record = None;
+        if let Some((tick, why)) = &ended {
+            let mut record = match why {
+                EarlyEnd::Stopped(stop) => {
+                    verdict = stopped::verdict(stop).ok_or(Interrupted)?;
+                    stopped::record(stop, self.submission.text())
+                }
+                EarlyEnd::InvalidOutput(what) => {
+                    verdict = Verdict::InvalidOutput;
+                    said(what.clone(), None)
+                }
+                EarlyEnd::Diverged => {
+                    verdict = Verdict::Missed;
+                    said(
+                        "the arm's state was no longer finite: the loop is unstable".to_owned(),
+                        Some("command less, or more slowly".to_owned()),
+                    )
+                }
+            };
+            if !matches!(
+                why,
+                EarlyEnd::Stopped(Stop::Missing { .. } | Stop::DidNotBuild(_))
+            ) {
+                record.tick = Some(*tick);
+                record.time_s = Some(work.periods.time_s(*tick));
+            }
+            stopped_record = Some(record);
+        }
+        let band = pose_band(&task.checks);
+        let reference = self.reference_path(&task.name);
+        let facts = MotionFacts {
+            robot: &self.lab.robot,
+            motion: work,
+            trace: &trace,
+            stays: stay::best_stays(&trace, &work.goals, band),
+            reference,
+        };
+        let judged = judged(&task.checks, ended.is_none(), |check| {
+            check::judge_motion(check, &facts)
+        });
+        let stays = facts.stays;
+        let mut checks = Vec::new();
+        let mut curves = Vec::new();
+        for (check, curve) in judged {
+            checks.push(check);
+            curves.extend(curve);
+        }
+        if checks.iter().any(|check| check.outcome != Outcome::Full) {
+            verdict = verdict.min(Verdict::Missed);
+        }
+        let diagnoses = if verdict == Verdict::Missed && ended.is_none() && !work.goals.is_empty() {
+            let mutants = self.mutants_of(task).map(|mutant| {
+                let opening = self.opening(task, &mutant.source);
+                (
+                    mutant,
+                    motion::run(self.lab, work, &opening, &mut InProcess).trace,
+                )
+            });
+            diagnose::motion_task(work, band, &trace, mutants)
+        } else {
+            Vec::new()
+        };
+        let digest = trace.digest();
+        let grade = TaskGrade {
+            name: task.name.clone(),
+            title: task.title.clone(),
+            kind: TaskKind::Motion,
+            verdict,
+            points: checks.iter().map(|check| check.points).sum(),
+            max_points: task.max_points(),
+            stopped: stopped_record,
+            checks,
+            diagnoses,
+            cases: Vec::new(),
+            hidden: Vec::new(),
+            operations,
+            log: trace
+                .log
+                .iter()
+                .take(MOST_LOG_LINES)
+                .map(|line| LogEntry {
+                    at: line.tick,
+                    text: line.text.clone(),
+                })
+                .collect(),
+            digests: Digests {
+                all: digest.all.to_hex().to_string(),
+                seconds: digest
+                    .seconds
+                    .iter()
+                    .map(|second| {
+                        let signal = |i: usize| second.signals[i].to_hex()[..16].to_owned();
+                        SecondDigests {
+                            q: signal(0),
+                            qd: signal(1),
+                            command: signal(2),
+                            effort: signal(3),
+                            tcp: signal(4),
+                        }
+                    })
+                    .collect(),
+            },
+        };
+        let goals = work.goals.iter().enumerate().map(|(i, goal)| Goal {
+            position_m: goal.position_m.into(),
+            dwell_s: work.periods.time_s(goal.dwell_ticks),
+            full_m: band.full,
+            zero_m: band.zero,
+            stay: stays
+                .get(i)
+                .map(|stay| (stay.first as u64, stay.last as u64)),
+        });
+        let run = TaskRun {
+            task: task.name.clone(),
+            robot: self.lab.robot.clone(),
+            seen_from: self.lab.frame.clone(),
+            mode: work.servo.mode,
+            effort_limits: work.servo.gains.iter().map(|g| g.effort_limit).collect(),
+            goals: goals.collect(),
+            reference_tcp: reference.cloned(),
+            curves,
+            trace,
+        };
+        Ok((grade, run))
+    }
+
+    fn reference_path(&self, task: &str) -> Option<&TcpPath> {
+        let mut paths = self.lab.reference_paths.paths.iter();
+        paths.find(|(name, _)| name == task).map(|(_, path)| path)
+    }
+}
+
+fn said(message: String, help: Option<String>) -> Stopped {
+    Stopped {
+        message,
+        help,
+        line: None,
+        column: None,
+        source_line: None,
+        tick: None,
+        time_s: None,
+        case: None,
+    }
+}
+
+/// Judges the checks in order; one whose needs earned nothing, or of a task that cannot be judged, earns nothing itself.
+fn judged(
+    checks: &[Check],
+    can_be_judged: bool,
+    judge: impl Fn(&Check) -> Finding,
+) -> Vec<(CheckGrade, Option<crate::graded::Curve>)> {
+    let mut grades: Vec<(CheckGrade, Option<crate::graded::Curve>)> = Vec::new();
+    for check in checks {
+        let mut grade = CheckGrade {
+            name: check.name.clone(),
+            title: check.title.clone(),
+            outcome: Outcome::NotJudged,
+            points: 0.0,
+            max_points: check.points,
+            measure: None,
+            evidence: Vec::new(),
+            next_step: None,
+        };
+        let mut curve = None;
+        let missing = check
+            .needs
+            .iter()
+            .find(|&&need| grades[need].0.points <= 0.0);
+        match (can_be_judged, missing) {
+            (false, _) => {}
+            (true, Some(&need)) => {
+                grade.next_step = Some(format!(
+                    "First earn something in \"{}\".",
+                    checks[need].title
+                ));
+            }
+            (true, None) => {
+                let finding = judge(check);
+                grade.outcome = if finding.score >= 1.0 {
+                    Outcome::Full
+                } else if finding.score > 0.0 {
+                    Outcome::Partial
+                } else {
+                    Outcome::None
+                };
+                grade.points = check.points * finding.score.clamp(0.0, 1.0);
+                grade.measure = finding.measure;
+                if grade.outcome != Outcome::Full {
+                    grade.evidence = finding.evidence;
+                    let hint = check.hint.clone();
+                    grade.next_step = Some(hint.unwrap_or(finding.next_step));
+                }
+                curve = finding.curve;
+            }
+        }
+        grades.push((grade, curve));
+    }
+    grades
+}
+
+/// The band of distances by which a function task's single answers are called good or wrong.
+fn good_bands(checks: &[Check]) -> Band {
+    let found = checks.iter().find_map(|check| match &check.kind {
+        CheckKind::FkError(band) | CheckKind::IkReach(band) => Some(*band),
+        _ => None,
+    });
+    found.unwrap_or(Band {
+        full: 1e-3,
+        zero: 1e-2,
+    })
+}
+
+/// The band by which stays are chosen.
+fn pose_band(checks: &[Check]) -> Band {
+    let found = checks.iter().find_map(|check| match &check.kind {
+        CheckKind::PoseReached(band) => Some(*band),
+        _ => None,
+    });
+    found.unwrap_or(Band {
+        full: 0.002,
+        zero: 0.02,
+    })
+}
+
+fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
+    match &facts.error {
+        CaseError::Position(error_m) => *error_m <= band.full,
+        CaseError::Reach { branches_m, .. } => branches_m
+            .first()
+            .is_some_and(|error_m| *error_m <= band.full),
+        CaseError::Unreachable { said_so } => *said_so,
+    }
+}
+
+fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
+    let (given, expected) = match &facts.case.given {
+        Given::Q(q) => {
+            let truth = cases::tcp_in_lab(lab, &facts.robot, q);
+            (
+                format!("q = {} rad", list(q)),
+                truth.map(|p| format!("{} m", list(p.as_slice()))),
+            )
+        }
+        Given::Position {
+            position_m,
+            branches,
+        } => (
+            format!("position = {} m", list(position_m)),
+            // the angles would be the answer of the task itself
+            (*branches == 0).then(|| "[] (out of reach)".to_owned()),
+        ),
+    };
+    let changed = facts.case.dimensions.iter().map(|(name, dimension)| {
+        let value = match dimension {
+            kinemark_sim::robot::Dimension::Number(number) => crate::quantity::trimmed(*number, 4),
+            kinemark_sim::robot::Dimension::List(numbers) => list(numbers),
+        };
+        format!(", {name} = {value}")
+    });
+    let error_m = match &facts.error {
+        CaseError::Position(error_m) => Some(*error_m),
+        CaseError::Reach { branches_m, .. } => branches_m.first().copied(),
+        CaseError::Unreachable { .. } => None,
+    };
+    CaseGrade {
+        name: facts.case.name.clone(),
+        given: given + changed.collect::<String>().as_str(),
+        answer: match &facts.answer {
+            Answered::Position(p) => format!("{} m", list(p.as_slice())),
+            Answered::Branches(branches) => {
+                let texts: Vec<String> = branches.iter().map(|q| list(q)).collect();
+                format!("[{}]", texts.join(", "))
+            }
+            Answered::Invalid(what) => what.clone(),
+            Answered::Stopped => "no answer".to_owned(),
+        },
+        expected,
+        error_m: error_m.filter(|error_m| error_m.is_finite()),
+        good: is_good(facts, band),
+    }
+}
+
+fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenClass> {
+    let mut classes: Vec<HiddenClass> = Vec::new();
+    for facts in facts {
+        let Some(class) = &facts.case.hidden_class else {
+            continue;
+        };
+        let good = u32::from(is_good(facts, band));
+        match classes.iter_mut().find(|known| known.class == *class) {
+            Some(known) => {
+                known.good += good;
+                known.total += 1;
+            }
+            None => classes.push(HiddenClass {
+                class: class.clone(),
+                good,
+                total: 1,
+            }),
+        }
+    }
+    classes
+}

@@ -1,0 +1,117 @@
+//! Cases drawn at random from a salt: the same salt gives the same cases on every machine, another salt others.
+//!
+//! Numbers come from BLAKE3 in extendable-output mode, keyed by salt, task, class and the case's number, so that adding a draw
+//! changes no other draw's cases.
+
+use kinemark_sim::kinematics::forward_kinematics;
+use kinemark_sim::robot::{Dimension, RobotFile};
+
+use super::file::Ranges;
+use super::model::{Case, Given, Lab};
+
+/// A draw that has been checked against its lab.
+#[derive(Debug, Clone)]
+pub(super) struct Draw {
+    pub(super) task: String,
+    pub(super) class: String,
+    pub(super) count: u32,
+    pub(super) what: Drawn,
+    pub(super) dimensions: Vec<(String, Ranges)>,
+}
+
+/// What is drawn.
+#[derive(Debug, Clone)]
+pub(super) enum Drawn {
+    /// Joint positions, given as they are.
+    Q(Vec<[f64; 2]>),
+    /// The TCP's position at joint positions drawn: surely reachable.
+    PositionOf(Vec<[f64; 2]>, u32),
+    /// A position, whether reachable or not.
+    Position([[f64; 2]; 3], u32),
+}
+
+/// Random numbers of one case.
+struct Stream(blake3::OutputReader);
+
+impl Stream {
+    fn new(salt: &str, draw: &Draw, number: u32) -> Self {
+        let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 hidden cases v1");
+        for part in [salt, &draw.task, &draw.class] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part.as_bytes());
+        }
+        hasher.update(&number.to_le_bytes());
+        Self(hasher.finalize_xof())
+    }
+
+    /// The next number in `[low, high)`, of 53 random bits.
+    fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
+        let mut bytes = [0; 8];
+        self.0.fill(&mut bytes);
+        let unit = (u64::from_le_bytes(bytes) >> 11) as f64 / (1_u64 << 53) as f64;
+        low + (high - low) * unit
+    }
+}
+
+impl Draw {
+    /// The cases of this draw.
+    pub(super) fn cases(&self, salt: &str, lab: &Lab) -> Vec<Case> {
+        (0..self.count)
+            .map(|number| self.case(salt, number, lab, &lab.robot_file))
+            .collect()
+    }
+
+    fn case(&self, salt: &str, number: u32, lab: &Lab, robot_file: &RobotFile) -> Case {
+        let mut stream = Stream::new(salt, self, number);
+        let dimensions: Vec<(String, Dimension)> = self
+            .dimensions
+            .iter()
+            .map(|(name, ranges)| {
+                let value = match ranges {
+                    Ranges::One(range) => Dimension::Number(stream.between(*range)),
+                    Ranges::Each(ranges) => {
+                        Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
+                    }
+                };
+                (name.clone(), value)
+            })
+            .collect();
+        let given = match &self.what {
+            Drawn::Q(ranges) => Given::Q(ranges.iter().map(|r| stream.between(*r)).collect()),
+            Drawn::PositionOf(ranges, branches) => {
+                let q: Vec<f64> = ranges.iter().map(|r| stream.between(*r)).collect();
+                Given::Position {
+                    position_m: tcp_position(lab, robot_file, &dimensions, &q),
+                    branches: *branches,
+                }
+            }
+            Drawn::Position(ranges, branches) => Given::Position {
+                position_m: ranges.map(|range| stream.between(range)),
+                branches: *branches,
+            },
+        };
+        Case {
+            name: format!("{} {}", self.class, number + 1),
+            hidden_class: Some(self.class.clone()),
+            dimensions,
+            given,
+        }
+    }
+}
+
+/// Where the TCP is in the lab's frame; NaN if the dimensions make no robot, which loading has ruled out.
+fn tcp_position(
+    lab: &Lab,
+    robot_file: &RobotFile,
+    dimensions: &[(String, Dimension)],
+    q: &[f64],
+) -> [f64; 3] {
+    let position = robot_file.build(dimensions).ok().and_then(|robot| {
+        let q = robot.positions(q).ok()?;
+        let poses = forward_kinematics(&robot, &q);
+        let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
+        let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
+        Some(lab_from_tcp.translation.vector.into())
+    });
+    position.unwrap_or([f64::NAN; 3])
+}

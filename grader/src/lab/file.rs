@@ -1,0 +1,315 @@
+//! The TOML types of `lab.toml`, as typed; spans are kept wherever a later check may point.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A number as typed, whole or not.
+pub(super) type NumberAt = Spanned<f64>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LabTable {
+    pub(super) format: Spanned<i64>,
+    pub(super) name: Spanned<String>,
+    pub(super) title: String,
+    #[serde(default)]
+    pub(super) summary: String,
+    pub(super) robot: Spanned<String>,
+    pub(super) frame: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) budgets: BudgetTable,
+    #[serde(default)]
+    pub(super) tasks: Vec<TaskTable>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BudgetTable {
+    pub(super) operations_per_call: Option<Spanned<u64>>,
+    pub(super) operations_per_task: Option<Spanned<u64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TaskTable {
+    pub(super) name: Spanned<String>,
+    pub(super) title: String,
+    pub(super) function: Option<FunctionTable>,
+    pub(super) motion: Option<Spanned<MotionTable>>,
+    #[serde(default)]
+    pub(super) checks: Vec<Spanned<CheckTable>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FunctionTable {
+    pub(super) call: Spanned<FunctionName>,
+    #[serde(default)]
+    pub(super) cases: Vec<Spanned<CaseTable>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum FunctionName {
+    ForwardKinematics,
+    InverseKinematics,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CaseTable {
+    pub(super) name: Spanned<String>,
+    pub(super) q_rad: Option<Spanned<Vec<f64>>>,
+    pub(super) position_m: Option<[f64; 3]>,
+    pub(super) branches: Option<Spanned<u64>>,
+    #[serde(default)]
+    pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionTable {
+    pub(super) mode: ModeName,
+    pub(super) duration_s: NumberAt,
+    pub(super) physics_step_ms: Option<NumberAt>,
+    pub(super) servo_period_ms: Option<NumberAt>,
+    pub(super) control_period_ms: Option<NumberAt>,
+    pub(super) start_rad: Option<Spanned<Vec<f64>>>,
+    pub(super) target: Option<Vec<f64>>,
+    #[serde(default)]
+    pub(super) goals: Vec<GoalTable>,
+    pub(super) servo: Option<Spanned<ServoTable>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum ModeName {
+    Position,
+    Velocity,
+    Effort,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GoalTable {
+    pub(super) position_m: [f64; 3],
+    pub(super) dwell_s: NumberAt,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ServoTable {
+    pub(super) kp: Option<PerJoint>,
+    pub(super) ki: Option<PerJoint>,
+    pub(super) kd: Option<PerJoint>,
+    pub(super) derivative: Option<DerivativeName>,
+    pub(super) effort_limit: Option<PerJoint>,
+    pub(super) integral_limit: Option<PerJoint>,
+    #[serde(default)]
+    pub(super) gravity_compensation: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum DerivativeName {
+    Error,
+    Measurement,
+    Velocity,
+}
+
+/// One number for all joints, or one per joint.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum PerJoint {
+    All(f64),
+    Each(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for PerJoint {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use kinemark_sim::robot::Dimension;
+        Ok(match Dimension::deserialize(deserializer)? {
+            Dimension::Number(value) => Self::All(value),
+            Dimension::List(values) => Self::Each(values),
+        })
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CheckTable {
+    pub(super) name: Spanned<String>,
+    pub(super) title: String,
+    pub(super) points: NumberAt,
+    #[serde(default)]
+    pub(super) needs: Vec<Spanned<String>>,
+    pub(super) hint: Option<String>,
+    #[serde(rename = "joint-reached")]
+    pub(super) joint_reached: Option<JointReachedTable>,
+    #[serde(rename = "fk-error")]
+    pub(super) fk_error: Option<Spanned<BandM>>,
+    #[serde(rename = "ik-reach")]
+    pub(super) ik_reach: Option<Spanned<BandM>>,
+    #[serde(rename = "ik-branches")]
+    pub(super) ik_branches: Option<Spanned<BandM>>,
+    #[serde(rename = "ik-unreachable")]
+    pub(super) ik_unreachable: Option<Nothing>,
+    #[serde(rename = "pose-reached")]
+    pub(super) pose_reached: Option<Spanned<BandM>>,
+    #[serde(rename = "finish-time")]
+    pub(super) finish_time: Option<Spanned<BandS>>,
+    pub(super) overshoot: Option<Spanned<BandRatio>>,
+    #[serde(rename = "effort-saturation")]
+    pub(super) effort_saturation: Option<Spanned<BandS>>,
+    #[serde(rename = "joint-limits")]
+    pub(super) joint_limits: Option<Spanned<BandRad>>,
+    #[serde(rename = "trajectory-match")]
+    pub(super) trajectory_match: Option<Spanned<TrajectoryMatchTable>>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Nothing {}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BandM {
+    pub(super) full_m: f64,
+    pub(super) zero_m: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BandS {
+    pub(super) full_s: f64,
+    pub(super) zero_s: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BandRad {
+    pub(super) full_rad: f64,
+    pub(super) zero_rad: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BandRatio {
+    pub(super) full: f64,
+    pub(super) zero: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointReachedTable {
+    pub(super) joint: Spanned<String>,
+    pub(super) position_rad: f64,
+    pub(super) hold_s: NumberAt,
+    pub(super) full_rad: NumberAt,
+    pub(super) zero_rad: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TrajectoryMatchTable {
+    pub(super) over: SpanName,
+    pub(super) max_shift_s: f64,
+    pub(super) full_m: f64,
+    pub(super) zero_m: f64,
+}
+
+/// The part of a run that is compared with the reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SpanName {
+    Dwells,
+    Run,
+}
+
+/// `hidden.toml` in the staff's folder.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HiddenTable {
+    pub(super) format: Spanned<i64>,
+    pub(super) salt: String,
+    #[serde(default)]
+    pub(super) draws: Vec<Spanned<DrawTable>>,
+}
+
+/// Cases drawn at random, all of one class.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DrawTable {
+    pub(super) task: Spanned<String>,
+    pub(super) class: Spanned<String>,
+    pub(super) count: u32,
+    pub(super) q_rad: Option<Spanned<Vec<[f64; 2]>>>,
+    pub(super) position_m: Option<[[f64; 2]; 3]>,
+    pub(super) branches: Option<u32>,
+    #[serde(default)]
+    pub(super) dimensions: BTreeMap<String, Ranges>,
+}
+
+/// A range for a number, or one for each number of a list.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Ranges {
+    One([f64; 2]),
+    Each(Vec<[f64; 2]>),
+}
+
+impl<'de> Deserialize<'de> for Ranges {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrEach;
+        impl<'de> serde::de::Visitor<'de> for OneOrEach {
+            type Value = Ranges;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("[low, high], or a list of them")
+            }
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(
+                self,
+                mut seq: A,
+            ) -> Result<Ranges, A::Error> {
+                use kinemark_sim::robot::Dimension;
+                let mut numbers = Vec::new();
+                let mut pairs = Vec::new();
+                while let Some(item) = seq.next_element::<Dimension>()? {
+                    match item {
+                        Dimension::Number(number) => numbers.push(number),
+                        Dimension::List(list) => match <[f64; 2]>::try_from(list) {
+                            Ok(pair) => pairs.push(pair),
+                            Err(_) => {
+                                return Err(serde::de::Error::custom("a range is [low, high]"));
+                            }
+                        },
+                    }
+                }
+                match (<[f64; 2]>::try_from(numbers), pairs.is_empty()) {
+                    (Ok(pair), true) => Ok(Ranges::One(pair)),
+                    (Err(numbers), false) if numbers.is_empty() => Ok(Ranges::Each(pairs)),
+                    _ => Err(serde::de::Error::custom(
+                        "expected [low, high], or a list of them",
+                    )),
+                }
+            }
+        }
+        deserializer.deserialize_seq(OneOrEach)
+    }
+}
+
+/// `mutants.toml` in the staff's folder.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MutantsTable {
+    pub(super) format: Spanned<i64>,
+    #[serde(default)]
+    pub(super) mutants: Vec<MutantTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MutantTable {
+    pub(super) name: Spanned<String>,
+    pub(super) tasks: Vec<Spanned<String>>,
+    pub(super) says: String,
+}

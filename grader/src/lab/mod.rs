@@ -1,0 +1,15 @@
+//! Labs: the TOML types ([`file`]), what they become ([`model`]), the way from one to the other ([`load`]), and the cases that
+//! hidden draws add ([`draw`]).
+
+pub mod draw;
+pub mod file;
+pub mod files;
+pub mod load;
+pub mod model;
+pub mod problem;
+pub mod staff;
+
+pub use files::Files;
+pub use model::{Band, Case, Check, CheckKind, FunctionTask, Lab, MotionTask, Task, TaskWork};
+pub use problem::{LabError, LabProblem, LoadError};
+pub use staff::Staff;

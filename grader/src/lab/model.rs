@@ -1,0 +1,309 @@
+//! What a lab is once its file has been read: nothing in it can be wrong any more.
+
+use kinemark_sim::control::ServoSettings;
+use kinemark_sim::robot::{Dimension, Robot, RobotFile};
+use kinemark_sim::source::Source;
+use kinemark_sim::ticks::Periods;
+use nalgebra::Vector3;
+
+use crate::controller::Budgets;
+use crate::graded::TcpPath;
+
+/// A lab: ordered tasks on one robot.
+#[derive(Debug, Clone)]
+pub struct Lab {
+    /// Its name, which is its folder's.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// What it is about, in a sentence.
+    pub summary: String,
+    /// The text of `lab.toml`.
+    pub source: Source,
+    /// The robot file, which variants and cases build with other dimensions.
+    pub robot_file: RobotFile,
+    /// The robot as its file states it.
+    pub robot: Robot,
+    /// The frame in which students work.
+    pub frame: String,
+    /// What submissions may use up.
+    pub budgets: Budgets,
+    /// The reference solution's TCP paths by task, and the text they were read from.
+    pub reference_paths: ReferencePaths,
+    /// The tasks, in order.
+    pub tasks: Vec<Task>,
+}
+
+/// The TCP paths of the reference solution: all that students see of it.
+#[derive(Debug, Clone, Default)]
+pub struct ReferencePaths {
+    /// The file's text; empty where the lab has none.
+    pub text: String,
+    /// Task names with paths.
+    pub paths: Vec<(String, TcpPath)>,
+}
+
+/// A task.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// Its name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// What is done in it.
+    pub work: TaskWork,
+    /// Its checks, in order.
+    pub checks: Vec<Check>,
+}
+
+impl Task {
+    /// Points of all its checks.
+    pub fn max_points(&self) -> f64 {
+        self.checks.iter().map(|check| check.points).sum()
+    }
+}
+
+/// What a task asks for.
+#[derive(Debug, Clone)]
+pub enum TaskWork {
+    /// A function called on cases.
+    Function(FunctionTask),
+    /// A run under `control`.
+    Motion(Box<MotionTask>),
+}
+
+/// The function of a function task.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    /// `forward_kinematics(robot, q)`.
+    ForwardKinematics,
+    /// `inverse_kinematics(robot, position)`.
+    InverseKinematics,
+}
+
+impl Function {
+    /// Its name in submissions.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ForwardKinematics => "forward_kinematics",
+            Self::InverseKinematics => "inverse_kinematics",
+        }
+    }
+}
+
+/// A function task.
+#[derive(Debug, Clone)]
+pub struct FunctionTask {
+    /// The function.
+    pub function: Function,
+    /// Its visible cases.
+    pub cases: Vec<Case>,
+}
+
+/// One call of a function, and what a right answer is like.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its name; of a hidden case, only its class is ever told.
+    pub name: String,
+    /// The class of a hidden case; `None` for a visible one.
+    pub hidden_class: Option<String>,
+    /// Dimensions that differ from the robot file's.
+    pub dimensions: Vec<(String, Dimension)>,
+    /// What the function is given.
+    pub given: Given,
+}
+
+/// What a function is given.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Given {
+    /// Joint positions, shape `(n)` \[rad or m\].
+    Q(Vec<f64>),
+    /// A position of the TCP in the lab's frame \[m\].
+    Position {
+        /// The position \[m\].
+        position_m: [f64; 3],
+        /// How many branches reach it; 0 where none does.
+        branches: u32,
+    },
+}
+
+/// A motion task.
+#[derive(Debug, Clone)]
+pub struct MotionTask {
+    /// Step, servo period, control period.
+    pub periods: Periods,
+    /// Ticks to run.
+    pub ticks: u64,
+    /// The servos.
+    pub servo: ServoSettings,
+    /// Gravity in the world \[m/s²\].
+    pub gravity_m_s2: Vector3<f64>,
+    /// Joint positions at the start, shape `(n)` \[rad or m\].
+    pub start_q: Vec<f64>,
+    /// What `observation.target` holds where there are no goals.
+    pub target: Vec<f64>,
+    /// Where the TCP is to go, in order.
+    pub goals: Vec<MotionGoal>,
+}
+
+/// A place the TCP is to reach and to stay at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionGoal {
+    /// Position in the lab's frame \[m\].
+    pub position_m: Vector3<f64>,
+    /// Ticks to stay.
+    pub dwell_ticks: u64,
+}
+
+/// A check: one criterion with its points.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// Its name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Points there are.
+    pub points: f64,
+    /// Earlier checks of the task that must earn something before this one counts, by index.
+    pub needs: Vec<usize>,
+    /// The next step to suggest where points are lost.
+    pub hint: Option<String>,
+    /// What it looks at.
+    pub kind: CheckKind,
+}
+
+/// A band of linear partial credit: `full` and better earn everything, `zero` and worse nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// The value that earns all points.
+    pub full: f64,
+    /// The value that earns none.
+    pub zero: f64,
+}
+
+impl Band {
+    /// The share of points that `value` earns, in `[0, 1]`; NaN and infinity earn nothing.
+    pub fn score(&self, value: f64) -> f64 {
+        if value <= self.full {
+            1.0
+        } else if value < self.zero {
+            (self.zero - value) / (self.zero - self.full)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The kinds of checks; each is a file of [`crate::check`].
+#[derive(Debug, Clone)]
+pub enum CheckKind {
+    /// A joint stands at a position for the last part of the run.
+    JointReached {
+        /// Index of the joint in `q`.
+        joint: usize,
+        /// The position \[rad or m\].
+        position: f64,
+        /// Ticks at the end in which it must stand there.
+        hold_ticks: u64,
+        /// Distance \[rad or m\].
+        band: Band,
+    },
+    /// Mean distance of the answered position \[m\].
+    FkError(Band),
+    /// Distance of the best branch's position \[m\].
+    IkReach(Band),
+    /// Distance of the positions of both branches, which must differ \[m\].
+    IkBranches(Band),
+    /// `[]` where no branch reaches.
+    IkUnreachable,
+    /// Distance from each goal during its dwell \[m\].
+    PoseReached(Band),
+    /// The end of the last dwell \[s\].
+    FinishTime(Band),
+    /// How far the TCP runs past a goal, as a fraction of the way to it.
+    Overshoot(Band),
+    /// Time in which some effort is at its limit \[s\].
+    EffortSaturation(Band),
+    /// How far a joint leaves its limits \[rad or m\].
+    JointLimits(Band),
+    /// Distance from the reference's path \[m\].
+    TrajectoryMatch {
+        /// The part that is compared.
+        span: MatchSpan,
+        /// Greatest time shift, in ticks.
+        max_shift_ticks: u64,
+        /// Root mean square distance \[m\].
+        band: Band,
+    },
+}
+
+impl CheckKind {
+    /// The word of the lab file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::JointReached { .. } => "joint-reached",
+            Self::FkError(_) => "fk-error",
+            Self::IkReach(_) => "ik-reach",
+            Self::IkBranches(_) => "ik-branches",
+            Self::IkUnreachable => "ik-unreachable",
+            Self::PoseReached(_) => "pose-reached",
+            Self::FinishTime(_) => "finish-time",
+            Self::Overshoot(_) => "overshoot",
+            Self::EffortSaturation(_) => "effort-saturation",
+            Self::JointLimits(_) => "joint-limits",
+            Self::TrajectoryMatch { .. } => "trajectory-match",
+        }
+    }
+
+    /// Its band with the unit of its values, where it has one.
+    pub fn band(&self) -> Option<(Band, &'static str)> {
+        match self {
+            Self::JointReached { band, .. } | Self::JointLimits(band) => Some((*band, "rad")),
+            Self::FkError(band)
+            | Self::IkReach(band)
+            | Self::IkBranches(band)
+            | Self::PoseReached(band)
+            | Self::TrajectoryMatch { band, .. } => Some((*band, "m")),
+            Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
+            Self::Overshoot(band) => Some((*band, "")),
+            Self::IkUnreachable => None,
+        }
+    }
+}
+
+/// The part of a run that is compared with the reference's path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MatchSpan {
+    /// The dwells at the goals: between them every road is right.
+    Dwells,
+    /// The whole run.
+    Run,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_falls_linearly_and_nan_earns_nothing() {
+        let band = Band {
+            full: 2.0,
+            zero: 4.0,
+        };
+        for (value, score) in [(1.0, 1.0), (2.0, 1.0), (3.0, 0.5), (4.0, 0.0), (9.0, 0.0)] {
+            assert_eq!(band.score(value), score);
+        }
+        assert_eq!(band.score(f64::NAN), 0.0);
+        assert_eq!(band.score(f64::INFINITY), 0.0);
+        assert_eq!(band.score(f64::NEG_INFINITY), 1.0);
+    }
+
+    #[test]
+    fn a_band_of_no_width_is_a_threshold() {
+        let band = Band {
+            full: 1.0,
+            zero: 1.0,
+        };
+        assert_eq!((band.score(1.0), band.score(1.0 + 1e-12)), (1.0, 0.0));
+    }
+}

@@ -1,0 +1,238 @@
+//! What staff have beside the lab: hidden cases, known mistakes, the reference solution. Never in what students get.
+
+use kinemark_sim::robot::Dimension;
+use kinemark_sim::source::{Source, suggest};
+use toml::Spanned;
+
+use super::draw::{Draw, Drawn};
+use super::file::{DrawTable, HiddenTable, MutantsTable, Ranges};
+use super::files::Files;
+use super::load::{Reporter, read, tables};
+use super::model::{Case, Function, Lab, TaskWork};
+use super::problem::{LabError, LoadError};
+
+/// The staff's part of a lab.
+#[derive(Debug, Clone)]
+pub struct Staff {
+    /// The reference solution.
+    pub solution: Source,
+    /// Known mistakes, as submissions.
+    pub mutants: Vec<Mutant>,
+    /// Hidden cases by task.
+    hidden: Vec<(String, Vec<Case>)>,
+    /// BLAKE3 over all of it, salt included.
+    pub digest: blake3::Hash,
+}
+
+/// A known mistake: a submission that makes it, and what to tell a student who does.
+#[derive(Debug, Clone)]
+pub struct Mutant {
+    /// Its name, which is its file's.
+    pub name: String,
+    /// The tasks in which it shows.
+    pub tasks: Vec<String>,
+    /// The mistake in words.
+    pub says: String,
+    /// The submission.
+    pub source: Source,
+}
+
+impl Staff {
+    /// Loads the staff's part of `lab`; `None` where there is none. `salt` replaces the file's.
+    ///
+    /// # Errors
+    /// [`LoadError`] if something in its files is wrong.
+    pub fn load(
+        files: &dyn Files,
+        lab: &Lab,
+        salt: Option<&str>,
+    ) -> Result<Option<Self>, LoadError> {
+        let folder = &lab.name;
+        let Some(solution) = read(files, &format!("{folder}/solution.rhai"))? else {
+            return Ok(None);
+        };
+        let mut hasher = blake3::Hasher::new();
+        let mut digest = |source: &Source| {
+            hasher.update(&(source.text().len() as u64).to_le_bytes());
+            hasher.update(source.text().as_bytes());
+        };
+        digest(&solution);
+        let mut hidden = Vec::new();
+        if let Some(source) = read(files, &format!("{folder}/hidden.toml"))? {
+            digest(&source);
+            let table: HiddenTable = tables(&source)?;
+            let report = Reporter { source: &source };
+            report.format(&table.format)?;
+            let salt = salt.unwrap_or(&table.salt);
+            digest(&Source::new("salt", salt));
+            for draw in &table.draws {
+                let draw = checked(report, lab, draw)?;
+                let cases = draw.cases(salt, lab);
+                match hidden.iter_mut().find(|(task, _)| *task == draw.task) {
+                    Some((_, all)) => {
+                        let all: &mut Vec<Case> = all;
+                        all.extend(cases);
+                    }
+                    None => hidden.push((draw.task, cases)),
+                }
+            }
+        }
+        let mut mutants = Vec::new();
+        if let Some(source) = read(files, &format!("{folder}/mutants.toml"))? {
+            digest(&source);
+            let table: MutantsTable = tables(&source)?;
+            let report = Reporter { source: &source };
+            report.format(&table.format)?;
+            for mutant in table.mutants {
+                for task in &mutant.tasks {
+                    known_task(report, lab, task)?;
+                }
+                let name = mutant.name.get_ref().clone();
+                let path = format!("{folder}/mutants/{name}.rhai");
+                let Some(submission) = read(files, &path)? else {
+                    return Ok(report.err(
+                        mutant.name.span(),
+                        "staff::no_mutant",
+                        format!("there is no file `{path}`"),
+                        "this mutant",
+                        Some("a mutant's name is its file's name without `.rhai`".to_owned()),
+                    )?);
+                };
+                digest(&submission);
+                mutants.push(Mutant {
+                    name,
+                    tasks: mutant.tasks.into_iter().map(Spanned::into_inner).collect(),
+                    says: mutant.says,
+                    source: submission,
+                });
+            }
+        }
+        Ok(Some(Self {
+            solution,
+            mutants,
+            hidden,
+            digest: hasher.finalize(),
+        }))
+    }
+
+    /// The hidden cases of a task.
+    pub fn hidden(&self, task: &str) -> &[Case] {
+        let found = self.hidden.iter().find(|(name, _)| name == task);
+        found.map_or(&[], |(_, cases)| cases)
+    }
+}
+
+fn known_task<'l>(
+    report: Reporter<'_>,
+    lab: &'l Lab,
+    task: &Spanned<String>,
+) -> Result<&'l TaskWork, LabError> {
+    match lab.tasks.iter().find(|t| t.name == *task.get_ref()) {
+        Some(found) => Ok(&found.work),
+        None => report.err(
+            task.span(),
+            "staff::unknown_task",
+            format!("lab `{}` has no task `{}`", lab.name, task.get_ref()),
+            "not a task of this lab",
+            Some(suggest(
+                task.get_ref(),
+                "tasks",
+                lab.tasks.iter().map(|task| task.name.as_str()),
+            )),
+        ),
+    }
+}
+
+fn checked(
+    report: Reporter<'_>,
+    lab: &Lab,
+    spanned: &Spanned<DrawTable>,
+) -> Result<Draw, LabError> {
+    let table = spanned.get_ref();
+    let refuse = |message: String, help: &str| {
+        report.err(
+            spanned.span(),
+            "staff::draw",
+            message,
+            "this draw",
+            Some(help.to_owned()),
+        )
+    };
+    let TaskWork::Function(task) = known_task(report, lab, &table.task)? else {
+        return refuse(
+            format!("task `{}` is no function task", table.task.get_ref()),
+            "hidden cases are drawn for function tasks",
+        );
+    };
+    if table.count == 0 || table.count > 1000 {
+        return refuse(
+            format!("a draw has 1 to 1000 cases, got {}", table.count),
+            "change `count`",
+        );
+    }
+    let joints = lab.robot.n();
+    let q_ranges = match &table.q_rad {
+        Some(ranges) if ranges.get_ref().len() != joints => {
+            return refuse(
+                format!(
+                    "`q_rad` has {} ranges for {joints} joints",
+                    ranges.get_ref().len()
+                ),
+                "give one [low, high] per joint that moves",
+            );
+        }
+        Some(ranges) => Some(ranges.get_ref().clone()),
+        None => None,
+    };
+    let what = match (task.function, q_ranges, table.position_m) {
+        (Function::ForwardKinematics, Some(q), None) => Drawn::Q(q),
+        (Function::InverseKinematics, Some(q), None) => {
+            Drawn::PositionOf(q, table.branches.unwrap_or(2))
+        }
+        (Function::InverseKinematics, None, Some(position)) => match table.branches {
+            Some(branches) => Drawn::Position(position, branches),
+            None => {
+                return refuse(
+                    "a draw of positions must say how many `branches` reach them".to_owned(),
+                    "write `branches = 0` for positions out of reach",
+                );
+            }
+        },
+        _ => {
+            return refuse(
+                "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`".to_owned(),
+                "give one of the two",
+            );
+        }
+    };
+    let dimensions: Vec<(String, Ranges)> = table
+        .dimensions
+        .iter()
+        .map(|(name, ranges)| (name.clone(), ranges.clone()))
+        .collect();
+    // what can be built at the low ends can be built between: expressions are monotone in practice, and both ends are tried
+    for end in [0, 1] {
+        let changed: Vec<(String, Dimension)> = dimensions
+            .iter()
+            .map(|(name, ranges)| {
+                let value = match ranges {
+                    Ranges::One(range) => Dimension::Number(range[end]),
+                    Ranges::Each(ranges) => {
+                        Dimension::List(ranges.iter().map(|r| r[end]).collect())
+                    }
+                };
+                (name.clone(), value)
+            })
+            .collect();
+        if let Err(error) = lab.robot_file.build(&changed) {
+            return refuse(error.to_string(), "change the ranges of `dimensions`");
+        }
+    }
+    Ok(Draw {
+        task: table.task.get_ref().clone(),
+        class: table.class.get_ref().clone(),
+        count: table.count,
+        what,
+        dimensions,
+    })
+}

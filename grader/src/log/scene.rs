@@ -1,0 +1,218 @@
+//! What stands still in its frame: the shapes of the links, the goals, and the reference path.
+
+use kinemark_sim::robot::inertia::Solid;
+use serde::Serialize;
+
+use super::message::{Pose, Time, Vector};
+use super::names::{frame_id, frame_id_of};
+use crate::graded::{Goal, TaskRun};
+use kinemark_sim::spatial::{Pose as Isometry, pose};
+use nalgebra::{Matrix3, Vector3};
+
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Colour {
+    r: f64,
+    g: f64,
+    b: f64,
+    a: f64,
+}
+
+const fn colour(r: f64, g: f64, b: f64, a: f64) -> Colour {
+    Colour { r, g, b, a }
+}
+
+/// The links, in turn, so that neighbours differ.
+const LINKS: [Colour; 3] = [
+    colour(0.55, 0.6, 0.66, 1.0),
+    colour(0.0, 0.45, 0.7, 1.0),
+    colour(0.34, 0.71, 0.91, 1.0),
+];
+const FULL: Colour = colour(0.0, 0.62, 0.45, 0.6);
+const ZERO: Colour = colour(0.84, 0.37, 0.0, 0.2);
+const REFERENCE: Colour = colour(0.8, 0.47, 0.65, 0.5);
+
+#[derive(Debug, Clone, Serialize)]
+struct Solid3 {
+    pose: Pose,
+    size: Vector,
+    color: Colour,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Cylinder {
+    pose: Pose,
+    size: Vector,
+    bottom_scale: f64,
+    top_scale: f64,
+    color: Colour,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Line {
+    #[serde(rename = "type")]
+    kind: u8,
+    pose: Pose,
+    thickness: f64,
+    scale_invariant: bool,
+    points: Vec<Vector>,
+    color: Colour,
+    colors: [Colour; 0],
+    indices: [u32; 0],
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct KeyValue {
+    key: &'static str,
+    value: String,
+}
+
+/// Primitives of a kind this log does not draw.
+type Nothing = [u8; 0];
+
+#[derive(Debug, Clone, Serialize)]
+struct Entity {
+    timestamp: Time,
+    frame_id: String,
+    id: String,
+    lifetime: Time,
+    frame_locked: bool,
+    metadata: Vec<KeyValue>,
+    arrows: Nothing,
+    cubes: Vec<Solid3>,
+    spheres: Vec<Solid3>,
+    cylinders: Vec<Cylinder>,
+    lines: Vec<Line>,
+    triangles: Nothing,
+    texts: Nothing,
+    models: Nothing,
+}
+
+impl Entity {
+    fn new(id: String, frame_id: String) -> Self {
+        Self {
+            timestamp: Time::from_ns(0),
+            frame_id,
+            id,
+            lifetime: Time::from_ns(0),
+            frame_locked: true,
+            metadata: Vec::new(),
+            arrows: [],
+            cubes: Vec::new(),
+            spheres: Vec::new(),
+            cylinders: Vec::new(),
+            lines: Vec::new(),
+            triangles: [],
+            texts: [],
+            models: [],
+        }
+    }
+
+    fn sphere(&mut self, pose: Pose, radius_m: f64, color: Colour) {
+        let size = Vector::new([2.0 * radius_m; 3]);
+        self.spheres.push(Solid3 { pose, size, color });
+    }
+
+    fn solid(&mut self, solid: &Solid, link_from_shape: &Isometry, color: Colour) {
+        let at = Pose::new(link_from_shape);
+        match *solid {
+            Solid::Box { size_m } => self.cubes.push(Solid3 {
+                pose: at,
+                size: Vector::new(size_m),
+                color,
+            }),
+            Solid::Cylinder { radius_m, length_m } => self.cylinder(at, radius_m, length_m, color),
+            Solid::Capsule { radius_m, length_m } => {
+                self.cylinder(at, radius_m, length_m, color);
+                for end in [-0.5, 0.5] {
+                    let along = Vector3::new(0.0, 0.0, end * length_m);
+                    let ball = link_from_shape * pose(Matrix3::identity(), along);
+                    self.sphere(Pose::new(&ball), radius_m, color);
+                }
+            }
+            Solid::Sphere { radius_m } => self.sphere(at, radius_m, color),
+        }
+    }
+
+    fn cylinder(&mut self, pose: Pose, radius_m: f64, length_m: f64, color: Colour) {
+        self.cylinders.push(Cylinder {
+            pose,
+            size: Vector::new([2.0 * radius_m, 2.0 * radius_m, length_m]),
+            bottom_scale: 1.0,
+            top_scale: 1.0,
+            color,
+        });
+    }
+}
+
+/// A message of a scene.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct SceneUpdate {
+    deletions: Nothing,
+    entities: Vec<Entity>,
+}
+
+/// The links with their shapes, and the goals with their bands.
+pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
+    let robot = &run.robot;
+    let mut entities = Vec::new();
+    for (i, link) in robot.links().iter().enumerate() {
+        let mut entity = Entity::new(
+            format!("link {}", link.name),
+            frame_id(robot, &robot.frames()[i]),
+        );
+        for shape in &link.shapes {
+            let color = if i == 0 {
+                LINKS[0]
+            } else {
+                LINKS[1 + (i - 1) % 2]
+            };
+            entity.solid(&shape.solid, &shape.link_from_shape, color);
+        }
+        entities.push(entity);
+    }
+    let lab = frame_id_of(robot, &run.seen_from);
+    let goals = run.goals.iter().enumerate();
+    entities.extend(goals.map(|(i, goal)| goal_entity(i, goal, &lab)));
+    SceneUpdate {
+        deletions: [],
+        entities,
+    }
+}
+
+fn goal_entity(index: usize, goal: &Goal, lab: &str) -> Entity {
+    let mut entity = Entity::new(format!("goal {}", index + 1), lab.to_owned());
+    for (radius_m, color) in [(goal.full_m, FULL), (goal.zero_m, ZERO)] {
+        if radius_m.is_finite() {
+            entity.sphere(Pose::at(goal.position_m), radius_m, color);
+        }
+    }
+    entity.metadata.push(KeyValue {
+        key: "dwell_s",
+        value: goal.dwell_s.to_string(),
+    });
+    entity
+}
+
+/// The reference path as a line, if there is one.
+pub(super) fn reference(run: &TaskRun) -> Option<SceneUpdate> {
+    let path = run.reference_tcp.as_ref()?;
+    let mut entity = Entity::new(
+        "reference path".to_owned(),
+        frame_id_of(&run.robot, &run.seen_from),
+    );
+    let points = path.points_m.iter().map(|p| Vector::new(*p));
+    entity.lines.push(Line {
+        kind: 0,
+        pose: Pose::at([0.0; 3]),
+        thickness: 2.0,
+        scale_invariant: true,
+        points: points.filter(Vector::is_finite).collect(),
+        color: REFERENCE,
+        colors: [],
+        indices: [],
+    });
+    Some(SceneUpdate {
+        deletions: [],
+        entities: vec![entity],
+    })
+}

@@ -1,0 +1,238 @@
+//! One task: what stopped it, what the mistake may be, every check with its evidence, cases, plots, and what was printed.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::band::{gauge, outcome, told};
+use super::foreign;
+use super::head::{anchor, earned, meaning, verdict};
+use crate::grade::{
+    CaseGrade, CheckGrade, Diagnosis, Evidence, HiddenClass, LogEntry, Outcome, Stopped, TaskGrade,
+    TaskKind,
+};
+use crate::graded::TaskRun;
+use crate::quantity::seconds;
+use crate::report::number::with_unit;
+use crate::report::plot::Plot;
+use crate::report::visible::{shortened, visible};
+
+/// Lines of the log that are shown.
+const MOST_LINES: usize = 200;
+/// Characters of a line that are shown.
+const MOST_CHARACTERS: usize = 1000;
+/// Cases that are shown.
+const MOST_CASES: usize = 200;
+
+/// The section of a task.
+pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[Plot])>) -> Markup {
+    let id = anchor(index);
+    let plots = run.map_or(&[][..], |(_, plots)| plots);
+    html! {
+        section class="task" id=(id) aria-labelledby={ (id) "-title" } {
+            div class="title" {
+                h2 id={ (id) "-title" } { (foreign(&task.title)) }
+                p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
+            }
+            p class="lead" { (meaning(task.verdict)) }
+            @if let Some(stop) = &task.stopped { (stopped(stop)) }
+            @for diagnosis in &task.diagnoses { (diagnosed(diagnosis)) }
+            @if !task.checks.is_empty() {
+                h3 { "Checks" }
+                ul class="checks" { @for check in &task.checks { li { (checked(check)) } } }
+            }
+            @if !task.cases.is_empty() { (cases(&task.cases)) }
+            @if !task.hidden.is_empty() { (hidden(&task.hidden)) }
+            @if !plots.is_empty() {
+                h3 { "Plots" }
+                div class="plots" {
+                    @for plot in plots {
+                        figure { @for part in plot.inline() { (PreEscaped(part)) } }
+                    }
+                }
+            }
+            @if !task.log.is_empty() { (log(task, run.map(|(run, _)| run))) }
+        }
+    }
+}
+
+/// What stopped the submission, with the line it happened in.
+fn stopped(stop: &Stopped) -> Markup {
+    html! {
+        div class="note bad" {
+            h3 { "What stopped it" }
+            p { (foreign(&stop.message)) }
+            p class="where" {
+                @if let Some(line) = stop.line {
+                    span { "line " (line) @if let Some(column) = stop.column { ", column " (column) } }
+                }
+                @if let Some(t_s) = stop.time_s { span { "at " (seconds(t_s)) } }
+                @if let Some(tick) = stop.tick { span { "tick " (tick) } }
+                @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
+            }
+            @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
+            @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (foreign(help)) } }
+        }
+    }
+}
+
+/// A line of the submission with a caret under the column. What is written out in the line moves the caret along with it.
+fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
+    let before: String = line
+        .chars()
+        .take(column.unwrap_or(1).saturating_sub(1))
+        .collect();
+    // a long line is shown from shortly before the column
+    let skipped = before.chars().count().saturating_sub(60);
+    let shown: String = line.chars().skip(skipped).take(160).collect();
+    let indent: String = before.chars().skip(skipped).collect();
+    let number = number.map(|number| number.to_string()).unwrap_or_default();
+    let gutter = " ".repeat(number.len());
+    let lead = if skipped > 0 { "…" } else { "" };
+    let tail = if line.chars().count() > skipped + 160 {
+        "…"
+    } else {
+        ""
+    };
+    let spaces = " ".repeat(visible(&indent).chars().count() + lead.chars().count());
+    html! {
+        pre class="code" tabindex="0" {
+            span class="gutter" { (number) " │ " } code { (lead) (visible(&shown)) (tail) }
+            @if column.is_some() { "\n" span class="gutter" aria-hidden="true" { (gutter) " │ " } span class="caret" aria-hidden="true" { (spaces) "^" } }
+        }
+    }
+}
+
+fn diagnosed(diagnosis: &Diagnosis) -> Markup {
+    html! {
+        div class="note hint" {
+            h3 { "It looks like this" }
+            p { (foreign(&diagnosis.says)) }
+            p class="where" {
+                span { (diagnosis.agreeing) " of the " (diagnosis.telling) " answers in which this mistake would show agree with it" }
+            }
+        }
+    }
+}
+
+fn checked(check: &CheckGrade) -> Markup {
+    html! {
+        article class="check" {
+            div class="title" {
+                h4 { (foreign(&check.title)) }
+                p { (outcome(check)) " " (earned(check.points, check.max_points)) }
+            }
+            @if let Some(measure) = &check.measure {
+                @let told = told(measure);
+                div class="measure" {
+                    p {
+                        (foreign(&measure.quantity)) ": " b { (told.value) }
+                        @if let Some(margin) = told.margin { ", " (margin) }
+                        br; small { (told.band) }
+                    }
+                    (gauge(measure))
+                }
+            } @else if check.outcome == Outcome::NotJudged {
+                p class="quiet" { "Not judged: the run stopped before, or a check it needs earned nothing." }
+            }
+            @if !check.evidence.is_empty() {
+                ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact)) } } }
+            }
+            @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (foreign(next)) } }
+        }
+    }
+}
+
+fn evidence(fact: &Evidence) -> Markup {
+    html! {
+        p { (foreign(&fact.message)) }
+        p class="where" {
+            @if let Some(t_s) = fact.time_s { span { "at " (seconds(t_s)) } }
+            @if let Some(tick) = fact.tick { span { "tick " (tick) } }
+            @if let Some(case) = &fact.case { span { "case " (foreign(case)) } }
+            @if !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
+            @if let Some(value) = fact.value { span { "value " (visible(&with_unit(value, &fact.unit))) } }
+            @if let Some(limit) = fact.limit { span { "limit " (visible(&with_unit(limit, &fact.unit))) } }
+        }
+    }
+}
+
+fn cases(cases: &[CaseGrade]) -> Markup {
+    let tells = cases.iter().any(|case| case.expected.is_some());
+    html! {
+        h3 { "Visible cases" }
+        div class="wide" tabindex="0" role="region" aria-label="Visible cases" {
+            table class="cases" {
+                thead {
+                    tr {
+                        th scope="col" { "Case" }
+                        th scope="col" { "Given" }
+                        th scope="col" { "Your answer" }
+                        @if tells { th scope="col" { "Expected" } }
+                        th scope="col" class="number" { "Error" }
+                        th scope="col" { "Good" }
+                    }
+                }
+                tbody {
+                    @for case in cases.iter().take(MOST_CASES) {
+                        tr {
+                            th scope="row" { (foreign(&case.name)) }
+                            td { code { (foreign(&shortened(&case.given, 300))) } }
+                            td { code { (foreign(&shortened(&case.answer, 300))) } }
+                            @if tells { td { @if let Some(expected) = &case.expected { code { (foreign(&shortened(expected, 300))) } } } }
+                            td class="number" { @match case.error_m { Some(error_m) => (with_unit(error_m, "m")), None => "–" } }
+                            td { @if case.good { span class="pill full" { "yes" } } @else { span class="pill none" { "no" } } }
+                        }
+                    }
+                }
+            }
+        }
+        @if cases.len() > MOST_CASES { p class="quiet" { "The first " (MOST_CASES) " of " (cases.len()) " cases." } }
+    }
+}
+
+fn hidden(classes: &[HiddenClass]) -> Markup {
+    html! {
+        h3 { "Hidden cases" }
+        div class="wide" {
+            table class="hidden" {
+                thead { tr { th scope="col" { "Class" } th scope="col" class="number" { "Good" } th scope="col" class="number" { "Of" } } }
+                tbody {
+                    @for class in classes {
+                        tr {
+                            th scope="row" { (foreign(&class.class)) }
+                            td class="number" { (class.good) }
+                            td class="number" { (class.total) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn log(task: &TaskGrade, run: Option<&TaskRun>) -> Markup {
+    let all = run.map_or(0, |run| run.trace.log.len()).max(task.log.len());
+    let shown = task.log.len().min(MOST_LINES);
+    let at = |entry: &LogEntry| match (task.kind, run) {
+        (TaskKind::Motion, Some(run)) => format!("{:.3} s", entry.at as f64 * run.trace.step_s),
+        (TaskKind::Motion, None) => format!("tick {}", entry.at),
+        (TaskKind::Function, _) => format!("case {}", entry.at),
+    };
+    html! {
+        details class="log" {
+            summary {
+                "Printed by the submission: " (all) @if all == 1 { " line" } @else { " lines" }
+                @if all > shown { ", the first " (shown) " shown" }
+            }
+            div class="wide" tabindex="0" role="region" aria-label="Printed lines" {
+                table {
+                    thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Text" } } }
+                    tbody {
+                        @for entry in task.log.iter().take(MOST_LINES) {
+                            tr { td class="number" { (at(entry)) } td { code { (foreign(&shortened(&entry.text, MOST_CHARACTERS))) } } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

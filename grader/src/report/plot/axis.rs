@@ -1,0 +1,184 @@
+//! Axes: a range that holds the data, and round ticks in it.
+
+use crate::report::number::{exponent, power_of_ten};
+
+/// How numbers lie along an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Axis {
+    pub(super) min: f64,
+    pub(super) max: f64,
+    logarithmic: bool,
+}
+
+/// A tick and its words.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tick {
+    pub(super) value: f64,
+    pub(super) label: String,
+}
+
+/// Numbers beyond this are drawn at the edge: their differences would overflow.
+const HUGE: f64 = 1e100;
+
+impl Axis {
+    /// Exactly from `min` to `max`.
+    pub(super) fn exact(min: f64, max: f64) -> Self {
+        Self {
+            min,
+            max: if max > min { max } else { min + 1.0 },
+            logarithmic: false,
+        }
+    }
+
+    /// Holds all finite `values` with some air, and spans at least `least`.
+    pub(super) fn around(values: impl Iterator<Item = f64>, least: f64) -> Self {
+        let (min, max) = extent(values).unwrap_or((0.0, 1.0));
+        let least = least.max(1e-9 * min.abs().max(max.abs())).max(1e-12);
+        let air = (0.07 * (max - min)).max(0.5 * (least - (max - min)));
+        Self::exact(min - air, max + air)
+    }
+
+    /// Logarithmic from `min` up to what holds `max`, in whole decades.
+    pub(super) fn decades(min: f64, max: f64) -> Self {
+        let low = exponent(min.max(1e-12));
+        let high = exponent(max.clamp(min.max(1e-12) * 1.001, HUGE)) + 1;
+        Self {
+            min: power_of_ten(low),
+            max: power_of_ten(high.max(low + 1)),
+            logarithmic: true,
+        }
+    }
+
+    /// Where a number lies: 0 at `min`, 1 at `max`; a logarithmic axis holds what is below it at its foot.
+    pub(super) fn fraction(&self, value: f64) -> f64 {
+        if self.logarithmic {
+            let (low, high) = (libm::log10(self.min), libm::log10(self.max));
+            (libm::log10(value.max(self.min)) - low) / (high - low)
+        } else {
+            (value.clamp(-HUGE, HUGE) - self.min) / (self.max - self.min)
+        }
+    }
+
+    /// Whether a number lies between the ends.
+    pub(super) fn holds(&self, value: f64) -> bool {
+        self.min <= value && value <= self.max
+    }
+
+    /// Round ticks, about `wanted` of them.
+    pub(super) fn ticks(&self, wanted: usize) -> Vec<Tick> {
+        if self.logarithmic {
+            let (low, high) = (exponent(self.min * 1.001), exponent(self.max * 1.001));
+            return (low..=high)
+                .map(|e| Tick {
+                    value: power_of_ten(e),
+                    label: label(1, e),
+                })
+                .collect();
+        }
+        let rough = (self.max - self.min) / wanted.max(1) as f64;
+        let mut e = exponent(rough);
+        let mantissa = match rough / power_of_ten(e) {
+            m if m <= 1.0 => 1,
+            m if m <= 2.0 => 2,
+            m if m <= 5.0 => 5,
+            _ => {
+                e += 1;
+                1
+            }
+        };
+        let step = mantissa as f64 * power_of_ten(e);
+        let first = (self.min / step).ceil() as i64;
+        let last = (self.max / step).floor() as i64;
+        (first..=last.min(first.saturating_add(40)))
+            .map(|k| Tick {
+                value: k as f64 * step,
+                label: label(k.saturating_mul(mantissa), e),
+            })
+            .collect()
+    }
+}
+
+/// The least and the greatest of the finite values.
+pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values
+        .filter(|value| value.is_finite())
+        .map(|value| value.clamp(-HUGE, HUGE))
+        .fold(None, |found, value| match found {
+            None => Some((value, value)),
+            Some((min, max)) => Some((value.min(min), value.max(max))),
+        })
+}
+
+/// `k` times ten to the power `e`, exactly as it is.
+fn label(k: i64, e: i32) -> String {
+    let text = if k == 0 {
+        "0".to_owned()
+    } else if e < -5 || (k as f64 * power_of_ten(e)).abs() >= 1e5 {
+        let (mut k, mut e) = (k, e);
+        while k % 10 == 0 {
+            (k, e) = (k / 10, e + 1);
+        }
+        format!("{k}e{e}")
+    } else {
+        let decimals = (-e).max(0) as usize;
+        format!("{:.decimals$}", k as f64 * power_of_ten(e))
+    };
+    text.replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(axis: Axis, wanted: usize) -> Vec<String> {
+        axis.ticks(wanted)
+            .into_iter()
+            .map(|tick| tick.label)
+            .collect()
+    }
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(
+            labels(Axis::exact(0.0, 8.0), 8),
+            ["0", "1", "2", "3", "4", "5", "6", "7", "8"]
+        );
+        assert_eq!(
+            labels(Axis::exact(-0.03, 0.03), 3),
+            ["\u{2212}0.02", "0.00", "0.02"].map(|l| l.replace("0.00", "0"))
+        );
+        assert_eq!(labels(Axis::exact(0.0, 3e7), 3), ["0", "1e7", "2e7", "3e7"]);
+        assert_eq!(labels(Axis::exact(0.0, 1e5), 2), ["0", "50000", "1e5"]);
+        assert_eq!(
+            labels(Axis::decades(0.0002, 3.0), 4),
+            ["0.0001", "0.001", "0.01", "0.1", "1", "10"]
+        );
+    }
+
+    #[test]
+    fn nothing_constant_and_huge_have_axes() {
+        for values in [
+            vec![],
+            vec![0.0],
+            vec![f64::NAN],
+            vec![5.0, 5.0],
+            vec![-1e308, 1e308],
+            vec![1e-300],
+        ] {
+            let axis = Axis::around(values.iter().copied(), 0.1);
+            assert!(
+                axis.max > axis.min && axis.max.is_finite(),
+                "{values:?}: {axis:?}"
+            );
+            assert!(!axis.ticks(4).is_empty(), "{values:?}");
+            let inside = values
+                .iter()
+                .filter(|v| v.is_finite())
+                .map(|v| axis.fraction(*v));
+            assert!(
+                inside.clone().all(|f| (-1e-9..=1.0 + 1e-9).contains(&f)),
+                "{values:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! One picture: lines, shapes and words in pixels, written as SVG by plotters.
+
+use plotters::prelude::{
+    DrawingBackend, FontStyle, IntoFont, RGBColor, SVGBackend, ShapeStyle, TextStyle,
+};
+use plotters::style::Color as _;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::report::theme::{self, Colour, INK, MUTED, PAPER};
+
+/// Units of the picture in a pixel: the writer knows whole units only, and a tenth of a pixel looks smooth.
+pub(super) const UNITS: f64 = 10.0;
+
+/// Width of every picture \[px\].
+pub(super) const WIDTH: f64 = 640.0;
+
+/// Size of ordinary words \[px\].
+pub(super) const TEXT: f64 = 13.0;
+
+/// Where a word's given place is in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Align {
+    Start,
+    Middle,
+    End,
+}
+
+/// What a legend shows before its words.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Swatch {
+    /// A line.
+    Line(Colour),
+    /// A shaded area.
+    Area(Colour),
+    /// A filled dot.
+    Dot(Colour),
+    /// A ring.
+    Ring(Colour),
+    /// A cross.
+    Cross(Colour),
+    /// The number of a mark.
+    Number(usize),
+}
+
+/// One line of a legend.
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub(super) swatch: Swatch,
+    pub(super) text: String,
+}
+
+impl Entry {
+    pub(super) fn new(swatch: Swatch, text: impl Into<String>) -> Self {
+        Self {
+            swatch,
+            text: text.into(),
+        }
+    }
+}
+
+/// A picture in the making.
+pub(super) struct Canvas<'a> {
+    backend: SVGBackend<'a>,
+}
+
+fn rgb(colour: Colour) -> RGBColor {
+    let (r, g, b) = colour.light;
+    RGBColor(r, g, b)
+}
+
+fn units((x, y): (f64, f64)) -> (i32, i32) {
+    ((x * UNITS).round() as i32, (y * UNITS).round() as i32)
+}
+
+/// Makes a picture of `height` pixels; `title` is what a screen reader says, and `draw` what is seen.
+pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas<'_>)) -> String {
+    let (w, h) = ((WIDTH * UNITS) as u32, (height * UNITS).round() as u32);
+    let mut body = String::new();
+    {
+        let mut canvas = Canvas {
+            backend: SVGBackend::with_string(&mut body, (w, h)),
+        };
+        canvas.area((0.0, 0.0), (WIDTH, height), PAPER, 1.0);
+        draw(&mut canvas);
+        // nothing is written but into the string, so nothing can fail
+        canvas.backend.present().ok();
+    }
+    let drawn = body.split_once(">\n").map_or("", |(_, drawn)| drawn);
+    let title = maud::html! { title { (title) } }.into_string();
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{WIDTH}\" height=\"{height}\" \
+         viewBox=\"0 0 {w} {h}\">{title}<style>{}</style>\n{drawn}",
+        theme::plot_css()
+    )
+}
+
+impl Canvas<'_> {
+    /// A filled rectangle.
+    pub(super) fn area(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour, alpha: f64) {
+        let style = rgb(colour).mix(alpha).filled();
+        self.backend
+            .draw_rect(units(from), units(to), &style, true)
+            .ok();
+    }
+
+    /// A line through points in units of the picture.
+    pub(super) fn stroke(&mut self, points: &[(i32, i32)], colour: Colour, width: f64) {
+        let style = ShapeStyle {
+            color: rgb(colour).to_rgba(),
+            filled: false,
+            stroke_width: (width * UNITS) as u32,
+        };
+        match points {
+            [] => {}
+            // a single point would not show
+            [point] => self
+                .backend
+                .draw_circle(*point, (width * UNITS) as u32, &style.filled(), true)
+                .ok()
+                .unwrap_or(()),
+            _ => self
+                .backend
+                .draw_path(points.iter().copied(), &style)
+                .ok()
+                .unwrap_or(()),
+        }
+    }
+
+    /// A line through points in pixels.
+    pub(super) fn line(&mut self, points: &[(f64, f64)], colour: Colour, width: f64) {
+        let points: Vec<_> = points.iter().copied().map(units).collect();
+        self.stroke(&points, colour, width);
+    }
+
+    /// A filled disc.
+    pub(super) fn disc(&mut self, centre: (f64, f64), radius: f64, colour: Colour, alpha: f64) {
+        let style = rgb(colour).mix(alpha).filled();
+        let radius = (radius * UNITS).round() as u32;
+        self.backend
+            .draw_circle(units(centre), radius, &style, true)
+            .ok();
+    }
+
+    /// A circle's edge.
+    pub(super) fn ring(&mut self, centre: (f64, f64), radius: f64, colour: Colour, width: f64) {
+        let style = rgb(colour).stroke_width((width * UNITS) as u32);
+        let radius = (radius * UNITS).round() as u32;
+        self.backend
+            .draw_circle(units(centre), radius, &style, false)
+            .ok();
+    }
+
+    /// An upright cross on its corner.
+    pub(super) fn cross(&mut self, (x, y): (f64, f64), arm: f64, colour: Colour, width: f64) {
+        self.line(&[(x - arm, y - arm), (x + arm, y + arm)], colour, width);
+        self.line(&[(x - arm, y + arm), (x + arm, y - arm)], colour, width);
+    }
+
+    /// Words, their middle at the height of `at`.
+    pub(super) fn text(&mut self, text: &str, at: (f64, f64), align: Align, colour: Colour) {
+        self.sized(text, at, align, colour, TEXT, FontStyle::Normal);
+    }
+
+    /// The title of a picture.
+    pub(super) fn title(&mut self, text: &str, at: (f64, f64)) {
+        self.sized(text, at, Align::Start, INK, 15.0, FontStyle::Bold);
+    }
+
+    /// The heading of a panel.
+    pub(super) fn heading(&mut self, text: &str, at: (f64, f64)) {
+        self.sized(text, at, Align::Start, INK, TEXT, FontStyle::Normal);
+    }
+
+    fn sized(
+        &mut self,
+        text: &str,
+        at: (f64, f64),
+        align: Align,
+        colour: Colour,
+        size: f64,
+        font: FontStyle,
+    ) {
+        let anchor = match align {
+            Align::Start => HPos::Left,
+            Align::Middle => HPos::Center,
+            Align::End => HPos::Right,
+        };
+        // the writer divides every size by 1.24
+        let style: TextStyle<'_> = ("sans-serif", size * UNITS * 1.24)
+            .into_font()
+            .style(font)
+            .color(&rgb(colour))
+            .pos(Pos::new(anchor, VPos::Center));
+        self.backend.draw_text(text, &style, units(at)).ok();
+    }
+
+    /// Writes a legend from the left at height `y`, in as many rows as it needs, and returns the height below it.
+    pub(super) fn legend(&mut self, entries: &[Entry], left: f64, y: f64) -> f64 {
+        let (mut x, mut y) = (left, y);
+        for entry in entries {
+            let width = SWATCH + text_width(&entry.text) + GAP;
+            if x > left && x + width - GAP > WIDTH - 12.0 {
+                (x, y) = (left, y + ROW);
+            }
+            self.swatch(entry.swatch, (x, y));
+            self.text(&entry.text, (x + SWATCH, y), Align::Start, MUTED);
+            x += width;
+        }
+        if entries.is_empty() { y - 6.0 } else { y + ROW }
+    }
+
+    fn swatch(&mut self, swatch: Swatch, (x, y): (f64, f64)) {
+        let centre = (x + 9.0, y);
+        match swatch {
+            Swatch::Line(colour) => self.line(&[(x, y), (x + 19.0, y)], colour, 2.0),
+            Swatch::Area(colour) => self.area((x, y - 5.0), (x + 18.0, y + 5.0), colour, 0.2),
+            Swatch::Dot(colour) => self.disc(centre, 4.0, colour, 1.0),
+            Swatch::Ring(colour) => self.ring(centre, 4.0, colour, 1.6),
+            Swatch::Cross(colour) => self.cross(centre, 4.0, colour, 2.0),
+            Swatch::Number(number) => {
+                self.disc(centre, 8.0, MUTED, 1.0);
+                self.sized(
+                    &number.to_string(),
+                    centre,
+                    Align::Middle,
+                    PAPER,
+                    11.0,
+                    FontStyle::Bold,
+                );
+            }
+        }
+    }
+
+    /// The number of a mark in a disc.
+    pub(super) fn number(&mut self, number: usize, (x, y): (f64, f64)) {
+        self.swatch(Swatch::Number(number), (x - 9.0, y));
+    }
+}
+
+/// Space a swatch takes in a legend \[px\].
+const SWATCH: f64 = 25.0;
+/// Space between two entries \[px\].
+const GAP: f64 = 16.0;
+/// Height of a row \[px\].
+const ROW: f64 = 19.0;
+
+/// About how wide words are at the ordinary size, on the safe side \[px\].
+pub(super) fn text_width(text: &str) -> f64 {
+    let em = |c: char| match c {
+        'i' | 'j' | 'l' | '.' | ',' | '\'' | '|' | ' ' => 0.36,
+        'm' | 'w' | 'M' | 'W' | '…' => 0.9,
+        'A'..='Z' => 0.72,
+        '\u{2E80}'.. => 1.05,
+        _ => 0.6,
+    };
+    text.chars().map(em).sum::<f64>() * TEXT
+}

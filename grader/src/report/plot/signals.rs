@@ -1,0 +1,473 @@
+//! The pictures over time of a run: joints, effort, distance to the goals, what checks judged, what the submission drew.
+
+use kinemark_sim::control::Mode;
+use kinemark_sim::robot::Joint;
+use kinemark_sim::trace::{EventKind, Signal};
+
+use super::axis::{Axis, extent};
+use super::canvas::{Entry, Swatch};
+use super::timeline::{Line, Panel, Timeline};
+use crate::graded::{Curve, Goal, TaskRun};
+use crate::report::goal::{current_goal, distances_m};
+use crate::report::number::{joined, shown_unit, significant};
+use crate::report::theme::{
+    BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, RED, VERMILLION, VERMILLION_DASHED,
+};
+use crate::report::visible::{shortened, visible};
+
+/// Panels of one picture.
+const MOST_PANELS: usize = 6;
+/// Signals of a submission that are drawn.
+const MOST_SIGNALS: usize = 18;
+/// Goals whose distance is drawn besides the current one's.
+const MOST_GOALS: usize = 4;
+
+/// When a run ended \[s\].
+fn end_s(run: &TaskRun) -> f64 {
+    time_s(run, run.trace.len().saturating_sub(1) as u64)
+}
+
+/// The time of a tick \[s\]; a whole rate is divided by, so that the time is the nearest number to its decimal.
+pub(super) fn time_s(run: &TaskRun, tick: u64) -> f64 {
+    let rate_hz = (1.0 / run.trace.step_s).round();
+    if (rate_hz * run.trace.step_s - 1.0).abs() < 1e-9 {
+        tick as f64 / rate_hz
+    } else {
+        tick as f64 * run.trace.step_s
+    }
+}
+
+/// When a run ended, if before its time \[s\].
+pub(super) fn stopped_s(run: &TaskRun) -> Option<f64> {
+    let early = |kind: &EventKind| matches!(kind, EventKind::Stopped | EventKind::Diverged);
+    let stopped = run.trace.events.iter().any(|event| early(&event.kind)) || run.trace.is_empty();
+    stopped.then(|| end_s(run))
+}
+
+fn timeline(run: &TaskRun, title: String, panels: Vec<Panel>, legend: Vec<Entry>) -> Timeline {
+    Timeline {
+        title,
+        panels,
+        legend,
+        marks: Vec::new(),
+        end_s: end_s(run),
+        stopped_s: stopped_s(run),
+    }
+}
+
+fn column(run: &TaskRun, signal: &Signal, joint: usize) -> Vec<(f64, f64)> {
+    let values = signal.component(joint).take(run.trace.len());
+    values
+        .enumerate()
+        .map(|(tick, value)| (time_s(run, tick as u64), value))
+        .collect()
+}
+
+fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line {
+    Line {
+        points,
+        colour,
+        width: if held { 1.5 } else { 2.0 },
+        held,
+    }
+}
+
+/// A command is held until the next one.
+fn command(run: &TaskRun, joint: usize) -> Line {
+    line(column(run, &run.trace.command, joint), VERMILLION, true)
+}
+
+fn values(lines: &[Line]) -> impl Iterator<Item = f64> + '_ {
+    lines
+        .iter()
+        .flat_map(|line| line.points.iter().map(|point| point.1))
+}
+
+/// What a picture of all joints shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    Positions,
+    Velocities,
+    Efforts,
+}
+
+impl Of {
+    /// The signal's letter and its unit for a joint.
+    fn letter_and_unit(self, joint: &Joint) -> (&'static str, &'static str) {
+        match (self, joint.kind.turns()) {
+            (Self::Positions, true) => ("q", "rad"),
+            (Self::Positions, false) => ("q", "m"),
+            (Self::Velocities, true) => ("qd", "rad/s"),
+            (Self::Velocities, false) => ("qd", "m/s"),
+            (Self::Efforts, true) => ("effort", "N\u{a0}m"),
+            (Self::Efforts, false) => ("effort", "N"),
+        }
+    }
+
+    fn signal(self, run: &TaskRun) -> &Signal {
+        match self {
+            Self::Positions => &run.trace.q,
+            Self::Velocities => &run.trace.qd,
+            Self::Efforts => &run.trace.effort,
+        }
+    }
+
+    fn is_commanded(self, run: &TaskRun) -> bool {
+        matches!(
+            (self, run.mode),
+            (Self::Positions, Mode::Position)
+                | (Self::Velocities, Mode::Velocity)
+                | (Self::Efforts, Mode::Effort)
+        )
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Positions => "Joint positions",
+            Self::Velocities => "Joint velocities",
+            Self::Efforts => "Joint efforts",
+        }
+    }
+}
+
+/// Pictures of all joints, at most six to one.
+pub(super) fn joints(run: &TaskRun, of: Of) -> Vec<Timeline> {
+    let joints: Vec<(usize, &Joint)> = run.robot.moving_joints().enumerate().collect();
+    let chunks: Vec<_> = joints.chunks(MOST_PANELS).collect();
+    let mut pictures = Vec::new();
+    for (part, chunk) in chunks.iter().enumerate() {
+        let panels: Vec<Panel> = chunk
+            .iter()
+            .map(|(i, joint)| joint_panel(run, of, *i, joint))
+            .collect();
+        let mut legend = vec![Entry::new(Swatch::Line(BLUE), "measured")];
+        if of == Of::Efforts {
+            legend[0].text = "applied".to_owned();
+        }
+        if of.is_commanded(run) {
+            legend.push(Entry::new(Swatch::Line(VERMILLION), "command"));
+        }
+        let has_levels = panels.iter().any(|panel| !panel.levels.is_empty());
+        if has_levels {
+            legend.push(Entry::new(Swatch::Line(VERMILLION_DASHED), "limit"));
+        }
+        if panels.iter().any(|panel| {
+            panel
+                .lines
+                .iter()
+                .any(|line| line.colour.light == RED.light)
+        }) {
+            legend.push(Entry::new(Swatch::Line(RED), "at the limit"));
+        }
+        let title = match chunks.len() {
+            1 => of.title().to_owned(),
+            of_parts => format!("{} ({} of {of_parts})", of.title(), part + 1),
+        };
+        pictures.push(timeline(run, title, panels, legend));
+    }
+    pictures
+}
+
+fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
+    let (symbol, unit) = of.letter_and_unit(joint);
+    let mut heading = format!("{}, {symbol}[{i}] [{unit}]", shortened(&joint.name, 40));
+    let mut lines = vec![line(
+        column(run, of.signal(run), i),
+        BLUE,
+        of == Of::Efforts,
+    )];
+    lines[0].width = 2.0;
+    if of.is_commanded(run) {
+        lines.insert(0, command(run, i));
+    }
+    let reach = extent(values(&lines)).unwrap_or((0.0, 0.0));
+    let mut levels: Vec<f64> = match of {
+        Of::Positions => [joint.limits.lower, joint.limits.upper]
+            .into_iter()
+            .flatten()
+            .collect(),
+        Of::Velocities => joint
+            .limits
+            .speed
+            .into_iter()
+            .flat_map(|v| [-v, v])
+            .collect(),
+        Of::Efforts => run
+            .effort_limits
+            .get(i)
+            .into_iter()
+            .flat_map(|e| [-e, *e])
+            .collect(),
+    };
+    levels.retain(|level| level.is_finite());
+    if of == Of::Efforts {
+        let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
+        if limit.is_finite() {
+            // a limit far away would flatten the curve: it is told instead
+            let greatest = reach.0.abs().max(reach.1.abs());
+            if limit > 8.0 * greatest {
+                levels.clear();
+                heading.push_str(&format!(
+                    " \u{2013} limit ±{}, far outside",
+                    joined(&significant(limit, 4), unit)
+                ));
+            }
+            lines.extend(at_limit(run, i, limit));
+        }
+    } else {
+        // limits are drawn where the joint comes near them
+        let near = (reach.1 - reach.0).max(0.5);
+        levels.retain(|level| *level <= reach.1 + near && *level >= reach.0 - near);
+    }
+    let axis = Axis::around(values(&lines).chain(levels.iter().copied()), 0.02);
+    Panel {
+        heading,
+        axis,
+        lines,
+        levels: levels
+            .into_iter()
+            .map(|level| (level, VERMILLION_DASHED))
+            .collect(),
+        spans: Vec::new(),
+    }
+}
+
+/// A thick line where the effort stood at its limit; gaps too short to be seen are closed.
+fn at_limit(run: &TaskRun, joint: usize, limit: f64) -> Option<Line> {
+    let shortest_s = end_s(run) / 150.0;
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for (tick, effort) in run.trace.effort.component(joint).enumerate() {
+        if effort.abs() < limit {
+            continue;
+        }
+        let t_s = time_s(run, tick as u64);
+        let at = limit.copysign(effort);
+        if let Some(&(last_s, last)) = points.last() {
+            if last * at < 0.0 || t_s - last_s > shortest_s {
+                points.push((t_s, f64::NAN));
+            } else if let [.., before, _] = points.as_slice()
+                && before.1 * at > 0.0
+            {
+                points.pop();
+            }
+        }
+        points.push((t_s, at));
+    }
+    (!points.is_empty()).then_some(Line {
+        points,
+        colour: RED,
+        width: 4.0,
+        held: false,
+    })
+}
+
+/// Words of a band's two lines.
+fn band_entries(full: Option<f64>, zero: Option<f64>, unit: &str, scale: f64) -> Vec<Entry> {
+    let told = |value: f64| joined(&significant(value * scale, 4), unit);
+    let mut entries = Vec::new();
+    if let Some(full) = full {
+        entries.push(Entry::new(
+            Swatch::Line(GREEN_DASHED),
+            format!("full points at {}", told(full)),
+        ));
+    }
+    if let Some(zero) = zero {
+        entries.push(Entry::new(
+            Swatch::Line(VERMILLION_DASHED),
+            format!("none at {}", told(zero)),
+        ));
+    }
+    entries
+}
+
+/// Distance of the TCP to the goals, on a logarithmic axis: millimetres matter as much as metres.
+pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
+    if run.goals.is_empty() {
+        return None;
+    }
+    let distances: Vec<Vec<f64>> = run
+        .goals
+        .iter()
+        .map(|goal| distances_m(run, goal).collect())
+        .collect();
+    let times = |tick: usize| time_s(run, tick as u64);
+    let current = (0..run.trace.len()).map(|tick| {
+        let goal = current_goal(&run.goals, tick as u64).unwrap_or(0);
+        (times(tick), distances[goal][tick])
+    });
+    let current: Vec<(f64, f64)> = current.collect();
+    let mut lines = Vec::new();
+    let others = run.goals.len() > 1 && run.goals.len() <= MOST_GOALS;
+    if others {
+        for distance in &distances {
+            let points = distance
+                .iter()
+                .enumerate()
+                .map(|(tick, d)| (times(tick), *d))
+                .collect();
+            lines.push(Line {
+                points,
+                colour: MUTED_DASHED,
+                width: 1.2,
+                held: false,
+            });
+        }
+    }
+    lines.push(line(current, BLUE, false));
+    let mut bands: Vec<(f64, f64)> = Vec::new();
+    for goal in &run.goals {
+        if !bands.contains(&(goal.full_m, goal.zero_m)) && bands.len() < MOST_GOALS {
+            bands.push((goal.full_m, goal.zero_m));
+        }
+    }
+    let least = bands
+        .iter()
+        .map(|band| band.0)
+        .fold(f64::INFINITY, f64::min);
+    let least = if least > 0.0 && least.is_finite() {
+        least
+    } else {
+        1e-3
+    };
+    let greatest = extent(values(&lines)).map_or(1.0, |reach| reach.1);
+    let axis = Axis::decades(
+        least / 9.0,
+        greatest.max(bands.iter().map(|band| band.1).fold(0.0, f64::max)),
+    );
+    let mut legend = vec![Entry::new(Swatch::Line(BLUE), "to the current goal")];
+    if others {
+        legend.push(Entry::new(Swatch::Line(MUTED_DASHED), "to each goal"));
+    }
+    for (full, zero) in &bands {
+        let (unit, scale) = shown_unit("m", *zero);
+        legend.extend(band_entries(Some(*full), Some(*zero), unit, scale));
+    }
+    let spans: Vec<_> = run
+        .goals
+        .iter()
+        .filter_map(|goal| stay_s(run, goal))
+        .collect();
+    if !spans.is_empty() {
+        legend.push(Entry::new(Swatch::Area(GREEN), "judged stay"));
+    }
+    let panel = Panel {
+        heading: "distance of the TCP to the goal [m], logarithmic".to_owned(),
+        axis,
+        lines,
+        levels: bands
+            .iter()
+            .flat_map(|band| [(band.0, GREEN_DASHED), (band.1, VERMILLION_DASHED)])
+            .collect(),
+        spans: spans
+            .into_iter()
+            .map(|(from, to)| (from, to, GREEN))
+            .collect(),
+    };
+    Some(timeline(
+        run,
+        "Distance to the goal".to_owned(),
+        vec![panel],
+        legend,
+    ))
+}
+
+fn stay_s(run: &TaskRun, goal: &Goal) -> Option<(f64, f64)> {
+    let (first, last) = goal.stay?;
+    Some((time_s(run, first), time_s(run, last)))
+}
+
+/// A curve that a check judged, with its band and marks.
+pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
+    let typical = [curve.full, curve.zero]
+        .into_iter()
+        .flatten()
+        .map(f64::abs)
+        .reduce(f64::max);
+    let reach = extent(curve.values.iter().copied());
+    let typical = typical
+        .or(reach.map(|(min, max)| min.abs().max(max.abs())))
+        .unwrap_or(1.0);
+    let (unit, scale) = shown_unit(&curve.unit, typical);
+    let points = curve
+        .t_s
+        .iter()
+        .copied()
+        .zip(curve.values.iter().map(|value| value * scale));
+    let lines = vec![line(points.collect(), BLUE, false)];
+    let levels: Vec<_> = [(curve.zero, VERMILLION_DASHED), (curve.full, GREEN_DASHED)]
+        .into_iter()
+        .filter_map(|(level, colour)| Some((level? * scale, colour)))
+        .collect();
+    let shown = || values(&lines).chain(levels.iter().map(|level| level.0));
+    let (least, greatest) = extent(shown()).unwrap_or((0.0, 1.0));
+    let lowest_level = levels
+        .iter()
+        .map(|level| level.0)
+        .fold(f64::INFINITY, f64::min);
+    // a band that would be a hair's breadth at the foot of the picture
+    let is_wide = least >= 0.0 && lowest_level > 0.0 && greatest > 40.0 * typical * scale;
+    let (axis, word) = if is_wide {
+        (Axis::decades(lowest_level / 9.0, greatest), ", logarithmic")
+    } else {
+        (Axis::around(shown(), 1e-9), "")
+    };
+    let title = shortened(&curve.title, 70);
+    let panel = Panel {
+        heading: format!("{title} [{}]{word}", visible(unit)),
+        axis,
+        lines,
+        levels,
+        spans: Vec::new(),
+    };
+    let legend = band_entries(curve.full, curve.zero, unit, scale);
+    let last_s = extent(curve.t_s.iter().copied()).map_or(0.0, |reach| reach.1);
+    let mut marks: Vec<(f64, String)> = curve
+        .marks
+        .iter()
+        .filter(|mark| mark.0.is_finite())
+        .take(40)
+        .cloned()
+        .collect();
+    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Timeline {
+        title: format!("Judged: {}", shortened(&curve.check, 60)),
+        panels: vec![panel],
+        legend,
+        marks,
+        end_s: last_s.max(end_s(run)),
+        stopped_s: stopped_s(run),
+    }
+}
+
+/// What the submission drew with `plot`, at most eighteen signals.
+pub(super) fn own(run: &TaskRun) -> Vec<Timeline> {
+    let all = &run.trace.plots;
+    let shown = &all[..all.len().min(MOST_SIGNALS)];
+    let parts = shown.len().div_ceil(MOST_PANELS);
+    let mut pictures = Vec::new();
+    for (part, chunk) in shown.chunks(MOST_PANELS).enumerate() {
+        let panels = chunk.iter().map(|signal| {
+            let points = signal
+                .samples
+                .iter()
+                .map(|(tick, value)| (time_s(run, *tick), *value));
+            let lines = vec![line(points.collect(), BLUE, false)];
+            Panel {
+                heading: format!("{} [as plotted]", shortened(&signal.name, 60)),
+                axis: Axis::around(values(&lines), 0.0),
+                lines,
+                levels: Vec::new(),
+                spans: Vec::new(),
+            }
+        });
+        let mut title = "Signals of the submission".to_owned();
+        if parts > 1 {
+            title.push_str(&format!(" ({} of {parts})", part + 1));
+        }
+        if all.len() > shown.len() {
+            title.push_str(&format!(", the first {} of {}", shown.len(), all.len()));
+        }
+        pictures.push(timeline(run, title, panels.collect(), Vec::new()));
+    }
+    pictures
+}

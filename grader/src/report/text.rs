@@ -1,0 +1,229 @@
+//! The grade as text for a terminal: points, values against bands, the first moment it went wrong, one next step.
+//!
+//! Colours are ANSI sequences; whoever prints strips them where they do not belong. The text makes sense without them.
+
+use std::fmt::Write as _;
+
+use owo_colors::OwoColorize as _;
+
+use crate::grade::{CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade};
+use crate::quantity::{points, seconds, with_unit};
+use crate::verdict::Verdict;
+
+/// Renders `grade`.
+pub fn text(grade: &Grade) -> String {
+    let mut out = String::new();
+    let mode = match grade.mode {
+        GradeMode::Graded => "graded on visible and hidden cases",
+        GradeMode::Practice => "practice: visible cases only",
+    };
+    line(
+        &mut out,
+        &format!(
+            "{}  {}",
+            grade.lab.name.bold(),
+            visible(&grade.submission.name)
+        ),
+    );
+    line(&mut out, &mode.dimmed().to_string());
+    for task in &grade.tasks {
+        out.push('\n');
+        push_task(&mut out, task);
+    }
+    out.push('\n');
+    let total = format!(
+        "{} of {} points",
+        points(grade.points),
+        points(grade.max_points)
+    );
+    let undecided = grade.tasks.iter().any(|task| !task.verdict.is_decided());
+    if undecided {
+        line(
+            &mut out,
+            &format!("{}, but not all is decided: grade it again", total.bold()),
+        );
+    } else {
+        line(&mut out, &total.bold().to_string());
+    }
+    out
+}
+
+fn line(out: &mut String, text: &str) {
+    out.push_str(text.trim_end());
+    out.push('\n');
+}
+
+fn push_task(out: &mut String, task: &TaskGrade) {
+    let verdict = match task.verdict {
+        Verdict::Passed => task.verdict.name().green().to_string(),
+        Verdict::Missed => task.verdict.name().yellow().to_string(),
+        _ => task.verdict.name().red().to_string(),
+    };
+    let earned = format!("{}/{}", points(task.points), points(task.max_points));
+    line(
+        out,
+        &format!(
+            "{:<10} {:>8}  {verdict}  {}",
+            task.name.bold(),
+            earned,
+            task.title
+        ),
+    );
+    if let Some(stopped) = &task.stopped {
+        push_stopped(out, stopped);
+    }
+    for diagnosis in &task.diagnoses {
+        line(
+            out,
+            &format!(
+                "  {} {} {}",
+                "likely:".magenta().bold(),
+                diagnosis.says,
+                format!(
+                    "({} of {} telling answers agree)",
+                    diagnosis.agreeing, diagnosis.telling
+                )
+                .dimmed()
+            ),
+        );
+    }
+    for check in &task.checks {
+        push_check(out, check);
+    }
+    let lost: Vec<String> = task
+        .hidden
+        .iter()
+        .map(|class| format!("{} {}/{}", class.class, class.good, class.total))
+        .collect();
+    if !lost.is_empty() {
+        line(
+            out,
+            &format!(
+                "  {}",
+                format!("hidden cases: {}", lost.join(", ")).dimmed()
+            ),
+        );
+    }
+}
+
+fn push_stopped(out: &mut String, stopped: &Stopped) {
+    let mut where_ = String::new();
+    if let Some(time_s) = stopped.time_s {
+        let _ = write!(
+            where_,
+            " at {} (tick {})",
+            seconds(time_s),
+            stopped.tick.unwrap_or(0)
+        );
+    }
+    if let Some(case) = &stopped.case {
+        let _ = write!(where_, " in case \"{case}\"");
+    }
+    line(
+        out,
+        &format!(
+            "  {} {}{where_}",
+            "stopped:".red().bold(),
+            visible(&stopped.message)
+        ),
+    );
+    if let (Some(number), Some(source)) = (stopped.line, &stopped.source_line) {
+        let gutter = number.to_string();
+        line(
+            out,
+            &format!("    {} {}", format!("{gutter} |").dimmed(), visible(source)),
+        );
+        if let Some(column) = stopped.column {
+            let before: String = source
+                .chars()
+                .take(column.saturating_sub(1))
+                .map(|c| if c == '\t' { '\t' } else { ' ' })
+                .collect();
+            let bar = format!("{:gutter$} |", "", gutter = gutter.len());
+            line(
+                out,
+                &format!("    {} {before}{}", bar.dimmed(), "^".red().bold()),
+            );
+        }
+    }
+    if let Some(help) = &stopped.help {
+        line(out, &format!("  {} {}", "next:".cyan(), visible(help)));
+    }
+}
+
+fn push_check(out: &mut String, check: &CheckGrade) {
+    let (mark, word) = match check.outcome {
+        Outcome::Full => ("+".green().to_string(), ""),
+        Outcome::Partial => ("~".yellow().to_string(), ""),
+        Outcome::None => ("-".red().to_string(), ""),
+        Outcome::NotJudged => (".".dimmed().to_string(), "  not judged"),
+    };
+    let earned = format!("{}/{}", points(check.points), points(check.max_points));
+    line(out, &format!("  {mark} {earned:>9}  {}{word}", check.title));
+    if let Some(measure) = &check.measure {
+        line(
+            out,
+            &format!("               {}", band(measure, check.outcome).dimmed()),
+        );
+    }
+    for evidence in &check.evidence {
+        line(out, &format!("               {}", told(evidence)));
+    }
+    if let Some(next) = &check.next_step {
+        line(out, &format!("               {} {next}", "next:".cyan()));
+    }
+}
+
+/// The value against its band, and the margin of a full check.
+pub fn band(measure: &Measure, outcome: Outcome) -> String {
+    let unit = &measure.unit;
+    let value = match measure.value {
+        Some(value) => with_unit(value, unit),
+        None => "none".to_owned(),
+    };
+    let full = with_unit(measure.full, unit);
+    let zero = with_unit(measure.zero, unit);
+    let (to, from) = if measure.zero >= measure.full {
+        ("up to", "from")
+    } else {
+        ("from", "down to")
+    };
+    let mut text = format!(
+        "{}: {value}; all points {to} {full}, none {from} {zero}",
+        measure.quantity
+    );
+    if let (Outcome::Full, Some(margin)) = (outcome, measure.margin())
+        && margin > 0.0
+    {
+        let _ = write!(text, "; {} to spare", with_unit(margin, unit));
+    }
+    text
+}
+
+fn told(evidence: &Evidence) -> String {
+    let message = visible(&evidence.message);
+    match (evidence.tick, evidence.time_s) {
+        (Some(tick), Some(_)) => {
+            format!(
+                "{message} {}",
+                format!("[tick {tick}, {}]", evidence.signal).dimmed()
+            )
+        }
+        _ => message,
+    }
+}
+
+/// Text of a submission, harmless on a terminal: control and direction characters become visible.
+pub fn visible(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '\t' => ' ',
+            c if c.is_control() => '\u{fffd}',
+            // marks that turn the direction of what follows
+            '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
+                '\u{fffd}'
+            }
+            c => c,
+        })
+        .collect()
+}

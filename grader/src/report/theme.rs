@@ -1,0 +1,167 @@
+//! The colours of plots, for light and dark: every colour is written in its light form, and a style sheet that selects on that
+//! value gives it its dark one, so that a viewer without style sheets still shows the light picture.
+//!
+//! The series are the palette of Okabe and Ito, *Color Universal Design* (2008), darkened on white and lightened on black until
+//! each stands out from its ground by at least 3 to 1.
+
+use std::fmt::Write as _;
+
+/// A colour with its meaning.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Colour {
+    /// On a light ground; also the key of the style sheet, so no two are equal.
+    pub(crate) light: (u8, u8, u8),
+    dark: (u8, u8, u8),
+    /// Dashes in the units of a picture, where the line is dashed.
+    dashes: Option<&'static str>,
+}
+
+const fn colour(light: (u8, u8, u8), dark: (u8, u8, u8)) -> Colour {
+    Colour {
+        light,
+        dark,
+        dashes: None,
+    }
+}
+
+/// The same colour as a dashed line: one step of blue apart, which no eye tells.
+const fn dashed(solid: Colour, dashes: &'static str) -> Colour {
+    let (r, g, b) = solid.light;
+    Colour {
+        light: (r, g, b ^ 1),
+        dashes: Some(dashes),
+        ..solid
+    }
+}
+
+/// The ground.
+pub(crate) const PAPER: Colour = colour((255, 255, 255), (22, 26, 32));
+/// Titles.
+pub(crate) const INK: Colour = colour((28, 34, 44), (232, 235, 240));
+/// Axes and legends.
+pub(crate) const MUTED: Colour = colour((84, 94, 108), (170, 180, 193));
+/// Frames of panels.
+pub(crate) const FRAME: Colour = colour((176, 185, 197), (84, 94, 108));
+/// Lines of the grid.
+pub(crate) const GRID: Colour = colour((232, 235, 240), (42, 49, 59));
+/// What was measured.
+pub(crate) const BLUE: Colour = colour((0, 108, 174), (98, 184, 240));
+/// What was commanded, and what is bad.
+pub(crate) const VERMILLION: Colour = colour((198, 82, 0), (255, 148, 82));
+/// Goals, and what is good.
+pub(crate) const GREEN: Colour = colour((0, 126, 92), (56, 200, 156));
+/// The reference.
+pub(crate) const PURPLE: Colour = colour((158, 74, 128), (230, 156, 200));
+/// The reference as a dashed line.
+pub(crate) const PURPLE_DASHED: Colour = dashed(PURPLE, "70 40");
+/// A limit that earns all points.
+pub(crate) const GREEN_DASHED: Colour = dashed(GREEN, "60 35");
+/// A limit that earns none, or that must not be passed.
+pub(crate) const VERMILLION_DASHED: Colour = dashed(VERMILLION, "60 35");
+/// A quiet line beside the one that counts.
+pub(crate) const MUTED_DASHED: Colour = dashed(MUTED, "20 30");
+/// Where a run ended before its time.
+pub(crate) const RED: Colour = colour((190, 30, 45), (255, 120, 125));
+
+const ALL: [Colour; 14] = [
+    PAPER,
+    INK,
+    MUTED,
+    FRAME,
+    GRID,
+    BLUE,
+    VERMILLION,
+    GREEN,
+    PURPLE,
+    PURPLE_DASHED,
+    GREEN_DASHED,
+    VERMILLION_DASHED,
+    MUTED_DASHED,
+    RED,
+];
+
+fn hex((r, g, b): (u8, u8, u8)) -> String {
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
+/// The style sheet of plots: fonts, dashes, and the dark ground.
+pub(crate) fn plot_css() -> String {
+    let mut css = String::from(
+        ".plot text{font-family:system-ui,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;\
+         font-variant-numeric:tabular-nums}.plot polyline{stroke-linejoin:round}",
+    );
+    for colour in ALL {
+        if let Some(dashes) = colour.dashes {
+            let key = hex(colour.light);
+            // writing into a string cannot fail
+            let _ = write!(css, ".plot [stroke=\"{key}\"]{{stroke-dasharray:{dashes}}}");
+        }
+    }
+    css.push_str("@media screen and (prefers-color-scheme:dark){");
+    for colour in ALL {
+        let (key, dark) = (hex(colour.light), hex(colour.dark));
+        let _ = write!(
+            css,
+            ".plot [stroke=\"{key}\"]{{stroke:{dark}}}.plot [fill=\"{key}\"]{{fill:{dark}}}"
+        );
+    }
+    css.push('}');
+    css
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn luminance(colour: (u8, u8, u8)) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                libm::pow((c + 0.055) / 1.055, 2.4)
+            }
+        };
+        0.2126 * linear(colour.0) + 0.7152 * linear(colour.1) + 0.0722 * linear(colour.2)
+    }
+
+    fn contrast(a: (u8, u8, u8), b: (u8, u8, u8)) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn every_colour_is_a_key_of_its_own() {
+        for (i, a) in ALL.iter().enumerate() {
+            assert!(ALL[..i].iter().all(|b| a.light != b.light), "{:?}", a.light);
+        }
+    }
+
+    #[test]
+    fn lines_and_text_stand_out_from_their_ground() {
+        for colour in [BLUE, VERMILLION, GREEN, PURPLE] {
+            assert!(
+                contrast(colour.light, PAPER.light) >= 3.0,
+                "{:?}",
+                colour.light
+            );
+            assert!(
+                contrast(colour.dark, PAPER.dark) >= 3.0,
+                "{:?}",
+                colour.dark
+            );
+        }
+        for colour in [INK, MUTED, RED, VERMILLION] {
+            assert!(
+                contrast(colour.light, PAPER.light) >= 4.5,
+                "{:?}",
+                colour.light
+            );
+            assert!(
+                contrast(colour.dark, PAPER.dark) >= 4.5,
+                "{:?}",
+                colour.dark
+            );
+        }
+    }
+}

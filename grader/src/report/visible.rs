@@ -1,0 +1,116 @@
+//! Text from a submission, made harmless to look at: what would not be seen, or would reorder or repaint what stands beside it,
+//! is written out.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// Whether a character hides, reorders or steers what is shown around it.
+fn is_unseen(c: char) -> bool {
+    c.is_control()
+        || matches!(c,
+            '\u{00AD}' | '\u{034F}' | '\u{061C}' | '\u{115F}' | '\u{1160}' | '\u{180E}' | '\u{3164}' | '\u{FEFF}' | '\u{FFA0}'
+            | '\u{200B}'..='\u{200F}'
+            | '\u{2028}'..='\u{202E}'
+            | '\u{2060}'..='\u{206F}'
+            | '\u{FDD0}'..='\u{FDEF}'
+            | '\u{FFF0}'..='\u{FFFB}'
+            | '\u{E0000}'..='\u{E0FFF}')
+        || (c as u32) & 0xFFFE == 0xFFFE
+}
+
+/// Accents that stand on the letter before: a few make a letter, a heap of them paints over other lines.
+fn is_combining(c: char) -> bool {
+    matches!(c, '\u{0300}'..='\u{036F}' | '\u{0483}'..='\u{0489}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}'
+        | '\u{20D0}'..='\u{20FF}' | '\u{FE20}'..='\u{FE2F}')
+}
+
+/// Accents on one letter that are shown.
+const MAX_COMBINING: usize = 3;
+
+/// `text` with control, direction and invisible characters written out as `⟨U+202E⟩`; tabs become spaces.
+pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+    if text.bytes().all(|b| (b' '..=b'~').contains(&b)) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    let mut accents = 0;
+    for c in text.chars() {
+        accents = if is_combining(c) { accents + 1 } else { 0 };
+        match c {
+            '\t' => shown.push_str("    "),
+            '\n' => shown.push('⏎'),
+            _ if is_unseen(c) => {
+                // writing into a string cannot fail
+                let _ = write!(shown, "⟨U+{:04X}⟩", c as u32);
+            }
+            _ if accents > MAX_COMBINING => {}
+            _ => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// [`visible`] text of at most `max` characters, the last an ellipsis where something was cut.
+pub(crate) fn shortened(text: &str, max: usize) -> String {
+    // no more than `max` characters can be shown, so no more need be looked at
+    let mut chars = text.chars();
+    let head: String = chars.by_ref().take(max + 1).collect();
+    let shown = visible(&head);
+    if shown.chars().count() <= max {
+        return shown.into_owned();
+    }
+    let mut cut: String = shown.chars().take(max.saturating_sub(1)).collect();
+    cut.push('…');
+    cut
+}
+
+/// A file name without extension of lowercase letters, digits and hyphens: safe on every system.
+pub(crate) fn file_stem(text: &str) -> String {
+    let mut stem = String::new();
+    for c in text.chars().take(60) {
+        if c.is_ascii_alphanumeric() {
+            stem.push(c.to_ascii_lowercase());
+        } else if !stem.is_empty() && !stem.ends_with('-') {
+            stem.push('-');
+        }
+    }
+    let stem = stem.trim_end_matches('-');
+    if stem.is_empty() {
+        "unnamed".to_owned()
+    } else {
+        stem.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escapes_and_overrides_are_written_out() {
+        assert_eq!(visible("\u{1b}[31mred"), "⟨U+001B⟩[31mred");
+        assert_eq!(visible("a\u{202E}b"), "a⟨U+202E⟩b");
+        assert_eq!(visible("x\u{0}\u{85}\u{FFFF}"), "x⟨U+0000⟩⟨U+0085⟩⟨U+FFFF⟩");
+        assert_eq!(visible("größe ∂q/∂t 日本"), "größe ∂q/∂t 日本");
+    }
+
+    #[test]
+    fn heaps_of_accents_are_cut() {
+        let heap = format!("a{}", "\u{0301}".repeat(200));
+        assert_eq!(visible(&heap).chars().count(), 1 + MAX_COMBINING);
+    }
+
+    #[test]
+    fn long_text_ends_in_an_ellipsis() {
+        assert_eq!(shortened("abcdef", 6), "abcdef");
+        assert_eq!(shortened("abcdefg", 6), "abcde…");
+        assert_eq!(shortened(&"x".repeat(1_000_000), 4), "xxx…");
+    }
+
+    #[test]
+    fn file_stems_are_plain() {
+        assert_eq!(file_stem("../../etc/<Passwd>"), "etc-passwd");
+        assert_eq!(file_stem("\u{202E}"), "unnamed");
+        assert_eq!(file_stem("move to B"), "move-to-b");
+    }
+}

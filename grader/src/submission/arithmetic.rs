@@ -1,0 +1,449 @@
+//! Operators: numbers behave as numbers, vectors and matrices go element by element.
+//!
+//! Whole numbers stay whole where the result is whole and fits, else they become floats; nothing overflows. Division by
+//! zero gives an infinity or NaN, as IEEE 754 says, and an answer that holds one is refused by whoever asked for it.
+
+use std::any::TypeId;
+use std::cmp::Ordering;
+
+use rhai::{Array, Dynamic, INT, ImmutableString, Map};
+
+use super::budget::Meter;
+use super::library::{Arguments, Library};
+use super::mistake::{Problem, fault, fault_with_help};
+use super::operand::{Operand, as_number, as_whole};
+use super::vector::{Matrix, Vector};
+use super::words::{describe, show};
+
+/// One arithmetic operator on numbers.
+#[derive(Clone, Copy)]
+struct Operator {
+    symbol: &'static str,
+    verb: &'static str,
+    joiner: &'static str,
+    /// The exact result, if it is whole and fits.
+    whole: fn(INT, INT) -> Option<INT>,
+    float: fn(f64, f64) -> f64,
+}
+
+const ADD: Operator = Operator {
+    symbol: "+",
+    verb: "add",
+    joiner: "and",
+    whole: INT::checked_add,
+    float: |a, b| a + b,
+};
+const SUBTRACT: Operator = Operator {
+    symbol: "-",
+    verb: "subtract",
+    joiner: "and",
+    whole: INT::checked_sub,
+    float: |a, b| a - b,
+};
+const MULTIPLY: Operator = Operator {
+    symbol: "*",
+    verb: "multiply",
+    joiner: "by",
+    whole: INT::checked_mul,
+    float: |a, b| a * b,
+};
+const DIVIDE: Operator = Operator {
+    symbol: "/",
+    verb: "divide",
+    joiner: "by",
+    whole: |a, b| match a.checked_rem(b) {
+        Some(0) => a.checked_div(b),
+        _ => None,
+    },
+    float: |a, b| a / b,
+};
+const REMAINDER: Operator = Operator {
+    symbol: "%",
+    verb: "take the remainder of",
+    joiner: "by",
+    whole: |a, b| {
+        let rest = a.checked_rem(b)?;
+        Some(if rest != 0 && (rest < 0) != (b < 0) {
+            rest + b
+        } else {
+            rest
+        })
+    },
+    float: |a, b| {
+        let rest = libm::fmod(a, b);
+        if rest != 0.0 && (rest < 0.0) != (b < 0.0) {
+            rest + b
+        } else {
+            rest
+        }
+    },
+};
+const POWER: Operator = Operator {
+    symbol: "**",
+    verb: "raise",
+    joiner: "to",
+    whole: |a, b| a.checked_pow(u32::try_from(b).ok()?),
+    float: libm::pow,
+};
+
+pub(super) fn register(library: &mut Library) {
+    for operator in [ADD, SUBTRACT, MULTIPLY, DIVIDE, REMAINDER, POWER] {
+        let apply = move |meter: &Meter, arguments: Arguments<'_, '_>| {
+            calculate(meter, operator, arguments[0], arguments[1])
+        };
+        let numeric = [
+            TypeId::of::<f64>(),
+            TypeId::of::<INT>(),
+            TypeId::of::<Vector>(),
+        ];
+        for left in numeric {
+            for right in numeric {
+                library.shortcut(operator.symbol, &[left, right], apply);
+            }
+        }
+        let any = [TypeId::of::<Dynamic>(); 2];
+        library.internal(operator.symbol, &any, apply);
+        let assign = move |meter: &Meter, arguments: Arguments<'_, '_>| {
+            *arguments[0] = calculate(meter, operator, arguments[0], arguments[1])?;
+            Ok(Dynamic::UNIT)
+        };
+        library.internal(&format!("{}=", operator.symbol), &any, assign);
+    }
+    for kind in [
+        TypeId::of::<f64>(),
+        TypeId::of::<INT>(),
+        TypeId::of::<Dynamic>(),
+    ] {
+        library.internal("-", &[kind], |meter, arguments| negate(meter, arguments[0]));
+        library.internal("+", &[kind], |_, arguments| Ok(arguments[0].clone()));
+    }
+    library.internal(
+        "!",
+        &[TypeId::of::<Dynamic>()],
+        |_, arguments| match arguments[0].as_bool() {
+            Ok(truth) => Ok((!truth).into()),
+            Err(_) => Err(fault(format!(
+                "`!` takes true or false, got {}",
+                describe(arguments[0])
+            ))),
+        },
+    );
+    register_comparisons(library);
+    register_refusals(library);
+    register_ranges(library);
+}
+
+fn register_comparisons(library: &mut Library) {
+    let numbers = [TypeId::of::<f64>(), TypeId::of::<INT>()];
+    let comparisons: [(&'static str, fn(Ordering) -> bool); 4] = [
+        ("<", Ordering::is_lt),
+        ("<=", Ordering::is_le),
+        (">", Ordering::is_gt),
+        (">=", Ordering::is_ge),
+    ];
+    let any = [TypeId::of::<Dynamic>(); 2];
+    for (symbol, holds) in comparisons {
+        let compare = move |_: &Meter, arguments: Arguments<'_, '_>| {
+            // NaN has no order, so that every comparison with it is false
+            order(symbol, arguments[0], arguments[1]).map(|order| order.is_some_and(holds).into())
+        };
+        for left in numbers {
+            for right in numbers {
+                library.shortcut(symbol, &[left, right], compare);
+            }
+        }
+        library.internal(symbol, &any, compare);
+    }
+    for (symbol, wanted) in [("==", true), ("!=", false)] {
+        let compare = move |meter: &Meter, arguments: Arguments<'_, '_>| {
+            equal(meter, arguments[0], arguments[1]).map(|equal| (equal == wanted).into())
+        };
+        for left in numbers {
+            for right in numbers {
+                library.shortcut(symbol, &[left, right], compare);
+            }
+        }
+        library.internal(symbol, &any, compare);
+    }
+}
+
+/// Operators other languages have under another meaning, and those of bits, which a controller has no use for.
+fn register_refusals(library: &mut Library) {
+    let any = [TypeId::of::<Dynamic>(); 2];
+    for (symbol, message, help) in [
+        ("^", "`^` is not a power here", "use ** for powers: x ** 2"),
+        ("&", "`&` is not used here", "write && for \"and\""),
+        ("|", "`|` is not used here", "write || for \"or\""),
+        ("<<", "`<<` is not used here", "multiply by a power of two"),
+        (">>", "`>>` is not used here", "divide by a power of two"),
+    ] {
+        for name in [symbol.to_owned(), format!("{symbol}=")] {
+            library.internal(&name, &any, move |_, _| Err(fault_with_help(message, help)));
+        }
+    }
+}
+
+/// Ranges between whole numbers, written as whole numbers or not.
+fn register_ranges(library: &mut Library) {
+    fn ends(arguments: Arguments<'_, '_>) -> Result<(INT, INT), Problem> {
+        match (as_whole(arguments[0]), as_whole(arguments[1])) {
+            (Some(from), Some(to)) => Ok((from, to)),
+            _ => Err(fault(format!(
+                "a range goes from one whole number to another, got {} and {}",
+                describe(arguments[0]),
+                describe(arguments[1])
+            ))),
+        }
+    }
+    for types in [[TypeId::of::<INT>(); 2], [TypeId::of::<Dynamic>(); 2]] {
+        library.internal("..", &types, |_, arguments| {
+            ends(arguments).map(|(from, to)| Dynamic::from(from..to))
+        });
+        library.internal("..=", &types, |_, arguments| {
+            ends(arguments).map(|(from, to)| Dynamic::from(from..=to))
+        });
+    }
+}
+
+fn calculate(
+    meter: &Meter,
+    operator: Operator,
+    left: &Dynamic,
+    right: &Dynamic,
+) -> Result<Dynamic, Problem> {
+    if let (Ok(a), Ok(b)) = (left.as_float(), right.as_float()) {
+        return Ok((operator.float)(a, b).into());
+    }
+    let (a, b) = (Operand::of(left), Operand::of(right));
+    let elements = a.elements().max(b.elements());
+    meter.charge(elements)?;
+    if let (Operand::Int(a), Operand::Int(b)) = (&a, &b) {
+        return Ok((operator.whole)(*a, *b).map_or_else(
+            || (operator.float)(*a as f64, *b as f64).into(),
+            Dynamic::from_int,
+        ));
+    }
+    if operator.symbol == "*"
+        && let Some(product) = matrix_product(meter, &a, &b)?
+    {
+        return Ok(product);
+    }
+    let float = operator.float;
+    if let (Some(a), Some(b)) = (a.number(), b.number()) {
+        return Ok(float(a, b).into());
+    }
+    match (&a, &b) {
+        (Operand::Other, _) | (_, Operand::Other) => join_text(meter, operator, left, right),
+        (Operand::Vector(a), Operand::Vector(b)) if a.len() == b.len() => {
+            let pairs = a.elements().iter().zip(b.elements());
+            let results: Vector = pairs.map(|(a, b)| float(*a, *b)).collect();
+            Ok(Dynamic::from(results))
+        }
+        (Operand::Vector(vector), Operand::Int(_) | Operand::Float(_)) => {
+            let number = b.number().unwrap_or_default();
+            Ok(Dynamic::from(vector.map(|x| float(x, number))))
+        }
+        (Operand::Int(_) | Operand::Float(_), Operand::Vector(vector)) => {
+            let number = a.number().unwrap_or_default();
+            Ok(Dynamic::from(vector.map(|x| float(number, x))))
+        }
+        (Operand::Matrix(a), Operand::Matrix(b))
+            if (a.rows(), a.columns()) == (b.rows(), b.columns())
+                && matches!(operator.symbol, "+" | "-") =>
+        {
+            let sum = Matrix::from_fn(a.rows(), a.columns(), |i, j| float(a.at(i, j), b.at(i, j)));
+            Ok(Dynamic::from(sum))
+        }
+        (Operand::Matrix(matrix), Operand::Int(_) | Operand::Float(_))
+            if matches!(operator.symbol, "+" | "-" | "*" | "/") =>
+        {
+            let number = b.number().unwrap_or_default();
+            Ok(Dynamic::from(matrix.map(|x| float(x, number))))
+        }
+        (Operand::Int(_) | Operand::Float(_), Operand::Matrix(matrix))
+            if matches!(operator.symbol, "+" | "-" | "*") =>
+        {
+            let number = a.number().unwrap_or_default();
+            Ok(Dynamic::from(matrix.map(|x| float(number, x))))
+        }
+        _ => Err(refuse(operator, left, right)),
+    }
+}
+
+/// The product of linear algebra, if a matrix takes part.
+fn matrix_product(meter: &Meter, a: &Operand, b: &Operand) -> Result<Option<Dynamic>, Problem> {
+    Ok(match (a, b) {
+        (Operand::Matrix(a), Operand::Vector(b)) if a.columns() == b.len() => {
+            Some(Dynamic::from(a.times_vector(b)))
+        }
+        (Operand::Matrix(a), Operand::Matrix(b)) if a.columns() == b.rows() => {
+            meter.charge(a.rows() * a.columns() * b.columns())?;
+            meter.list(a.rows() * b.columns())?;
+            Some(Dynamic::from(a.times(b)))
+        }
+        _ => None,
+    })
+}
+
+/// `+` with a text on either side joins texts; everything else that gets here is refused.
+fn join_text(
+    meter: &Meter,
+    operator: Operator,
+    left: &Dynamic,
+    right: &Dynamic,
+) -> Result<Dynamic, Problem> {
+    if operator.symbol == "+" && (left.is_string() || right.is_string()) {
+        let mut text = show(meter, left)?;
+        text.push_str(&show(meter, right)?);
+        meter.text(text.len())?;
+        return Ok(text.into());
+    }
+    Err(refuse(operator, left, right))
+}
+
+fn refuse(operator: Operator, left: &Dynamic, right: &Dynamic) -> Problem {
+    let message = format!(
+        "cannot {} {} {} {}",
+        operator.verb,
+        describe(left),
+        operator.joiner,
+        describe(right)
+    );
+    let (a, b) = (Operand::of(left), Operand::of(right));
+    let help = if left.is_unit() || right.is_unit() {
+        "`()` means that nothing was returned or set; a function returns what `return` or its last line without `;` says"
+    } else {
+        match (&a, &b) {
+            (Operand::Vector(_), Operand::Matrix(_)) => {
+                "write the matrix first: m * v, or transpose(m) * v"
+            }
+            (Operand::Matrix(_), Operand::Matrix(_) | Operand::Vector(_))
+                if operator.symbol == "*" =>
+            {
+                "the columns of the left must be as many as the rows of the right"
+            }
+            (_, Operand::Matrix(_)) if operator.symbol == "/" => {
+                "solve(m, v) gives the x for which m * x is v"
+            }
+            (Operand::Vector(_), Operand::Vector(_)) => {
+                "element by element needs as many on the left as on the right"
+            }
+            _ if left.is_array() || right.is_array() => {
+                "only lists of numbers can be calculated with; concat(a, b) joins two lists"
+            }
+            _ => return fault(message),
+        }
+    };
+    fault_with_help(message, help)
+}
+
+fn negate(meter: &Meter, value: &Dynamic) -> Result<Dynamic, Problem> {
+    let operand = Operand::of(value);
+    meter.charge(operand.elements())?;
+    Ok(match operand {
+        Operand::Int(whole) => whole
+            .checked_neg()
+            .map_or_else(|| (-(whole as f64)).into(), Dynamic::from_int),
+        Operand::Float(number) => (-number).into(),
+        Operand::Vector(vector) => Dynamic::from(vector.map(|x| -x)),
+        Operand::Matrix(matrix) => Dynamic::from(matrix.map(|x| -x)),
+        Operand::Other => return Err(fault(format!("cannot negate {}", describe(value)))),
+    })
+}
+
+fn order(symbol: &str, left: &Dynamic, right: &Dynamic) -> Result<Option<Ordering>, Problem> {
+    if let (Ok(a), Ok(b)) = (left.as_int(), right.as_int()) {
+        return Ok(Some(a.cmp(&b)));
+    }
+    if let (Some(a), Some(b)) = (as_number(left), as_number(right)) {
+        return Ok(a.partial_cmp(&b));
+    }
+    if let (Ok(a), Ok(b)) = (
+        left.as_immutable_string_ref(),
+        right.as_immutable_string_ref(),
+    ) {
+        let (a, b): (&ImmutableString, &ImmutableString) = (&a, &b);
+        return Ok(Some(a.cmp(b)));
+    }
+    let message = format!(
+        "cannot compare {} {symbol} {}",
+        describe(left),
+        describe(right)
+    );
+    let is_vector = |value| matches!(Operand::of(value), Operand::Vector(_));
+    Err(if is_vector(left) || is_vector(right) {
+        fault_with_help(
+            message,
+            "compare elements, or one number of it: max(abs(v)), norm(v)",
+        )
+    } else {
+        fault(message)
+    })
+}
+
+/// Whether two values are the same; a list of numbers equals the vector of them.
+pub(super) fn equal(meter: &Meter, left: &Dynamic, right: &Dynamic) -> Result<bool, Problem> {
+    if let (Ok(a), Ok(b)) = (left.as_int(), right.as_int()) {
+        return Ok(a == b);
+    }
+    if let (Some(a), Some(b)) = (as_number(left), as_number(right)) {
+        return Ok(is_equal(a, b));
+    }
+    if let (Ok(a), Ok(b)) = (left.as_bool(), right.as_bool()) {
+        return Ok(a == b);
+    }
+    if let (Ok(a), Ok(b)) = (
+        left.as_immutable_string_ref(),
+        right.as_immutable_string_ref(),
+    ) {
+        meter.charge(a.len().min(b.len()))?;
+        return Ok(*a == *b);
+    }
+    if let (Ok(a), Ok(b)) = (left.as_map_ref(), right.as_map_ref()) {
+        let (a, b): (&Map, &Map) = (&a, &b);
+        if a.len() != b.len() {
+            return Ok(false);
+        }
+        meter.charge(8 * a.len())?;
+        for ((key, left), (other_key, right)) in a.iter().zip(b) {
+            if key != other_key || !equal(meter, left, right)? {
+                return Ok(false);
+            }
+        }
+        return Ok(true);
+    }
+    if let (Ok(a), Ok(b)) = (left.as_array_ref(), right.as_array_ref()) {
+        let (a, b): (&Array, &Array) = (&a, &b);
+        if a.len() != b.len() {
+            return Ok(false);
+        }
+        meter.charge(8 * a.len())?;
+        for (left, right) in a.iter().zip(b) {
+            if !equal(meter, left, right)? {
+                return Ok(false);
+            }
+        }
+        return Ok(true);
+    }
+    let (a, b) = (Operand::of(left), Operand::of(right));
+    meter.charge(a.elements() + b.elements())?;
+    Ok(match (a, b) {
+        (Operand::Vector(a), Operand::Vector(b)) => {
+            a.len() == b.len()
+                && a.elements()
+                    .iter()
+                    .zip(b.elements())
+                    .all(|(a, b)| is_equal(*a, *b))
+        }
+        (Operand::Matrix(a), Operand::Matrix(b)) => {
+            (a.rows(), a.columns()) == (b.rows(), b.columns())
+                && a.elements().zip(b.elements()).all(|(a, b)| is_equal(a, b))
+        }
+        _ => left.is_unit() && right.is_unit(),
+    })
+}
+
+#[expect(clippy::float_cmp, reason = "`==` of the language is exact")]
+fn is_equal(a: f64, b: f64) -> bool {
+    a == b
+}

@@ -1,0 +1,141 @@
+//! What a value of the language is to arithmetic; a list of numbers is a vector, a list of rows is a matrix.
+
+use rhai::{Array, Dynamic, INT};
+
+use super::mistake::{Problem, fault, fault_with_help};
+use super::vector::{Matrix, Vector};
+use super::words::describe;
+
+/// A value as arithmetic sees it.
+#[derive(Debug, Clone)]
+pub(super) enum Operand {
+    Int(INT),
+    Float(f64),
+    Vector(Vector),
+    Matrix(Matrix),
+    Other,
+}
+
+impl Operand {
+    pub(super) fn of(value: &Dynamic) -> Self {
+        if let Ok(number) = value.as_float() {
+            return Self::Float(number);
+        }
+        if let Ok(number) = value.as_int() {
+            return Self::Int(number);
+        }
+        if let Some(vector) = value.read_lock::<Vector>() {
+            return Self::Vector(vector.clone());
+        }
+        if let Some(matrix) = value.read_lock::<Matrix>() {
+            return Self::Matrix(matrix.clone());
+        }
+        if let Ok(list) = value.as_array_ref() {
+            return Self::of_list(&list);
+        }
+        Self::Other
+    }
+
+    fn of_list(list: &Array) -> Self {
+        let numbers: Option<Vec<f64>> = list.iter().map(as_number).collect();
+        if let Some(numbers) = numbers {
+            return Self::Vector(Vector::new(numbers));
+        }
+        let rows: Option<Vec<Vector>> = list
+            .iter()
+            .map(|row| match row.read_lock::<Vector>() {
+                Some(vector) => Some(vector.clone()),
+                None => row
+                    .as_array_ref()
+                    .ok()?
+                    .iter()
+                    .map(as_number)
+                    .collect::<Option<Vec<f64>>>()
+                    .map(Vector::new),
+            })
+            .collect();
+        rows.and_then(|rows| Matrix::from_rows(&rows))
+            .map_or(Self::Other, Self::Matrix)
+    }
+
+    /// The number, if it is one.
+    pub(super) fn number(&self) -> Option<f64> {
+        match self {
+            Self::Int(number) => Some(*number as f64),
+            Self::Float(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// How many elements arithmetic walks over.
+    pub(super) fn elements(&self) -> usize {
+        match self {
+            Self::Int(_) | Self::Float(_) | Self::Other => 1,
+            Self::Vector(vector) => vector.len(),
+            Self::Matrix(matrix) => matrix.rows() * matrix.columns(),
+        }
+    }
+}
+
+/// The number a value is, whole or not.
+pub(super) fn as_number(value: &Dynamic) -> Option<f64> {
+    value
+        .as_float()
+        .ok()
+        .or_else(|| value.as_int().ok().map(|whole| whole as f64))
+}
+
+/// The number a built-in needs.
+pub(super) fn number(function: &str, value: &Dynamic) -> Result<f64, Problem> {
+    as_number(value).ok_or_else(|| {
+        fault(format!(
+            "`{function}` takes a number, got {}",
+            describe(value)
+        ))
+    })
+}
+
+/// The vector a built-in needs.
+pub(super) fn vector(function: &str, value: &Dynamic) -> Result<Vector, Problem> {
+    match Operand::of(value) {
+        Operand::Vector(vector) => Ok(vector),
+        _ => Err(fault(format!(
+            "`{function}` takes a vector, got {}",
+            describe(value)
+        ))),
+    }
+}
+
+/// The matrix a built-in needs.
+pub(super) fn matrix(function: &str, value: &Dynamic) -> Result<Matrix, Problem> {
+    match Operand::of(value) {
+        Operand::Matrix(matrix) => Ok(matrix),
+        _ => Err(fault_with_help(
+            format!("`{function}` takes a matrix, got {}", describe(value)),
+            "a matrix is a list of rows of equal length: [[1, 0], [0, 1]]",
+        )),
+    }
+}
+
+/// The whole number a value is: `2` and `2.0`, not `2.5`.
+pub(super) fn as_whole(value: &Dynamic) -> Option<INT> {
+    if let Ok(whole) = value.as_int() {
+        return Some(whole);
+    }
+    let number = value.as_float().ok()?;
+    // beyond 2^53 neighbours of a float are not whole numbers any more
+    (number.fract().abs() == 0.0 && number.abs() <= 9_007_199_254_740_992.0)
+        .then_some(number as INT)
+}
+
+/// A count, such as a number of rows.
+pub(super) fn count(function: &str, value: &Dynamic) -> Result<usize, Problem> {
+    as_whole(value)
+        .and_then(|whole| usize::try_from(whole).ok())
+        .ok_or_else(|| {
+            fault(format!(
+                "`{function}` takes a whole number from 0, got {}",
+                describe(value)
+            ))
+        })
+}
