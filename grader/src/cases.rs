@@ -6,13 +6,13 @@ use nalgebra::Vector3;
 
 use crate::answer;
 use crate::check::{Answered, CaseError, CaseFacts};
-use crate::controller::{Answer, Call, Controller, Opening, RobotFacts, Stop, Value};
+use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Stop, Value};
 use crate::grade::LogEntry;
 use crate::grading::Host;
 use crate::lab::model::{Case, Function, Given, Lab};
 
-/// After so many failures the submission is not asked again: each costs a new start, and the reason is known.
-const MOST_FAILURES: usize = 3;
+/// After so many calls that used up their budget the submission is not asked again: the reason is known, and each costs time.
+const MOST_EXHAUSTED: usize = 3;
 
 /// A function task as it went.
 #[derive(Debug)]
@@ -39,7 +39,7 @@ pub fn run<'a>(
 ) -> CasesRun<'a> {
     let mut controller: Option<Box<dyn Controller>> = None;
     let mut stop: Option<(usize, Stop)> = None;
-    let mut failures = 0;
+    let mut exhausted = 0;
     let mut hasher = blake3::Hasher::new();
     let mut operations = 0;
     let mut log = Vec::new();
@@ -50,12 +50,12 @@ pub fn run<'a>(
             Ok(robot) => robot,
             Err(error) => {
                 stop.get_or_insert((i, Stop::GraderFault(error.to_string())));
-                failures = MOST_FAILURES;
+                exhausted = MOST_EXHAUSTED;
                 lab.robot.clone()
             }
         };
         let mut answered = None;
-        if failures < MOST_FAILURES {
+        if exhausted < MOST_EXHAUSTED {
             match ask(&mut controller, &robot, case, opening, host) {
                 Ok(answer) => {
                     operations += answer.operations;
@@ -70,12 +70,16 @@ pub fn run<'a>(
                 }
                 Err(why) => {
                     hasher.update(b"stopped");
-                    // what is wrong with the whole file, or with this machine, is so for every case
-                    failures = match why {
-                        Stop::Crashed(_) | Stop::OverBudget { .. } => failures + 1,
-                        _ => MOST_FAILURES,
+                    exhausted = match why {
+                        // one case's failure costs that case
+                        Stop::Crashed(_) => exhausted,
+                        Stop::OverBudget {
+                            budget: Budget::OperationsPerCall,
+                            ..
+                        } => exhausted + 1,
+                        // what is wrong with the whole file, or with this machine, is so for every case
+                        _ => MOST_EXHAUSTED,
                     };
-                    controller = None;
                     stop.get_or_insert((i, why));
                 }
             }

@@ -10,7 +10,7 @@ pub trait Controller {
     /// Calls one of the submission's functions.
     ///
     /// # Errors
-    /// [`Stop`] if there is no answer; the controller is not called again after that.
+    /// [`Stop`] if there is no answer. After [`Stop::Crashed`] and [`Stop::OverBudget`] it can be called again.
     fn call(&mut self, call: &Call) -> Result<Answer, Stop>;
 }
 

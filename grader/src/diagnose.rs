@@ -119,6 +119,7 @@ pub fn motion_task<'m>(
     mutants: impl Iterator<Item = (&'m Mutant, Trace)>,
 ) -> Vec<Diagnosis> {
     let same_m = 5e-4; // a quarter of a narrow band; a servo at rest is far inside it
+    let still_m = 0.01; // an arm that never moved made no mistake in where to go
     let settled = settled_at(motion, student);
     let mut candidates = Vec::new();
     for (mutant, trace) in mutants {
@@ -128,7 +129,8 @@ pub fn motion_task<'m>(
         }
         let (mut agreeing, mut telling) = (0, 0);
         for ((goal, student), mutant) in motion.goals.iter().zip(&settled).zip(&places) {
-            if (mutant - goal.position_m).norm() > band.full {
+            let stands_still = trace.is_empty() || (mutant - trace.tcp_position(0)).norm() < still_m;
+            if !stands_still && (mutant - goal.position_m).norm() > band.full {
                 telling += 1;
                 agreeing += usize::from((student - mutant).norm() <= same_m);
             }
@@ -142,11 +144,11 @@ pub fn motion_task<'m>(
     clear(candidates)
 }
 
-/// Where a run stood during its best stay near each goal.
+/// Where a run stood in its stay nearest to each goal, however far that is.
 fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
     let near = Band {
         full: 0.0,
-        zero: 0.25,
+        zero: 1e3,
     };
     let stays = best_stays(trace, &motion.goals, near);
     stays

@@ -7,7 +7,9 @@ pub fn metres(value_m: f64) -> String {
     } else if value_m.abs() < 0.1 {
         // 0.02 mm matters against a band of 0.1 mm, 12.34 mm does not need its hundredths
         let mm = value_m * 1000.0;
-        if mm.abs() < 1.0 {
+        if mm != 0.0 && mm.abs() < 1e-3 {
+            "under 0.001 mm".to_owned()
+        } else if mm.abs() < 1.0 {
             format!("{} mm", significant(mm, 2))
         } else {
             format!("{mm:.1} mm")
@@ -78,6 +80,7 @@ mod tests {
         for (value, text) in [
             (0.0142, "14.2 mm"),
             (0.00002, "0.02 mm"),
+            (1e-13, "under 0.001 mm"),
             (1.5, "1.500 m"),
             (0.0, "0 mm"),
             (f64::INFINITY, "no distance"),

@@ -1,6 +1,7 @@
 //! pose-reached: the TCP stays at every goal, in order, for the goal's dwell.
 //!
-//! Measured at each goal is the greatest distance during the best stay \[m\]; the score is the mean of the goals' scores.
+//! Measured at each goal is the greatest distance during the best stay \[m\]; the score is the mean of the goals' scores. Told is
+//! how near the arm settles before it leaves.
 
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
@@ -54,11 +55,12 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         let value = |e: &Evidence| e.value.unwrap_or(f64::INFINITY);
         value(b).total_cmp(&value(a))
     });
-    let worst_of_all = (0..goals.len()).map(worst).fold(0.0, f64::max);
+    let settled = |goal: usize| facts.stays.get(goal).map_or(f64::INFINITY, |stay| stay.settled_m);
+    let worst_of_all = (0..goals.len()).map(settled).fold(0.0, f64::max);
     Finding {
         score,
         measure: Some(Measure {
-            quantity: "greatest distance from a goal during its dwell".to_owned(),
+            quantity: "greatest distance from a goal while it is held".to_owned(),
             value: worst_of_all.is_finite().then_some(worst_of_all),
             unit: "m".to_owned(),
             full: band.full,

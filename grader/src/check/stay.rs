@@ -18,6 +18,9 @@ pub struct Stay {
     pub last: usize,
     /// Greatest distance from the goal in it \[m\].
     pub worst_m: f64,
+    /// The same of the best window before the TCP leaves again \[m\]: the first good window is barely good, later ones show how
+    /// near the arm settles.
+    pub settled_m: f64,
 }
 
 /// The best stays, one per goal in order; empty where the run is too short for all dwells.
@@ -64,11 +67,18 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
             first,
             last,
             worst_m: worsts[i][last],
+            settled_m: settled(&worsts[i][last..], band),
         });
         limit = Some(first);
     }
     stays.reverse();
     stays
+}
+
+/// The least of the windows' distances until one is no longer full; that of the first if it is not full itself.
+fn settled(worsts: &[f64], band: Band) -> f64 {
+    let visit = worsts.iter().take_while(|worst| **worst <= band.full);
+    visit.copied().fold(worsts[0], f64::min)
 }
 
 /// What a window is worth: its score; among windows that earn nothing, the nearer the better, but less than anything earned.

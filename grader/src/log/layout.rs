@@ -113,3 +113,30 @@ fn view() -> Value {
         "imageMode": {},
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    #[test]
+    fn every_panel_is_placed_once() {
+        let layout: Value = serde_json::from_str(&layout(&sample::task_run())).unwrap();
+        let mut placed = Vec::new();
+        let mut open = vec![&layout["layout"]];
+        while let Some(node) = open.pop() {
+            match node.as_str() {
+                Some(panel) => placed.push(panel),
+                None => open.extend([&node["first"], &node["second"]]),
+            }
+        }
+        placed.sort_unstable();
+        let configured: Vec<&str> = layout["configById"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .map(String::as_str)
+            .collect();
+        assert_eq!(placed, configured);
+    }
+}

@@ -4,29 +4,12 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::spatial::Pose as Isometry;
-use kinemark_sim::trace::EventKind;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions};
-use serde::Serialize;
-use serde_json::Value;
 
-use super::message::{
-    Flat, FrameTransform, FrameTransforms, JointState, JointStates, Level, Log, Pose, PoseInFrame,
-    Quaternion, Time, Vector,
-};
-use super::names::{WORLD, fields, frame_id, frame_id_of};
-use super::{scene, schema};
+use super::topics::Messages;
 use crate::grade::Grade;
 use crate::graded::TaskRun;
-use crate::report::{current_goal, visible};
-
-/// Poses and joint states a second.
-const POSE_RATE_HZ: f64 = 60.0;
-/// Flat signals a second; those of the submission and of checks at most so many.
-const SIGNAL_RATE_HZ: f64 = 100.0;
 
 /// A file that travels inside the log.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +37,7 @@ pub enum LogError {
 ///
 /// Topics: `/tf`, `/tcp` and `/joint_states` at 60 Hz, first and last tick included; `/scene` and `/reference/scene` once;
 /// `/signals` and `/errors` at 100 Hz; `/plots` what the submission drew; `/checks/...` what checks judged; `/log` events and
-/// printed lines. Messages are JSON. The same run gives the same bytes.
+/// printed lines. Messages are JSON; poses are rounded to nanometres, all else is as it was computed. The same run gives the same bytes.
 ///
 /// # Errors
 /// [`LogError`] if the writer refuses, which no run of a robot should make it do.
@@ -63,436 +46,54 @@ pub fn mcap(
     grade: &Grade,
     attachments: &[Attachment<'_>],
 ) -> Result<Vec<u8>, LogError> {
-    let mut log = Messages::new(run);
-    log.scenes()?;
-    log.motion()?;
-    log.signals()?;
-    log.errors()?;
-    log.plots()?;
-    log.checks()?;
-    log.lines()?;
-    log.write(grade, attachments)
+    write(Messages::gather(run)?, grade, attachments)
 }
 
-/// A channel to be: its topic and the schema of its messages.
-struct Topic {
-    topic: String,
-    schema_name: String,
-    schema: Value,
-}
-
-/// A message to be.
-struct Message {
-    log_time_ns: u64,
-    topic: usize,
-    /// Where its bytes are.
-    bytes: std::ops::Range<usize>,
-}
-
-/// The messages of a run, gathered by topic and then written by time.
-struct Messages<'a> {
-    run: &'a TaskRun,
-    topics: Vec<Topic>,
-    messages: Vec<Message>,
-    bytes: Vec<u8>,
-}
-
-impl<'a> Messages<'a> {
-    fn new(run: &'a TaskRun) -> Self {
-        Self {
-            run,
-            topics: Vec::new(),
-            messages: Vec::new(),
-            bytes: Vec::new(),
-        }
+fn write(
+    mut log: Messages<'_>,
+    grade: &Grade,
+    attachments: &[Attachment<'_>],
+) -> Result<Vec<u8>, LogError> {
+    let options = WriteOptions::new()
+        .profile("")
+        .library("kinemark")
+        .compression(Some(Compression::Zstd))
+        .compression_threads(0);
+    let mut writer = options.create(Cursor::new(Vec::new()))?;
+    let mut channels = Vec::new();
+    for topic in &log.topics {
+        let data = serde_json::to_vec(&topic.schema)?;
+        let schema = writer.add_schema(&topic.schema_name, "jsonschema", &data)?;
+        channels.push(writer.add_channel(schema, &topic.topic, "json", &BTreeMap::new())?);
     }
-
-    fn topic(
-        &mut self,
-        topic: impl Into<String>,
-        schema_name: impl Into<String>,
-        mut schema: Value,
-    ) -> usize {
-        // whether a JSON map is sorted depends on how its crate was built; the bytes must not
-        schema.sort_all_objects();
-        self.topics.push(Topic {
-            topic: topic.into(),
-            schema_name: schema_name.into(),
-            schema,
-        });
-        self.topics.len() - 1
-    }
-
-    fn message(
-        &mut self,
-        topic: usize,
-        log_time_ns: u64,
-        message: &impl Serialize,
-    ) -> Result<(), LogError> {
-        let start = self.bytes.len();
-        serde_json::to_writer(&mut self.bytes, message)?;
-        self.messages.push(Message {
-            log_time_ns,
-            topic,
-            bytes: start..self.bytes.len(),
-        });
-        Ok(())
-    }
-
-    /// The time of a tick \[ns\].
-    fn ns(&self, tick: u64) -> u64 {
-        (tick as f64 * self.run.trace.step_s * 1e9).round() as u64
-    }
-
-    /// Ticks nearest to a rate, the first and the last among them.
-    fn ticks(&self, rate_hz: f64) -> Vec<usize> {
-        let last = match self.run.trace.len() {
-            0 => return Vec::new(),
-            len => len - 1,
+    // stable, so that messages of one instant keep the order of their topics
+    log.messages.sort_by_key(|message| message.log_time_ns);
+    let mut sequence = vec![0u32; channels.len()];
+    for message in &log.messages {
+        let header = MessageHeader {
+            channel_id: channels[message.topic],
+            sequence: sequence[message.topic],
+            log_time: message.log_time_ns,
+            publish_time: message.log_time_ns,
         };
-        let mut ticks: Vec<usize> = (0..)
-            .map(|k| (f64::from(k) / (rate_hz * self.run.trace.step_s)).round() as usize)
-            .take_while(|tick| *tick <= last)
-            .collect();
-        // a rate above the tick's own asks for the same tick twice
-        ticks.dedup();
-        if ticks.last() != Some(&last) {
-            ticks.push(last);
-        }
-        ticks
+        sequence[message.topic] += 1;
+        writer.write_to_known_channel(&header, &log.bytes[message.bytes.clone()])?;
     }
-
-    fn scenes(&mut self) -> Result<(), LogError> {
-        let topic = self.topic("/scene", "foxglove.SceneUpdate", schema::scene_update());
-        self.message(topic, 0, &scene::scene(self.run))?;
-        if let Some(reference) = scene::reference(self.run) {
-            let topic = self.topic(
-                "/reference/scene",
-                "foxglove.SceneUpdate",
-                schema::scene_update(),
-            );
-            self.message(topic, 0, &reference)?;
-        }
-        Ok(())
-    }
-
-    /// Every frame, the TCP, the joints.
-    fn motion(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        let tf = self.topic(
-            "/tf",
-            "foxglove.FrameTransforms",
-            schema::frame_transforms(),
-        );
-        let tcp = self.topic("/tcp", "foxglove.PoseInFrame", schema::pose_in_frame());
-        let states = self.topic(
-            "/joint_states",
-            "foxglove.JointStates",
-            schema::joint_states(),
-        );
-        let tree = Tree::new(&run.robot);
-        let lab = frame_id_of(&run.robot, &run.seen_from);
-        let mut poses = FramePoses::new(&run.robot);
-        for tick in self.ticks(POSE_RATE_HZ) {
-            let ns = self.ns(tick as u64);
-            let timestamp = Time::from_ns(ns);
-            let (q, qd, effort) = (
-                run.trace.q.at(tick),
-                run.trace.qd.at(tick),
-                run.trace.effort.at(tick),
-            );
-            if q.iter().all(|q| q.is_finite()) {
-                poses.update(&run.robot, q);
-                self.message(tf, ns, &tree.transforms(&poses, timestamp))?;
-            }
-            let row = run.trace.tcp.at(tick);
-            if row.iter().all(|x| x.is_finite()) {
-                let pose = Pose {
-                    position: Vector::new([row[0], row[1], row[2]]),
-                    orientation: Quaternion {
-                        w: row[3],
-                        x: row[4],
-                        y: row[5],
-                        z: row[6],
-                    },
-                };
-                let message = PoseInFrame {
-                    timestamp,
-                    frame_id: &lab,
-                    pose,
-                };
-                self.message(tcp, ns, &message)?;
-            }
-            let joints = run
-                .robot
-                .moving_joints()
-                .enumerate()
-                .map(|(i, joint)| JointState {
-                    name: &joint.name,
-                    position: q[i],
-                    velocity: qd[i],
-                    effort: effort[i],
-                });
-            let message = JointStates {
-                timestamp,
-                joints: joints.collect(),
-            };
-            self.message(states, ns, &message)?;
-        }
-        Ok(())
-    }
-
-    /// Every number of every joint under a name of its own.
-    fn signals(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        let joints = fields(run.robot.moving_joints().map(|joint| joint.name.as_str()));
-        let turns: Vec<bool> = run
-            .robot
-            .moving_joints()
-            .map(|joint| joint.kind.turns())
-            .collect();
-        let trace = &run.trace;
-        let sources = [&trace.q, &trace.qd, &trace.command, &trace.effort];
-        let mut names = Vec::new();
-        for signal in sources {
-            for (i, joint) in joints.iter().enumerate() {
-                let unit = match (signal.name(), turns[i]) {
-                    ("q", true) => "rad",
-                    ("q", false) => "m",
-                    ("qd", true) => "rad/s",
-                    ("qd", false) => "m/s",
-                    ("effort", true) => "N m",
-                    ("effort", false) => "N",
-                    _ => "the unit of the servo's mode",
-                };
-                names.push((format!("{}_{joint}", signal.name()), unit.to_owned()));
-            }
-        }
-        let topic = self.topic(
-            "/signals",
-            "kinemark.Signals",
-            schema::flat("kinemark.Signals", &names),
-        );
-        for tick in self.ticks(SIGNAL_RATE_HZ) {
-            let values = sources.iter().flat_map(|signal| signal.at(tick));
-            let values = names
-                .iter()
-                .map(|(name, _)| name.as_str())
-                .zip(values.copied());
-            let message = Flat {
-                values: values.collect(),
-            };
-            self.message(topic, self.ns(tick as u64), &message)?;
-        }
-        Ok(())
-    }
-
-    /// How far the TCP is from the goal it is on its way to.
-    fn errors(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        if run.goals.is_empty() {
-            return Ok(());
-        }
-        let names = [
-            ("goal", "number of the goal, from one"),
-            ("distance_m", "distance of the TCP to the goal, m"),
-            ("full_m", "distance that earns all points, m"),
-            ("zero_m", "distance that earns none, m"),
-        ];
-        let described: Vec<_> = names
-            .iter()
-            .map(|(name, what)| ((*name).to_owned(), (*what).to_owned()))
-            .collect();
-        let topic = self.topic(
-            "/errors",
-            "kinemark.Errors",
-            schema::flat("kinemark.Errors", &described),
-        );
-        for tick in self.ticks(SIGNAL_RATE_HZ) {
-            let Some(index) = current_goal(&run.goals, tick as u64) else {
-                continue;
-            };
-            let goal = &run.goals[index];
-            let distance_m =
-                (run.trace.tcp_position(tick) - nalgebra::Vector3::from(goal.position_m)).norm();
-            let values = [(index + 1) as f64, distance_m, goal.full_m, goal.zero_m];
-            let message = Flat {
-                values: names.iter().map(|(name, _)| *name).zip(values).collect(),
-            };
-            self.message(topic, self.ns(tick as u64), &message)?;
-        }
-        Ok(())
-    }
-
-    /// What the submission drew, all values of a tick in one message.
-    fn plots(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        if run.trace.plots.is_empty() {
-            return Ok(());
-        }
-        let names = fields(run.trace.plots.iter().map(|plot| plot.name.as_str()));
-        let described: Vec<_> = names
-            .iter()
-            .zip(&run.trace.plots)
-            .map(|(name, plot)| (name.clone(), visible(&plot.name).into_owned()))
-            .collect();
-        let topic = self.topic(
-            "/plots",
-            "kinemark.Plots",
-            schema::flat("kinemark.Plots", &described),
-        );
-        let mut samples: Vec<(u64, usize, f64)> = Vec::new();
-        for (i, plot) in run.trace.plots.iter().enumerate() {
-            samples.extend(plot.samples.iter().map(|(tick, value)| (*tick, i, *value)));
-        }
-        samples.sort_by_key(|(tick, i, _)| (*tick, *i));
-        for at_tick in samples.chunk_by(|a, b| a.0 == b.0) {
-            let mut values: Vec<(&str, f64)> = Vec::new();
-            for (_, i, value) in at_tick {
-                let name = names[*i].as_str();
-                // of two values of one tick the later stands
-                match values.last_mut() {
-                    Some(last) if last.0 == name => last.1 = *value,
-                    _ => values.push((name, *value)),
-                }
-            }
-            self.message(topic, self.ns(at_tick[0].0), &Flat { values })?;
-        }
-        Ok(())
-    }
-
-    /// What checks judged, with their bands.
-    fn checks(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        let names = fields(run.curves.iter().map(|curve| curve.check.as_str()));
-        for (curve, name) in run.curves.iter().zip(&names) {
-            let what = visible(&format!("{} [{}]", curve.title, curve.unit)).into_owned();
-            let described = [
-                ("value", what.as_str()),
-                ("full", "earns all points"),
-                ("zero", "earns none"),
-            ];
-            let described = described.map(|(name, what)| (name.to_owned(), what.to_owned()));
-            let schema = schema::flat("kinemark.Judged", &described);
-            let topic = self.topic(format!("/checks/{name}"), "kinemark.Judged", schema);
-            let mut next_s = f64::NEG_INFINITY;
-            let last = curve.t_s.len().saturating_sub(1);
-            for (i, (t_s, value)) in curve.t_s.iter().zip(&curve.values).enumerate() {
-                let is_due = *t_s >= next_s || i == last;
-                if !t_s.is_finite() || *t_s < 0.0 || !is_due {
-                    continue;
-                }
-                // a hair early, so that rounding does not skip every second one
-                next_s = t_s + 0.999 / SIGNAL_RATE_HZ;
-                let mut values = vec![("value", *value)];
-                values.extend(curve.full.map(|full| ("full", full)));
-                values.extend(curve.zero.map(|zero| ("zero", zero)));
-                self.message(topic, (t_s * 1e9).round() as u64, &Flat { values })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Events, printed lines, and the moments checks marked.
-    fn lines(&mut self) -> Result<(), LogError> {
-        let run = self.run;
-        let topic = self.topic("/log", "foxglove.Log", schema::log());
-        let mut lines: Vec<(u64, Level, Cow<'_, str>, &str)> = Vec::new();
-        let joint = |i: usize| {
-            run.robot
-                .moving_joints()
-                .nth(i)
-                .map_or("?", |joint| joint.name.as_str())
-        };
-        for event in &run.trace.events {
-            let (level, message) = match event.kind {
-                EventKind::Saturated { joint: i } => (
-                    Level::Warning,
-                    format!("effort of `{}` reached its limit", joint(i)),
-                ),
-                EventKind::LimitCrossed { joint: i } => (
-                    Level::Warning,
-                    format!("`{}` left its position limits", joint(i)),
-                ),
-                EventKind::Diverged => (Level::Error, "the state is no longer finite".to_owned()),
-                EventKind::Stopped => (Level::Error, "the submission was stopped".to_owned()),
-            };
-            lines.push((self.ns(event.tick), level, message.into(), "run"));
-        }
-        for line in &run.trace.log {
-            lines.push((
-                self.ns(line.tick),
-                Level::Info,
-                visible(&line.text),
-                "submission",
-            ));
-        }
-        for curve in &run.curves {
-            for (t_s, text) in curve
-                .marks
-                .iter()
-                .filter(|(t_s, _)| t_s.is_finite() && *t_s >= 0.0)
-            {
-                let ns = (t_s * 1e9).round() as u64;
-                lines.push((ns, Level::Info, visible(text), &curve.check));
-            }
-        }
-        for (ns, level, message, name) in lines {
-            let line = Log {
-                timestamp: Time::from_ns(ns),
-                level,
-                message: &message,
-                name,
-                file: "",
-                line: 0,
-            };
-            self.message(topic, ns, &line)?;
-        }
-        Ok(())
-    }
-
-    fn write(mut self, grade: &Grade, attachments: &[Attachment<'_>]) -> Result<Vec<u8>, LogError> {
-        let options = WriteOptions::new()
-            .profile("")
-            .library("kinemark")
-            .compression(Some(Compression::Zstd))
-            .compression_threads(0);
-        let mut writer = options.create(Cursor::new(Vec::new()))?;
-        let mut channels = Vec::new();
-        for topic in &self.topics {
-            let data = serde_json::to_vec(&topic.schema)?;
-            let schema = writer.add_schema(&topic.schema_name, "jsonschema", &data)?;
-            channels.push(writer.add_channel(schema, &topic.topic, "json", &BTreeMap::new())?);
-        }
-        // stable, so that messages of one instant keep the order of their topics
-        self.messages.sort_by_key(|message| message.log_time_ns);
-        let mut sequence = vec![0u32; channels.len()];
-        for message in &self.messages {
-            let header = MessageHeader {
-                channel_id: channels[message.topic],
-                sequence: sequence[message.topic],
-                log_time: message.log_time_ns,
-                publish_time: message.log_time_ns,
-            };
-            sequence[message.topic] += 1;
-            writer.write_to_known_channel(&header, &self.bytes[message.bytes.clone()])?;
-        }
-        writer.write_metadata(&Metadata {
-            name: "kinemark".to_owned(),
-            metadata: facts(self.run, grade),
+    writer.write_metadata(&Metadata {
+        name: "kinemark".to_owned(),
+        metadata: facts(log.run, grade),
+    })?;
+    for attachment in attachments {
+        writer.attach(&mcap::Attachment {
+            log_time: 0,
+            create_time: 0,
+            name: attachment.name.to_owned(),
+            media_type: attachment.media_type.to_owned(),
+            data: Cow::Borrowed(attachment.bytes),
         })?;
-        for attachment in attachments {
-            writer.attach(&mcap::Attachment {
-                log_time: 0,
-                create_time: 0,
-                name: attachment.name.to_owned(),
-                media_type: attachment.media_type.to_owned(),
-                data: Cow::Borrowed(attachment.bytes),
-            })?;
-        }
-        writer.finish()?;
-        Ok(writer.into_inner().into_inner())
     }
+    writer.finish()?;
+    Ok(writer.into_inner().into_inner())
 }
 
 /// What the log rests on.
@@ -517,60 +118,189 @@ fn facts(run: &TaskRun, grade: &Grade) -> BTreeMap<String, String> {
     facts
 }
 
-/// The frames of a robot as a tree under the world.
-struct Tree<'a> {
-    robot: &'a Robot,
-    /// Each frame's name, and which frame it hangs on.
-    branches: Vec<(String, Option<usize>)>,
-}
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
 
-impl<'a> Tree<'a> {
-    fn new(robot: &'a Robot) -> Self {
-        let links = robot.links().len();
-        let hangs_on = |(i, frame): (usize, &Frame)| {
-            let parent = if i < links {
-                robot
-                    .joints()
-                    .iter()
-                    .find(|joint| joint.child == i)
-                    .map(|joint| joint.parent)
-            } else {
-                Some(frame.link)
+    use super::*;
+    use crate::report::sample;
+
+    fn written(run: &TaskRun) -> Vec<u8> {
+        let attachments = [Attachment {
+            name: "rrbot.toml",
+            media_type: "application/toml",
+            bytes: b"format = 1",
+        }];
+        mcap(run, &sample::graded().grade, &attachments).unwrap()
+    }
+
+    /// Topic, schema, time and content of every message, as the reader gives them; it checks every CRC.
+    fn read(bytes: &[u8]) -> Vec<(String, String, u64, Value)> {
+        let messages = ::mcap::MessageStream::new(bytes).unwrap().map(|message| {
+            let message = message.unwrap();
+            let schema = message.channel.schema.as_ref().unwrap();
+            assert_eq!(
+                (
+                    schema.encoding.as_str(),
+                    message.channel.message_encoding.as_str()
+                ),
+                ("jsonschema", "json")
+            );
+            let described: Value = serde_json::from_slice(&schema.data).unwrap();
+            assert_eq!(described["title"], json!(schema.name));
+            let content = serde_json::from_slice(&message.data).unwrap();
+            (
+                message.channel.topic.clone(),
+                schema.name.clone(),
+                message.log_time,
+                content,
+            )
+        });
+        messages.collect()
+    }
+
+    #[test]
+    fn the_log_reads_back() {
+        let run = sample::task_run();
+        let bytes = written(&run);
+        let messages = read(&bytes);
+        let count = |topic: &str| messages.iter().filter(|message| message.0 == topic).count();
+        let topics = [
+            "/tf",
+            "/tcp",
+            "/joint_states",
+            "/scene",
+            "/reference/scene",
+            "/signals",
+            "/errors",
+        ];
+        assert_eq!(topics.map(count), [481, 481, 481, 1, 1, 801, 801]);
+        assert!(messages.is_sorted_by_key(|message| message.2));
+        assert_eq!(
+            messages.last().map(|message| message.2),
+            Some(8_000_000_000)
+        );
+
+        let summary = ::mcap::Summary::read(&bytes).unwrap().unwrap();
+        let statistics = summary.stats.unwrap();
+        assert_eq!(statistics.message_count, messages.len() as u64);
+        assert_eq!(
+            (statistics.attachment_count, statistics.metadata_count),
+            (1, 1)
+        );
+        assert!(!summary.chunk_indexes.is_empty());
+    }
+
+    #[test]
+    fn frames_form_one_tree_under_the_world_and_carry_the_motion() {
+        let run = sample::task_run();
+        let last = read(&written(&run))
+            .into_iter()
+            .rfind(|message| message.0 == "/tf")
+            .unwrap();
+        let transforms = last.3["transforms"].as_array().unwrap().clone();
+        let branches: Vec<(&str, &str)> = transforms
+            .iter()
+            .map(|t| {
+                (
+                    t["parent_frame_id"].as_str().unwrap(),
+                    t["child_frame_id"].as_str().unwrap(),
+                )
+            })
+            .collect();
+        let expected = [
+            ("world", "base"),
+            ("base", "upper"),
+            ("upper", "forearm"),
+            ("forearm", "tcp"),
+            ("base", "lab"),
+        ];
+        assert_eq!(branches, expected);
+        // the elbow's angle is the turn of the forearm on the upper arm
+        let q = run.trace.q.at(8000)[1];
+        let (y, w) = (
+            &transforms[2]["rotation"]["y"],
+            &transforms[2]["rotation"]["w"],
+        );
+        let angle = 2.0 * libm::atan2(y.as_f64().unwrap(), w.as_f64().unwrap());
+        // elements are rounded to a billionth
+        assert!((angle - q).abs() < 1e-8, "{angle} {q}");
+    }
+
+    #[test]
+    fn schemas_of_a_viewer_bear_its_names() {
+        for (topic, name, _, _) in read(&written(&sample::task_run())) {
+            let expected = match topic.as_str() {
+                "/tf" => "foxglove.FrameTransforms",
+                "/scene" | "/reference/scene" => "foxglove.SceneUpdate",
+                "/joint_states" => "foxglove.JointStates",
+                "/tcp" => "foxglove.PoseInFrame",
+                "/log" => "foxglove.Log",
+                _ => continue,
             };
-            (frame_id(robot, frame), parent)
-        };
-        Self {
-            robot,
-            branches: robot.frames().iter().enumerate().map(hangs_on).collect(),
+            assert_eq!(name, expected);
         }
     }
 
-    fn transforms(&self, poses: &FramePoses, timestamp: Time) -> FrameTransforms<'_> {
-        let world_from: Vec<Isometry> = self
-            .robot
-            .frames()
+    #[test]
+    fn the_same_run_gives_the_same_bytes() {
+        assert_eq!(written(&sample::task_run()), written(&sample::task_run()));
+    }
+
+    #[test]
+    fn events_and_printed_lines_are_in_the_log() {
+        let messages = read(&written(&sample::stopped_after(700)));
+        let lines: Vec<&Value> = messages
             .iter()
-            .map(|frame| poses.world_from(frame))
+            .filter(|message| message.0 == "/log")
+            .map(|message| &message.3)
             .collect();
-        FrameTransforms {
-            transforms: self
-                .branches
+        assert!(lines.iter().any(|line| line["level"] == json!(4)
+            && line["message"] == json!("the submission was stopped")));
+        let messages = read(&written(&sample::task_run()));
+        let saturated = "effort of `shoulder` reached its limit";
+        assert!(
+            messages
                 .iter()
-                .enumerate()
-                .map(|(i, (name, parent))| {
-                    let pose = Pose::new(&match parent {
-                        Some(parent) => world_from[*parent].inv_mul(&world_from[i]),
-                        None => world_from[i],
-                    });
-                    FrameTransform {
-                        timestamp,
-                        parent_frame_id: parent.map_or(WORLD, |parent| &self.branches[parent].0),
-                        child_frame_id: name,
-                        translation: pose.position,
-                        rotation: pose.orientation,
-                    }
-                })
-                .collect(),
-        }
+                .any(|message| message.3["message"] == json!(saturated))
+        );
+        assert!(
+            messages.iter().any(
+                |message| message.3["message"] == json!("going to goal 2 ⟨U+001B⟩[31m⟨U+202E⟩")
+            )
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_left_out() {
+        let run = sample::chain(2, 20, |tick, joint| {
+            if tick == 10 && joint == 0 {
+                f64::NAN
+            } else {
+                0.5
+            }
+        });
+        let messages = read(&written(&run));
+        let at = |topic: &str| {
+            messages
+                .iter()
+                .find(|message| message.0 == topic && message.2 == 10_000_000)
+                .map(|message| &message.3)
+        };
+        assert_eq!(
+            at("/signals").map(|signals| signals.get("q_joint_1").is_some()),
+            Some(false)
+        );
+        assert_eq!(
+            at("/signals").map(|signals| signals.get("q_joint_2").is_some()),
+            Some(true)
+        );
+    }
+
+    #[test]
+    fn a_run_without_a_row_is_a_log_of_its_scene() {
+        let messages = read(&written(&sample::chain(2, 0, |_, _| 0.0)));
+        assert_eq!(messages.len(), 1);
+        assert_eq!(messages[0].0, "/scene");
     }
 }

@@ -23,13 +23,24 @@ impl Time {
 
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Vector {
-    pub(super) x: f64,
-    pub(super) y: f64,
-    pub(super) z: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+/// A billionth is far below what a viewer shows; digits beyond it are noise that does not compress.
+fn rounded(value: f64) -> f64 {
+    if value.abs() > 1e6 {
+        return value;
+    }
+    // adding zero turns -0 into 0
+    (value * 1e9).round() / 1e9 + 0.0
 }
 
 impl Vector {
-    pub(super) fn new([x, y, z]: [f64; 3]) -> Self {
+    /// Rounded to nanometres.
+    pub(super) fn new(metres: [f64; 3]) -> Self {
+        let [x, y, z] = metres.map(rounded);
         Self { x, y, z }
     }
 
@@ -40,10 +51,10 @@ impl Vector {
 
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Quaternion {
-    pub(super) x: f64,
-    pub(super) y: f64,
-    pub(super) z: f64,
-    pub(super) w: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+    w: f64,
 }
 
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -52,13 +63,20 @@ pub(super) struct Pose {
     pub(super) orientation: Quaternion,
 }
 
+impl Quaternion {
+    /// From `[w, x, y, z]`, each element rounded to a billionth.
+    pub(super) fn new(elements: [f64; 4]) -> Self {
+        let [w, x, y, z] = elements.map(rounded);
+        Self { x, y, z, w }
+    }
+}
+
 impl Pose {
     pub(super) fn new(pose: &Isometry) -> Self {
         let p = pose.translation.vector;
-        let [w, x, y, z] = quaternion(pose.rotation.matrix());
         Self {
             position: Vector::new([p.x, p.y, p.z]),
-            orientation: Quaternion { x, y, z, w },
+            orientation: Quaternion::new(quaternion(pose.rotation.matrix())),
         }
     }
 
@@ -66,12 +84,7 @@ impl Pose {
     pub(super) fn at(position_m: [f64; 3]) -> Self {
         Self {
             position: Vector::new(position_m),
-            orientation: Quaternion {
-                x: 0.0,
-                y: 0.0,
-                z: 0.0,
-                w: 1.0,
-            },
+            orientation: Quaternion::new([1.0, 0.0, 0.0, 0.0]),
         }
     }
 }

@@ -6,6 +6,8 @@ mod message;
 mod names;
 mod scene;
 mod schema;
+mod topics;
+mod tree;
 
 pub use layout::layout;
 pub use mcap::{Attachment, LogError, mcap};

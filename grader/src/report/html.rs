@@ -69,6 +69,22 @@ fn foreign(text: &str) -> Markup {
     html! { bdi { (visible(text)) } }
 }
 
+/// A sentence from outside, with what stands in backticks as code.
+fn prose(text: &str) -> Markup {
+    let text = visible(text);
+    let parts: Vec<&str> = text.split('`').collect();
+    if parts.len().is_multiple_of(2) {
+        return foreign(&text);
+    }
+    html! {
+        bdi {
+            @for (i, part) in parts.iter().enumerate() {
+                @if i % 2 == 1 { code { (part) } } @else { (part) }
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

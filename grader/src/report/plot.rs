@@ -2,14 +2,17 @@
 
 mod axis;
 mod canvas;
+mod joints;
 mod path;
+mod plane;
 mod signals;
 mod thin;
 mod timeline;
+mod view;
 
 use kinemark_sim::control::Mode;
 
-use self::signals::Of;
+use self::joints::Of;
 use crate::graded::TaskRun;
 use crate::report::visible::{file_stem, shortened};
 
@@ -52,7 +55,7 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
     of_joints.push(("effort", Of::Efforts));
     for (name, of) in of_joints {
         pictures.extend(
-            signals::joints(run, of)
+            joints::joints(run, of)
                 .into_iter()
                 .map(|picture| (name.to_owned(), picture)),
         );
@@ -90,5 +93,172 @@ impl Plots {
         }
         let title = shortened(&title, 120);
         self.made.push(Plot { name, title, svg });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kinemark_sim::trace::PlotSignal;
+
+    use super::*;
+    use crate::graded::Curve;
+    use crate::report::sample;
+
+    /// What must hold of every picture, whatever the run.
+    fn sound(run: &TaskRun) -> Vec<Plot> {
+        let plots = plots(run);
+        let mut names: Vec<&str> = plots.iter().map(|plot| plot.name.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), plots.len(), "two plots share a name");
+        for plot in &plots {
+            let Plot { name, svg, .. } = plot;
+            assert!(
+                name.bytes()
+                    .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-'),
+                "{name}"
+            );
+            assert!(svg.len() < 60_000, "{name}: {} bytes", svg.len());
+            assert!(
+                svg.starts_with("<svg ") && svg.ends_with("</svg>\n"),
+                "{name}"
+            );
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+            let longest = svg.lines().map(|line| line.matches(',').count()).max();
+            assert!(
+                longest < Some(1_500),
+                "{name}: {longest:?} points in a line"
+            );
+        }
+        plots
+    }
+
+    #[test]
+    fn a_run_has_its_pictures() {
+        let names: Vec<String> = sound(&sample::task_run())
+            .into_iter()
+            .map(|plot| plot.name)
+            .collect();
+        let expected = [
+            "path",
+            "error",
+            "joints",
+            "effort",
+            "check-trajectory-match",
+            "signals",
+        ];
+        assert_eq!(names, expected.map(|name| format!("move-{name}")));
+    }
+
+    #[test]
+    fn the_same_run_gives_the_same_bytes() {
+        assert_eq!(plots(&sample::task_run()), plots(&sample::task_run()));
+    }
+
+    #[test]
+    fn where_a_run_was_stopped_is_marked() {
+        for ticks in [0, 1, 700] {
+            for plot in sound(&sample::stopped_after(ticks)) {
+                assert!(
+                    plot.svg.contains("stopped here"),
+                    "{} after {ticks}",
+                    plot.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_without_a_row_has_empty_axes() {
+        let mut run = sample::chain(2, 0, |_, _| 0.0);
+        run.goals = sample::task_run().goals;
+        for plot in sound(&run) {
+            assert!(
+                plot.svg.contains("stopped here") || plot.name.ends_with("path"),
+                "{}",
+                plot.name
+            );
+        }
+    }
+
+    #[test]
+    fn values_that_are_no_numbers_break_the_line_only() {
+        let wild = |tick: u64, joint: usize| match (tick % 7, joint) {
+            (3, 0) => f64::NAN,
+            (4, 0) => f64::INFINITY,
+            (_, 0) => 1e300,
+            (_, 1) => tick as f64 * -1e305,
+            _ => 1e-300,
+        };
+        let mut run = sample::chain(3, 3000, wild);
+        run.goals = sample::task_run().goals;
+        run.effort_limits = vec![1e-3, 0.0, f64::NAN];
+        run.curves = vec![Curve {
+            check: String::new(),
+            title: "\u{202E}".repeat(500),
+            unit: "m".to_owned(),
+            t_s: vec![0.0, f64::NAN, 1e300, -5.0],
+            values: vec![f64::NAN, 1.0, f64::INFINITY, -1e308],
+            full: Some(f64::NAN),
+            zero: Some(0.0),
+            marks: vec![
+                (f64::NAN, "x".to_owned()),
+                (1e300, "<y>".repeat(99)),
+                (-1.0, "z".to_owned()),
+            ],
+        }];
+        sound(&run);
+    }
+
+    #[test]
+    fn one_value_that_chatters_stays_small() {
+        let chatter = |tick: u64, joint: usize| {
+            if (tick + joint as u64).is_multiple_of(2) {
+                30.0
+            } else {
+                -30.0
+            }
+        };
+        let mut run = sample::chain(6, 60_001, chatter);
+        run.effort_limits = vec![30.0; 6];
+        sound(&run);
+    }
+
+    #[test]
+    fn many_joints_are_spread_over_pictures() {
+        let run = sample::chain(25, 1000, |tick, joint| {
+            libm::sin(0.001 * (tick * joint as u64) as f64)
+        });
+        let count = |word: &str, plots: &[Plot]| {
+            plots.iter().filter(|plot| plot.name.contains(word)).count()
+        };
+        let plots = sound(&run);
+        assert_eq!(
+            ["joints", "velocities", "effort"].map(|word| count(word, &plots)),
+            [5, 5, 5]
+        );
+    }
+
+    #[test]
+    fn hostile_names_are_words_in_a_picture() {
+        let mut run = sample::task_run();
+        let name = "</text><script>alert(1)</script>&\u{0}\u{1b}[2J\u{202E}".repeat(50);
+        let plot = PlotSignal {
+            name,
+            samples: vec![(0, 1.0), (u64::MAX, 2.0)],
+        };
+        run.trace.plots = vec![plot; 40];
+        let plots = sound(&run);
+        let signals: Vec<&Plot> = plots
+            .iter()
+            .filter(|plot| plot.name.contains("signals"))
+            .collect();
+        assert_eq!(signals.len(), 3);
+        for plot in signals {
+            assert!(
+                !plot.svg.contains("<script") && !plot.svg.contains(['\0', '\u{1b}', '\u{202E}'])
+            );
+            assert!(plot.svg.contains("&lt;script"));
+        }
     }
 }

@@ -23,7 +23,7 @@ pub(crate) fn arm() -> Robot {
     );
     RobotFile::parse(source)
         .and_then(|file| file.build(&[]))
-        .unwrap()
+        .expect("the course's robot file is right")
 }
 
 /// Joint positions that bring the TCP sideways to (2, `y`), elbow toward the ceiling.
@@ -53,8 +53,10 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
     let setup = Setup {
         robot,
         tcp: robot.tcp(),
-        seen_from: robot.frame("lab").unwrap(),
-        periods: Periods::new(0.001, 0.001, 0.01).unwrap(),
+        seen_from: robot
+            .frame("lab")
+            .expect("the arm has the frame of its lab"),
+        periods: Periods::new(0.001, 0.001, 0.01).expect("whole periods"),
         gravity_m_s2: Vector3::new(0.0, 0.0, -9.81),
         servo: ServoSettings {
             mode: Mode::Position,
@@ -76,7 +78,7 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
         }
         Ok(())
     };
-    run(&setup, control, &mut recorder).unwrap();
+    run(&setup, control, &mut recorder).expect("the servo fits the arm");
     recorder.finish()
 }
 
@@ -170,6 +172,70 @@ pub(crate) fn stopped_after(ticks: u64) -> TaskRun {
     run.goals.iter_mut().for_each(|goal| goal.stay = None);
     run.curves.clear();
     run
+}
+
+/// Rows of `n` joints as a function of the tick gives them, on a chain of `n` links.
+#[cfg(test)]
+pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> TaskRun {
+    use kinemark_sim::run::{Recorder as _, Row};
+    let mut text = "format = 1\nname = \"chain\"\n[[links]]\nname = \"l0\"\ninertia = { mass_kg = 1.0, com_m = [0.0, 0.0, 0.1], tensor_kg_m2 = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0] }\n".to_owned();
+    for i in 1..=n {
+        let parent = i - 1;
+        text.push_str(&format!(
+            "[[links]]\nname = \"l{i}\"\ninertia = {{ mass_kg = 1.0, com_m = [0.0, 0.0, 0.1], tensor_kg_m2 = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0] }}\n\
+             [[joints]]\nname = \"joint-{i}\"\ntype = \"revolute\"\nparent = \"l{parent}\"\nchild = \"l{i}\"\n\
+             origin = {{ xyz_m = [0.0, 0.0, 0.2] }}\naxis = [0.0, 1.0, 0.0]\n"
+        ));
+    }
+    let robot = RobotFile::parse(Source::new("chain.toml", text))
+        .and_then(|file| file.build(&[]))
+        .expect("the chain is a robot");
+    let gains = Gains {
+        kp: 1.0,
+        ki: 0.0,
+        kd: 0.0,
+        effort_limit: f64::INFINITY,
+        integral_limit: f64::INFINITY,
+    };
+    let setup = Setup {
+        robot: &robot,
+        tcp: robot.tcp(),
+        seen_from: &robot.frames()[0],
+        periods: Periods::new(0.001, 0.001, 0.01).expect("whole periods"),
+        gravity_m_s2: Vector3::new(0.0, 0.0, -9.81),
+        servo: ServoSettings {
+            mode: Mode::Velocity,
+            derivative: Derivative::Error,
+            gains: vec![gains; n],
+            gravity_compensation: false,
+        },
+        start_q: vec![0.0; n],
+        start_qd: vec![0.0; n],
+        ticks,
+    };
+    let mut recorder = TraceRecorder::new(&setup);
+    for tick in 0..ticks {
+        let row: Vec<f64> = (0..n).map(|joint| row(tick, joint)).collect();
+        recorder.row(Row {
+            tick,
+            q: &row,
+            qd: &row,
+            command: &row,
+            effort: &row,
+        });
+    }
+    let trace = recorder.finish();
+    TaskRun {
+        task: "wander".to_owned(),
+        seen_from: "l0".to_owned(),
+        mode: Mode::Velocity,
+        effort_limits: vec![f64::INFINITY; n],
+        trace,
+        goals: Vec::new(),
+        reference_tcp: None,
+        curves: Vec::new(),
+        robot,
+    }
 }
 
 fn part(name: &str, seed: u8) -> Part {

@@ -186,7 +186,7 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     let (to, from) = if measure.zero >= measure.full {
         ("up to", "from")
     } else {
-        ("from", "down to")
+        ("at", "at")
     };
     let mut text = format!(
         "{}: {value}; all points {to} {full}, none {from} {zero}",

@@ -53,7 +53,7 @@ pub(crate) const GREEN: Colour = colour((0, 126, 92), (56, 200, 156));
 /// The reference.
 pub(crate) const PURPLE: Colour = colour((158, 74, 128), (230, 156, 200));
 /// The reference as a dashed line.
-pub(crate) const PURPLE_DASHED: Colour = dashed(PURPLE, "70 40");
+pub(crate) const PURPLE_DASHED: Colour = dashed(PURPLE, "60 70");
 /// A limit that earns all points.
 pub(crate) const GREEN_DASHED: Colour = dashed(GREEN, "60 35");
 /// A limit that earns none, or that must not be passed.

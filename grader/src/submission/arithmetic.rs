@@ -12,6 +12,7 @@ use super::budget::Meter;
 use super::library::{Arguments, Library};
 use super::mistake::{Problem, fault, fault_with_help};
 use super::operand::{Operand, as_number, as_whole};
+use super::range::Range;
 use super::vector::{Matrix, Vector};
 use super::words::{describe, show};
 
@@ -135,7 +136,8 @@ pub(super) fn register(library: &mut Library) {
 
 fn register_comparisons(library: &mut Library) {
     let numbers = [TypeId::of::<f64>(), TypeId::of::<INT>()];
-    let comparisons: [(&'static str, fn(Ordering) -> bool); 4] = [
+    type Holds = fn(Ordering) -> bool;
+    let comparisons: [(&'static str, Holds); 4] = [
         ("<", Ordering::is_lt),
         ("<=", Ordering::is_le),
         (">", Ordering::is_gt),
@@ -185,23 +187,22 @@ fn register_refusals(library: &mut Library) {
 
 /// Ranges between whole numbers, written as whole numbers or not.
 fn register_ranges(library: &mut Library) {
-    fn ends(arguments: Arguments<'_, '_>) -> Result<(INT, INT), Problem> {
-        match (as_whole(arguments[0]), as_whole(arguments[1])) {
-            (Some(from), Some(to)) => Ok((from, to)),
-            _ => Err(fault(format!(
-                "a range goes from one whole number to another, got {} and {}",
-                describe(arguments[0]),
-                describe(arguments[1])
-            ))),
-        }
-    }
     for types in [[TypeId::of::<INT>(); 2], [TypeId::of::<Dynamic>(); 2]] {
-        library.internal("..", &types, |_, arguments| {
-            ends(arguments).map(|(from, to)| Dynamic::from(from..to))
-        });
-        library.internal("..=", &types, |_, arguments| {
-            ends(arguments).map(|(from, to)| Dynamic::from(from..=to))
-        });
+        for (symbol, beyond) in [("..", 0), ("..=", 1)] {
+            library.internal(symbol, &types, move |_, arguments| {
+                match (as_whole(arguments[0]), as_whole(arguments[1])) {
+                    (Some(from), Some(to)) => {
+                        let to = to.saturating_add(beyond);
+                        Ok(Dynamic::from(Range { from, to }))
+                    }
+                    _ => Err(fault(format!(
+                        "a range goes from one whole number to another, got {} and {}",
+                        describe(arguments[0]),
+                        describe(arguments[1])
+                    ))),
+                }
+            });
+        }
     }
 }
 
@@ -311,7 +312,7 @@ fn refuse(operator: Operator, left: &Dynamic, right: &Dynamic) -> Problem {
     );
     let (a, b) = (Operand::of(left), Operand::of(right));
     let help = if left.is_unit() || right.is_unit() {
-        "`()` means that nothing was returned or set; a function returns what `return` or its last line without `;` says"
+        "`()` means that nothing was set or returned: set what is in `this` in init, and end a function with `return`"
     } else {
         match (&a, &b) {
             (Operand::Vector(_), Operand::Matrix(_)) => {

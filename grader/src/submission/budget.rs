@@ -4,11 +4,15 @@ use std::cell::{Cell, RefCell};
 
 use rhai::Position;
 
+use super::copies;
 use super::mistake::Problem;
 use crate::controller::{Budget, Budgets, Place};
 
 /// A built-in that walks over elements costs one operation for this many of them, which takes it about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
+
+/// Copies of vectors are charged this often, in operations.
+const COPIES_EVERY: u64 = 64;
 
 /// Counts one task; shared by the engine and all built-ins.
 #[derive(Debug)]
@@ -18,14 +22,18 @@ pub(super) struct Meter {
     spent: Cell<u64>,
     /// What this call may use.
     allowed: Cell<u64>,
-    /// What the engine counted in this call.
+    /// The engine's count, which goes on from call to call.
     counted: Cell<u64>,
+    /// That count when this call began.
+    counted_before: Cell<u64>,
     /// What built-ins charged in this call beyond that.
     charged: Cell<u64>,
     /// The budget that ran out first.
     exhausted: Cell<Option<Budget>>,
     /// Where a built-in or an operator was last called.
     position: Cell<Position>,
+    /// Where the first result of this call came from that is not a number.
+    not_a_number: RefCell<Option<String>>,
     log: RefCell<Vec<String>>,
     log_lines: Cell<u64>,
     plots: RefCell<Vec<(String, f64)>>,
@@ -39,9 +47,11 @@ impl Meter {
             spent: Cell::new(0),
             allowed: Cell::new(0),
             counted: Cell::new(0),
+            counted_before: Cell::new(0),
             charged: Cell::new(0),
             exhausted: Cell::new(None),
             position: Cell::new(Position::NONE),
+            not_a_number: RefCell::default(),
             log: RefCell::default(),
             log_lines: Cell::new(0),
             plots: RefCell::default(),
@@ -56,15 +66,18 @@ impl Meter {
             .operations_per_task
             .saturating_sub(self.spent.get());
         self.allowed.set(left.min(self.budgets.operations_per_call));
-        self.counted.set(0);
+        self.counted_before.set(self.counted.get());
         self.charged.set(0);
+        // what another script on this thread copied, or this one between calls, is not of this call
+        copies::take();
         self.exhausted.set(None);
+        self.not_a_number.take();
         self.position.set(Position::NONE);
     }
 
     /// Ends a call and returns the operations it used.
     pub(super) fn finish(&self) -> u64 {
-        let used = self.counted.get().saturating_add(self.charged.get());
+        let used = self.used();
         self.spent.set(self.spent.get().saturating_add(used));
         used
     }
@@ -72,12 +85,21 @@ impl Meter {
     /// Takes over the engine's count; false if that is more than the call may use.
     pub(super) fn count(&self, counted: u64) -> bool {
         self.counted.set(counted);
-        let used = counted.saturating_add(self.charged.get());
-        let within = used <= self.allowed.get();
+        if (counted - self.counted_before.get()).is_multiple_of(COPIES_EVERY) {
+            // a copy of a vector takes about as long as an operation; the few that every call makes are free
+            let copies = copies::take().saturating_sub(COPIES_EVERY as usize);
+            self.charged.set(self.charged.get() + copies as u64);
+        }
+        let within = self.used() <= self.allowed.get();
         if !within {
             self.note(self.operations_budget());
         }
         within
+    }
+
+    /// Operations of this call.
+    fn used(&self) -> u64 {
+        (self.counted.get() - self.counted_before.get()).saturating_add(self.charged.get())
     }
 
     /// Charges a built-in for walking over `elements`.
@@ -90,20 +112,20 @@ impl Meter {
         if self.count(self.counted.get()) {
             Ok(())
         } else {
-            Err(Problem::Exhausted(self.operations_budget()))
+            Err(Problem::Exhausted)
         }
     }
 
     /// Refuses a list, vector or matrix of more than the budget's elements, and charges for making it.
     pub(super) fn list(&self, elements: usize) -> Result<(), Problem> {
-        self.charge(elements)?;
-        self.within(Budget::ListSize, elements)
+        self.within(Budget::ListSize, elements)?;
+        self.charge(elements)
     }
 
     /// Refuses a text of more than the budget's bytes, and charges for making it.
     pub(super) fn text(&self, bytes: usize) -> Result<(), Problem> {
-        self.charge(bytes)?;
-        self.within(Budget::TextSize, bytes)
+        self.within(Budget::TextSize, bytes)?;
+        self.charge(bytes)
     }
 
     /// Refuses `amount` of something beyond its budget.
@@ -133,6 +155,23 @@ impl Meter {
         }
         self.plots.borrow_mut().push((name, value));
         Ok(())
+    }
+
+    /// Remembers the first result of a call that is not a number.
+    pub(super) fn note_not_a_number(&self, words: impl FnOnce() -> String) {
+        let mut noted = self.not_a_number.borrow_mut();
+        if noted.is_none() {
+            let place = self.last_place();
+            let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line));
+            *noted = Some(format!("{line}{}", words()));
+        }
+    }
+
+    /// Adds to the log where an answer that is not a number may come from.
+    pub(super) fn log_not_a_number(&self) {
+        if let Some(note) = self.not_a_number.take() {
+            self.log.borrow_mut().push(note);
+        }
     }
 
     /// Hands over what was printed and plotted since the last time.
@@ -173,7 +212,7 @@ impl Meter {
 
     fn exhaust(&self, budget: Budget) -> Problem {
         self.note(budget);
-        Problem::Exhausted(budget)
+        Problem::Exhausted
     }
 
     fn note(&self, budget: Budget) {
@@ -220,8 +259,9 @@ mod tests {
         assert!(meter.count(10));
         assert_eq!(meter.finish(), 10);
         meter.start();
-        assert!(meter.count(5));
-        assert!(!meter.count(6));
+        // the engine's own count goes on
+        assert!(meter.count(15));
+        assert!(!meter.count(16));
         assert_eq!(meter.exhausted(), Some(Budget::OperationsPerTask));
     }
 

@@ -64,6 +64,16 @@ fn numbers(elements: &[f64]) -> Value {
     Value::List(elements.iter().map(|x| Value::Number(*x)).collect())
 }
 
+/// Whether all numbers of a value are finite.
+pub(super) fn is_finite(value: &Value) -> bool {
+    match value {
+        Value::Number(number) => number.is_finite(),
+        Value::List(elements) => elements.iter().all(is_finite),
+        Value::Map(entries) => entries.iter().all(|(_, value)| is_finite(value)),
+        Value::Nothing | Value::Boolean(_) | Value::Text(_) | Value::Other(_) => true,
+    }
+}
+
 /// A value from the grader; a list of numbers becomes a vector.
 pub(super) fn to_dynamic(value: &Value) -> Dynamic {
     match value {

@@ -1,9 +1,10 @@
 //! The language: what is in it and, by leaving it out, what is not.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use rhai::{Dynamic, Engine, Position};
+use rhai::{Dynamic, Engine, EvalAltResult, Position};
 
 use super::budget::Meter;
 use super::hints::Names;
@@ -12,8 +13,17 @@ use super::mistake::raise;
 use super::{arithmetic, linear, list, math, output};
 use crate::controller::Budgets;
 
-/// Constants that functions see, filled as the top level of the file runs.
-pub(super) type Constants = Rc<std::cell::RefCell<BTreeMap<String, Dynamic>>>;
+/// What variables stand for that no function declares.
+#[derive(Default)]
+pub(super) struct Globals {
+    /// Constants, built-in and of the file, filled as its top level runs.
+    pub(super) constants: RefCell<BTreeMap<String, Dynamic>>,
+    /// Arguments of the call to come, each moved out when it is read.
+    pub(super) arguments: [Cell<Dynamic>; 2],
+}
+
+/// The variables through which a call reads its arguments; a script that uses one finds nothing in it.
+pub(super) const ARGUMENTS: [&str; 2] = ["argument_0_of_the_call", "argument_1_of_the_call"];
 
 /// What can be reached by name although nothing registers it.
 const DISABLED: [&str; 8] = [
@@ -31,7 +41,7 @@ const DISABLED: [&str; 8] = [
 pub(super) fn build(
     budgets: &Budgets,
     meter: &Rc<Meter>,
-    constants: &Constants,
+    globals: &Rc<Globals>,
 ) -> (Engine, Names) {
     let mut engine = Engine::new_raw();
     let mut library = Library::new(Rc::clone(meter));
@@ -53,7 +63,7 @@ pub(super) fn build(
     engine.set_fail_on_invalid_map_property(true);
     engine.set_allow_anonymous_fn(false);
     set_limits(&mut engine, budgets, meter);
-    set_callbacks(&mut engine, meter, constants);
+    set_callbacks(&mut engine, meter, globals);
 
     let mut names = Names {
         built_in,
@@ -61,7 +71,8 @@ pub(super) fn build(
     };
     for (name, value) in math::CONSTANTS {
         names.constants.insert((*name).to_owned());
-        constants
+        globals
+            .constants
             .borrow_mut()
             .insert((*name).to_owned(), (*value).into());
     }
@@ -85,18 +96,42 @@ fn set_limits(engine: &mut Engine, budgets: &Budgets, meter: &Rc<Meter>) {
     deprecated,
     reason = "`on_var` is the only way to constants inside functions; the engine's version is pinned by the lock file"
 )]
-fn set_callbacks(engine: &mut Engine, meter: &Rc<Meter>, constants: &Constants) {
-    let constants = Rc::clone(constants);
-    engine.on_var(move |name, offset, _| {
-        // an offset is that of a local variable, which the engine finds itself
-        if offset > 0 {
+fn set_callbacks(engine: &mut Engine, meter: &Rc<Meter>, globals: &Rc<Globals>) {
+    let globals = Rc::clone(globals);
+    let reader = Rc::clone(meter);
+    engine.on_var(move |name, offset, context| {
+        // a local variable lies so far from the end of the scope; the engine finds it itself
+        if let Some(distance) = offset.checked_sub(1) {
+            if let Some((_, _, value)) = context.scope().iter_raw().nth(distance) {
+                charge_for_copy(&reader, value)?;
+            }
             return Ok(None);
         }
-        Ok(constants.borrow().get(name).cloned())
+        if let Some(argument) = ARGUMENTS.iter().position(|known| *known == name) {
+            return Ok(Some(globals.arguments[argument].take()));
+        }
+        match globals.constants.borrow().get(name) {
+            Some(value) => {
+                charge_for_copy(&reader, value)?;
+                Ok(Some(value.clone()))
+            }
+            None => Ok(None),
+        }
     });
     let meter = Rc::clone(meter);
     engine.on_invalid_array_index(move |list, index, _| {
         meter.at(Position::NONE);
         Err(raise(linear::list_index_fault(list, index), Position::NONE))
     });
+}
+
+/// Charges for mentioning a variable as if it were copied, because the engine mostly does and never says when.
+fn charge_for_copy(meter: &Meter, value: &Dynamic) -> Result<(), Box<EvalAltResult>> {
+    if value.is_array() || value.is_map() || value.is_string() {
+        let size = list::size(value);
+        meter
+            .charge(size)
+            .map_err(|problem| raise(problem, Position::NONE))?;
+    }
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Making, indexing and solving with vectors and matrices.
 
 use std::any::TypeId;
-use std::ops::{Range, RangeInclusive};
+use std::ops;
 
 use rhai::{Array, Dynamic, INT, ImmutableString};
 
@@ -9,6 +9,7 @@ use super::budget::Meter;
 use super::library::{Arguments, Library};
 use super::mistake::{Fault, Problem, fault, fault_with_help};
 use super::operand::{Operand, as_number, as_whole, count, matrix, number, vector};
+use super::range::Range;
 use super::vector::{Matrix, Vector};
 use super::words::describe;
 
@@ -404,14 +405,9 @@ fn past_the_end(index: usize, length: usize, container: &str, parts: &str) -> Pr
 }
 
 /// The range of indices a value is.
-fn range(value: &Dynamic) -> Option<Range<usize>> {
-    let (start, end) = if let Some(range) = value.read_lock::<Range<INT>>() {
-        (range.start, range.end)
-    } else {
-        let range = value.read_lock::<RangeInclusive<INT>>()?;
-        (*range.start(), range.end().checked_add(1)?)
-    };
-    Some(usize::try_from(start).ok()?..usize::try_from(end).ok()?)
+fn range(value: &Dynamic) -> Option<ops::Range<usize>> {
+    let range = Range::of(value)?;
+    Some(usize::try_from(range.from).ok()?..usize::try_from(range.to).ok()?)
 }
 
 /// The rule for a list, which the engine indexes itself as long as the index is inside.

@@ -2,7 +2,7 @@
 
 use std::any::TypeId;
 use std::cmp::Ordering;
-use std::ops::{Range, RangeInclusive};
+use std::ops;
 
 use rhai::{Array, Dynamic, INT, ImmutableString, Map};
 
@@ -12,6 +12,7 @@ use super::library::{Arguments, Library};
 use super::linear::index;
 use super::mistake::{Problem, fault, fault_with_help};
 use super::operand::{as_number, as_whole, count, number};
+use super::range::Range;
 use super::vector::{Matrix, Vector};
 use super::words::{describe, show};
 use crate::controller::Budget;
@@ -19,8 +20,9 @@ use crate::controller::Budget;
 pub(super) fn register(library: &mut Library) {
     let module = library.module_mut();
     module.set_iterable::<Array>();
-    module.set_iterable::<Range<INT>>();
-    module.set_iterable::<RangeInclusive<INT>>();
+    module.set_iterable::<Range>();
+    module.set_iterable::<ops::Range<INT>>();
+    module.set_iterable::<ops::RangeInclusive<INT>>();
     module.set_iter(TypeId::of::<ImmutableString>(), |text| {
         let characters: Vec<char> = text
             .as_immutable_string_ref()
@@ -50,12 +52,12 @@ pub(super) fn register(library: &mut Library) {
     });
     library.function("contains", 2, contains);
     library.function("range", 1, |_, arguments| {
-        let end = count("range", arguments[0])? as INT;
-        Ok(Dynamic::from(0..end))
+        let to = count("range", arguments[0])? as INT;
+        Ok(Dynamic::from(Range { from: 0, to }))
     });
     library.function("range", 2, |_, arguments| {
         match (as_whole(arguments[0]), as_whole(arguments[1])) {
-            (Some(from), Some(to)) => Ok(Dynamic::from(from..to)),
+            (Some(from), Some(to)) => Ok(Dynamic::from(Range { from, to })),
             _ => Err(fault("`range` takes whole numbers")),
         }
     });
@@ -156,7 +158,7 @@ fn changeable(value: &Dynamic) -> Result<(), Problem> {
 fn list_mut<'a>(
     name: &str,
     value: &'a mut Dynamic,
-) -> Result<impl std::ops::DerefMut<Target = Array> + use<'a>, Problem> {
+) -> Result<impl ops::DerefMut<Target = Array> + use<'a>, Problem> {
     let got = describe(value);
     value
         .as_array_mut()
@@ -303,9 +305,9 @@ fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Prob
         meter.charge(text.len() + part.len())?;
         return Ok(text.contains(part.as_str()).into());
     }
-    if let Some(range) = container.read_lock::<Range<INT>>() {
+    if let Some(range) = Range::of(container) {
         return Ok(as_whole(wanted)
-            .is_some_and(|whole| range.contains(&whole))
+            .is_some_and(|whole| range.contains(whole))
             .into());
     }
     for element in elements(meter, "contains", container)? {
@@ -316,29 +318,40 @@ fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Prob
     Ok(false.into())
 }
 
-/// How much of each budget of size a value takes up: elements of lists and vectors, entries of maps, bytes of texts.
-///
-/// The engine counts the same but for vectors.
-pub(super) fn weigh(meter: &Meter, value: &Dynamic) -> Result<(), Problem> {
+/// Refuses a value that takes up more of a budget of size than there is, vectors included, which the engine does not count.
+pub(super) fn check_size(meter: &Meter, value: &Dynamic) -> Result<(), Problem> {
     let mut weight = Weight::default();
     weight.add(value);
-    meter.within(Budget::ListSize, weight.elements)?;
+    meter.within(Budget::ListSize, weight.elements + weight.numbers)?;
     meter.within(Budget::MapSize, weight.entries)?;
     meter.within(Budget::TextSize, weight.bytes)
 }
 
+/// How much a copy of a value copies; vectors are shared.
+pub(super) fn size(value: &Dynamic) -> usize {
+    let mut weight = Weight::default();
+    weight.add(value);
+    weight.elements + weight.entries + weight.bytes
+}
+
 #[derive(Default)]
 struct Weight {
+    /// Elements of lists.
     elements: usize,
+    /// Elements of vectors and matrices.
+    numbers: usize,
+    /// Entries of maps.
     entries: usize,
+    /// Bytes of texts.
     bytes: usize,
 }
 
 impl Weight {
     fn add(&mut self, value: &Dynamic) {
-        if let Some(vector) = value.read_lock::<Vector>() {
-            self.elements += vector.len();
-        } else if let Ok(list) = value.as_array_ref() {
+        if value.is_float() || value.is_int() {
+            return;
+        }
+        if let Ok(list) = value.as_array_ref() {
             let list: &Array = &list;
             self.elements += list.len();
             list.iter().for_each(|element| self.add(element));
@@ -348,8 +361,10 @@ impl Weight {
             map.values().for_each(|element| self.add(element));
         } else if let Ok(text) = value.as_immutable_string_ref() {
             self.bytes += text.len();
+        } else if let Some(vector) = value.read_lock::<Vector>() {
+            self.numbers += vector.len();
         } else if let Some(matrix) = value.read_lock::<Matrix>() {
-            self.elements += matrix.rows() * matrix.columns();
+            self.numbers += matrix.rows() * matrix.columns();
         }
     }
 }

@@ -7,26 +7,21 @@ use rhai::{Dynamic, INT};
 
 use super::budget::Meter;
 use super::library::Library;
-use super::mistake::{Problem, fault, fault_with_help};
+use super::mistake::{Problem, fault};
 use super::operand::{Operand, as_number, as_whole, number, vector};
 use super::words::{self, describe};
 
-/// Where a function has a real value, in words.
-type Domain = Option<(fn(f64) -> bool, &'static str, &'static str)>;
+type Unary = fn(f64) -> f64;
+type Binary = fn(f64, f64) -> f64;
 
-const UNIT_INTERVAL: Domain = Some((
-    |x| x.abs() > 1.0,
-    "a number from -1 to 1",
-    "a point out of reach gives such numbers: test for it first, or clamp(x, -1, 1)",
-));
-const NOT_NEGATIVE: Domain = Some((
-    |x| x < 0.0,
-    "a number from 0",
-    "test its sign first, or max(x, 0)",
-));
+/// The numbers for which a function has no real value, and in words those for which it has one.
+type Domain = Option<(fn(f64) -> bool, &'static str)>;
+
+const UNIT_INTERVAL: Domain = Some((|x| x.abs() > 1.0, "a number from -1 to 1"));
+const NOT_NEGATIVE: Domain = Some((|x| x < 0.0, "a number from 0"));
 
 /// Functions of one number.
-const UNARY: &[(&str, fn(f64) -> f64, Domain)] = &[
+const UNARY: &[(&str, Unary, Domain)] = &[
     ("sin", libm::sin, None),
     ("cos", libm::cos, None),
     ("tan", libm::tan, None),
@@ -49,7 +44,7 @@ const UNARY: &[(&str, fn(f64) -> f64, Domain)] = &[
 ];
 
 /// Functions of one number that give whole numbers for whole numbers.
-const ROUNDING: &[(&str, fn(f64) -> f64)] = &[
+const ROUNDING: &[(&str, Unary)] = &[
     ("abs", f64::abs),
     ("sign", sign),
     ("floor", f64::floor),
@@ -59,7 +54,7 @@ const ROUNDING: &[(&str, fn(f64) -> f64)] = &[
 ];
 
 /// Functions of two numbers.
-const BINARY: &[(&str, fn(f64, f64) -> f64)] = &[
+const BINARY: &[(&str, Binary)] = &[
     ("atan2", libm::atan2),
     ("hypot", libm::hypot),
     ("pow", libm::pow),
@@ -114,15 +109,18 @@ fn register_others(library: &mut Library) {
     library.function("round", 2, |meter, arguments| {
         let digits = number("round", arguments[1])?.clamp(0.0, 15.0);
         let scale = libm::pow(10.0, digits.trunc());
-        each(
-            meter,
-            "round",
-            |x| (x * scale).round() / scale,
-            None,
-            arguments[0],
-        )
+        let round = |x: f64| {
+            let scaled = x * scale;
+            // a number that large has no decimals to round
+            if scaled.is_finite() {
+                scaled.round() / scale
+            } else {
+                x
+            }
+        };
+        each(meter, "round", round, None, arguments[0])
     });
-    for (name, function) in [("max", larger as fn(f64, f64) -> f64), ("min", smaller)] {
+    for (name, function) in [("max", larger as Binary), ("min", smaller)] {
         library.function(name, 1, move |meter, arguments| {
             if as_number(arguments[0]).is_some() {
                 return Ok(arguments[0].clone());
@@ -186,17 +184,20 @@ fn each(
     let operand = Operand::of(value);
     // a transcendental function takes about as long as an operation
     meter.charge(8 * operand.elements().saturating_sub(1))?;
-    let outside = |x: f64| domain.is_some_and(|(outside, ..)| outside(x));
-    let refused = match &operand {
-        Operand::Vector(vector) => vector.elements().iter().copied().find(|x| outside(*x)),
-        Operand::Matrix(matrix) => matrix.elements().find(|x| outside(*x)),
-        other => other.number().filter(|x| outside(*x)),
-    };
-    if let (Some(x), Some((_, range, help))) = (refused, domain) {
-        return Err(fault_with_help(
-            format!("`{name}` takes {range}, got {}", words::number(x)),
-            help,
-        ));
+    if let Some((outside, range)) = domain {
+        let refused = match &operand {
+            Operand::Vector(vector) => vector.elements().iter().copied().find(|x| outside(*x)),
+            Operand::Matrix(matrix) => matrix.elements().find(|x| outside(*x)),
+            other => other.number().filter(|x| outside(*x)),
+        };
+        if let Some(x) = refused {
+            meter.note_not_a_number(|| {
+                format!(
+                    "`{name}` takes {range}, got {}: the result is not a number",
+                    words::number(x)
+                )
+            });
+        }
     }
     Ok(match operand {
         Operand::Int(whole) => function(whole as f64).into(),

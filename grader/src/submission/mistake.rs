@@ -3,16 +3,20 @@
 use rhai::{Dynamic, EvalAltResult, LexError, ParseError, ParseErrorType, Position};
 
 use super::budget::{Meter, place};
+use super::foreign;
 use super::hints::{self, Names};
 use crate::controller::{Budget, Mistake, Place, Stop};
+
+/// What to do about a fraction as an index.
+const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
 
 /// Why a built-in has no result.
 #[derive(Debug)]
 pub(super) enum Problem {
     /// The student asked for what cannot be.
     Fault(Fault),
-    /// A budget ran out; a script cannot catch this.
-    Exhausted(Budget),
+    /// A budget ran out, the meter knows which; a script cannot catch this.
+    Exhausted,
 }
 
 /// A mistake without its place, which only the engine knows.
@@ -46,7 +50,7 @@ pub(super) fn fault_with_help(message: impl Into<String>, help: impl Into<String
 pub(super) fn raise(problem: Problem, position: Position) -> Box<EvalAltResult> {
     Box::new(match problem {
         Problem::Fault(fault) => EvalAltResult::ErrorRuntime(Dynamic::from(fault), position),
-        Problem::Exhausted(_) => EvalAltResult::ErrorTerminated(Dynamic::UNIT, position),
+        Problem::Exhausted => EvalAltResult::ErrorTerminated(Dynamic::UNIT, position),
     })
 }
 
@@ -55,22 +59,27 @@ pub(super) struct Context<'a> {
     pub(super) source: &'a str,
     pub(super) meter: &'a Meter,
     pub(super) names: &'a Names,
+    /// Where the function that was called begins.
+    pub(super) beginning: Option<Place>,
 }
 
 impl Context<'_> {
     /// Says why the file is no program.
     pub(super) fn parsing(&self, error: &ParseError) -> Stop {
         let ParseError(kind, position) = error;
-        let place = place(*position).or_else(|| self.end_of_source());
+        // the engine's end of the file is a line after the last
+        let place = place(*position)
+            .filter(|place| self.line(place.line).is_some())
+            .or_else(|| self.end_of_source());
         match &**kind {
             ParseErrorType::ExprTooDeep => self.over(Budget::ExpressionDepth, place),
             ParseErrorType::LiteralTooLarge(what, _) => self.over(size_budget(what), place),
             kind => {
                 let (message, help) = self.parse_words(kind, place);
                 Stop::DidNotBuild(Mistake {
-                    message,
+                    message: shortened(message),
                     place,
-                    help,
+                    help: help.map(shortened),
                 })
             }
         }
@@ -79,16 +88,15 @@ impl Context<'_> {
     /// Says why the run ended.
     pub(super) fn running(&self, error: &EvalAltResult) -> Stop {
         let mut inner = error;
-        let mut caller = Position::NONE;
-        while let EvalAltResult::ErrorInFunctionCall(_, _, nested, position) = inner {
-            if !position.is_none() {
-                caller = *position;
-            }
+        while let EvalAltResult::ErrorInFunctionCall(_, _, nested, _) = inner {
             inner = nested;
         }
-        let place = place(inner.position())
+        // the engine puts the place of the call in the place of a limit that was reached inside
+        let own_place = (!inner.is_system_exception()).then(|| place(inner.position()));
+        let place = own_place
+            .flatten()
             .or_else(|| self.meter.last_place())
-            .or_else(|| place(caller));
+            .or(self.beginning);
         if let Some(budget) = self.meter.exhausted() {
             return self.over(budget, place);
         }
@@ -143,9 +151,20 @@ impl Context<'_> {
                 Some("copy it with `let` first".to_owned()),
             ),
             EvalAltResult::ErrorMismatchDataType(wanted, got, _)
+                if matches!(wanted.as_str(), "i64" | "INT") =>
+            {
+                (
+                    format!(
+                        "the index of a list is a whole number, got {}",
+                        type_words(got)
+                    ),
+                    Some(WHOLE_INDEX.to_owned()),
+                )
+            }
+            EvalAltResult::ErrorMismatchDataType(wanted, got, _)
             | EvalAltResult::ErrorMismatchOutputType(wanted, got, _) => (
                 format!("expected {}, got {}", type_words(wanted), type_words(got)),
-                index_help(wanted),
+                None,
             ),
             EvalAltResult::ErrorStringBounds(length, index, _) => (
                 format!("index {index} is outside of a text of {length}"),
@@ -154,9 +173,9 @@ impl Context<'_> {
             other => (plain(&other.to_string()), None),
         };
         Stop::Crashed(Mistake {
-            message,
+            message: shortened(message),
             place,
-            help,
+            help: help.map(shortened),
         })
     }
 
@@ -208,7 +227,8 @@ impl Context<'_> {
 
     fn parse_words(&self, kind: &ParseErrorType, place: Option<Place>) -> (String, Option<String>) {
         let line = place.and_then(|place| self.line(place.line)).unwrap_or("");
-        let foreign = place.and_then(|place| hints::foreign_syntax(line, place.column));
+        let foreign = place.and_then(|place| foreign::syntax(line, place.column));
+        let at = place.and_then(|place| line.chars().nth(place.column.checked_sub(1)?));
         let (message, help) = match kind {
             ParseErrorType::UnexpectedEOF => (
                 "the file ends in the middle of something".to_owned(),
@@ -225,12 +245,46 @@ impl Context<'_> {
             ParseErrorType::Reserved(word)
             | ParseErrorType::BadInput(LexError::ImproperSymbol(word, _)) => (
                 format!("`{word}` is not available here"),
-                hints::reserved(word),
+                foreign::reserved(word),
             ),
-            ParseErrorType::MissingToken(token, _) if token == ";" => (
-                "a `;` is missing before this".to_owned(),
-                Some("end the statement before it with `;`".to_owned()),
+            ParseErrorType::MissingToken(token, _) if token == ";" => {
+                let help = "end the statement before it with `;`".to_owned();
+                return (
+                    "a `;` is missing before this".to_owned(),
+                    foreign.or(Some(help)),
+                );
+            }
+            ParseErrorType::MissingToken(token, _) if token == "]" && at == Some(',') => (
+                "a `]` is missing before this".to_owned(),
+                Some("an element of a matrix is m[row][column]".to_owned()),
             ),
+            ParseErrorType::MissingToken(token, what) if token == "," => {
+                let closing = if what.contains("array") {
+                    "]"
+                } else if what.contains("map") {
+                    "}"
+                } else {
+                    ")"
+                };
+                (
+                    format!("a `{closing}` or a `,` is missing before this"),
+                    None,
+                )
+            }
+            ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | "]" | "}") => {
+                (format!("a `{token}` is missing before this"), None)
+            }
+            ParseErrorType::MalformedIndexExpr(text) if text.contains("integer") => (
+                "the index of a list is a whole number".to_owned(),
+                Some(WHOLE_INDEX.to_owned()),
+            ),
+            ParseErrorType::MismatchedType(wanted, _) if wanted.contains("iterable") => (
+                "`for` goes over a range, a list, a vector or a text".to_owned(),
+                Some("count with `for i in 0..n`".to_owned()),
+            ),
+            ParseErrorType::BadInput(LexError::UnexpectedInput(sign)) if sign == "|" => {
+                ("unexpected `|`".to_owned(), foreign::reserved("|"))
+            }
             ParseErrorType::AssignmentToConstant(name) => (
                 format!("`{name}` is a constant and cannot change"),
                 Some("declare it with `let`, or keep what changes in `this`".to_owned()),
@@ -245,8 +299,17 @@ impl Context<'_> {
             ),
             other => (plain(&other.to_string()), None),
         };
-        (message, foreign.or(help))
+        (message, help.or(foreign))
     }
+}
+
+/// Keeps a message readable when a name or text in it is endless.
+fn shortened(text: String) -> String {
+    const LONGEST: usize = 400;
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain("...".chars()).collect()
 }
 
 fn size_budget(what: &str) -> Budget {
@@ -293,11 +356,8 @@ fn type_words(kind: &str) -> String {
         "vector" => "a vector".to_owned(),
         "matrix" => "a matrix".to_owned(),
         other if other.contains("ImmutableString") => "a text".to_owned(),
+        other if other.ends_with("Vector") => "a vector".to_owned(),
+        other if other.ends_with("Matrix") => "a matrix".to_owned(),
         other => other.to_owned(),
     }
-}
-
-fn index_help(wanted: &str) -> Option<String> {
-    (wanted == "i64" || wanted == "INT")
-        .then(|| "make it whole with round(x), or keep numbers in a vector".to_owned())
 }

@@ -7,7 +7,9 @@
 mod arithmetic;
 mod budget;
 mod convert;
+mod copies;
 mod engine;
+mod foreign;
 mod hints;
 mod library;
 mod linear;
@@ -16,8 +18,11 @@ mod math;
 mod mistake;
 mod operand;
 mod output;
+mod range;
 mod script;
+#[cfg(test)]
+mod tests;
 mod vector;
 mod words;
 
-pub use script::ScriptController;
+pub use script::{STACK_BYTES, ScriptController};

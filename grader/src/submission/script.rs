@@ -1,17 +1,16 @@
 //! The script as a [`Controller`]: opened once per task, called once per case or control period.
 
-use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use rhai::{
-    AST, ASTNode, Caches, CallFnOptions, Dynamic, Engine, EvalAltResult, Expr, Map, Position,
+    AST, ASTNode, Caches, Dynamic, Engine, EvalAltResult, Expr, GlobalRuntimeState, Map, Position,
     Scope, Stmt,
 };
 
 use super::budget::{Meter, place};
 use super::convert;
-use super::engine::{self, Constants};
+use super::engine::{self, ARGUMENTS, Globals};
 use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::mistake::{Context, Problem, raise};
@@ -19,19 +18,40 @@ use crate::controller::{
     Answer, Budget, Call, Controller, Mistake, Opening, RobotFacts, Stop, Value,
 };
 
+/// The stack a thread needs on which scripts run.
+///
+/// The engine calls itself for functions within functions and expressions within expressions. The deepest script the default
+/// budgets allow takes 4 MiB of it in an optimised build and several times as much in one that is not.
+pub const STACK_BYTES: usize = 32 << 20;
+
 /// A script that has been read and may be called.
 pub struct ScriptController {
     engine: Engine,
     ast: AST,
     source: String,
     meter: Rc<Meter>,
+    globals: Rc<Globals>,
     names: Names,
-    /// What `this` is: a map that is kept between calls.
-    memory: Dynamic,
+    run: Run,
     task: String,
     robot: CachedRobot,
     observation: Map,
+    /// One statement for each function that may be called: `memory.control(argument)`.
+    ///
+    /// A method call, because that is how the engine gives a function its `this`.
+    statements: BTreeMap<&'static str, AST>,
 }
+
+/// The engine's state, kept from call to call so that it need not look up every operator and built-in again.
+struct Run {
+    global: GlobalRuntimeState,
+    caches: Caches,
+    /// Holds [`MEMORY`].
+    scope: Scope<'static>,
+}
+
+/// The variable that is `this` in a call: a map that is kept between calls.
+const MEMORY: &str = "memory";
 
 /// The map `robot`, made again only for another robot.
 struct CachedRobot {
@@ -71,8 +91,8 @@ impl ScriptController {
             });
         }
         let meter = Rc::new(Meter::new(budgets.clone()));
-        let constants: Constants = Rc::new(RefCell::default());
-        let (engine, mut names) = engine::build(budgets, &meter, &constants);
+        let globals = Rc::new(Globals::default());
+        let (engine, mut names) = engine::build(budgets, &meter, &globals);
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
         names.observation = observation.keys().map(ToString::to_string).collect();
@@ -82,29 +102,45 @@ impl ScriptController {
             .map(|map| map.keys().map(ToString::to_string).collect())
             .unwrap_or_default();
 
+        // an editor's mark of the encoding, which nobody sees
+        let source = opening.source.trim_start_matches('\u{feff}');
         let context = Context {
-            source: &opening.source,
+            source,
             meter: &meter,
             names: &names,
+            beginning: None,
         };
         let ast = engine
-            .compile(&opening.source)
+            .compile(source)
             .map_err(|error| context.parsing(&error))?;
         refuse_known_slips(&ast)?;
         collect_names(&ast, &mut names);
 
+        let mut global = engine.new_global_runtime_state();
+        global.lib.push(ast.shared_lib().clone());
+        let mut scope = Scope::new();
+        scope.push_dynamic(MEMORY, Dynamic::from_map(Map::new()));
+        let statements = call_statements(&engine, &scope, &names)?;
+        let mut caches = Caches::new();
+        caches.push_fn_resolution_cache();
         let mut script = Self {
             engine,
             ast,
-            source: opening.source.clone(),
+            source: source.to_owned(),
             meter,
+            globals,
             names,
-            memory: Dynamic::from_map(Map::new()),
+            run: Run {
+                global,
+                caches,
+                scope,
+            },
             task: opening.task.clone(),
             robot,
             observation,
+            statements,
         };
-        script.run_top_level(&constants)?;
+        script.run_top_level()?;
         Ok(script)
     }
 
@@ -113,27 +149,29 @@ impl ScriptController {
         deprecated,
         reason = "the engine's other ways run all statements at once"
     )]
-    fn run_top_level(&mut self, constants: &Constants) -> Result<(), Stop> {
+    fn run_top_level(&mut self) -> Result<(), Stop> {
         self.meter.start();
-        let mut global = self.engine.new_global_runtime_state();
-        global.lib.push(self.ast.shared_lib().clone());
-        let mut caches = Caches::new();
         let mut scope = Scope::new();
         for statement in self.ast.statements() {
-            self.engine
+            // a constant is found in the scope, and the value of a bare expression is of no use
+            let _ = self
+                .engine
                 .eval_statements_raw(
-                    &mut global,
-                    &mut caches,
+                    &mut self.run.global,
+                    &mut self.run.caches,
                     &mut scope,
                     std::slice::from_ref(statement),
                 )
-                .map_err(|error| self.context().running(&error))?;
+                .map_err(|error| {
+                    let mut context = self.context(None);
+                    context.beginning = place(statement.position());
+                    context.running(&error)
+                })?;
             if let Stmt::Var(declared, ..) = statement {
                 let name = declared.0.as_str();
                 if let (Some(true), Some(value)) = (scope.is_constant(name), scope.get(name)) {
-                    constants
-                        .borrow_mut()
-                        .insert(name.to_owned(), value.clone());
+                    let mut constants = self.globals.constants.borrow_mut();
+                    constants.insert(name.to_owned(), value.clone());
                     self.names.constants.insert(name.to_owned());
                 }
             }
@@ -142,11 +180,20 @@ impl ScriptController {
         Ok(())
     }
 
-    fn context(&self) -> Context<'_> {
+    /// What words are made from, for a run of `function` or of the top level.
+    fn context(&self, function: Option<&str>) -> Context<'_> {
+        let body = function.and_then(|name| {
+            let parameters = entry_parameters(name).len();
+            self.ast
+                .iter_fn_def()
+                .find(|function| function.name == name && function.params.len() == parameters)
+                .map(|function| function.body.start_position())
+        });
         Context {
             source: &self.source,
             meter: &self.meter,
             names: &self.names,
+            beginning: body.and_then(place),
         }
     }
 
@@ -155,54 +202,58 @@ impl ScriptController {
         self.meter.take_output()
     }
 
+    #[expect(
+        deprecated,
+        reason = "the engine's other ways look up every operator and built-in again at each call"
+    )]
     fn call_function(
         &mut self,
-        name: &str,
+        name: &'static str,
         arguments: impl IntoIterator<Item = Dynamic>,
     ) -> Result<Value, Stop> {
-        let arguments: Vec<Dynamic> = arguments.into_iter().collect();
-        let options = CallFnOptions::new()
-            .eval_ast(false)
-            .bind_this_ptr(&mut self.memory);
-        let result = self.engine.call_fn_with_options::<Dynamic>(
-            options,
-            &mut Scope::new(),
-            &self.ast,
-            name,
-            arguments,
-        );
-        let value = result.map_err(|error| self.context().running(&error))?;
-        self.check_memory()?;
-        convert::to_value(&self.meter, &value).map_err(|problem| self.after_call(problem))
+        let Some(statement) = self.statements.get(name) else {
+            return Err(Stop::GraderFault(format!("no statement calls `{name}`")));
+        };
+        for (cell, argument) in self.globals.arguments.iter().zip(arguments) {
+            cell.set(argument);
+        }
+        let Run {
+            global,
+            caches,
+            scope,
+        } = &mut self.run;
+        let result = self
+            .engine
+            .eval_statements_raw(global, caches, scope, statement.statements());
+        let value = result.map_err(|error| self.context(Some(name)).running(&error))?;
+        self.check_memory(name)?;
+        convert::to_value(&self.meter, &value).map_err(|problem| self.after_call(name, problem))
     }
 
     /// Holds `this` to the budgets of size as a whole, vectors included.
-    fn check_memory(&self) -> Result<(), Stop> {
-        if !self.memory.is_map() {
+    fn check_memory(&self, name: &str) -> Result<(), Stop> {
+        let memory = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
+        if !memory.is_map() {
             return Err(Stop::Crashed(Mistake {
                 message: "`this` is no map any more".to_owned(),
                 place: None,
                 help: Some("keep values under names: this.count = 0".to_owned()),
             }));
         }
-        list::weigh(&self.meter, &self.memory).map_err(|problem| self.after_call(problem))
+        list::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
     }
 
-    fn after_call(&self, problem: Problem) -> Stop {
+    /// What a problem with the answer or `this` of `function` stops.
+    fn after_call(&self, function: &str, problem: Problem) -> Stop {
         let error: Box<EvalAltResult> = raise(problem, Position::NONE);
-        self.context().running(&error)
+        self.context(Some(function)).running(&error)
     }
 
+    /// The stop for a function that is not there, or has other parameters; none if it need not be there.
     fn missing(&self, name: &str) -> Option<Stop> {
-        let (_, parameters) = ENTRY_POINTS.iter().find(|(entry, _)| *entry == name)?;
-        let found = self
-            .names
-            .functions
-            .iter()
-            .any(|(known, got)| known == name && got.len() == parameters.len());
-        let is_optional =
-            name == "init" && !self.names.functions.iter().any(|(known, _)| known == name);
-        (!found && !is_optional).then(|| Stop::Missing {
+        let parameters = entry_parameters(name);
+        let has_namesake = self.names.functions.iter().any(|(known, _)| known == name);
+        (name != "init" || has_namesake).then(|| Stop::Missing {
             function: format!("{name}({})", parameters.join(", ")),
             help: self.names.missing(name, parameters),
         })
@@ -217,7 +268,8 @@ impl Controller for ScriptController {
             Call::Init => "init",
             Call::Control(_) => "control",
         };
-        if let Some(missing) = self.missing(name) {
+        let defined = self.statements.contains_key(name);
+        if !defined && let Some(missing) = self.missing(name) {
             return Err(missing);
         }
         self.meter.start();
@@ -232,9 +284,7 @@ impl Controller for ScriptController {
                 let robot = self.robot.of(robot);
                 self.call_function(name, [robot, vector(position_m)])
             }
-            Call::Init if !self.names.functions.iter().any(|(known, _)| known == name) => {
-                Ok(Value::Nothing)
-            }
+            Call::Init if !defined => Ok(Value::Nothing),
             Call::Init => {
                 let robot = self.robot.map.clone();
                 let task = self.task.as_str().into();
@@ -247,6 +297,9 @@ impl Controller for ScriptController {
         };
         let operations = self.meter.finish();
         let value = value?;
+        if !convert::is_finite(&value) {
+            self.meter.log_not_a_number();
+        }
         let (log, plots) = self.meter.take_output();
         Ok(Answer {
             value,
@@ -257,34 +310,72 @@ impl Controller for ScriptController {
     }
 }
 
+/// Makes the statements that call the file's functions.
+fn call_statements(
+    engine: &Engine,
+    scope: &Scope<'_>,
+    names: &Names,
+) -> Result<BTreeMap<&'static str, AST>, Stop> {
+    let defined = |name: &str, parameters: usize| {
+        let mut functions = names.functions.iter();
+        functions.any(|(known, got)| known == name && got.len() == parameters)
+    };
+    ENTRY_POINTS
+        .iter()
+        .filter(|(name, parameters)| defined(name, parameters.len()))
+        .map(|&(name, parameters)| {
+            let arguments = ARGUMENTS[..parameters.len()].join(", ");
+            let text = format!("{MEMORY}.{name}({arguments})");
+            let statement = engine
+                .compile_with_scope(scope, text)
+                .map_err(|error| Stop::GraderFault(format!("the call of `{name}`: {error}")))?;
+            Ok((name, statement))
+        })
+        .collect()
+}
+
+/// What the grader calls a function with; nothing for a function it does not call.
+fn entry_parameters(name: &str) -> &'static [&'static str] {
+    ENTRY_POINTS
+        .iter()
+        .find(|(entry, _)| *entry == name)
+        .map_or(&[], |(_, parameters)| parameters)
+}
+
 /// Refuses what the engine would run with another meaning than the student's.
 fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
-    let mut slip = None;
+    let mut slips = Vec::new();
     ast.walk(&mut |path| {
-        slip = match path.last() {
-            Some(ASTNode::Expr(Expr::FnCall(call, position))) if call.name == "^" => Some((
-                "`^` is not a power here",
-                "use ** for powers: x ** 2",
-                *position,
-            )),
+        match path.last() {
+            Some(ASTNode::Expr(Expr::FnCall(call, position))) if call.name == "^" => {
+                slips.push((
+                    place(*position),
+                    "`^` is not a power here",
+                    "use ** for powers: x ** 2",
+                ));
+            }
             Some(ASTNode::Expr(Expr::Index(index, _, position)))
                 if matches!(index.rhs, Expr::IntegerConstant(index, _) if index < 0) =>
             {
-                Some((
+                slips.push((
+                    place(*position),
                     "an index is negative",
                     "counting starts at 0; the last is v[len(v) - 1]",
-                    *position,
-                ))
+                ));
             }
-            _ => None,
-        };
-        slip.is_none()
+            _ => {}
+        }
+        true
     });
-    match slip {
+    // the first in the file, because the engine keeps functions in an order of its own
+    let first = slips
+        .into_iter()
+        .min_by_key(|(place, ..)| place.map(|place| (place.line, place.column)));
+    match first {
         None => Ok(()),
-        Some((message, help, position)) => Err(Stop::DidNotBuild(Mistake {
+        Some((place, message, help)) => Err(Stop::DidNotBuild(Mistake {
             message: message.to_owned(),
-            place: place(position),
+            place,
             help: Some(help.to_owned()),
         })),
     }

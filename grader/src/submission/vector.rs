@@ -7,9 +7,18 @@ use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::copies;
+
 /// A column of numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Vector(Rc<DVector<f64>>);
+
+impl Clone for Vector {
+    fn clone(&self) -> Self {
+        copies::count_one();
+        Self(Rc::clone(&self.0))
+    }
+}
 
 impl Vector {
     pub(super) fn new(elements: Vec<f64>) -> Self {
@@ -49,8 +58,15 @@ impl FromIterator<f64> for Vector {
 }
 
 /// Rows and columns of numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Matrix(Rc<DMatrix<f64>>);
+
+impl Clone for Matrix {
+    fn clone(&self) -> Self {
+        copies::count_one();
+        Self(Rc::clone(&self.0))
+    }
+}
 
 impl Matrix {
     pub(super) fn from_fn(
@@ -203,20 +219,61 @@ impl Matrix {
 
 impl IntoIterator for Vector {
     type Item = f64;
-    type IntoIter = std::vec::IntoIter<f64>;
+    type IntoIter = Elements;
 
-    fn into_iter(self) -> Self::IntoIter {
-        self.elements().to_vec().into_iter()
+    fn into_iter(self) -> Elements {
+        Elements {
+            vector: self,
+            next: 0,
+        }
     }
 }
 
 impl IntoIterator for Matrix {
     type Item = Vector;
-    type IntoIter = std::vec::IntoIter<Vector>;
+    type IntoIter = Rows;
 
-    fn into_iter(self) -> Self::IntoIter {
-        let rows: Vec<Vector> = (0..self.rows()).map(|i| self.row(i)).collect();
-        rows.into_iter()
+    fn into_iter(self) -> Rows {
+        Rows {
+            matrix: self,
+            next: 0,
+        }
+    }
+}
+
+/// Goes over a vector without a copy of it.
+#[derive(Debug)]
+pub(super) struct Elements {
+    vector: Vector,
+    next: usize,
+}
+
+impl Iterator for Elements {
+    type Item = f64;
+
+    fn next(&mut self) -> Option<f64> {
+        let element = self.vector.elements().get(self.next).copied()?;
+        self.next += 1;
+        Some(element)
+    }
+}
+
+/// Goes over the rows of a matrix, each made when it is needed.
+#[derive(Debug)]
+pub(super) struct Rows {
+    matrix: Matrix,
+    next: usize,
+}
+
+impl Iterator for Rows {
+    type Item = Vector;
+
+    fn next(&mut self) -> Option<Vector> {
+        if self.next == self.matrix.rows() {
+            return None;
+        }
+        self.next += 1;
+        Some(self.matrix.row(self.next - 1))
     }
 }
 

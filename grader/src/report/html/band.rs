@@ -23,6 +23,10 @@ pub(super) fn told(measure: &Measure) -> Told {
     let unit = visible(unit);
     let (full, zero) = (measure.full * scale, measure.zero * scale);
     let value = match measure.value {
+        // what is left of rounding says nothing: it is neither small nor smaller
+        Some(value) if value.abs() < 1e-9 * typical && measure.margin() > Some(0.0) => {
+            joined("≈ 0", &unit)
+        }
         Some(value) => joined(&told_apart(value * scale, full), &unit),
         None => "not a finite number".to_owned(),
     };
@@ -62,7 +66,7 @@ pub(super) fn gauge(measure: &Measure) -> Markup {
     let x = |at: f64| 20.0 + 80.0 * (at.clamp(-0.5, 1.5) + 0.5);
     let label = |x: f64| format!("{x:.1}");
     html! {
-        svg class="gauge" viewBox="0 0 200 22" aria-hidden="true" focusable="false" {
+        svg class="gauge" viewBox="18 0 164 22" aria-hidden="true" focusable="false" {
             rect class="full" x="20" y="9" width="40" height="6" rx="1" {}
             rect class="partial" x="60" y="9" width="80" height="6" {}
             rect class="none" x="140" y="9" width="40" height="6" rx="1" {}
@@ -133,6 +137,18 @@ mod tests {
         assert_eq!(
             told.margin.as_deref(),
             Some("0.05\u{a0}m inside full points")
+        );
+    }
+
+    #[test]
+    fn rounding_is_told_as_nothing() {
+        assert_eq!(
+            told(&measure(Some(2.2e-16), 1e-4, 5e-3)).value,
+            "≈ 0\u{a0}mm"
+        );
+        assert_eq!(
+            told(&measure(Some(2.2e-16), 0.0, 5e-3)).value,
+            "2.2e\u{2212}13\u{a0}mm"
         );
     }
 

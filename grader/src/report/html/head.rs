@@ -103,33 +103,34 @@ pub(super) fn head(grade: &Grade) -> Markup {
     }
 }
 
-/// The table of scores: every task, every check.
+/// The table of scores: every task, every check. On a narrow screen its rows are laid out as blocks, which would cost a screen
+/// reader the table; hence the roles.
 pub(super) fn scores(grade: &Grade) -> Markup {
     html! {
         section id="scores" aria-labelledby="scores-title" tabindex="-1" {
             h2 id="scores-title" { "Scores" }
             div class="wide" {
-                table class="scores" {
+                table class="scores" role="table" {
                     caption class="unseen" { "Points of every check, with the value measured and the band it was judged by" }
-                    thead {
-                        tr {
-                            th scope="col" { "Check" }
-                            th scope="col" { "Measured" }
-                            th scope="col" class="number" { "Points" }
-                            th scope="col" { "Outcome" }
+                    thead role="rowgroup" {
+                        tr role="row" {
+                            th scope="col" role="columnheader" { "Check" }
+                            th scope="col" role="columnheader" { "Measured" }
+                            th scope="col" role="columnheader" class="number" { "Points" }
+                            th scope="col" role="columnheader" { "Outcome" }
                         }
                     }
                     @for (i, task) in grade.tasks.iter().enumerate() {
-                        tbody {
+                        tbody role="rowgroup" {
                             (task_row(i, task))
                             @for check in &task.checks { (check_row(check)) }
                         }
                     }
-                    tfoot {
-                        tr {
-                            th scope="row" colspan="2" { "All tasks" }
-                            td class="number" { (earned(grade.points, grade.max_points)) }
-                            td { (verdict(grade.verdict)) }
+                    tfoot role="rowgroup" {
+                        tr role="row" {
+                            th scope="row" role="rowheader" colspan="2" { "All tasks" }
+                            td role="cell" class="number" { (earned(grade.points, grade.max_points)) }
+                            td role="cell" { (verdict(grade.verdict)) }
                         }
                     }
                 }
@@ -140,27 +141,27 @@ pub(super) fn scores(grade: &Grade) -> Markup {
 
 fn task_row(index: usize, task: &TaskGrade) -> Markup {
     html! {
-        tr class="task" {
-            th scope="rowgroup" colspan="2" { a href={ "#" (anchor(index)) } { (foreign(&task.title)) } }
-            td class="number" { (earned(task.points, task.max_points)) }
-            td { (verdict(task.verdict)) }
+        tr class="task" role="row" {
+            th scope="rowgroup" role="rowheader" colspan="2" { a href={ "#" (anchor(index)) } { (foreign(&task.title)) } }
+            td role="cell" class="number" { (earned(task.points, task.max_points)) }
+            td role="cell" { (verdict(task.verdict)) }
         }
     }
 }
 
 fn check_row(check: &CheckGrade) -> Markup {
     html! {
-        tr {
-            th scope="row" { (foreign(&check.title)) }
-            td {
+        tr role="row" {
+            th scope="row" role="rowheader" { (foreign(&check.title)) }
+            td role="cell" {
                 @if let Some(measure) = &check.measure {
                     @let told = told(measure);
                     span class="value" { (told.value) } " "
                     small { (told.band) }
                 } @else { span class="quiet" { "–" } }
             }
-            td class="number" { (earned(check.points, check.max_points)) }
-            td { (outcome(check)) }
+            td role="cell" class="number" { (earned(check.points, check.max_points)) }
+            td role="cell" { (outcome(check)) }
         }
     }
 }

@@ -3,8 +3,8 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::band::{gauge, outcome, told};
-use super::foreign;
 use super::head::{anchor, earned, meaning, verdict};
+use super::{foreign, prose};
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Evidence, HiddenClass, LogEntry, Outcome, Stopped, TaskGrade,
     TaskKind,
@@ -45,7 +45,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                 h3 { "Plots" }
                 div class="plots" {
                     @for plot in plots {
-                        figure { @for part in plot.inline() { (PreEscaped(part)) } }
+                        figure tabindex="0" aria-label=(plot.title) { @for part in plot.inline() { (PreEscaped(part)) } }
                     }
                 }
             }
@@ -59,7 +59,7 @@ fn stopped(stop: &Stopped) -> Markup {
     html! {
         div class="note bad" {
             h3 { "What stopped it" }
-            p { (foreign(&stop.message)) }
+            p { (prose(&stop.message)) }
             p class="where" {
                 @if let Some(line) = stop.line {
                     span { "line " (line) @if let Some(column) = stop.column { ", column " (column) } }
@@ -69,7 +69,7 @@ fn stopped(stop: &Stopped) -> Markup {
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
             @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
-            @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (foreign(help)) } }
+            @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
         }
     }
 }
@@ -105,7 +105,7 @@ fn diagnosed(diagnosis: &Diagnosis) -> Markup {
     html! {
         div class="note hint" {
             h3 { "It looks like this" }
-            p { (foreign(&diagnosis.says)) }
+            p { (prose(&diagnosis.says)) }
             p class="where" {
                 span { (diagnosis.agreeing) " of the " (diagnosis.telling) " answers in which this mistake would show agree with it" }
             }
@@ -136,14 +136,14 @@ fn checked(check: &CheckGrade) -> Markup {
             @if !check.evidence.is_empty() {
                 ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact)) } } }
             }
-            @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (foreign(next)) } }
+            @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
         }
     }
 }
 
 fn evidence(fact: &Evidence) -> Markup {
     html! {
-        p { (foreign(&fact.message)) }
+        p { (prose(&fact.message)) }
         p class="where" {
             @if let Some(t_s) = fact.time_s { span { "at " (seconds(t_s)) } }
             @if let Some(tick) = fact.tick { span { "tick " (tick) } }

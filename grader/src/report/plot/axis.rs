@@ -40,8 +40,8 @@ impl Axis {
 
     /// Logarithmic from `min` up to what holds `max`, in whole decades.
     pub(super) fn decades(min: f64, max: f64) -> Self {
-        let low = exponent(min.max(1e-12));
-        let high = exponent(max.clamp(min.max(1e-12) * 1.001, HUGE)) + 1;
+        let low = exponent(min.clamp(1e-12, HUGE));
+        let high = exponent(max.clamp(1e-12, HUGE)) + 1;
         Self {
             min: power_of_ten(low),
             max: power_of_ten(high.max(low + 1)),

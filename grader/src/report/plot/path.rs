@@ -3,235 +3,25 @@
 use kinemark_sim::kinematics::FramePoses;
 use nalgebra::Vector3;
 
-use super::axis::{Axis, extent};
+use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
+use super::plane::Plane;
 use super::signals::stopped_s;
 use super::thin::in_plane;
+use super::view::{LEFT, RIGHT, View};
 use crate::graded::{Goal, TaskRun};
 use crate::quantity::seconds;
 use crate::report::goal::distances_m;
 use crate::report::number::with_unit;
-use crate::report::theme::{
-    BLUE, FRAME, GREEN, GRID, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
-};
+use crate::report::theme::{BLUE, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION};
 use crate::report::visible::shortened;
 
-const LEFT: f64 = 68.0;
-const RIGHT: f64 = WIDTH - 20.0;
-/// The main view's height lies between these \[px\].
-const LOWEST: f64 = 200.0;
-const HIGHEST: f64 = 420.0;
 /// A goal's circle smaller than this needs a close look \[px\].
 const TOO_SMALL: f64 = 14.0;
 /// Goals that get one.
 const MOST_CLOSE_LOOKS: usize = 6;
 /// Goals that are drawn.
 const MOST_GOALS: usize = 200;
-
-/// One axis of the plane: which coordinate, and whether it is drawn backwards.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Along {
-    coordinate: usize,
-    backwards: bool,
-    /// Which way it points in the world, in a word.
-    toward: &'static str,
-}
-
-impl Along {
-    fn of(&self, p: &[f64; 3]) -> f64 {
-        let value = p[self.coordinate];
-        if self.backwards { -value } else { value }
-    }
-
-    fn label(&self, unit: &str) -> String {
-        let letter = ["x", "y", "z"][self.coordinate];
-        format!("{letter}{} [{unit}]", self.toward)
-    }
-}
-
-/// The plane of a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Plane {
-    across: Along,
-    up: Along,
-}
-
-impl Plane {
-    /// The two coordinates of greatest extent; the one that points up in the world is drawn upwards.
-    fn of(points: &[[f64; 3]], upward: [f64; 3]) -> Self {
-        let span =
-            |c: usize| extent(points.iter().map(|p| p[c])).map_or(0.0, |(min, max)| max - min);
-        let spans = [span(0), span(1), span(2)];
-        let mut left_out = 2;
-        for c in [1, 0] {
-            // a coordinate that only trembles is not preferred to one that does not move at all
-            if spans[c] < spans[left_out] - 1e-9 {
-                left_out = c;
-            }
-        }
-        let kept: Vec<usize> = (0..3).filter(|c| *c != left_out).collect();
-        let (first, second) = (kept[0], kept[1]);
-        let (across, up) = if upward[first].abs() > upward[second].abs().max(0.5) {
-            (second, first)
-        } else {
-            (first, second)
-        };
-        let along = |coordinate: usize, backwards: bool| Along {
-            coordinate,
-            backwards,
-            toward: match upward[coordinate] {
-                u if u > 0.999 => ", up",
-                u if u < -0.999 => ", down",
-                u if u.abs() < 1e-3 => ", sideways",
-                _ => "",
-            },
-        };
-        Self {
-            across: along(across, false),
-            up: along(up, upward[up] < -0.5),
-        }
-    }
-
-    fn flat(&self, p: &[f64; 3]) -> (f64, f64) {
-        (self.across.of(p), self.up.of(p))
-    }
-}
-
-/// A view of the plane: metres to pixels, the same scale both ways.
-#[derive(Debug, Clone, Copy)]
-struct View {
-    x: Axis,
-    y: Axis,
-    left: f64,
-    top: f64,
-    pixels_per_m: f64,
-}
-
-impl View {
-    fn width(&self) -> f64 {
-        (self.x.max - self.x.min) * self.pixels_per_m
-    }
-
-    fn height(&self) -> f64 {
-        (self.y.max - self.y.min) * self.pixels_per_m
-    }
-
-    fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
-        let x = self.left + (x - self.x.min) * self.pixels_per_m;
-        let y = self.top + (self.y.max - y) * self.pixels_per_m;
-        (x.clamp(-5e3, 5e3), y.clamp(-5e3, 5e3))
-    }
-
-    /// Holds all points with air around them, in a frame of full width.
-    fn around(points: &[(f64, f64)], top: f64) -> Self {
-        let reach = |of: fn(&(f64, f64)) -> f64| {
-            let (min, max) = extent(points.iter().map(of)).unwrap_or((-0.5, 0.5));
-            (0.5 * (min + max), (1.12 * (max - min)).max(0.05))
-        };
-        let ((cx, w), (cy, h)) = (reach(|p| p.0), reach(|p| p.1));
-        let pixels_per_m = ((RIGHT - LEFT) / w).min(HIGHEST / h);
-        let half_width = 0.5 * (RIGHT - LEFT) / pixels_per_m;
-        let half_height = 0.5 * (h * pixels_per_m).max(LOWEST) / pixels_per_m;
-        Self {
-            x: Axis::exact(cx - half_width, cx + half_width),
-            y: Axis::exact(cy - half_height, cy + half_height),
-            left: LEFT,
-            top,
-            pixels_per_m,
-        }
-    }
-
-    /// Grid, ticks and frame; `scale` and `zero` turn metres into what the labels tell.
-    fn ground(&self, canvas: &mut Canvas<'_>, zero: (f64, f64), scale: f64, plane: &Plane) {
-        let (w, h) = (self.width(), self.height());
-        let (right, bottom) = (self.left + w, self.top + h);
-        let told = |axis: &Axis, zero: f64| {
-            Axis::exact((axis.min - zero) * scale, (axis.max - zero) * scale)
-        };
-        let minus = |label: &str| match label.strip_prefix('\u{2212}') {
-            Some(rest) => rest.to_owned(),
-            None if label.trim_matches(['0', '.']).is_empty() => label.to_owned(),
-            None => format!("\u{2212}{label}"),
-        };
-        for tick in told(&self.x, zero.0).ticks(((w / 66.0) as usize).max(4)) {
-            let x = self.at((zero.0 + tick.value / scale, 0.0)).0;
-            canvas.line(&[(x, self.top), (x, bottom)], GRID, 1.0);
-            canvas.text(&tick.label, (x, bottom + 13.0), Align::Middle, MUTED);
-        }
-        for tick in told(&self.y, zero.1).ticks(((h / 44.0) as usize).max(4)) {
-            let y = self.at((0.0, zero.1 + tick.value / scale)).1;
-            let label = if plane.up.backwards {
-                minus(&tick.label)
-            } else {
-                tick.label
-            };
-            canvas.line(&[(self.left, y), (right, y)], GRID, 1.0);
-            canvas.text(&label, (self.left - 8.0, y), Align::End, MUTED);
-        }
-    }
-
-    fn frame(&self, canvas: &mut Canvas<'_>) {
-        let (right, bottom) = (self.left + self.width(), self.top + self.height());
-        let corners = [
-            (self.left, self.top),
-            (right, self.top),
-            (right, bottom),
-            (self.left, bottom),
-            (self.left, self.top),
-        ];
-        canvas.line(&corners, FRAME, 1.0);
-    }
-
-    /// The part of a segment that lies in the frame (Liang and Barsky, 1984), in pixels.
-    fn clip(&self, a: (f64, f64), b: (f64, f64)) -> Option<[(f64, f64); 2]> {
-        let (right, bottom) = (self.left + self.width(), self.top + self.height());
-        let d = (b.0 - a.0, b.1 - a.1);
-        let (mut from, mut to) = (0.0f64, 1.0f64);
-        let edges = [
-            (-d.0, a.0 - self.left),
-            (d.0, right - a.0),
-            (-d.1, a.1 - self.top),
-            (d.1, bottom - a.1),
-        ];
-        for (p, q) in edges {
-            if p == 0.0 {
-                if q < 0.0 {
-                    return None;
-                }
-            } else if p < 0.0 {
-                from = from.max(q / p);
-            } else {
-                to = to.min(q / p);
-            }
-        }
-        let on = |t: f64| (a.0 + t * d.0, a.1 + t * d.1);
-        (from <= to).then(|| [on(from), on(to)])
-    }
-
-    /// The pieces of a path that lie in the frame, in pixels.
-    fn pieces(&self, path: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
-        let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-        for pair in path.windows(2) {
-            let [a, b] = [pair[0], pair[1]];
-            if !(a.0.is_finite() && a.1.is_finite() && b.0.is_finite() && b.1.is_finite()) {
-                continue;
-            }
-            let Some([from, to]) = self.clip(self.at(a), self.at(b)) else {
-                continue;
-            };
-            let count = pieces.len();
-            match pieces.last_mut() {
-                Some(piece) if piece.last() == Some(&from) => piece.push(to),
-                _ if count < MOST_PIECES => pieces.push(vec![from, to]),
-                _ => {}
-            }
-        }
-        pieces
-    }
-}
-
-/// Pieces of one path in a view.
-const MOST_PIECES: usize = 60;
 
 /// Draws the picture; `None` where there is nothing to draw.
 pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
@@ -339,7 +129,8 @@ impl Drawn<'_> {
         let columns = close.len().clamp(1, 3);
         let below = view.top + view.height() + if close.is_empty() { 42.0 } else { 56.0 };
         let rows = close.len().div_ceil(columns) as f64;
-        let height = below + rows * CLOSE_PITCH;
+        let size = if columns < 3 { 210.0 } else { 140.0 };
+        let height = below + rows * (size + CLOSE_WORDS);
         picture(title, height, |canvas| {
             canvas.title(title, (20.0, 24.0));
             canvas.legend(&legend, 20.0, 50.0);
@@ -366,7 +157,8 @@ impl Drawn<'_> {
                     canvas,
                     goal,
                     number,
-                    (left, below + CLOSE_PITCH * (i / columns) as f64),
+                    (left, below + (size + CLOSE_WORDS) * (i / columns) as f64),
+                    size,
                 );
             }
         })
@@ -428,13 +220,14 @@ impl Drawn<'_> {
                 canvas.disc(*joint, 3.5, MUTED, 1.0);
             }
         }
-        for (i, goal) in self.goals.iter().enumerate() {
+        for goal in self.goals {
             let at = view.at(self.plane.flat(&goal.position_m));
             self.circles(canvas, goal, at, view.pixels_per_m);
             canvas.line(&[(at.0 - 7.0, at.1), (at.0 + 7.0, at.1)], GREEN, 1.4);
             canvas.line(&[(at.0, at.1 - 7.0), (at.0, at.1 + 7.0)], GREEN, 1.4);
-            let beside = (at.0 + 9.0, at.1 + 13.0);
-            canvas.text(&format!("goal {}", i + 1), beside, Align::Start, INK);
+        }
+        for (at, words) in self.goal_words(view) {
+            canvas.text(&words, (at.0 + 9.0, at.1 + 13.0), Align::Start, INK);
         }
         self.paths(canvas, view, 1000);
         if let Some(start) = self.tcp.iter().find(|p| p.0.is_finite() && p.1.is_finite()) {
@@ -453,10 +246,30 @@ impl Drawn<'_> {
         }
     }
 
+    /// Numbers of the goals, those of nearly the same place together.
+    fn goal_words(&self, view: &View) -> Vec<((f64, f64), String)> {
+        let mut places: Vec<((f64, f64), String)> = Vec::new();
+        for (i, goal) in self.goals.iter().enumerate() {
+            let at = view.at(self.plane.flat(&goal.position_m));
+            let near = |place: &&mut ((f64, f64), String)| {
+                (place.0.0 - at.0).abs() < 60.0 && (place.0.1 - at.1).abs() < 16.0
+            };
+            match places.iter_mut().find(near) {
+                Some((_, words)) => words.push_str(&format!(", {}", i + 1)),
+                None => places.push((at, format!("goal {}", i + 1))),
+            }
+        }
+        for (_, words) in &mut places {
+            *words = shortened(words, 20);
+        }
+        places
+    }
+
     fn paths(&self, canvas: &mut Canvas<'_>, view: &View, most: usize) {
         for (path, colour, width) in [
-            (&self.reference, PURPLE_DASHED, 2.0),
-            (&self.tcp, BLUE, 2.0),
+            (&self.tcp, BLUE, 2.2),
+            // on top, so that its gaps show the TCP where both agree
+            (&self.reference, PURPLE_DASHED, 1.6),
         ] {
             for piece in view.pieces(path) {
                 canvas.line(&in_plane(&piece, most), colour, width);
@@ -482,6 +295,7 @@ impl Drawn<'_> {
         goal: &Goal,
         number: usize,
         (left, top): (f64, f64),
+        size: f64,
     ) {
         let half_m = 1.35 * goal.zero_m;
         let centre = self.plane.flat(&goal.position_m);
@@ -490,10 +304,9 @@ impl Drawn<'_> {
             y: Axis::exact(centre.1 - half_m, centre.1 + half_m),
             left: left + 42.0,
             top: top + 14.0,
-            pixels_per_m: CLOSE_SIZE / (2.0 * half_m),
+            pixels_per_m: size / (2.0 * half_m),
         };
-        let letter = |along: Along| ["x", "y", "z"][along.coordinate];
-        let (across, up) = (letter(self.plane.across), letter(self.plane.up));
+        let (across, up) = (self.plane.across.letter(), self.plane.up.letter());
         let heading = format!("goal {number}: {across} and {up} from it [mm]");
         canvas.heading(&heading, (left, top));
         view.ground(canvas, centre, 1e3, &self.plane);
@@ -521,47 +334,15 @@ impl Drawn<'_> {
             (None, true) => format!("dot: nearest, {}", with_unit(distance_m, "m")),
             (None, false) => format!("nearest: {}", with_unit(distance_m, "m")),
         };
-        let below = view.top + CLOSE_SIZE + 31.0;
+        let below = view.top + size + 31.0;
         canvas.text(
             &words,
-            (view.left + 0.5 * CLOSE_SIZE, below),
+            (view.left + 0.5 * size, below),
             Align::Middle,
             MUTED,
         );
     }
 }
 
-/// Edge of a close look \[px\].
-const CLOSE_SIZE: f64 = 150.0;
-/// From one row of close looks to the next \[px\].
-const CLOSE_PITCH: f64 = CLOSE_SIZE + 66.0;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_lab_frame_is_drawn_x_up_and_y_to_the_right() {
-        let points = [[4.0, 0.0, 0.05], [2.0, 1.4, 0.05], [2.0, -1.4, 0.05]];
-        let plane = Plane::of(&points, [1.0, 0.0, 0.0]);
-        assert_eq!((plane.up.coordinate, plane.across.coordinate), (0, 1));
-        assert_eq!(plane.up.label("m"), "x, up [m]");
-        assert_eq!(plane.across.label("m"), "y, sideways [m]");
-        assert_eq!(plane.flat(&[4.0, 1.0, 0.0]), (1.0, 4.0));
-    }
-
-    #[test]
-    fn a_level_plane_is_seen_from_above() {
-        let points = [[0.0, 0.0, 0.5], [1.0, 2.0, 0.5]];
-        let plane = Plane::of(&points, [0.0, 0.0, 1.0]);
-        assert_eq!((plane.up.coordinate, plane.across.coordinate), (1, 0));
-    }
-
-    #[test]
-    fn an_axis_that_points_down_is_drawn_backwards() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]];
-        let plane = Plane::of(&points, [0.0, 0.0, -1.0]);
-        assert_eq!(plane.flat(&[1.0, 0.0, 2.0]), (1.0, -2.0));
-        assert_eq!(plane.up.label("m"), "z, down [m]");
-    }
-}
+/// Above and below a close look: its heading, labels and words \[px\].
+const CLOSE_WORDS: f64 = 66.0;

@@ -1,8 +1,6 @@
-//! The pictures over time of a run: joints, effort, distance to the goals, what checks judged, what the submission drew.
+//! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
-use kinemark_sim::control::Mode;
-use kinemark_sim::robot::Joint;
-use kinemark_sim::trace::{EventKind, Signal};
+use kinemark_sim::trace::EventKind;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};
@@ -10,20 +8,18 @@ use super::timeline::{Line, Panel, Timeline};
 use crate::graded::{Curve, Goal, TaskRun};
 use crate::report::goal::{current_goal, distances_m};
 use crate::report::number::{joined, shown_unit, significant};
-use crate::report::theme::{
-    BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, RED, VERMILLION, VERMILLION_DASHED,
-};
+use crate::report::theme::{BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, VERMILLION_DASHED};
 use crate::report::visible::{shortened, visible};
 
 /// Panels of one picture.
-const MOST_PANELS: usize = 6;
+pub(super) const MOST_PANELS: usize = 6;
 /// Signals of a submission that are drawn.
 const MOST_SIGNALS: usize = 18;
 /// Goals whose distance is drawn besides the current one's.
 const MOST_GOALS: usize = 4;
 
 /// When a run ended \[s\].
-fn end_s(run: &TaskRun) -> f64 {
+pub(super) fn end_s(run: &TaskRun) -> f64 {
     time_s(run, run.trace.len().saturating_sub(1) as u64)
 }
 
@@ -44,7 +40,12 @@ pub(super) fn stopped_s(run: &TaskRun) -> Option<f64> {
     stopped.then(|| end_s(run))
 }
 
-fn timeline(run: &TaskRun, title: String, panels: Vec<Panel>, legend: Vec<Entry>) -> Timeline {
+pub(super) fn timeline(
+    run: &TaskRun,
+    title: String,
+    panels: Vec<Panel>,
+    legend: Vec<Entry>,
+) -> Timeline {
     Timeline {
         title,
         panels,
@@ -55,15 +56,7 @@ fn timeline(run: &TaskRun, title: String, panels: Vec<Panel>, legend: Vec<Entry>
     }
 }
 
-fn column(run: &TaskRun, signal: &Signal, joint: usize) -> Vec<(f64, f64)> {
-    let values = signal.component(joint).take(run.trace.len());
-    values
-        .enumerate()
-        .map(|(tick, value)| (time_s(run, tick as u64), value))
-        .collect()
-}
-
-fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line {
+pub(super) fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line {
     Line {
         points,
         colour,
@@ -72,193 +65,10 @@ fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line {
     }
 }
 
-/// A command is held until the next one.
-fn command(run: &TaskRun, joint: usize) -> Line {
-    line(column(run, &run.trace.command, joint), VERMILLION, true)
-}
-
-fn values(lines: &[Line]) -> impl Iterator<Item = f64> + '_ {
+pub(super) fn values(lines: &[Line]) -> impl Iterator<Item = f64> + '_ {
     lines
         .iter()
         .flat_map(|line| line.points.iter().map(|point| point.1))
-}
-
-/// What a picture of all joints shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Of {
-    Positions,
-    Velocities,
-    Efforts,
-}
-
-impl Of {
-    /// The signal's letter and its unit for a joint.
-    fn letter_and_unit(self, joint: &Joint) -> (&'static str, &'static str) {
-        match (self, joint.kind.turns()) {
-            (Self::Positions, true) => ("q", "rad"),
-            (Self::Positions, false) => ("q", "m"),
-            (Self::Velocities, true) => ("qd", "rad/s"),
-            (Self::Velocities, false) => ("qd", "m/s"),
-            (Self::Efforts, true) => ("effort", "N\u{a0}m"),
-            (Self::Efforts, false) => ("effort", "N"),
-        }
-    }
-
-    fn signal(self, run: &TaskRun) -> &Signal {
-        match self {
-            Self::Positions => &run.trace.q,
-            Self::Velocities => &run.trace.qd,
-            Self::Efforts => &run.trace.effort,
-        }
-    }
-
-    fn is_commanded(self, run: &TaskRun) -> bool {
-        matches!(
-            (self, run.mode),
-            (Self::Positions, Mode::Position)
-                | (Self::Velocities, Mode::Velocity)
-                | (Self::Efforts, Mode::Effort)
-        )
-    }
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Positions => "Joint positions",
-            Self::Velocities => "Joint velocities",
-            Self::Efforts => "Joint efforts",
-        }
-    }
-}
-
-/// Pictures of all joints, at most six to one.
-pub(super) fn joints(run: &TaskRun, of: Of) -> Vec<Timeline> {
-    let joints: Vec<(usize, &Joint)> = run.robot.moving_joints().enumerate().collect();
-    let chunks: Vec<_> = joints.chunks(MOST_PANELS).collect();
-    let mut pictures = Vec::new();
-    for (part, chunk) in chunks.iter().enumerate() {
-        let panels: Vec<Panel> = chunk
-            .iter()
-            .map(|(i, joint)| joint_panel(run, of, *i, joint))
-            .collect();
-        let mut legend = vec![Entry::new(Swatch::Line(BLUE), "measured")];
-        if of == Of::Efforts {
-            legend[0].text = "applied".to_owned();
-        }
-        if of.is_commanded(run) {
-            legend.push(Entry::new(Swatch::Line(VERMILLION), "command"));
-        }
-        let has_levels = panels.iter().any(|panel| !panel.levels.is_empty());
-        if has_levels {
-            legend.push(Entry::new(Swatch::Line(VERMILLION_DASHED), "limit"));
-        }
-        if panels.iter().any(|panel| {
-            panel
-                .lines
-                .iter()
-                .any(|line| line.colour.light == RED.light)
-        }) {
-            legend.push(Entry::new(Swatch::Line(RED), "at the limit"));
-        }
-        let title = match chunks.len() {
-            1 => of.title().to_owned(),
-            of_parts => format!("{} ({} of {of_parts})", of.title(), part + 1),
-        };
-        pictures.push(timeline(run, title, panels, legend));
-    }
-    pictures
-}
-
-fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
-    let (symbol, unit) = of.letter_and_unit(joint);
-    let mut heading = format!("{}, {symbol}[{i}] [{unit}]", shortened(&joint.name, 40));
-    let mut lines = vec![line(
-        column(run, of.signal(run), i),
-        BLUE,
-        of == Of::Efforts,
-    )];
-    lines[0].width = 2.0;
-    if of.is_commanded(run) {
-        lines.insert(0, command(run, i));
-    }
-    let reach = extent(values(&lines)).unwrap_or((0.0, 0.0));
-    let mut levels: Vec<f64> = match of {
-        Of::Positions => [joint.limits.lower, joint.limits.upper]
-            .into_iter()
-            .flatten()
-            .collect(),
-        Of::Velocities => joint
-            .limits
-            .speed
-            .into_iter()
-            .flat_map(|v| [-v, v])
-            .collect(),
-        Of::Efforts => run
-            .effort_limits
-            .get(i)
-            .into_iter()
-            .flat_map(|e| [-e, *e])
-            .collect(),
-    };
-    levels.retain(|level| level.is_finite());
-    if of == Of::Efforts {
-        let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
-        if limit.is_finite() {
-            // a limit far away would flatten the curve: it is told instead
-            let greatest = reach.0.abs().max(reach.1.abs());
-            if limit > 8.0 * greatest {
-                levels.clear();
-                heading.push_str(&format!(
-                    " \u{2013} limit ±{}, far outside",
-                    joined(&significant(limit, 4), unit)
-                ));
-            }
-            lines.extend(at_limit(run, i, limit));
-        }
-    } else {
-        // limits are drawn where the joint comes near them
-        let near = (reach.1 - reach.0).max(0.5);
-        levels.retain(|level| *level <= reach.1 + near && *level >= reach.0 - near);
-    }
-    let axis = Axis::around(values(&lines).chain(levels.iter().copied()), 0.02);
-    Panel {
-        heading,
-        axis,
-        lines,
-        levels: levels
-            .into_iter()
-            .map(|level| (level, VERMILLION_DASHED))
-            .collect(),
-        spans: Vec::new(),
-    }
-}
-
-/// A thick line where the effort stood at its limit; gaps too short to be seen are closed.
-fn at_limit(run: &TaskRun, joint: usize, limit: f64) -> Option<Line> {
-    let shortest_s = end_s(run) / 150.0;
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    for (tick, effort) in run.trace.effort.component(joint).enumerate() {
-        if effort.abs() < limit {
-            continue;
-        }
-        let t_s = time_s(run, tick as u64);
-        let at = limit.copysign(effort);
-        if let Some(&(last_s, last)) = points.last() {
-            if last * at < 0.0 || t_s - last_s > shortest_s {
-                points.push((t_s, f64::NAN));
-            } else if let [.., before, _] = points.as_slice()
-                && before.1 * at > 0.0
-            {
-                points.pop();
-            }
-        }
-        points.push((t_s, at));
-    }
-    (!points.is_empty()).then_some(Line {
-        points,
-        colour: RED,
-        width: 4.0,
-        held: false,
-    })
 }
 
 /// Words of a band's two lines.
@@ -342,11 +152,12 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
         let (unit, scale) = shown_unit("m", *zero);
         legend.extend(band_entries(Some(*full), Some(*zero), unit, scale));
     }
-    let spans: Vec<_> = run
+    let mut spans: Vec<_> = run
         .goals
         .iter()
         .filter_map(|goal| stay_s(run, goal))
         .collect();
+    spans.dedup();
     if !spans.is_empty() {
         legend.push(Entry::new(Swatch::Area(GREEN), "judged stay"));
     }

@@ -1,0 +1,249 @@
+//! Names and signs that people bring from MATLAB, Python and C, and what to write here.
+
+/// Functions of other languages, and what to write here.
+const FUNCTIONS: &[(&str, &str)] = &[
+    ("arctan2", "write atan2(y, x)"),
+    ("arctan", "write atan(x)"),
+    ("arccos", "write acos(x)"),
+    ("arcsin", "write asin(x)"),
+    ("power", "write x ** y"),
+    ("fabs", "write abs(x)"),
+    (
+        "log",
+        "write ln(x) for the natural logarithm, log10(x) for that to base 10",
+    ),
+    ("length", "write len(x)"),
+    ("numel", "write len(x)"),
+    ("size", "write len(x), or rows(m) and cols(m)"),
+    ("shape", "write len(x), or rows(m) and cols(m)"),
+    ("disp", "write print(x)"),
+    ("printf", "write print(\"x =\", x)"),
+    ("fprintf", "write print(\"x =\", x)"),
+    ("println", "write print(x)"),
+    ("sprintf", "join texts with +: \"x = \" + x"),
+    ("format", "join texts with +: \"x = \" + x"),
+    ("str", "write to_string(x), or join texts with +"),
+    ("num2str", "write to_string(x), or join texts with +"),
+    ("float", "numbers need no conversion"),
+    ("int", "write trunc(x), floor(x) or round(x)"),
+    ("to_int", "write trunc(x), floor(x) or round(x)"),
+    ("to_float", "numbers need no conversion"),
+    ("fix", "write trunc(x)"),
+    ("mod", "write a % b; its sign is that of b"),
+    ("rem", "write a % b; its sign is that of b"),
+    ("fmod", "write a % b; its sign is that of b"),
+    ("array", "write vector([1, 2]) or matrix([[1, 2], [3, 4]])"),
+    ("append", "write list.push(x), or concat(a, b)"),
+    ("extend", "write concat(a, b)"),
+    ("matmul", "write a * b"),
+    (
+        "multiply",
+        "write a * b; vectors multiply element by element",
+    ),
+    ("times", "write a * b; vectors multiply element by element"),
+    ("pinv", "write transpose(J) * solve(J * transpose(J), v)"),
+    ("mldivide", "write solve(A, b)"),
+    ("lstsq", "write solve(transpose(A) * A, transpose(A) * b)"),
+    ("degrees", "write deg(x)"),
+    ("rad2deg", "write deg(x)"),
+    ("to_degrees", "write deg(x)"),
+    ("radians", "write rad(x)"),
+    ("deg2rad", "write rad(x)"),
+    ("to_radians", "write rad(x)"),
+    ("wrapToPi", "write wrap_pi(x)"),
+    ("identity", "write eye(n)"),
+    ("magnitude", "write norm(v)"),
+    ("isnan", "write is_nan(x)"),
+    ("isnumeric", "there is no test of types"),
+    ("type_of", "there is no test of types"),
+    (
+        "sleep",
+        "nothing waits here: `control` is called every control period",
+    ),
+    (
+        "pause",
+        "nothing waits here: `control` is called every control period",
+    ),
+    (
+        "wait",
+        "nothing waits here: `control` is called every control period",
+    ),
+    (
+        "tic",
+        "there is no clock: observation.time is the time of the run",
+    ),
+    (
+        "toc",
+        "there is no clock: observation.time is the time of the run",
+    ),
+    (
+        "timestamp",
+        "there is no clock: observation.time is the time of the run",
+    ),
+    (
+        "rand",
+        "there is no randomness: the same run gives the same bits",
+    ),
+    (
+        "random",
+        "there is no randomness: the same run gives the same bits",
+    ),
+    (
+        "randn",
+        "there is no randomness: the same run gives the same bits",
+    ),
+    ("map", "write a `for` loop"),
+    ("filter", "write a `for` loop"),
+    ("reduce", "write a `for` loop"),
+];
+
+/// Variables of other languages, and what to write here.
+const VARIABLES: &[(&str, &str)] = &[
+    (
+        "np",
+        "functions are built in: write sin(x) and pi, without a prefix",
+    ),
+    (
+        "numpy",
+        "functions are built in: write sin(x) and pi, without a prefix",
+    ),
+    (
+        "math",
+        "functions are built in: write sin(x) and pi, without a prefix",
+    ),
+    (
+        "Math",
+        "functions are built in: write sin(x) and pi, without a prefix",
+    ),
+    ("self", "what is kept between calls is in `this`"),
+    ("True", "write true"),
+    ("False", "write false"),
+    ("None", "write ()"),
+    ("null", "write ()"),
+    ("nil", "write ()"),
+    ("NULL", "write ()"),
+    ("Inf", "write inf"),
+    (
+        "end",
+        "blocks end with `}`; the last element is v[len(v) - 1]",
+    ),
+];
+
+/// Words of other languages' syntax, and what to write here.
+const SYNTAX: &[(&str, &str)] = &[
+    ("and", "write && for \"and\""),
+    ("or", "write || for \"or\""),
+    ("not", "write ! for \"not\""),
+    ("elif", "write else if"),
+    ("elseif", "write else if"),
+    ("def", "a function is written fn name(parameters) { ... }"),
+    (
+        "function",
+        "a function is written fn name(parameters) { ... }",
+    ),
+    ("func", "a function is written fn name(parameters) { ... }"),
+    ("lambda", "write a function with a name: fn name(x) { ... }"),
+    ("end", "blocks are written { ... }"),
+    ("then", "write if condition { ... }"),
+    ("var", "declare a variable with let x = 1;"),
+    ("double", "declare a variable with let x = 1;"),
+    ("float", "declare a variable with let x = 1;"),
+    ("int", "declare a variable with let x = 1;"),
+    ("import", "everything there is, is built in"),
+    ("from", "everything there is, is built in"),
+];
+
+/// Signs of other languages' syntax, and what to write here.
+const SIGNS: &[(&str, &str)] = &[
+    (".*", "write *: vectors multiply element by element"),
+    ("./", "write /: vectors divide element by element"),
+    (".^", "write **: vectors go element by element"),
+    ("++", "write x += 1"),
+    ("--", "write x -= 1"),
+    (":=", "write let x = 1; to declare and x = 2; to change"),
+    ("@", "write * for the product of matrices"),
+    ("#", "a comment begins with //"),
+    ("?", "write if condition { a } else { b }"),
+    (
+        "'",
+        "a text goes in double quotes; the transpose is transpose(m)",
+    ),
+];
+
+/// What to write instead of a function of another language.
+pub(super) fn function(name: &str) -> Option<String> {
+    look_up(FUNCTIONS, name)
+}
+
+/// What to write instead of a variable of another language.
+pub(super) fn variable(name: &str) -> Option<String> {
+    look_up(VARIABLES, name)
+}
+
+/// What to write instead of a reserved word or symbol.
+pub(super) fn reserved(word: &str) -> Option<String> {
+    let help = match word {
+        "eval" | "Fn" | "call" | "curry" => "functions are called by name",
+        "import" | "export" | "as" | "module" | "use" => "everything there is, is built in",
+        "type_of" | "is_def_var" | "is_def_fn" | "is_shared" => "there is no test of this",
+        "|" | "||" => "functions without a name are not available: write fn name(x) { ... }",
+        other => return look_up(SIGNS, other).or_else(|| look_up(SYNTAX, other)),
+    };
+    Some(help.to_owned())
+}
+
+/// Help if a line shows another language's syntax at or before a column.
+pub(super) fn syntax(line: &str, column: usize) -> Option<String> {
+    let characters: Vec<char> = line.chars().collect();
+    let column = column.saturating_sub(1).min(characters.len());
+    // the word the parser stopped at, and the one before it
+    let around: String = characters
+        .iter()
+        .enumerate()
+        .filter(|(i, c)| *i < column || c.is_alphanumeric() || **c == '_')
+        .map(|(_, c)| *c)
+        .collect();
+    let mut words = around
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .filter(|word| !word.is_empty());
+    let stopped: String = characters[column..]
+        .iter()
+        .take_while(|c| c.is_alphanumeric() || **c == '_')
+        .collect();
+    let before = characters[..column]
+        .split(|c| !(c.is_alphanumeric() || *c == '_'))
+        .rfind(|word| !word.is_empty())
+        .map(|word| word.iter().collect::<String>());
+    look_up(SYNTAX, &stopped)
+        .or_else(|| look_up(SYNTAX, &before?))
+        .or_else(|| look_up(SYNTAX, words.next()?))
+        .or_else(|| {
+            let near: String = characters[column.saturating_sub(2)..]
+                .iter()
+                .take(4)
+                .collect();
+            SIGNS
+                .iter()
+                .find(|(sign, _)| near.contains(sign))
+                .map(|(_, help)| (*help).to_owned())
+        })
+}
+
+fn look_up(table: &[(&str, &str)], name: &str) -> Option<String> {
+    table
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, help)| (*help).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_other_languages_are_seen_where_the_parser_stops() {
+        assert!(syntax("if a and b {", 6).is_some_and(|help| help.contains("&&")));
+        assert!(syntax("def control(o):", 5).is_some_and(|help| help.contains("fn")));
+        assert!(syntax("let x = 1 +", 12).is_none());
+    }
+}

@@ -1,0 +1,54 @@
+//! The small commands: labs, new, completions, help.
+
+use crate::testbed::TestBed;
+
+#[test]
+fn labs_are_listed_from_the_binary_alone() {
+    let bed = TestBed::new();
+    let ran = bed.run(&["labs"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("01-kinematics"), "{ran:?}");
+    let ran = bed.run(&["labs", "--json"]);
+    let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(labs[0]["name"], "01-kinematics");
+    assert_eq!(labs[0]["points"], 24.0);
+}
+
+#[test]
+fn a_student_starts_grades_and_sees_the_warm_up_pass() {
+    let bed = TestBed::new();
+    let ran = bed.run(&["new", "01-kinematics"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = bed.run(&["grade", "01-kinematics", "01-kinematics/submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains("practice: visible cases only"), "{ran:?}");
+    assert!(ran.stdout.contains("\n1 of 24 points\n"), "{ran:?}");
+    // nothing of a student's work is overwritten
+    let ran = bed.run(&["new", "01-kinematics"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is there already"), "{ran:?}");
+}
+
+#[test]
+fn completions_name_every_command() {
+    let bed = TestBed::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let ran = bed.run(&["completions", shell]);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        for command in ["grade", "verify", "labs", "new", "robot"] {
+            assert!(ran.stdout.contains(command), "{shell} {command}");
+        }
+    }
+}
+
+#[test]
+fn help_and_usage_errors_have_their_codes() {
+    let bed = TestBed::new();
+    assert_eq!(bed.run(&["--help"]).code, Some(0));
+    assert_eq!(bed.run(&["--version"]).code, Some(0));
+    assert_eq!(bed.run(&["graed"]).code, Some(2));
+    assert_eq!(bed.run(&["grade"]).code, Some(2));
+    let ran = bed.run(&["grade", "--help"]);
+    assert!(ran.stdout.contains("Examples:"), "{ran:?}");
+    assert!(!bed.run(&["--help"]).stdout.contains("worker"));
+}

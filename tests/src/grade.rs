@@ -1,0 +1,111 @@
+//! `kinemark grade` as a user sees it: text, files, exit codes.
+
+use crate::testbed::{TestBed, files_below, root};
+
+fn good(bed: &TestBed) {
+    let submission = root().join("tests/submissions/01-kinematics/good/submission.rhai");
+    std::fs::copy(submission, bed.path("submission.rhai")).expect("copied");
+}
+
+#[test]
+fn a_good_submission_has_full_marks_and_a_whole_folder() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    good(&bed);
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert_eq!(ran.stderr, "");
+    assert!(ran.stdout.ends_with("24 of 24 points\nreport: out/report.html\n"), "{ran:?}");
+    let files = files_below(&bed.path("out"));
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    for name in [
+        "grade.json",
+        "lab/01-kinematics/lab.toml",
+        "lab/robots/rrbot.toml",
+        "move/run.mcap",
+        "plots/move-joints.svg",
+        "report.html",
+        "submission.rhai",
+        "warm-up/run.mcap",
+    ] {
+        assert!(names.contains(&name), "{name} is missing in {names:?}");
+    }
+    // no path of this machine is in any file
+    let here = bed.path("").canonicalize().expect("path");
+    for (name, bytes) in &files {
+        for path in [here.to_string_lossy(), root().canonicalize().expect("root").to_string_lossy()] {
+            let found = bytes.windows(path.len()).any(|window| window == path.as_bytes());
+            assert!(!found, "{name} holds {path}");
+        }
+    }
+    // nothing else is left behind
+    let mut left: Vec<String> = std::fs::read_dir(bed.path(""))
+        .expect("folder")
+        .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["labs", "out", "reference", "submission.rhai"]);
+}
+
+#[test]
+fn the_record_is_printed_as_it_is_written() {
+    let bed = TestBed::new();
+    good(&bed);
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json", "--out", "a/b"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let written = std::fs::read_to_string(bed.path("a/b/grade.json")).expect("record");
+    assert_eq!(ran.stdout, written);
+}
+
+#[test]
+fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
+    let bed = TestBed::new();
+    good(&bed);
+    let args = ["grade", "01-kinematics", "submission.rhai"];
+    assert_eq!(bed.run(&args).code, Some(0));
+    bed.write("out/plots/stale.svg", "old");
+    assert_eq!(bed.run(&args).code, Some(0));
+    assert!(!bed.path("out/plots/stale.svg").exists());
+    bed.write("thesis/chapter.tex", "precious");
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--out", "thesis"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("no Kinemark report"), "{ran:?}");
+    assert!(bed.path("thesis/chapter.tex").exists());
+}
+
+#[test]
+fn a_wrong_submission_reads_like_this() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let submission = "fn forward_kinematics(robot, q) {
+    let l = robot.link_lengths;
+    let x = robot.base_height + l[0] * cos(q[0]) + l[1] * cos(q[1]);
+    [x, l[0] * sin(q[0]) + l[1] * sin(q[1]), 2 * robot.link_offset]
+}
+
+fn inverse_kinematics(robot, position) {
+    [acos(position[0]), 0.0]
+}
+
+fn control(observation) {
+    let goal = observation.taget;
+    goal
+}
+";
+    bed.write("submission.rhai", submission);
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    insta::assert_snapshot!(ran.stdout);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
+    let bed = TestBed::new();
+    good(&bed);
+    // a device is no place for a folder, whoever asks: permissions would not stop the administrator
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--out", "/dev/full/out"]);
+    assert_eq!(ran.code, Some(4), "{ran:?}");
+    assert!(ran.stdout.contains("24 of 24 points"), "{ran:?}");
+    assert!(ran.stderr.contains("cannot be written"), "{ran:?}");
+}

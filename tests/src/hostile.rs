@@ -1,0 +1,88 @@
+//! Submissions that would hurt: each ends with its verdict, in counted work, and the points of other tasks stand.
+
+use crate::testbed::TestBed;
+
+/// The body of `forward_kinematics`, and the budget that must stop it.
+const HOSTILE: [(&str, &str, &str); 8] = [
+    ("a loop without end", "loop {}", "operations in one call"),
+    ("a list without end", "let a = []; loop { a.push(1.0); }", "elements in one list"),
+    ("a list of lists", "let a = [1.0]; loop { a = [a, a]; }", ""),
+    ("a text without end", "let s = \"x\"; loop { s += s; }", "characters in one text"),
+    ("recursion without end", "forward_kinematics(robot, q)", "functions calling functions"),
+    ("printing without end", "loop { print(\"x\"); }", "printed lines"),
+    ("plotting without end", "loop { plot(\"x\", 1.0); }", ""),
+    ("a map without end", "let m = #{}; let i = 0; loop { m[i.to_string()] = i; i += 1; }", ""),
+];
+
+#[test]
+fn a_hostile_function_costs_its_own_task_alone() {
+    for (name, body, budget) in HOSTILE {
+        let bed = TestBed::new();
+        let submission = format!(
+            "fn forward_kinematics(robot, q) {{ {body} }}\nfn control(observation) {{ [0.5, 0.0] }}\n"
+        );
+        bed.write("submission.rhai", submission);
+        let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json"]);
+        assert_eq!(ran.code, Some(1), "{name}: {ran:?}");
+        let record: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a record");
+        let task = |name: &str| {
+            let tasks = record["tasks"].as_array().expect("tasks");
+            tasks.iter().find(|task| task["name"] == name).expect("task").clone()
+        };
+        assert_eq!(task("warm-up")["points"], 1.0, "{name}");
+        let fk = task("fk");
+        assert_eq!(fk["verdict"], "over-budget", "{name}: {fk:#}");
+        let message = fk["stopped"]["message"].as_str().expect("message");
+        assert!(message.contains(budget), "{name}: {message}");
+        assert_eq!(fk["stopped"]["line"], 1, "{name}: {fk:#}");
+    }
+}
+
+#[test]
+fn a_crash_in_one_task_leaves_the_others_their_points() {
+    let bed = TestBed::new();
+    bed.write(
+        "submission.rhai",
+        "fn control(observation) {
+    if observation.task == \"move\" && observation.time > 1.0 {
+        throw \"lost\";
+    }
+    [0.5, 0.0]
+}
+",
+    );
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains("1/1  passed"), "{ran:?}");
+    assert!(ran.stdout.contains("at 1.01 s (tick 1010)"), "{ran:?}");
+    assert!(ran.stdout.contains("3 |         throw \"lost\";"), "{ran:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_writes_nothing_and_leaves_nothing() {
+    use std::io::Read as _;
+    let bed = TestBed::new();
+    // every call as long as the budget allows: seconds in all
+    bed.write(
+        "submission.rhai",
+        "fn control(observation) { for i in 0..8000 { let x = sin(i) * cos(i); } [0.5, 0.0] }",
+    );
+    let mut command = bed.command(&["grade", "01-kinematics", "submission.rhai"]);
+    command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+    let mut child = command.spawn().expect("runs");
+    // its worker is there: the grade has begun
+    let children = format!("/proc/{0}/task/{0}/children", child.id());
+    while std::fs::read_to_string(&children).is_ok_and(|list| list.trim().is_empty()) {
+        std::thread::yield_now();
+    }
+    let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(killed.expect("kill").success());
+    let status = child.wait().expect("ends");
+    let mut told = String::new();
+    child.stderr.take().expect("stderr").read_to_string(&mut told).expect("text");
+    assert_eq!(status.code(), Some(130), "{told}");
+    assert!(told.contains("interrupted"), "{told}");
+    let left: Vec<_> = std::fs::read_dir(bed.path("")).expect("folder").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}

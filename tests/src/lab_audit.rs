@@ -1,0 +1,169 @@
+//! The graders of labs are graded: starters must miss, references must pass on any salt, mutants must lose and be recognised.
+
+use kinemark_grader::grade::{Grade, TaskGrade};
+use kinemark_grader::graded::TaskRun;
+use kinemark_grader::lab::load::lab_names;
+use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::report::text::text;
+use kinemark_grader::verdict::Verdict;
+
+use crate::testbed::{Folder, grade, lab, root, staff};
+
+fn labs() -> Vec<Lab> {
+    let names = lab_names(&Folder(root().join("labs")));
+    assert!(!names.is_empty());
+    names.iter().map(|name| lab(name)).collect()
+}
+
+fn read(lab: &Lab, file: &str) -> String {
+    let path = root().join("labs").join(&lab.name).join(file);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn task<'g>(grade: &'g Grade, name: &str) -> &'g TaskGrade {
+    grade.tasks.iter().find(|task| task.name == name).expect(name)
+}
+
+#[test]
+fn starters_run_and_earn_the_warm_up_alone() {
+    for lab in labs() {
+        let starter = grade(&lab, Some(&staff(&lab, None)), "starter.rhai", &read(&lab, "starter.rhai"));
+        for (i, task) in starter.grade.tasks.iter().enumerate() {
+            let expected = if i == 0 { Verdict::Passed } else { Verdict::Missed };
+            assert_eq!(task.verdict, expected, "{}: {}", task.name, text(&starter.grade));
+            if i > 0 {
+                assert_eq!(task.points, 0.0, "{} of {}", task.name, lab.name);
+            }
+            assert_eq!(task.diagnoses, [], "{}: a starter makes no known mistake", task.name);
+        }
+    }
+}
+
+#[test]
+fn references_lose_no_point_whatever_the_salt() {
+    for lab in labs() {
+        for salt in 0..40 {
+            let staff = staff(&lab, Some(&format!("salt {salt}")));
+            let solution = staff.solution.clone();
+            let graded = grade(&lab, Some(&staff), "solution.rhai", solution.text());
+            // the motion does not depend on the salt
+            if salt == 0 {
+                reference_path_is_current(&lab, &graded.runs);
+            }
+            let grade = &graded.grade;
+            assert_eq!(grade.verdict, Verdict::Passed, "salt {salt}: {}", text(grade));
+            assert_eq!(grade.points, grade.max_points);
+        }
+    }
+}
+
+/// `reference-path.json` is the TCP path of the reference solution; `KINEMARK_BLESS=1` writes it anew.
+fn reference_path_is_current(lab: &Lab, runs: &[TaskRun]) {
+    let mut paths = serde_json::Map::new();
+    for run in runs.iter().filter(|run| !run.goals.is_empty()) {
+        let stride = (0.02 / run.trace.step_s).round() as usize;
+        // a tenth of a micrometre is far below any band, and a short file
+        let points: Vec<[f64; 3]> = (0..run.trace.len())
+            .step_by(stride)
+            .map(|tick| run.trace.tcp_position(tick).map(|x| (x * 1e7).round() / 1e7).into())
+            .collect();
+        paths.insert(
+            run.task.clone(),
+            serde_json::json!({ "period_s": 0.02, "points_m": points }),
+        );
+    }
+    let text = serde_json::to_string(&paths).expect("JSON").replace("],[", "],\n[") + "\n";
+    let path = root().join("labs").join(&lab.name).join("reference-path.json");
+    if std::env::var_os("KINEMARK_BLESS").is_some() {
+        std::fs::write(&path, &text).expect("written");
+    }
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        stored == text,
+        "{} is not the path of the reference solution: run KINEMARK_BLESS=1 cargo test",
+        path.display()
+    );
+}
+
+/// The share of cases that must show a mistake, or it is no case for it.
+const LEAST_SHARE: f64 = 0.3;
+
+#[test]
+fn mutants_lose_and_are_recognised_by_name() {
+    for lab in labs() {
+        for salt in [None, Some("another year"), Some("a third")] {
+            let staff = staff(&lab, salt);
+            assert!(staff.mutants.len() >= 8, "{}", lab.name);
+            for mutant in &staff.mutants {
+                let graded = grade(&lab, Some(&staff), "mutant.rhai", mutant.source.text());
+                for name in &mutant.tasks {
+                    let task = task(&graded.grade, name);
+                    assert!(
+                        !matches!(task.verdict, Verdict::Passed | Verdict::Crashed | Verdict::DidNotBuild),
+                        "{} in {name}: {:?}",
+                        mutant.name,
+                        task.stopped
+                    );
+                    let total = task.cases.len() + task.hidden.iter().map(|c| c.total as usize).sum::<usize>();
+                    let good = task.cases.iter().filter(|case| case.good).count()
+                        + task.hidden.iter().map(|c| c.good as usize).sum::<usize>();
+                    let lost = (total - good) as f64;
+                    assert!(
+                        total == 0 || lost >= LEAST_SHARE * total as f64,
+                        "{} in {name}: only {lost} of {total} cases lost",
+                        mutant.name
+                    );
+                    let told: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
+                    assert_eq!(told, [mutant.name.as_str()], "{name} of {} {salt:?}", lab.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn hidden_targets_lie_inside_the_boundary() {
+    use kinemark_grader::lab::model::Given;
+    use kinemark_reference::planar_2r::{IkSolutions, Planar2r};
+    let lab = lab("01-kinematics");
+    for salt in 0..20 {
+        let staff: Staff = staff(&lab, Some(&format!("boundary {salt}")));
+        let mut seen = 0;
+        for case in staff.hidden("ik") {
+            let robot = lab.robot_file.build(&case.dimensions).expect("a robot");
+            let length = |joint: usize| match robot.dimensions().get("link_lengths") {
+                Some(kinemark_sim::robot::Dimension::List(lengths)) => lengths[joint],
+                other => panic!("{other:?}"),
+            };
+            let base_height_m = match robot.dimensions().get("base_height") {
+                Some(kinemark_sim::robot::Dimension::Number(height)) => *height,
+                other => panic!("{other:?}"),
+            };
+            let (l1_m, l2_m) = (length(0), length(1));
+            let arm = Planar2r {
+                base_height_m,
+                l1_m,
+                l2_m,
+                ..Planar2r::lab_arm()
+            };
+            let Given::Position {
+                position_m: [x, y, _],
+                branches,
+            } = case.given
+            else {
+                panic!("{case:?}");
+            };
+            let r = (x - base_height_m).hypot(y);
+            let inside = (l1_m + l2_m - r).min(r - (l1_m - l2_m).abs());
+            if branches == 0 {
+                assert!(inside < -0.005, "{} at {inside}", case.name);
+                assert!(matches!(arm.inverse_kinematics(x, y), IkSolutions::Unreachable { .. }));
+            } else {
+                assert!(inside >= 0.005, "{} at {inside}", case.name);
+                assert!(matches!(arm.inverse_kinematics(x, y), IkSolutions::Branches { .. }));
+            }
+            seen += 1;
+        }
+        assert!(seen > 30);
+    }
+}

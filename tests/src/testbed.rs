@@ -1,0 +1,194 @@
+//! Where tests run the binary: a folder of their own that goes away, and a fresh build of the same profile.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use kinemark_grader::grading::{self, InProcess};
+use kinemark_grader::graded::GradedRun;
+use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_sim::source::Source;
+
+/// The checkout.
+pub(crate) fn root() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Builds the binary in `profile` (as `--profile` names it) and returns its path.
+pub(crate) fn build(profile: &str) -> PathBuf {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo
+        .current_dir(root())
+        .args(["build", "--quiet", "--locked", "--package", "kinemark", "--profile", profile]);
+    // what cargo tells a test about its own package must not reach the build of another
+    for (name, _) in std::env::vars_os() {
+        let name = name.to_string_lossy();
+        let kept = ["CARGO_HOME", "CARGO_TARGET_DIR", "CARGO_NET_OFFLINE"];
+        if name.starts_with("CARGO_") && !kept.contains(&name.as_ref()) {
+            cargo.env_remove(name.as_ref());
+        }
+    }
+    assert!(cargo.status().expect("cargo runs").success(), "the binary builds");
+    let folder = if profile == "dev" { "debug" } else { profile };
+    // target/<folder>/deps/system-<hash>: the build of another profile lies beside this one's
+    let here = std::env::current_exe().expect("this test's path");
+    let target = here.ancestors().nth(3).expect("the target folder");
+    let name = format!("kinemark{}", std::env::consts::EXE_SUFFIX);
+    target.join(folder).join(name)
+}
+
+/// The binary in the profile of the tests.
+pub(crate) fn binary() -> &'static Path {
+    static BINARY: OnceLock<PathBuf> = OnceLock::new();
+    BINARY.get_or_init(|| {
+        let here = std::env::current_exe().expect("this test's path");
+        let folder = here.ancestors().nth(2).and_then(Path::file_name);
+        let folder = folder.expect("the profile's folder").to_string_lossy();
+        build(if folder == "debug" { "dev" } else { &folder })
+    })
+}
+
+/// What a command did.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+    pub(crate) code: Option<i32>,
+}
+
+impl From<Output> for Ran {
+    fn from(output: Output) -> Self {
+        Self {
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+            code: output.status.code(),
+        }
+    }
+}
+
+/// A folder of a test's own.
+pub(crate) struct TestBed {
+    folder: tempfile::TempDir,
+}
+
+impl TestBed {
+    pub(crate) fn new() -> Self {
+        Self {
+            folder: tempfile::tempdir().expect("a temporary folder"),
+        }
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("folder");
+        std::fs::write(path, bytes).expect("file");
+    }
+
+    /// A command that runs the binary in this folder, without colours and without what the environment says of Kinemark.
+    pub(crate) fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(binary());
+        command
+            .current_dir(self.folder.path())
+            .args(args)
+            .env("NO_COLOR", "1")
+            .env_remove("KINEMARK_SALT");
+        command
+    }
+
+    pub(crate) fn run(&self, args: &[&str]) -> Ran {
+        self.command(args).output().expect("the binary runs").into()
+    }
+
+    /// Copies the labs and the staff's reference into this folder, to be changed there.
+    pub(crate) fn copy_labs(&self) {
+        for folder in ["labs", "reference"] {
+            copy(&root().join(folder), &self.path(folder));
+        }
+    }
+
+    /// Replaces `from` by `to` in a file, once.
+    pub(crate) fn edit(&self, name: &str, from: &str, to: &str) {
+        let path = self.path(name);
+        let text = std::fs::read_to_string(&path).expect("file");
+        assert!(text.contains(from), "{name} has no {from:?}");
+        std::fs::write(path, text.replacen(from, to, 1)).expect("file");
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("folder");
+    for entry in std::fs::read_dir(from).expect("folder") {
+        let entry = entry.expect("entry");
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &target);
+        } else {
+            std::fs::copy(entry.path(), target).expect("copy");
+        }
+    }
+}
+
+/// All files below `folder`, by path relative to it, in order.
+pub(crate) fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    let mut waiting = vec![folder.to_owned()];
+    while let Some(next) = waiting.pop() {
+        for entry in std::fs::read_dir(next).expect("folder") {
+            let path = entry.expect("entry").path();
+            if path.is_dir() {
+                waiting.push(path);
+            } else {
+                let name = path.strip_prefix(folder).expect("below").to_string_lossy().replace('\\', "/");
+                files.push((name, std::fs::read(&path).expect("file")));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// A folder of the checkout as the grader reads it.
+pub(crate) struct Folder(pub(crate) PathBuf);
+
+impl Files for Folder {
+    fn name(&self) -> String {
+        self.0.display().to_string()
+    }
+
+    fn read(&self, path: &str) -> Result<Option<String>, String> {
+        let path = self.0.join(path);
+        if !path.is_file() {
+            return Ok(None);
+        }
+        std::fs::read_to_string(path).map(Some).map_err(|error| error.to_string())
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.join(folder)).into_iter().flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+/// A lab of the checkout.
+pub(crate) fn lab(name: &str) -> Lab {
+    Lab::load(&Folder(root().join("labs")), name).unwrap_or_else(|error| panic!("{error:?}"))
+}
+
+/// The staff's part of a lab of the checkout, with a salt of its own if given.
+pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
+    let staff = Staff::load(&Folder(root().join("reference")), lab, salt);
+    staff.unwrap_or_else(|error| panic!("{error:?}")).expect("a reference")
+}
+
+/// Grades a text in this process.
+pub(crate) fn grade(lab: &Lab, staff: Option<&Staff>, name: &str, text: &str) -> GradedRun {
+    grading::grade(lab, staff, &Source::new(name, text), &mut InProcess).expect("not interrupted")
+}

@@ -1,0 +1,60 @@
+//! `kinemark verify`: a report holds what its submission does, or the first difference is named.
+
+use crate::testbed::{TestBed, root};
+
+fn graded() -> TestBed {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let submission = root().join("tests/submissions/01-kinematics/good/submission.rhai");
+    std::fs::copy(submission, bed.path("mine.rhai")).expect("copied");
+    let ran = bed.run(&["grade", "01-kinematics", "mine.rhai"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    bed
+}
+
+#[test]
+fn an_untouched_report_holds() {
+    let bed = graded();
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.starts_with("same bits: 4 tasks"), "{ran:?}");
+    // without the staff's part the motion can still be compared
+    let ran = bed.run(&["verify", "out", "--practice"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("not compared: task `fk`"), "{ran:?}");
+}
+
+#[test]
+fn a_changed_submission_is_found_with_second_and_signal() {
+    let bed = graded();
+    bed.edit("out/submission.rhai", "time < 2.5", "time < 2.6");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains("differs: submission"), "{ran:?}");
+    // the second move starts at 2.6 s instead of 2.5 s: the command differs in second 2 (as do q and qd), and q is told first
+    assert!(ran.stdout.contains("trace of task `move`, first in second 2, signal `q`"), "{ran:?}");
+    let ran = bed.run(&["verify", "out", "--json"]);
+    let comparison: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(comparison["same"], false);
+}
+
+#[test]
+fn a_forged_grade_is_found() {
+    let bed = graded();
+    bed.edit("out/grade.json", "\"points\": 24.0", "\"points\": 25.0");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains("differs: record"), "{ran:?}");
+}
+
+#[test]
+fn what_is_no_report_is_said_so() {
+    let bed = TestBed::new();
+    assert_eq!(bed.run(&["verify", "nowhere"]).code, Some(2));
+    bed.write("folder/file", "");
+    assert_eq!(bed.run(&["verify", "folder"]).code, Some(3));
+    bed.write("folder/grade.json", "{}");
+    let ran = bed.run(&["verify", "folder"]);
+    assert_eq!(ran.code, Some(3));
+    assert!(ran.stderr.contains("no grade record"), "{ran:?}");
+}
