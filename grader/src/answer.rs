@@ -12,10 +12,7 @@ use crate::quantity::trimmed;
 pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
     match numbers(value).as_deref() {
         Some([x, y, z]) => finite(value, &[*x, *y, *z]).map(|()| Vector3::new(*x, *y, *z)),
-        _ => Err(format!(
-            "expected 3 numbers [x, y, z], got {}",
-            describe(value)
-        )),
+        _ => Err(instead(value, "3 numbers [x, y, z]")),
     }
 }
 
@@ -25,9 +22,9 @@ pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
 /// What was returned instead, in words; also more than `most` branches, so that an answer cannot be a guess at every sign.
 pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, String> {
     let wrong = || {
-        Err(format!(
-            "expected a list of branches of {n} numbers each, one branch, or [], got {}",
-            describe(value)
+        Err(instead(
+            value,
+            &format!("a list of branches of {n} numbers each, one branch, or []"),
         ))
     };
     let Value::List(items) = value else {
@@ -51,7 +48,7 @@ pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, S
     }
     if branches.len() > most {
         return Err(format!(
-            "expected at most {most} branches, got {}: return the right ones only",
+            "{} branches where at most {most} exist: return the right ones only",
             branches.len()
         ));
     }
@@ -72,10 +69,7 @@ pub fn command(value: &Value, n: usize) -> Result<Vec<f64>, String> {
     };
     match found {
         Some(numbers) if numbers.len() == n => finite(value, &numbers).map(|()| numbers),
-        _ => Err(format!(
-            "expected {n} numbers, one per joint, got {}",
-            describe(value)
-        )),
+        _ => Err(instead(value, &format!("{n} numbers, one per joint"))),
     }
 }
 
@@ -83,8 +77,13 @@ fn finite(value: &Value, numbers: &[f64]) -> Result<(), String> {
     if numbers.iter().all(|number| number.is_finite()) {
         Ok(())
     } else {
-        Err(format!("expected finite numbers, got {}", describe(value)))
+        Err(instead(value, "finite numbers"))
     }
+}
+
+/// What came, and what was expected.
+fn instead(value: &Value, expected: &str) -> String {
+    format!("{}, expected {expected}", describe(value))
 }
 
 fn numbers(value: &Value) -> Option<Vec<f64>> {
@@ -170,7 +169,7 @@ mod tests {
         assert!(
             position(&list(&[1.0, 2.0]))
                 .unwrap_err()
-                .ends_with("got [1, 2]")
+                .starts_with("[1, 2], expected")
         );
         assert!(
             position(&list(&[1.0, f64::NAN, 0.0]))

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::answer;
 use crate::check::{Answered, CaseError, CaseFacts};
-use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Stop, Value};
+use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop, Value};
 use crate::grade::LogEntry;
 use crate::grading::Host;
 use crate::lab::model::{Case, Function, Given, Lab};
@@ -55,17 +55,13 @@ pub fn run<'a>(
             }
         };
         let mut answered = None;
+        let mut said = Said::default();
         if exhausted < MOST_EXHAUSTED {
             match ask(&mut controller, &robot, case, opening, host) {
                 Ok(answer) => {
                     operations += answer.operations;
                     hash_value(&mut hasher, &answer.value);
-                    log.extend(
-                        answer
-                            .log
-                            .into_iter()
-                            .map(|text| LogEntry { at: i as u64, text }),
-                    );
+                    said = answer.said;
                     answered = Some(answer.value);
                 }
                 Err(why) => {
@@ -81,9 +77,17 @@ pub fn run<'a>(
                         _ => MOST_EXHAUSTED,
                     };
                     stop.get_or_insert((i, why));
+                    if let Some(controller) = &mut controller {
+                        said = controller.unanswered();
+                    }
                 }
             }
         }
+        log.extend(
+            said.log
+                .into_iter()
+                .map(|text| LogEntry { at: i as u64, text }),
+        );
         facts.push(measure(lab, function, case, robot, answered.as_ref()));
     }
     CasesRun {

@@ -12,6 +12,18 @@ pub trait Controller {
     /// # Errors
     /// [`Stop`] if there is no answer. After [`Stop::Crashed`] and [`Stop::OverBudget`] it can be called again.
     fn call(&mut self, call: &Call) -> Result<Answer, Stop>;
+
+    /// What the last call said before it was stopped, which no answer carries: a student looks there for the reason.
+    fn unanswered(&mut self) -> Said;
+}
+
+/// What a call says besides its value.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Said {
+    /// Lines it printed.
+    pub log: Vec<String>,
+    /// Values it plotted, by name, in order.
+    pub plots: Vec<(String, f64)>,
 }
 
 /// What a controller is opened with, once per task.
@@ -114,10 +126,8 @@ pub struct Observation {
 pub struct Answer {
     /// What the function returned.
     pub value: Value,
-    /// Lines it printed.
-    pub log: Vec<String>,
-    /// Values it plotted, by name, in order.
-    pub plots: Vec<(String, f64)>,
+    /// What it said.
+    pub said: Said,
     /// Operations it used.
     pub operations: u64,
 }
@@ -253,11 +263,11 @@ pub struct Budgets {
 impl Default for Budgets {
     fn default() -> Self {
         Self {
-            operations_per_call: 50_000,
-            operations_per_task: 10_000_000,
+            operations_per_call: 25_000,
+            operations_per_task: 5_000_000,
             call_depth: 32,
             expression_depth: 64,
-            list_size: 4_000,
+            list_size: 1_000,
             text_size: 4_000,
             map_size: 256,
             log_lines: 1_000,

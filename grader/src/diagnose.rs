@@ -4,7 +4,7 @@
 //! and agree with no other mistake as well. A wrong diagnosis is worse than none.
 
 use crate::check::ik_branches::same_branch;
-use crate::check::stay::best_stays;
+use crate::check::stay::{Stay, best_stays};
 use crate::check::{Answered, CaseError, CaseFacts};
 use crate::grade::Diagnosis;
 use crate::lab::model::{Band, MotionTask};
@@ -38,7 +38,7 @@ impl Agreement<'_> {
 /// The one mistake that explains all, if there is exactly one: of two that do, the one that shows in more answers.
 fn clear(mut candidates: Vec<Agreement<'_>>) -> Vec<Diagnosis> {
     candidates.retain(|c| c.telling > 0 && c.agreeing == c.telling);
-    candidates.sort_by(|a, b| b.telling.cmp(&a.telling));
+    candidates.sort_by_key(|candidate| std::cmp::Reverse(candidate.telling));
     match candidates.as_slice() {
         [only] => vec![only.diagnosis()],
         [first, second, ..] if first.telling > second.telling => vec![first.diagnosis()],
@@ -129,7 +129,8 @@ pub fn motion_task<'m>(
         }
         let (mut agreeing, mut telling) = (0, 0);
         for ((goal, student), mutant) in motion.goals.iter().zip(&settled).zip(&places) {
-            let stands_still = trace.is_empty() || (mutant - trace.tcp_position(0)).norm() < still_m;
+            let stands_still =
+                trace.is_empty() || (mutant - trace.tcp_position(0)).norm() < still_m;
             if !stands_still && (mutant - goal.position_m).norm() > band.full {
                 telling += 1;
                 agreeing += usize::from((student - mutant).norm() <= same_m);
@@ -144,15 +145,29 @@ pub fn motion_task<'m>(
     clear(candidates)
 }
 
-/// Where a run stood in its stay nearest to each goal, however far that is.
+/// Where a run stood stillest in its stay nearest to each goal, however far that is, and for as long as it remained there.
 fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
-    let near = Band {
+    let anywhere = Band {
         full: 0.0,
         zero: 1e3,
     };
-    let stays = best_stays(trace, &motion.goals, near);
-    stays
-        .iter()
-        .map(|stay| trace.tcp_position(stay.last))
-        .collect()
+    let there_m = 0.02; // a step response swings through this at the end of its settling
+    let beat = 20; // ticks over which stillness is judged
+    let stays = best_stays(trace, &motion.goals, anywhere);
+    let place = |stay: &Stay| {
+        let around = trace.tcp_position(stay.last);
+        let visit = (stay.first..trace.len()).take_while(|&tick| {
+            tick <= stay.last || (trace.tcp_position(tick) - around).norm() < there_m
+        });
+        let moved = |tick: usize| {
+            let later = (tick + beat).min(trace.len() - 1);
+            (trace.tcp_position(later) - trace.tcp_position(tick)).norm()
+        };
+        // the last tick has nothing after it and would always be still
+        let stillest = visit
+            .filter(|&tick| tick + beat < trace.len())
+            .min_by(|&a, &b| moved(a).total_cmp(&moved(b)));
+        trace.tcp_position(stillest.unwrap_or(stay.last))
+    };
+    stays.iter().map(place).collect()
 }

@@ -175,7 +175,11 @@ impl Grader<'_> {
             }
             stopped_record = Some(record);
         }
-        let checks = judged(&task.checks, verdict.is_decided(), |check| {
+        let could_run = !matches!(
+            run.stop,
+            Some((_, Stop::Missing { .. } | Stop::DidNotBuild(_)))
+        );
+        let checks = judged(&task.checks, could_run && verdict.is_decided(), |check| {
             check::judge_function(check, work.function, &run.facts)
         });
         let checks: Vec<CheckGrade> = checks.into_iter().map(|(check, _)| check).collect();
@@ -186,8 +190,8 @@ impl Grader<'_> {
         if let (Some((case, what)), None) = (invalid, &stopped_record) {
             verdict = verdict.min(Verdict::InvalidOutput);
             stopped_record = Some(Stopped {
+                help: not_finite_help(&what),
                 message: what,
-                help: None,
                 line: None,
                 column: None,
                 source_line: None,
@@ -274,7 +278,7 @@ impl Grader<'_> {
                 }
                 EarlyEnd::InvalidOutput(what) => {
                     verdict = Verdict::InvalidOutput;
-                    said(what.clone(), None)
+                    said(what.clone(), not_finite_help(what))
                 }
                 EarlyEnd::Diverged => {
                     verdict = Verdict::Missed;
@@ -395,6 +399,14 @@ impl Grader<'_> {
         let mut paths = self.lab.reference_paths.paths.iter();
         paths.find(|(name, _)| name == task).map(|(_, path)| path)
     }
+}
+
+/// Where numbers that are not finite come from.
+fn not_finite_help(message: &str) -> Option<String> {
+    let shown = message.contains("NaN") || message.contains("infinity");
+    shown.then(|| {
+        "NaN comes from `acos` or `sqrt` of a number outside their range and from 0 / 0, infinity from a division by zero".to_owned()
+    })
 }
 
 fn said(message: String, help: Option<String>) -> Stopped {

@@ -13,6 +13,14 @@
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
 //! | [`graded`] | the record with the runs it rests on |
 
+#![cfg_attr(
+    test,
+    expect(
+        clippy::float_cmp,
+        reason = "tests state exact values where exactness is the claim"
+    )
+)]
+
 pub mod answer;
 pub mod cases;
 pub mod check;

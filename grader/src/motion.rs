@@ -5,7 +5,9 @@ use kinemark_sim::trace::{Event, EventKind, LogLine, PlotSignal, Trace, TraceRec
 
 use crate::answer;
 use crate::cases::robot_facts;
-use crate::controller::{Answer, Call, Observation, Opening, RobotFacts, Stop, Value};
+use crate::controller::{
+    Answer, Call, Controller, Observation, Opening, RobotFacts, Said, Stop, Value,
+};
 use crate::grading::Host;
 use crate::lab::model::{Lab, MotionTask};
 
@@ -67,8 +69,8 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
         ticks: motion.ticks,
     };
     let mut recorder = TraceRecorder::new(&setup);
-    let mut said = Said::default();
-    let ended = match started(opening, host, &mut said) {
+    let mut told = Told::default();
+    let ended = match started(opening, host, &mut told) {
         Err(stop) => Some((0, EarlyEnd::Stopped(stop))),
         Ok(mut controller) => {
             let control = |seen: &run::Observation<'_>, command: &mut [f64]| {
@@ -81,8 +83,8 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
                     effort: seen.effort.to_vec(),
                     tcp_m: seen.tcp.translation.vector.into(),
                 });
-                let answer = controller.call(&call).map_err(EarlyEnd::Stopped)?;
-                let value = said.keep(seen.tick, answer);
+                let value = ask(controller.as_mut(), &call, seen.tick, &mut told)
+                    .map_err(EarlyEnd::Stopped)?;
                 let numbers = answer::command(&value, command.len())
                     .map_err(|what| EarlyEnd::InvalidOutput(format!("control returned {what}")))?;
                 command.copy_from_slice(&numbers);
@@ -100,8 +102,8 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
         }
     };
     let mut trace = recorder.finish();
-    trace.log = said.log;
-    trace.plots = said.plots;
+    trace.log = told.log;
+    trace.plots = told.plots;
     if let Some((tick, why)) = &ended {
         let kind = match why {
             EarlyEnd::Diverged => EventKind::Diverged,
@@ -112,35 +114,57 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
     MotionRun {
         trace,
         ended,
-        operations: said.operations,
+        operations: told.operations,
     }
 }
 
 fn started(
     opening: &Opening,
     host: &mut dyn Host,
-    said: &mut Said,
-) -> Result<Box<dyn crate::controller::Controller>, Stop> {
+    told: &mut Told,
+) -> Result<Box<dyn Controller>, Stop> {
     let mut controller = host.open(opening)?;
-    let answer = controller.call(&Call::Init)?;
-    said.keep(0, answer);
+    ask(controller.as_mut(), &Call::Init, 0, told)?;
     Ok(controller)
 }
 
-/// What a submission said besides its commands.
+/// Calls the submission and keeps what it says, answered or not.
+fn ask(
+    controller: &mut dyn Controller,
+    call: &Call,
+    tick: u64,
+    told: &mut Told,
+) -> Result<Value, Stop> {
+    match controller.call(call) {
+        Ok(Answer {
+            value,
+            said,
+            operations,
+        }) => {
+            told.operations += operations;
+            told.keep(tick, said);
+            Ok(value)
+        }
+        Err(stop) => {
+            told.keep(tick, controller.unanswered());
+            Err(stop)
+        }
+    }
+}
+
+/// What a submission said in a run besides its commands.
 #[derive(Default)]
-struct Said {
+struct Told {
     log: Vec<LogLine>,
     plots: Vec<PlotSignal>,
     operations: u64,
 }
 
-impl Said {
-    fn keep(&mut self, tick: u64, answer: Answer) -> Value {
-        self.operations += answer.operations;
-        let lines = answer.log.into_iter().map(|text| LogLine { tick, text });
+impl Told {
+    fn keep(&mut self, tick: u64, said: Said) {
+        let lines = said.log.into_iter().map(|text| LogLine { tick, text });
         self.log.extend(lines);
-        for (name, value) in answer.plots {
+        for (name, value) in said.plots {
             match self.plots.iter_mut().find(|plot| plot.name == name) {
                 Some(plot) => plot.samples.push((tick, value)),
                 None => self.plots.push(PlotSignal {
@@ -149,6 +173,5 @@ impl Said {
                 }),
             }
         }
-        answer.value
     }
 }

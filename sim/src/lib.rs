@@ -19,6 +19,14 @@
 //! rows are `[linear; angular]`; arrays over joints follow the file order of the joints that move. All transcendental functions
 //! come from `libm`, so that every platform computes the same bits.
 
+#![cfg_attr(
+    test,
+    expect(
+        clippy::float_cmp,
+        reason = "tests state exact values where exactness is the claim"
+    )
+)]
+
 pub mod control;
 pub mod dynamics;
 pub mod joint;

@@ -154,6 +154,17 @@ impl TomlRefusal {
                 .replace("unknown variant", "unknown kind"),
             _ => message,
         };
+        let message = [
+            ("f64", "a number"),
+            ("i64", "a whole number"),
+            ("u64", "a whole number, zero or more"),
+            ("u32", "a whole number, zero or more"),
+            ("a string", "a text"),
+        ]
+        .into_iter()
+        .fold(message, |message, (theirs, ours)| {
+            message.replace(&format!("expected {theirs}"), &format!("expected {ours}"))
+        });
         Self {
             message,
             help,

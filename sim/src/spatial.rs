@@ -57,7 +57,7 @@ pub fn rotation_about_axis_deg(axis: Vector3<f64>, angle_deg: f64) -> Matrix3<f6
 /// Sine and cosine of an angle in degrees, exact at whole quarter turns, where `sin(pi)` is not zero in floating point.
 fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = angle_deg / 90.0;
-    if quarters == quarters.trunc() && quarters.abs() < 1e15 {
+    if quarters.fract() == 0.0 && quarters.abs() < 1e15 {
         return match (quarters as i64).rem_euclid(4) {
             0 => (0.0, 1.0),
             1 => (1.0, 0.0),

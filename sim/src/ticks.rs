@@ -31,7 +31,7 @@ pub struct PeriodError {
 pub fn whole_ratio(longer_s: f64, shorter_s: f64) -> Option<u64> {
     let ratio = longer_s / shorter_s;
     let whole = ratio.round();
-    let fits = whole >= 1.0 && whole < 9e15 && (ratio - whole).abs() <= 1e-6;
+    let fits = (1.0..9e15).contains(&whole) && (ratio - whole).abs() <= 1e-6;
     fits.then_some(whole as u64)
 }
 

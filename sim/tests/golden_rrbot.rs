@@ -45,8 +45,8 @@ fn poses_jacobians_and_dynamics_agree_in_all_states() {
         let lab_from_world = poses.world_from(lab).inverse();
         let lab_from_tcp = lab_from_world * poses.world_from(tcp);
         let pos = numbers(&state["pos_m"]);
-        for i in 0..3 {
-            close(lab_from_tcp.translation.vector[i], pos[i], "position");
+        for (got, expected) in lab_from_tcp.translation.vector.iter().zip(&pos) {
+            close(*got, *expected, "position");
         }
         let jacobian = geometric_jacobian(&robot, &q, tcp);
         let m = mass_matrix(&robot, &q);

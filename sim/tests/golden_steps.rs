@@ -124,7 +124,6 @@ fn check(file: &str, mode: Mode) {
             (false, _) => 1e-4,
         };
         assert!(coarse < allowed, "{name} at 1 ms: {coarse:.2e} rad");
-        println!("{name}: {fine:.2e} rad at 0.1 ms, {coarse:.2e} rad at 1 ms");
     }
 }
 

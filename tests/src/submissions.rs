@@ -24,7 +24,13 @@ fn every_submission_gets_the_verdict_it_must_get() {
         let mut cases: BTreeMap<String, _> = BTreeMap::new();
         for case in std::fs::read_dir(&lab_folder).expect("cases") {
             let path = case.expect("entry").path();
-            cases.insert(path.file_name().expect("name").to_string_lossy().into_owned(), path);
+            cases.insert(
+                path.file_name()
+                    .expect("name")
+                    .to_string_lossy()
+                    .into_owned(),
+                path,
+            );
         }
         for (name, path) in cases {
             let read = |file: &str| {
@@ -32,14 +38,35 @@ fn every_submission_gets_the_verdict_it_must_get() {
                 std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
             };
             let expect: Table = read("expect.toml").parse().expect("expect.toml");
-            let graded = grade(&lab, Some(&staff), "submission.rhai", &read("submission.rhai")).grade;
-            assert_eq!(Some(graded.verdict.name()), text(&expect, "verdict"), "{name}: {}", shown(&graded));
+            let graded = grade(
+                &lab,
+                Some(&staff),
+                "submission.rhai",
+                &read("submission.rhai"),
+            )
+            .grade;
+            assert_eq!(
+                Some(graded.verdict.name()),
+                text(&expect, "verdict"),
+                "{name}: {}",
+                shown(&graded)
+            );
             let known = ["verdict", "tasks"];
-            assert!(expect.keys().all(|key| known.contains(&key.as_str())), "{name}");
-            let tasks = expect.get("tasks").and_then(|tasks| tasks.as_table()).expect("tasks");
+            assert!(
+                expect.keys().all(|key| known.contains(&key.as_str())),
+                "{name}"
+            );
+            let tasks = expect
+                .get("tasks")
+                .and_then(|tasks| tasks.as_table())
+                .expect("tasks");
             for (task_name, wanted) in tasks {
                 let wanted = wanted.as_table().expect("a task");
-                let task = graded.tasks.iter().find(|task| task.name == *task_name).expect("task");
+                let task = graded
+                    .tasks
+                    .iter()
+                    .find(|task| task.name == *task_name)
+                    .expect("task");
                 let place = format!("{name}/{task_name}: {}", shown(&graded));
                 for key in wanted.keys() {
                     let known = ["verdict", "points", "diagnosis", "says", "line", "lost"];
@@ -62,8 +89,12 @@ fn every_submission_gets_the_verdict_it_must_get() {
                     assert_eq!(at.map(|line| line as i64), line.as_integer(), "{place}");
                 }
                 if let Some(lost) = wanted.get("lost") {
-                    let lost: Vec<&str> =
-                        lost.as_array().expect("lost").iter().map(|c| c.as_str().expect("check")).collect();
+                    let lost: Vec<&str> = lost
+                        .as_array()
+                        .expect("lost")
+                        .iter()
+                        .map(|c| c.as_str().expect("check"))
+                        .collect();
                     let found: Vec<&str> = task
                         .checks
                         .iter()

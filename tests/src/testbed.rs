@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use kinemark_grader::grading::{self, InProcess};
 use kinemark_grader::graded::GradedRun;
+use kinemark_grader::grading::{self, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_sim::source::Source;
 
@@ -17,9 +17,15 @@ pub(crate) fn root() -> PathBuf {
 /// Builds the binary in `profile` (as `--profile` names it) and returns its path.
 pub(crate) fn build(profile: &str) -> PathBuf {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo
-        .current_dir(root())
-        .args(["build", "--quiet", "--locked", "--package", "kinemark", "--profile", profile]);
+    cargo.current_dir(root()).args([
+        "build",
+        "--quiet",
+        "--locked",
+        "--package",
+        "kinemark",
+        "--profile",
+        profile,
+    ]);
     // what cargo tells a test about its own package must not reach the build of another
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
@@ -28,7 +34,10 @@ pub(crate) fn build(profile: &str) -> PathBuf {
             cargo.env_remove(name.as_ref());
         }
     }
-    assert!(cargo.status().expect("cargo runs").success(), "the binary builds");
+    assert!(
+        cargo.status().expect("cargo runs").success(),
+        "the binary builds"
+    );
     let folder = if profile == "dev" { "debug" } else { profile };
     // target/<folder>/deps/system-<hash>: the build of another profile lies beside this one's
     let here = std::env::current_exe().expect("this test's path");
@@ -142,7 +151,11 @@ pub(crate) fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
             if path.is_dir() {
                 waiting.push(path);
             } else {
-                let name = path.strip_prefix(folder).expect("below").to_string_lossy().replace('\\', "/");
+                let name = path
+                    .strip_prefix(folder)
+                    .expect("below")
+                    .to_string_lossy()
+                    .replace('\\', "/");
                 files.push((name, std::fs::read(&path).expect("file")));
             }
         }
@@ -164,7 +177,9 @@ impl Files for Folder {
         if !path.is_file() {
             return Ok(None);
         }
-        std::fs::read_to_string(path).map(Some).map_err(|error| error.to_string())
+        std::fs::read_to_string(path)
+            .map(Some)
+            .map_err(|error| error.to_string())
     }
 
     fn list(&self, folder: &str) -> Vec<String> {
@@ -185,7 +200,9 @@ pub(crate) fn lab(name: &str) -> Lab {
 /// The staff's part of a lab of the checkout, with a salt of its own if given.
 pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
     let staff = Staff::load(&Folder(root().join("reference")), lab, salt);
-    staff.unwrap_or_else(|error| panic!("{error:?}")).expect("a reference")
+    staff
+        .unwrap_or_else(|error| panic!("{error:?}"))
+        .expect("a reference")
 }
 
 /// Grades a text in this process.

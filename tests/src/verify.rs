@@ -32,7 +32,11 @@ fn a_changed_submission_is_found_with_second_and_signal() {
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("differs: submission"), "{ran:?}");
     // the second move starts at 2.6 s instead of 2.5 s: the command differs in second 2 (as do q and qd), and q is told first
-    assert!(ran.stdout.contains("trace of task `move`, first in second 2, signal `q`"), "{ran:?}");
+    assert!(
+        ran.stdout
+            .contains("trace of task `move`, first in second 2, signal `q`"),
+        "{ran:?}"
+    );
     let ran = bed.run(&["verify", "out", "--json"]);
     let comparison: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     assert_eq!(comparison["same"], false);

@@ -29,8 +29,16 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    match commands::run(args) {
-        Ok(code) => code,
-        Err(failure) => failure.report(),
-    }
+    let command = std::thread::Builder::new()
+        // submissions that run in this process (mutants, --in-process) may nest as deep as their budgets allow
+        .stack_size(2 * kinemark_grader::submission::STACK_BYTES)
+        .spawn(|| match commands::run(args) {
+            Ok(code) => code,
+            Err(failure) => failure.report(),
+        });
+    let ended = command.map(std::thread::JoinHandle::join);
+    // a panic has been told by its own message; without a thread there is nothing to tell
+    ended.map_or(ExitCode::from(failure::FAULT), |code| {
+        code.unwrap_or(ExitCode::from(failure::FAULT))
+    })
 }

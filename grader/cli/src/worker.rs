@@ -10,9 +10,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use kinemark_grader::controller::{Answer, Call, Controller, HostLimit, Opening, Stop};
+use kinemark_grader::controller::{Answer, Call, Controller, HostLimit, Opening, Said, Stop};
 use kinemark_grader::grading::Host;
-use kinemark_grader::submission::ScriptController;
+use kinemark_grader::submission::{STACK_BYTES, ScriptController};
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
@@ -27,8 +27,6 @@ const CPU_SECONDS: u64 = 50;
 const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 /// A frame longer than this is no message of ours.
 const MOST_FRAME_BYTES: u32 = 64 << 20;
-/// Stack of the thread that runs the submission: depth is counted, this only keeps the count below it.
-const STACK_BYTES: usize = 32 << 20;
 
 fn send(out: &mut impl Write, message: &impl Serialize) -> std::io::Result<()> {
     let bytes = postcard::to_stdvec(message).map_err(std::io::Error::other)?;
@@ -79,7 +77,10 @@ fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Resu
     };
     loop {
         let call: Call = receive(input)?;
-        send(output, &controller.call(&call))?;
+        let answer = controller
+            .call(&call)
+            .map_err(|stop| (stop, controller.unanswered()));
+        send(output, &answer)?;
     }
 }
 
@@ -139,6 +140,7 @@ struct Worker {
     /// What the worker's runtime says when it dies; a submission's own output never goes there.
     last_words: Option<JoinHandle<String>>,
     watchdog: Option<(Sender<()>, JoinHandle<bool>)>,
+    unanswered: Said,
 }
 
 impl Worker {
@@ -188,6 +190,7 @@ impl Worker {
             output,
             last_words: Some(last_words),
             watchdog: Some((done, watchdog)),
+            unanswered: Said::default(),
         })
     }
 
@@ -253,8 +256,15 @@ impl Controller for Worker {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        let answer: Result<Answer, Stop> = self.exchange(call)?;
-        answer
+        let answer: Result<Answer, (Stop, Said)> = self.exchange(call)?;
+        answer.map_err(|(stop, said)| {
+            self.unanswered = said;
+            stop
+        })
+    }
+
+    fn unanswered(&mut self) -> Said {
+        std::mem::take(&mut self.unanswered)
     }
 }
 

@@ -55,7 +55,12 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         let value = |e: &Evidence| e.value.unwrap_or(f64::INFINITY);
         value(b).total_cmp(&value(a))
     });
-    let settled = |goal: usize| facts.stays.get(goal).map_or(f64::INFINITY, |stay| stay.settled_m);
+    let settled = |goal: usize| {
+        facts
+            .stays
+            .get(goal)
+            .map_or(f64::INFINITY, |stay| stay.settled_m)
+    };
     let worst_of_all = (0..goals.len()).map(settled).fold(0.0, f64::max);
     Finding {
         score,

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use owo_colors::OwoColorize as _;
 
+use super::visible::visible;
 use crate::grade::{CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade};
 use crate::quantity::{points, seconds, with_unit};
 use crate::verdict::Verdict;
@@ -134,11 +135,9 @@ fn push_stopped(out: &mut String, stopped: &Stopped) {
             &format!("    {} {}", format!("{gutter} |").dimmed(), visible(source)),
         );
         if let Some(column) = stopped.column {
-            let before: String = source
-                .chars()
-                .take(column.saturating_sub(1))
-                .map(|c| if c == '\t' { '\t' } else { ' ' })
-                .collect();
+            // as wide as what is shown before the caret
+            let head: String = source.chars().take(column.saturating_sub(1)).collect();
+            let before: String = visible(&head).chars().map(|_| ' ').collect();
             let bar = format!("{:gutter$} |", "", gutter = gutter.len());
             line(
                 out,
@@ -201,7 +200,7 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
 }
 
 fn told(evidence: &Evidence) -> String {
-    let message = visible(&evidence.message);
+    let message = visible(&evidence.message).into_owned();
     match (evidence.tick, evidence.time_s) {
         (Some(tick), Some(_)) => {
             format!(
@@ -211,19 +210,4 @@ fn told(evidence: &Evidence) -> String {
         }
         _ => message,
     }
-}
-
-/// Text of a submission, harmless on a terminal: control and direction characters become visible.
-pub fn visible(text: &str) -> String {
-    text.chars()
-        .map(|c| match c {
-            '\t' => ' ',
-            c if c.is_control() => '\u{fffd}',
-            // marks that turn the direction of what follows
-            '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
-                '\u{fffd}'
-            }
-            c => c,
-        })
-        .collect()
 }

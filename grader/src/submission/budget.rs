@@ -6,7 +6,7 @@ use rhai::Position;
 
 use super::copies;
 use super::mistake::Problem;
-use crate::controller::{Budget, Budgets, Place};
+use crate::controller::{Budget, Budgets, Place, Said};
 
 /// A built-in that walks over elements costs one operation for this many of them, which takes it about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
@@ -175,8 +175,11 @@ impl Meter {
     }
 
     /// Hands over what was printed and plotted since the last time.
-    pub(super) fn take_output(&self) -> (Vec<String>, Vec<(String, f64)>) {
-        (self.log.take(), self.plots.take())
+    pub(super) fn take_output(&self) -> Said {
+        Said {
+            log: self.log.take(),
+            plots: self.plots.take(),
+        }
     }
 
     /// The budget that ran out in this call.

@@ -15,7 +15,7 @@ use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::mistake::{Context, Problem, raise};
 use crate::controller::{
-    Answer, Budget, Call, Controller, Mistake, Opening, RobotFacts, Stop, Value,
+    Answer, Budget, Call, Controller, Mistake, Opening, RobotFacts, Said, Stop, Value,
 };
 
 /// The stack a thread needs on which scripts run.
@@ -197,11 +197,6 @@ impl ScriptController {
         }
     }
 
-    /// Lines printed and values plotted by a call that stopped, which has no answer to carry them.
-    pub fn unanswered(&mut self) -> (Vec<String>, Vec<(String, f64)>) {
-        self.meter.take_output()
-    }
-
     #[expect(
         deprecated,
         reason = "the engine's other ways look up every operator and built-in again at each call"
@@ -300,13 +295,15 @@ impl Controller for ScriptController {
         if !convert::is_finite(&value) {
             self.meter.log_not_a_number();
         }
-        let (log, plots) = self.meter.take_output();
         Ok(Answer {
             value,
-            log,
-            plots,
+            said: self.meter.take_output(),
             operations,
         })
+    }
+
+    fn unanswered(&mut self) -> Said {
+        self.meter.take_output()
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) struct Told {
     pub(super) value: String,
     /// What earns all and what earns none.
     pub(super) band: String,
-    /// How far the value is from where all points are earned.
+    /// How far the value is from where all points are earned, if it is not right there.
     pub(super) margin: Option<String>,
 }
 
@@ -22,13 +22,17 @@ pub(super) fn told(measure: &Measure) -> Told {
     let (unit, scale) = shown_unit(&measure.unit, typical);
     let unit = visible(unit);
     let (full, zero) = (measure.full * scale, measure.zero * scale);
+    // what is far beyond its band is told in the unit it came in: metres, not millions of millimetres
+    let is_far = |value: f64| measure.unit == "m" && value.abs() * scale >= 1e4;
+    let given = visible(&measure.unit);
     let value = match measure.value {
         // what is left of rounding says nothing: it is neither small nor smaller
         Some(value) if value.abs() < 1e-9 * typical && measure.margin() > Some(0.0) => {
             joined("≈ 0", &unit)
         }
+        Some(value) if is_far(value) => joined(&significant(value, 4), &given),
         Some(value) => joined(&told_apart(value * scale, full), &unit),
-        None => "not a finite number".to_owned(),
+        None => "no finite value".to_owned(),
     };
     let (within, beyond) = if measure.zero >= measure.full {
         ("≤", "≥")
@@ -36,12 +40,17 @@ pub(super) fn told(measure: &Measure) -> Told {
         ("≥", "≤")
     };
     let limit = |limit: f64| joined(&significant(limit, 6), &unit);
-    let margin = measure.margin().map(|margin| {
-        let size = joined(&significant((margin * scale).abs(), 3), &unit);
-        match margin {
-            m if m > 0.0 => format!("{size} inside full points"),
-            m if m < 0.0 => format!("{size} short of full points"),
-            _ => "exactly at the limit of full points".to_owned(),
+    let margin = measure.margin().filter(|margin| *margin != 0.0);
+    let margin = margin.map(|margin| {
+        let size = if is_far(margin) {
+            joined(&significant(margin.abs(), 4), &given)
+        } else {
+            joined(&significant((margin * scale).abs(), 3), &unit)
+        };
+        if margin > 0.0 {
+            format!("{size} inside full points")
+        } else {
+            format!("{size} short of full points")
         }
     });
     Told {
@@ -141,6 +150,16 @@ mod tests {
     }
 
     #[test]
+    fn a_wild_answer_is_told_in_metres() {
+        let told = told(&measure(Some(2325.872), 1e-4, 5e-3));
+        assert_eq!(told.value, "2326\u{a0}m");
+        assert_eq!(
+            told.margin.as_deref(),
+            Some("2326\u{a0}m short of full points")
+        );
+    }
+
+    #[test]
     fn rounding_is_told_as_nothing() {
         assert_eq!(
             told(&measure(Some(2.2e-16), 1e-4, 5e-3)).value,
@@ -157,7 +176,7 @@ mod tests {
         let told = told(&measure(None, 0.002, 0.02));
         assert_eq!(
             (told.value.as_str(), told.margin),
-            ("not a finite number", None)
+            ("no finite value", None)
         );
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn meaning(verdict: Verdict) -> &'static str {
         Verdict::InvalidOutput => {
             "The submission returned something of the wrong shape, or a number that is not finite."
         }
-        Verdict::Missed => "It ran, and some check did not earn all its points.",
+        Verdict::Missed => "Some check did not earn all its points.",
         Verdict::Passed => "Every check earned all its points.",
     }
 }

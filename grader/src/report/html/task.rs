@@ -124,7 +124,7 @@ fn checked(check: &CheckGrade) -> Markup {
                 @let told = told(measure);
                 div class="measure" {
                     p {
-                        (foreign(&measure.quantity)) ": " b { (told.value) }
+                        (prose(&measure.quantity)) ": " b { (told.value) }
                         @if let Some(margin) = told.margin { ", " (margin) }
                         br; small { (told.band) }
                     }

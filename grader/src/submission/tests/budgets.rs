@@ -7,7 +7,9 @@ use crate::submission::{STACK_BYTES, ScriptController};
 #[test]
 fn a_mistake_can_be_caught_and_a_budget_cannot() {
     assert_eq!(
-        answer("try { sin(\"a\") } catch (e) { print(e); } 3").log,
+        answer("try { sin(\"a\") } catch (e) { print(e); } 3")
+            .said
+            .log,
         ["`sin` takes a number or a vector, got the text \"a\""]
     );
     assert!(matches!(

@@ -9,9 +9,9 @@ fn what_is_printed_and_plotted_comes_with_the_answer() {
     let answer = answer(
         "print(observation.q, 1, \"x\"); debug(#{a: [1, \"t\"]}); plot(\"e\", 1); plot(\"q\", observation.q); 0",
     );
-    assert_eq!(answer.log, ["[0.25, 0.5] 1 x", "#{a: [1, \"t\"]}"]);
+    assert_eq!(answer.said.log, ["[0.25, 0.5] 1 x", "#{a: [1, \"t\"]}"]);
     assert_eq!(
-        answer.plots,
+        answer.said.plots,
         [
             ("e".to_owned(), 1.0),
             ("q[0]".to_owned(), 0.25),
@@ -25,7 +25,7 @@ fn what_is_printed_and_plotted_comes_with_the_answer() {
 fn lines_printed_before_a_mistake_are_not_lost() {
     let mut script = ScriptController::open(&opening("fn control(o) { print(1); o.zz }")).unwrap();
     assert!(script.call(&Call::Control(observation())).is_err());
-    assert_eq!(script.unanswered().0, ["1"]);
+    assert_eq!(script.unanswered().log, ["1"]);
 }
 
 #[test]

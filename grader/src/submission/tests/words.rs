@@ -235,7 +235,7 @@ fn an_unfinished_file_is_told_at_its_end() {
 fn an_answer_that_is_no_number_says_in_the_log_where_it_began() {
     let answer = answer("let a = sqrt(4);\nlet b = acos([0.5, 1.5]);\na + sqrt(-b)");
     assert_eq!(
-        answer.log,
+        answer.said.log,
         ["line 2: `acos` takes a number from -1 to 1, got 1.5: the result is not a number"]
     );
 }
@@ -244,5 +244,5 @@ fn an_answer_that_is_no_number_says_in_the_log_where_it_began() {
 fn a_number_that_is_none_may_be_tested_for() {
     let answer = answer("let x = acos(1.5); if is_nan(x) { [] } else { [x] }");
     assert_eq!(answer.value, numbers([]));
-    assert!(answer.log.is_empty());
+    assert!(answer.said.log.is_empty());
 }

@@ -28,7 +28,7 @@ struct Sampler {
 
 impl Recorder for Sampler {
     fn row(&mut self, row: Row<'_>) {
-        if row.tick % self.stride == 0 {
+        if row.tick.is_multiple_of(self.stride) {
             self.t_s.push(self.periods.time_s(row.tick));
             self.q.push(row.q.to_vec());
             self.qd.push(row.qd.to_vec());
