@@ -285,3 +285,34 @@ pub struct SecondDigests {
     /// TCP poses.
     pub tcp: String,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published schema is that of the code; `KINEMARK_BLESS=1` writes it anew.
+    #[test]
+    fn the_published_schema_is_current() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/grade-format.schema.json");
+        let schema = serde_json::to_string_pretty(&schemars::schema_for!(Grade)).unwrap() + "\n";
+        if std::env::var_os("KINEMARK_BLESS").is_some() {
+            std::fs::write(path, &schema).unwrap();
+        }
+        let published = std::fs::read_to_string(path).unwrap_or_default();
+        assert!(published == schema, "docs/grade-format.schema.json: run KINEMARK_BLESS=1 cargo test");
+    }
+
+    #[test]
+    fn a_margin_is_positive_inside_the_band_whichever_way_it_runs() {
+        let measure = |value, full, zero| Measure {
+            quantity: String::new(),
+            value: Some(value),
+            unit: String::new(),
+            full,
+            zero,
+        };
+        assert_eq!(measure(1.0, 2.0, 4.0).margin(), Some(1.0));
+        assert_eq!(measure(3.0, 2.0, 4.0).margin(), Some(-1.0));
+        assert_eq!(measure(0.5, 1.0, 0.0).margin(), Some(-0.5));
+    }
+}

@@ -165,3 +165,30 @@ pub(crate) struct CompletionsArgs {
     /// The shell
     pub(crate) shell: clap_complete::Shell,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_commands_are_consistent() {
+        use clap::CommandFactory as _;
+        Args::command().debug_assert();
+    }
+
+    /// The reference of the command line is that of the code; `KINEMARK_BLESS=1` writes it anew.
+    #[test]
+    fn the_published_reference_is_current() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/cli.md");
+        let options = clap_markdown::MarkdownOptions::new()
+            .title("The command line".to_owned())
+            .show_footer(false);
+        let text = clap_markdown::help_markdown_custom::<Args>(&options);
+        let text = text.trim_end().to_owned() + "\n";
+        if std::env::var_os("KINEMARK_BLESS").is_some() {
+            std::fs::write(path, &text).unwrap();
+        }
+        let published = std::fs::read_to_string(path).unwrap_or_default();
+        assert!(published == text, "docs/cli.md: run KINEMARK_BLESS=1 cargo test");
+    }
+}

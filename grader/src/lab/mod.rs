@@ -1,6 +1,7 @@
 //! Labs: the TOML types ([`file`]), what they become ([`model`]), the way from one to the other ([`load`]), and the cases that
 //! hidden draws add ([`draw`]).
 
+pub mod brief;
 pub mod draw;
 pub mod file;
 pub mod files;

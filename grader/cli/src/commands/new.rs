@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use kinemark_grader::lab::Lab;
+use kinemark_grader::lab::{Lab, brief::with_grading};
 use serde::Serialize;
 
 use crate::args::NewArgs;
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &NewArgs) -> Result<ExitCode, Failure> {
     };
     let mut written = vec![
         (dir.join("submission.rhai"), read("starter.rhai")?),
-        (dir.join("brief.md"), read("brief.md")?),
+        (dir.join("brief.md"), with_grading(&read("brief.md")?, &lab)),
     ];
     for name in files.list(&lab.name) {
         if name.ends_with(".svg") {
