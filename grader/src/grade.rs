@@ -293,13 +293,19 @@ mod tests {
     /// The published schema is that of the code; `KINEMARK_BLESS=1` writes it anew.
     #[test]
     fn the_published_schema_is_current() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/grade-format.schema.json");
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../docs/grade-format.schema.json"
+        );
         let schema = serde_json::to_string_pretty(&schemars::schema_for!(Grade)).unwrap() + "\n";
         if std::env::var_os("KINEMARK_BLESS").is_some() {
             std::fs::write(path, &schema).unwrap();
         }
         let published = std::fs::read_to_string(path).unwrap_or_default();
-        assert!(published == schema, "docs/grade-format.schema.json: run KINEMARK_BLESS=1 cargo test");
+        assert!(
+            published == schema,
+            "docs/grade-format.schema.json: run KINEMARK_BLESS=1 cargo test"
+        );
     }
 
     #[test]

@@ -229,6 +229,8 @@ impl Trace {
             all.update(&(plot.samples.len() as u64).to_le_bytes());
             for (tick, value) in &plot.samples {
                 all.update(&tick.to_le_bytes());
+                // every NaN is one NaN: its bits are not the same on every platform
+                let value = if value.is_nan() { f64::NAN } else { *value };
                 all.update(&value.to_bits().to_le_bytes());
             }
         }

@@ -100,9 +100,22 @@ fn ctrl_c_writes_nothing_and_leaves_nothing() {
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped());
     let mut child = command.spawn().expect("runs");
-    // its worker is there: the grade has begun
-    let children = format!("/proc/{0}/task/{0}/children", child.id());
-    while std::fs::read_to_string(&children).is_ok_and(|list| list.trim().is_empty()) {
+    // its worker is there, started by one of its threads: the grade has begun
+    let has_worker = |id: u32| {
+        let tasks = std::fs::read_dir(format!("/proc/{id}/task"))
+            .into_iter()
+            .flatten();
+        tasks.flatten().any(|task| {
+            let children = std::fs::read_to_string(task.path().join("children"));
+            children.is_ok_and(|list| !list.trim().is_empty())
+        })
+    };
+    while !has_worker(child.id()) {
+        assert_eq!(
+            child.try_wait().expect("a child"),
+            None,
+            "it ended before it could be interrupted"
+        );
         std::thread::yield_now();
     }
     let killed = std::process::Command::new("kill")

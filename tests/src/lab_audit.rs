@@ -10,9 +10,31 @@ use kinemark_grader::verdict::Verdict;
 use crate::testbed::{Folder, grade, lab, root, staff};
 
 fn labs() -> Vec<Lab> {
+    if std::env::var_os("KINEMARK_BLESS").is_some() {
+        stub_missing_paths();
+    }
     let names = lab_names(&Folder(root().join("labs")));
     assert!(!names.is_empty());
     names.iter().map(|name| lab(name)).collect()
+}
+
+/// A new lab cannot be loaded before it has the path that only its run can give: a path of one point lets it start.
+fn stub_missing_paths() {
+    for name in lab_names(&Folder(root().join("labs"))) {
+        let folder = root().join("labs").join(name);
+        let lab = std::fs::read_to_string(folder.join("lab.toml")).expect("lab.toml");
+        let path = folder.join("reference-path.json");
+        let lab: toml::Table = lab.parse().expect("TOML");
+        if path.exists() {
+            continue;
+        }
+        let mut paths = serde_json::Map::new();
+        for task in lab["tasks"].as_array().expect("tasks") {
+            let stub = serde_json::json!({ "period_s": 0.02, "points_m": [[0.0, 0.0, 0.0]] });
+            paths.insert(task["name"].as_str().expect("name").to_owned(), stub);
+        }
+        std::fs::write(&path, serde_json::Value::Object(paths).to_string()).expect("written");
+    }
 }
 
 fn read(lab: &Lab, file: &str) -> String {
@@ -231,11 +253,19 @@ fn briefs_state_the_numbers_of_their_labs() {
     for lab in labs() {
         let path = root().join("labs").join(&lab.name).join("brief.md");
         let brief = read(&lab, "brief.md");
-        assert!(brief.contains(BEGIN), "{} has no grading table", path.display());
+        assert!(
+            brief.contains(BEGIN),
+            "{} has no grading table",
+            path.display()
+        );
         let current = with_grading(&brief, &lab);
         if std::env::var_os("KINEMARK_BLESS").is_some() {
             std::fs::write(&path, &current).expect("written");
         }
-        assert!(current == read(&lab, "brief.md"), "{}: run KINEMARK_BLESS=1 cargo test", path.display());
+        assert!(
+            current == read(&lab, "brief.md"),
+            "{}: run KINEMARK_BLESS=1 cargo test",
+            path.display()
+        );
     }
 }

@@ -189,6 +189,9 @@ mod tests {
             std::fs::write(path, &text).unwrap();
         }
         let published = std::fs::read_to_string(path).unwrap_or_default();
-        assert!(published == text, "docs/cli.md: run KINEMARK_BLESS=1 cargo test");
+        assert!(
+            published == text,
+            "docs/cli.md: run KINEMARK_BLESS=1 cargo test"
+        );
     }
 }

@@ -149,6 +149,9 @@ impl Worker {
         command
             .arg("worker")
             .env_clear()
+            // one heap for all threads: a second one reserves more address space than a worker has, and without it every
+            // allocation becomes a system call
+            .env("MALLOC_ARENA_MAX", "1")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());

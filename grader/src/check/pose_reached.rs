@@ -12,17 +12,15 @@ use crate::quantity::{list, metres, seconds};
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
     let goals = &facts.motion.goals;
-    let worst = |goal: usize| {
-        facts
-            .stays
-            .get(goal)
-            .map_or(f64::INFINITY, |stay| stay.worst_m)
+    let settled = |goal: usize| {
+        let stay = facts.stays.get(goal);
+        stay.map_or(f64::INFINITY, |stay| stay.settled_m)
     };
-    let scores = (0..goals.len()).map(|goal| band.score(worst(goal)));
+    let scores = (0..goals.len()).map(|goal| band.score(settled(goal)));
     let score = scores.sum::<f64>() / goals.len() as f64;
     let mut evidence: Vec<Evidence> = Vec::new();
     for (i, goal) in goals.iter().enumerate() {
-        if band.score(worst(i)) >= 1.0 {
+        if band.score(settled(i)) >= 1.0 {
             continue;
         }
         let position = list(goal.position_m.as_slice());
@@ -33,34 +31,28 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
             evidence.push(facts.evidence(message, "tcp".to_owned(), last));
             continue;
         };
-        let p = facts.trace.tcp_position(stay.last);
+        let p = facts.trace.tcp_position(stay.settled_last);
         let away = p - goal.position_m;
         let message = format!(
             "goal {} at {position}: in its best {} (to {}) the TCP is up to {} away, at {} in the end (off by {} along x, y, z)",
             i + 1,
             seconds(dwell_s),
-            seconds(facts.time_s(stay.last)),
-            metres(stay.worst_m),
+            seconds(facts.time_s(stay.settled_last)),
+            metres(stay.settled_m),
             list(p.as_slice()),
             list(away.as_slice()),
         );
         evidence.push(Evidence {
-            value: Some(stay.worst_m),
+            value: Some(stay.settled_m),
             limit: Some(band.full),
             unit: "m".to_owned(),
-            ..facts.evidence(message, "tcp".to_owned(), stay.last)
+            ..facts.evidence(message, "tcp".to_owned(), stay.settled_last)
         });
     }
     evidence.sort_by(|a, b| {
         let value = |e: &Evidence| e.value.unwrap_or(f64::INFINITY);
         value(b).total_cmp(&value(a))
     });
-    let settled = |goal: usize| {
-        facts
-            .stays
-            .get(goal)
-            .map_or(f64::INFINITY, |stay| stay.settled_m)
-    };
     let worst_of_all = (0..goals.len()).map(settled).fold(0.0, f64::max);
     Finding {
         score,

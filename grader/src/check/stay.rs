@@ -1,7 +1,7 @@
 //! Stays: where in a run the TCP kept to each goal, in order, for as long as it had to.
 //!
-//! All choices of one window per goal, each after the one before, are compared; the one that earns most is taken, and of equal
-//! ones the earliest. So neither a pass through a goal on the way, nor a late return to it, can cost a point.
+//! All choices of one window per goal, each after the one before, are compared; the one that earns most is taken, and of ones that
+//! earn the same to a hundredth the earliest. So neither a pass through a goal on the way, nor a late return to it, can cost a point.
 
 use std::collections::VecDeque;
 
@@ -21,13 +21,15 @@ pub struct Stay {
     /// The same of the best window before the TCP leaves again \[m\]: the first good window is barely good, later ones show how
     /// near the arm settles.
     pub settled_m: f64,
+    /// The last tick of that window.
+    pub settled_last: usize,
 }
 
 /// The best stays, one per goal in order; empty where the run is too short for all dwells.
 pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> {
     let ticks = trace.len();
-    // best value with the goals so far, their windows ending at or before a tick; and where the last one ends
-    let mut before = vec![0.0; ticks];
+    // best worth with the goals so far, their windows ending at or before a tick; and where the last one ends
+    let mut before = vec![Worth::NOTHING; ticks];
     let mut choices: Vec<Vec<Option<usize>>> = Vec::new();
     let mut worsts: Vec<Vec<f64>> = Vec::new();
     for goal in goals {
@@ -36,7 +38,7 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
             .map(|tick| (trace.tcp_position(tick) - goal.position_m).norm())
             .collect();
         let worst = sliding_maximum(&distances, dwell + 1);
-        let mut best = vec![f64::NEG_INFINITY; ticks];
+        let mut best = vec![Worth::IMPOSSIBLE; ticks];
         let mut choice = vec![None; ticks];
         for last in 0..ticks {
             if last > 0 {
@@ -46,9 +48,9 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
             if last < dwell {
                 continue;
             }
-            let value = before[last - dwell] + worth(band, worst[last]);
-            if value > best[last] {
-                best[last] = value;
+            let worth = before[last - dwell].and(band, worst[last]);
+            if worth.is_better_than(best[last]) {
+                best[last] = worth;
                 choice[last] = Some(last);
             }
         }
@@ -63,11 +65,13 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
             return Vec::new();
         };
         let first = last - goal.dwell_ticks as usize;
+        let (later, settled_m) = settled(&worsts[i][last..], band);
         stays.push(Stay {
             first,
             last,
             worst_m: worsts[i][last],
-            settled_m: settled(&worsts[i][last..], band),
+            settled_m,
+            settled_last: last + later,
         });
         limit = Some(first);
     }
@@ -75,19 +79,52 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
     stays
 }
 
-/// The least of the windows' distances until one is no longer full; that of the first if it is not full itself.
-fn settled(worsts: &[f64], band: Band) -> f64 {
-    let visit = worsts.iter().take_while(|worst| **worst <= band.full);
-    visit.copied().fold(worsts[0], f64::min)
+/// The first of the least distances, with its index, for as long as windows are no worse than the first, or full.
+fn settled(worsts: &[f64], band: Band) -> (usize, f64) {
+    let no_worse = worsts[0].max(band.full);
+    let mut least = (0, worsts[0]);
+    for (later, &worst) in worsts.iter().enumerate() {
+        if worst > no_worse {
+            break;
+        }
+        if worst < least.1 {
+            least = (later, worst);
+        }
+    }
+    least
 }
 
-/// What a window is worth: its score; among windows that earn nothing, the nearer the better, but less than anything earned.
-fn worth(band: Band, worst_m: f64) -> f64 {
-    let score = band.score(worst_m);
-    if score > 0.0 {
-        score
-    } else {
-        -1e-9 * worst_m.min(1e6)
+/// What a choice of windows is worth: what it earns; and among those that earn nothing, how near they come.
+#[derive(Debug, Clone, Copy)]
+struct Worth {
+    score: f64,
+    nearness: f64,
+}
+
+impl Worth {
+    const NOTHING: Self = Self {
+        score: 0.0,
+        nearness: 0.0,
+    };
+    const IMPOSSIBLE: Self = Self {
+        score: f64::NEG_INFINITY,
+        nearness: f64::NEG_INFINITY,
+    };
+
+    /// This choice with one window more.
+    fn and(self, band: Band, worst_m: f64) -> Self {
+        let score = band.score(worst_m);
+        Self {
+            score: self.score + score,
+            nearness: self.nearness - if score > 0.0 { 0.0 } else { worst_m },
+        }
+    }
+
+    /// A later window must earn a hundredth more: an arm that settles creeps on by less and less, and is there long before.
+    fn is_better_than(self, other: Self) -> bool {
+        let enough = 0.01;
+        self.score > other.score + enough
+            || (self.score >= other.score && self.nearness > other.nearness)
     }
 }
 

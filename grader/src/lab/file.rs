@@ -214,7 +214,7 @@ pub(super) struct JointReachedTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct TrajectoryMatchTable {
     pub(super) over: SpanName,
-    pub(super) max_shift_s: f64,
+    pub(super) max_shift_s: Option<f64>,
     pub(super) full_m: f64,
     pub(super) zero_m: f64,
 }

@@ -52,6 +52,16 @@ pub(super) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, Load
 
 /// Reads TOML into its tables.
 pub(super) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
+    if let Some(at) = not_finite(source.text()) {
+        let report = Reporter { source };
+        return report.err(
+            at,
+            "lab::not_finite",
+            "a lab's numbers are finite".to_owned(),
+            "not a finite number",
+            Some("leave a limit out to have none".to_owned()),
+        );
+    }
     toml::from_str(source.text()).map_err(|error| {
         let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
         let problem = LabProblem {
@@ -62,6 +72,28 @@ pub(super) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError
         };
         LabError::new(problem, source, at)
     })
+}
+
+/// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
+fn not_finite(text: &str) -> Option<Range<usize>> {
+    use toml::de::{DeTable, DeValue};
+    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+        match value.get_ref() {
+            DeValue::Float(number) => {
+                let word = number.as_str().trim_start_matches(['+', '-']);
+                let parsed = word.replace('_', "").parse::<f64>();
+                (!parsed.is_ok_and(f64::is_finite)).then(|| value.span())
+            }
+            DeValue::Array(items) => items.iter().find_map(within),
+            DeValue::Table(table) => table.values().find_map(within),
+            _ => None,
+        }
+    }
+    DeTable::parse(text)
+        .ok()?
+        .get_ref()
+        .values()
+        .find_map(within)
 }
 
 /// Where problems of one text are reported.
@@ -178,6 +210,7 @@ impl Lab {
             report,
             robot: &robot,
             robot_file: &robot_file,
+            reference_paths: &reference_paths.paths,
         };
         let tasks = reader.tasks(&lab)?;
         Ok(Self {
@@ -229,6 +262,7 @@ struct Reader<'a> {
     report: Reporter<'a>,
     robot: &'a Robot,
     robot_file: &'a RobotFile,
+    reference_paths: &'a [(String, TcpPath)],
 }
 
 impl Reader<'_> {
@@ -336,7 +370,7 @@ impl Reader<'_> {
         )?;
         let mut checks: Vec<Check> = Vec::new();
         for check in &table.checks {
-            let check = self.check(check, &checks, &work)?;
+            let check = self.check(check, &checks, &work, name)?;
             checks.push(check);
         }
         Ok(Task {
@@ -647,6 +681,7 @@ impl Reader<'_> {
         spanned: &Spanned<CheckTable>,
         earlier: &[Check],
         work: &TaskWork,
+        task: &str,
     ) -> Result<Check, LabError> {
         let table = spanned.get_ref();
         let name = table.name.get_ref();
@@ -684,7 +719,7 @@ impl Reader<'_> {
                 }
             }
         }
-        let mut kinds = self.kinds(table, work)?;
+        let mut kinds = self.kinds(table, work, task)?;
         let (Some(kind), true) = (kinds.pop(), kinds.is_empty()) else {
             return self.report.err(
                 table.name.span(),
@@ -705,7 +740,12 @@ impl Reader<'_> {
         })
     }
 
-    fn kinds(&self, table: &CheckTable, work: &TaskWork) -> Result<Vec<CheckKind>, LabError> {
+    fn kinds(
+        &self,
+        table: &CheckTable,
+        work: &TaskWork,
+        task: &str,
+    ) -> Result<Vec<CheckKind>, LabError> {
         let step_s = match work {
             TaskWork::Motion(motion) => motion.periods.step_s,
             TaskWork::Function(_) => 1.0,
@@ -739,10 +779,19 @@ impl Reader<'_> {
                 );
             };
             let hold_s = self.positive(&reached.hold_s, "`hold_s`")?;
+            let Some(hold_ticks) = whole_ratio(hold_s, step_s) else {
+                return self.report.err(
+                    reached.hold_s.span(),
+                    "lab::periods",
+                    format!("{hold_s} s is not a whole number of physics steps of {step_s} s"),
+                    "does not divide",
+                    None,
+                );
+            };
             kinds.push(CheckKind::JointReached {
                 joint,
                 position: reached.position_rad,
-                hold_ticks: whole_ratio(hold_s, step_s).unwrap_or(1),
+                hold_ticks,
                 band: self.band(
                     *reached.full_rad.get_ref(),
                     reached.zero_rad,
@@ -789,21 +838,43 @@ impl Reader<'_> {
         }
         if let Some(table) = &table.trajectory_match {
             let t = table.get_ref();
-            if !(t.max_shift_s >= 0.0 && t.max_shift_s <= 60.0) {
-                return self.report.err(
+            let refuse = |message: String, help: &str| {
+                self.report.err(
                     table.span(),
-                    "lab::out_of_range",
-                    format!("`max_shift_s` must be 0 to 60 s, got {}", t.max_shift_s),
+                    "lab::trajectory_match",
+                    message,
                     "this check",
-                    None,
+                    Some(help.to_owned()),
+                )
+            };
+            if !self.reference_paths.iter().any(|(name, _)| *name == task) {
+                return refuse(
+                    format!("`reference-path.json` has no path for task `{task}`"),
+                    "put the reference solution's TCP path there: see docs/lab-format.md",
                 );
             }
+            let max_shift_s = match (t.over, t.max_shift_s) {
+                (SpanName::Dwells, Some(_)) => {
+                    return refuse(
+                        "`max_shift_s` has no meaning over `dwells`, which are found wherever they are".to_owned(),
+                        "remove it",
+                    );
+                }
+                (_, None) => 0.0,
+                (SpanName::Run, Some(shift_s)) if (0.0..=60.0).contains(&shift_s) => shift_s,
+                (SpanName::Run, Some(shift_s)) => {
+                    return refuse(
+                        format!("`max_shift_s` must be 0 to 60 s, got {shift_s}"),
+                        "change it",
+                    );
+                }
+            };
             kinds.push(CheckKind::TrajectoryMatch {
                 span: match t.over {
                     SpanName::Dwells => MatchSpan::Dwells,
                     SpanName::Run => MatchSpan::Run,
                 },
-                max_shift_ticks: (t.max_shift_s / step_s).round() as u64,
+                max_shift_ticks: (max_shift_s / step_s).round() as u64,
                 band: self.band(t.full_m, t.zero_m, table.span())?,
             });
         }

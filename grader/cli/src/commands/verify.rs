@@ -6,6 +6,7 @@ use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::grading;
 use kinemark_grader::lab::{Lab, Staff};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::args::VerifyArgs;
 use crate::disk::Folder;
@@ -112,21 +113,58 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
         differences.extend(task_difference(before, after));
     }
     // points, evidence and words too, where everything took part again
-    if differences.is_empty() && hidden_too && recorded != now {
-        differences.push(Difference {
-            what: "record".to_owned(),
-            task: None,
-            second: None,
-            signal: None,
-            recorded: format!("{} points", recorded.points),
-            now: format!("{} points", now.points),
-        });
+    if differences.is_empty() && hidden_too {
+        let value = |grade: &Grade| {
+            serde_json::to_value(grade).map_err(|error| {
+                Failure::fault(
+                    format!("a record is no JSON: {error}"),
+                    "please report this",
+                )
+            })
+        };
+        if let Some((path, recorded, now)) = first_difference(&value(recorded)?, &value(now)?) {
+            differences.push(Difference {
+                what: format!("record at `{path}`"),
+                task: None,
+                second: None,
+                signal: None,
+                recorded,
+                now,
+            });
+        }
     }
     Ok(Comparison {
         same: differences.is_empty(),
         differences,
         not_compared,
     })
+}
+
+/// Where two records first differ, as a path such as `tasks[3].points`, with both values.
+fn first_difference(recorded: &Value, now: &Value) -> Option<(String, String, String)> {
+    let below = |key: String, found: Option<(String, String, String)>| {
+        found.map(|(path, recorded, now)| {
+            let dot = if path.is_empty() || path.starts_with('[') {
+                ""
+            } else {
+                "."
+            };
+            (format!("{key}{dot}{path}"), recorded, now)
+        })
+    };
+    match (recorded, now) {
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => a
+            .iter()
+            .zip(b.values())
+            .find_map(|((key, a), b)| below(key.clone(), first_difference(a, b))),
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a
+            .iter()
+            .zip(b)
+            .enumerate()
+            .find_map(|(i, (a, b))| below(format!("[{i}]"), first_difference(a, b))),
+        (a, b) if a == b => None,
+        (a, b) => Some((String::new(), a.to_string(), b.to_string())),
+    }
 }
 
 fn task_difference(before: &TaskGrade, after: &TaskGrade) -> Option<Difference> {
@@ -183,9 +221,10 @@ fn text(comparison: &Comparison, recorded: &Grade) -> String {
         text += &format!("not compared: {what}\n");
     }
     if comparison.same {
+        let all = recorded.tasks.len();
         text += &format!(
-            "same bits: {} tasks of {}, {}\n",
-            recorded.tasks.len() - comparison.not_compared.len(),
+            "same bits: {} of {all} tasks compared, {}, {}\n",
+            all - comparison.not_compared.len(),
             recorded.lab.name,
             recorded.submission.name
         );

@@ -112,7 +112,7 @@ fn skip_line(input: &mut impl std::io::BufRead) -> Result<(), Failure> {
 }
 
 fn answer(robot: &Robot, line: &[u8]) -> Map<String, Value> {
-    let request: Value = match serde_json::from_slice(line) {
+    let request: Value = match serde_json::from_slice(line.trim_ascii_end()) {
         Ok(request) => request,
         Err(error) => return with_id(None, Err(Refusal::new("bad-json", error.to_string()))),
     };
