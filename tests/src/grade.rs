@@ -88,6 +88,16 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
     bed.write("out/plots/stale.svg", "old");
     assert_eq!(bed.run(&args).code, Some(0));
     assert!(!bed.path("out/plots/stale.svg").exists());
+    // a file stays a file, whatever it is
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--out",
+        "submission.rhai",
+    ]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is not a folder"), "{ran:?}");
     bed.write("thesis/chapter.tex", "precious");
     let ran = bed.run(&[
         "grade",
@@ -124,6 +134,20 @@ fn control(observation) {
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     insta::assert_snapshot!(ran.stdout);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_a_device_is_no_folder_to_replace() {
+    let bed = TestBed::new();
+    good(&bed);
+    let link = bed.path("nowhere");
+    std::os::unix::fs::symlink("/no/such/folder", &link).expect("link");
+    for out in ["/dev/null", "nowhere"] {
+        let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--out", out]);
+        assert_eq!(ran.code, Some(2), "{out}: {ran:?}");
+    }
+    assert!(link.symlink_metadata().is_ok_and(|data| data.is_symlink()));
 }
 
 #[cfg(unix)]

@@ -88,9 +88,10 @@ pub(crate) fn write(
 /// Checks, before anything is graded, that `out` is free, empty, or an earlier report.
 pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let help = "choose another folder with --out";
-    if out.is_file() {
+    // a file, a device, a pipe, a link to nowhere: whatever is there and no folder stays as it is
+    if out.symlink_metadata().is_ok() && !out.is_dir() {
         return Err(Failure::usage(
-            format!("`{}` is a file, not a folder", out.display()),
+            format!("`{}` is there and is not a folder", out.display()),
             help,
         ));
     }
