@@ -19,7 +19,7 @@ pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
 /// Branches of `n` finite numbers each; one bare branch is accepted, and `[]` says there is none.
 ///
 /// # Errors
-/// What was returned instead, in words; also more than `most` branches, so that an answer cannot be a guess at every sign.
+/// What was returned instead, in words; also more than `most` branches.
 pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, String> {
     let wrong = || {
         Err(instead(

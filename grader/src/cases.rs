@@ -5,6 +5,7 @@ use kinemark_sim::robot::{Dimension, Robot};
 use nalgebra::Vector3;
 
 use crate::answer;
+use crate::check::ik_branches::count_distinct;
 use crate::check::{Answered, CaseError, CaseFacts};
 use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop, Value};
 use crate::grade::LogEntry;
@@ -83,6 +84,10 @@ pub fn run<'a>(
                 }
             }
         }
+        // what is printed in a hidden case could tell its numbers
+        if case.hidden_class.is_some() {
+            said.log.clear();
+        }
         log.extend(
             said.log
                 .into_iter()
@@ -150,7 +155,7 @@ fn measure<'a>(
             branches,
         } => {
             let most = (*branches).max(2) as usize;
-            let answer = match value.map(|value| answer::branches(value, robot.n(), most)) {
+            let answer = match value.map(|value| distinct_branches(value, &robot, most)) {
                 None => Answered::Stopped,
                 Some(Ok(branches)) => Answered::Branches(branches),
                 Some(Err(what)) => {
@@ -187,6 +192,20 @@ fn measure<'a>(
         robot,
         answer,
         error,
+    }
+}
+
+/// More than this is no list of branches.
+const MOST_LISTED: usize = 64;
+
+/// Branches, of which at most `most` differ by more than whole turns, so that an answer cannot be a guess at every sign.
+fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Vec<f64>>, String> {
+    let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
+    match count_distinct(robot, &branches) {
+        distinct if distinct > most => Err(format!(
+            "{distinct} different branches where at most {most} exist: return the right ones only"
+        )),
+        _ => Ok(branches),
     }
 }
 

@@ -103,7 +103,7 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
 
 fn close(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
     // the same configuration, and the same numbers but for whole circles to rounding
-    same_branch(facts, a, b)
+    same_branch(&facts.robot, a, b)
         && a.iter().zip(b).all(|(a, b)| {
             let circle = 2.0 * std::f64::consts::PI;
             let gap = (a - b).abs() % circle;

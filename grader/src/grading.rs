@@ -170,8 +170,14 @@ impl Grader<'_> {
         if let Some((case, stop)) = &run.stop {
             verdict = stopped::verdict(stop).ok_or(Interrupted)?;
             let mut record = stopped::record(stop, self.submission.text());
-            if matches!(stop, Stop::Crashed(_) | Stop::OverBudget { .. }) {
-                record.case = Some(run.facts[*case].told().to_owned());
+            let facts = &run.facts[*case];
+            if stopped::is_of_one_call(stop) {
+                record.case = Some(facts.told().to_owned());
+                if !facts.is_visible() {
+                    // the words of the submission could tell the numbers of a hidden case
+                    record.message = "the submission failed in a hidden case".to_owned();
+                    record.help = None;
+                }
             }
             stopped_record = Some(record);
         }
@@ -184,9 +190,14 @@ impl Grader<'_> {
         });
         let checks: Vec<CheckGrade> = checks.into_iter().map(|(check, _)| check).collect();
         let invalid = run.facts.iter().find_map(|facts| match &facts.answer {
-            Answered::Invalid(what) => Some((facts.told().to_owned(), what.clone())),
-            _ => None,
+            Answered::Invalid(what) if facts.is_visible() => Some((facts.told(), what.clone())),
+            Answered::Invalid(_) => Some((
+                facts.told(),
+                "an answer of the wrong shape, or not finite, in a hidden case".to_owned(),
+            )),
+            Answered::Position(_) | Answered::Branches(_) | Answered::Stopped => None,
         });
+        let invalid = invalid.map(|(case, what)| (case.to_owned(), what));
         if let (Some((case, what)), None) = (invalid, &stopped_record) {
             verdict = verdict.min(Verdict::InvalidOutput);
             stopped_record = Some(Stopped {
@@ -208,6 +219,8 @@ impl Grader<'_> {
         } else {
             self.function_diagnoses(task, work.function, &all, &run)
         };
+        let explained = stopped_record.is_some() || !diagnoses.is_empty();
+        let checks = without_hints(checks, explained);
         let good = good_bands(&task.checks);
         Ok(TaskGrade {
             name: task.name.clone(),
@@ -288,10 +301,9 @@ impl Grader<'_> {
                     )
                 }
             };
-            if !matches!(
-                why,
-                EarlyEnd::Stopped(Stop::Missing { .. } | Stop::DidNotBuild(_))
-            ) {
+            let of_whole_file =
+                matches!(why, EarlyEnd::Stopped(stop) if !stopped::is_of_one_call(stop));
+            if !of_whole_file {
                 record.tick = Some(*tick);
                 record.time_s = Some(work.periods.time_s(*tick));
             }
@@ -304,6 +316,7 @@ impl Grader<'_> {
             motion: work,
             trace: &trace,
             stays: stay::best_stays(&trace, &work.goals, band),
+            pose_band: band,
             reference,
         };
         let judged = judged(&task.checks, ended.is_none(), |check| {
@@ -331,6 +344,7 @@ impl Grader<'_> {
         } else {
             Vec::new()
         };
+        let checks = without_hints(checks, !diagnoses.is_empty());
         let digest = trace.digest();
         let grade = TaskGrade {
             name: task.name.clone(),
@@ -401,6 +415,16 @@ impl Grader<'_> {
     }
 }
 
+/// Where a stop or a diagnosis explains the loss, a check's general hint would read as another one.
+fn without_hints(mut checks: Vec<CheckGrade>, explained: bool) -> Vec<CheckGrade> {
+    for check in &mut checks {
+        if explained && check.outcome != Outcome::NotJudged {
+            check.next_step = None;
+        }
+    }
+    checks
+}
+
 /// Where numbers that are not finite come from.
 fn not_finite_help(message: &str) -> Option<String> {
     let shown = message.contains("NaN") || message.contains("infinity");
@@ -454,7 +478,11 @@ fn judged(
                 ));
             }
             (true, None) => {
-                let finding = judge(check);
+                let mut finding = judge(check);
+                // a trace of a point would be shown as none
+                if finding.score < 1e-6 {
+                    finding.score = 0.0;
+                }
                 grade.outcome = if finding.score >= 1.0 {
                     Outcome::Full
                 } else if finding.score > 0.0 {

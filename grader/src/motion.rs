@@ -157,16 +157,29 @@ fn ask(
 struct Told {
     log: Vec<LogLine>,
     plots: Vec<PlotSignal>,
+    plots_refused: bool,
     operations: u64,
 }
+
+/// Signals of a submission that are drawn: more are unreadable, and each costs a plot's time.
+const MOST_PLOTS: usize = 24;
 
 impl Told {
     fn keep(&mut self, tick: u64, said: Said) {
         let lines = said.log.into_iter().map(|text| LogLine { tick, text });
         self.log.extend(lines);
         for (name, value) in said.plots {
-            match self.plots.iter_mut().find(|plot| plot.name == name) {
-                Some(plot) => plot.samples.push((tick, value)),
+            match self.plots.iter().position(|plot| plot.name == name) {
+                Some(known) => self.plots[known].samples.push((tick, value)),
+                None if self.plots.len() >= MOST_PLOTS => {
+                    if !self.plots_refused {
+                        self.plots_refused = true;
+                        let text = format!(
+                            "more than {MOST_PLOTS} names in `plot`: `{name}` and later ones are not kept"
+                        );
+                        self.log.push(LogLine { tick, text });
+                    }
+                }
                 None => self.plots.push(PlotSignal {
                     name,
                     samples: vec![(tick, value)],

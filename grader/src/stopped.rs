@@ -1,6 +1,6 @@
 //! What a stop means: its verdict, and its record for people.
 
-use crate::controller::{HostLimit, Stop};
+use crate::controller::{Budget, HostLimit, Stop};
 use crate::grade::Stopped;
 use crate::verdict::Verdict;
 
@@ -15,6 +15,21 @@ pub fn verdict(stop: &Stop) -> Option<Verdict> {
         Stop::GraderFault(_) => Verdict::GraderFault,
         Stop::Interrupted => return None,
     })
+}
+
+/// Whether a stop happened in one call: not to the whole file, and not to the machine.
+pub fn is_of_one_call(stop: &Stop) -> bool {
+    match stop {
+        Stop::Crashed(_) => true,
+        Stop::OverBudget { budget, .. } => {
+            !matches!(budget, Budget::SourceBytes | Budget::ExpressionDepth)
+        }
+        Stop::DidNotBuild(_)
+        | Stop::Missing { .. }
+        | Stop::HostLimit(_)
+        | Stop::GraderFault(_)
+        | Stop::Interrupted => false,
+    }
 }
 
 /// The record of a stop, with the student's line from `source`.
@@ -34,10 +49,7 @@ pub fn record(stop: &Stop, source: &str) -> Stopped {
             place,
         } => (
             format!("more than {limit} {}", budget.name()),
-            Some(
-                "look for a loop that does not end, or for work that can be done once in `init`"
-                    .to_owned(),
-            ),
+            Some(budget_help(*budget).to_owned()),
             *place,
         ),
         Stop::HostLimit(limit) => (
@@ -66,6 +78,22 @@ pub fn record(stop: &Stop, source: &str) -> Stopped {
         tick: None,
         time_s: None,
         case: None,
+    }
+}
+
+fn budget_help(budget: Budget) -> &'static str {
+    match budget {
+        Budget::OperationsPerCall | Budget::OperationsPerTask => {
+            "look for a loop that does not end, or for work that can be done once in `init`"
+        }
+        Budget::CallDepth => "look for a function that calls itself without an end",
+        Budget::ExpressionDepth => "take the expression apart with `let`",
+        Budget::ListSize | Budget::MapSize | Budget::TextSize => {
+            "keep less: what is not needed at the next call need not be kept"
+        }
+        Budget::LogLines => "print now and then, not at every call",
+        Budget::PlotSamples => "plot less often, or fewer signals",
+        Budget::SourceBytes => "a submission is one short file: leave out what is not used",
     }
 }
 

@@ -107,7 +107,12 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
         "thesis",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("no Kinemark report"), "{ran:?}");
+    assert!(ran.stderr.contains("holds `chapter.tex`"), "{ran:?}");
+    // not even beside an earlier report
+    bed.write("out/notes.txt", "precious");
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(bed.path("out/notes.txt").exists());
     assert!(bed.path("thesis/chapter.tex").exists());
 }
 

@@ -135,3 +135,40 @@ fn ctrl_c_writes_nothing_and_leaves_nothing() {
     let left: Vec<_> = std::fs::read_dir(bed.path("")).expect("folder").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }
+
+#[test]
+fn hidden_cases_cannot_be_read_out_of_a_report() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    // base_height is drawn anew in hidden cases: 2 in all visible ones
+    bed.write(
+        "submission.rhai",
+        "fn forward_kinematics(robot, q) {
+    print(\"height\", robot.base_height);
+    if robot.base_height != 2 {
+        throw \"secret \" + robot.base_height;
+    }
+    [q[0], q[1], 0.0]
+}
+fn inverse_kinematics(robot, position) {
+    print(\"height\", robot.base_height);
+    if robot.base_height != 2 { [robot.base_height] } else { [0.0, 0.0] }
+}
+",
+    );
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    for (name, bytes) in crate::testbed::files_below(&bed.path("out")) {
+        let text = String::from_utf8_lossy(&bytes);
+        if name == "submission.rhai" {
+            continue;
+        }
+        assert!(!text.contains("secret 1.") && !text.contains("secret 2."), "{name}");
+        for line in text.lines().filter(|line| line.contains("height ")) {
+            assert!(
+                !line.contains("height 1.") && !line.contains("height 2."),
+                "{name}: {line}"
+            );
+        }
+    }
+}

@@ -56,6 +56,24 @@ fn a_forged_grade_is_found() {
 }
 
 #[test]
+fn a_changed_page_or_plot_is_found() {
+    let bed = graded();
+    bed.edit("out/report.html", "</body>", "<p>25 points</p></body>");
+    std::fs::remove_file(bed.path("out/plots/move-path.svg")).expect("removed");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(
+        ran.stdout.contains("differs: file `report.html`"),
+        "{ran:?}"
+    );
+    assert!(
+        ran.stdout
+            .contains("differs: file `plots/move-path.svg`\n  recorded missing"),
+        "{ran:?}"
+    );
+}
+
+#[test]
 fn what_is_no_report_is_said_so() {
     let bed = TestBed::new();
     assert_eq!(bed.run(&["verify", "nowhere"]).code, Some(2));

@@ -96,6 +96,12 @@ pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure
             &near_in_folder(path),
         ));
     }
+    if !path.is_file() {
+        return Err(Failure::usage(
+            format!("`{shown}` is a pipe or a device, not {what}"),
+            "save it to a file first",
+        ));
+    }
     match text_of(path, most) {
         Ok(text) => {
             let name = path.file_name().unwrap_or(path.as_os_str());

@@ -22,9 +22,11 @@ pub(crate) const SUBMISSION: &str = "submission.rhai";
 pub(crate) const LABS: &str = "lab";
 
 /// One file of the folder.
-struct OutFile {
-    path: String,
-    bytes: Vec<u8>,
+pub(crate) struct OutFile {
+    /// Its path inside the folder.
+    pub(crate) path: String,
+    /// Its content.
+    pub(crate) bytes: Vec<u8>,
 }
 
 impl OutFile {
@@ -95,22 +97,46 @@ pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
             help,
         ));
     }
-    let occupied = out.is_dir()
-        && !out.join(RECORD).is_file()
-        && std::fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied {
-        return Err(Failure::usage(
+    match foreign_entry(out) {
+        None => Ok(()),
+        Some(entry) => Err(Failure::usage(
             format!(
-                "`{}` holds files that are no Kinemark report",
+                "`{}` holds `{entry}`, which is no part of a Kinemark report",
                 out.display()
             ),
             help,
-        ));
+        )),
     }
-    Ok(())
 }
 
-fn files(lab: &Lab, submission: &Source, graded: &GradedRun) -> Result<Vec<OutFile>, Failure> {
+/// Something in `out` that no earlier report put there: replacing the folder would lose it.
+fn foreign_entry(out: &Path) -> Option<String> {
+    let mut ours = vec![RECORD, "report.html", SUBMISSION, LABS, "plots"];
+    let record = std::fs::read(out.join(RECORD)).ok();
+    let record: Option<Grade> = record.and_then(|text| serde_json::from_slice(&text).ok());
+    match &record {
+        Some(record) => ours.extend(record.tasks.iter().map(|task| task.name.as_str())),
+        // without a record of ours nothing in it is ours
+        None => ours.clear(),
+    }
+    let mut names: Vec<String> = std::fs::read_dir(out)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+        .into_iter()
+        .find(|name| !ours.contains(&name.as_str()))
+}
+
+/// Everything the folder holds: a function of lab, submission and graded run alone.
+pub(crate) fn files(
+    lab: &Lab,
+    submission: &Source,
+    graded: &GradedRun,
+) -> Result<Vec<OutFile>, Failure> {
     let record = output::json(&graded.grade)?;
     let lab_path = format!("{}/lab.toml", lab.name);
     let robot_path = lab.robot_file.source().name().to_owned();

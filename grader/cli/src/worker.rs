@@ -199,11 +199,11 @@ impl Worker {
 
     fn exchange<T: DeserializeOwned>(&mut self, message: &impl Serialize) -> Result<T, Stop> {
         let answer = send(&mut self.input, message).and_then(|()| receive(&mut self.output));
-        answer.map_err(|error| self.cause_of_death(&error))
+        answer.map_err(|_| self.cause_of_death())
     }
 
     /// Why the worker no longer answers.
-    fn cause_of_death(&mut self, error: &std::io::Error) -> Stop {
+    fn cause_of_death(&mut self) -> Stop {
         if interrupt::asked() {
             return Stop::Interrupted;
         }
@@ -239,9 +239,7 @@ impl Worker {
         }
         let ended = status.map_or_else(|error| error.to_string(), |status| status.to_string());
         let first = words.lines().next().unwrap_or_default().to_owned();
-        Stop::GraderFault(format!(
-            "the worker process ended: {ended}; {error}; {first}"
-        ))
+        Stop::GraderFault(format!("the worker process ended: {ended} {first}"))
     }
 
     fn end_watchdog(&mut self) -> bool {

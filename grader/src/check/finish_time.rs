@@ -1,4 +1,4 @@
-//! finish-time: when the last dwell was over \[s\].
+//! finish-time: when the last dwell was over \[s\]; never, where some goal earned nothing.
 
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
@@ -6,11 +6,13 @@ use crate::lab::model::Band;
 use crate::quantity::seconds;
 
 /// Judges the check.
-pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
-    let finish = facts
+pub fn judge(facts: &MotionFacts<'_>, band: Band, pose: Band) -> Finding {
+    let missed = facts
         .stays
-        .last()
-        .map(|stay| (stay.last, facts.time_s(stay.last)));
+        .iter()
+        .position(|stay| pose.score(stay.settled_m) <= 0.0);
+    let last = facts.stays.last().filter(|_| missed.is_none());
+    let finish = last.map(|stay| (stay.last, facts.time_s(stay.last)));
     let value = finish.map_or(f64::INFINITY, |(_, time_s)| time_s);
     let score = band.score(value);
     let mut evidence = Vec::new();
@@ -28,6 +30,14 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
             unit: "s".to_owned(),
             ..facts.evidence(message, "tcp".to_owned(), tick)
         });
+    }
+    if let Some(goal) = missed {
+        let message = format!(
+            "goal {} was never held, so the work was never over",
+            goal + 1
+        );
+        let last = facts.trace.len().saturating_sub(1);
+        evidence.push(facts.evidence(message, "tcp".to_owned(), last));
     }
     Finding {
         score,

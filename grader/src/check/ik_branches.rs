@@ -7,6 +7,7 @@ use super::{Answered, CaseError, CaseFacts, Finding, summarise};
 use crate::grade::Measure;
 use crate::lab::model::{Band, Function};
 use crate::quantity::metres;
+use kinemark_sim::robot::Robot;
 
 /// Judges the check.
 pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
@@ -26,7 +27,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
         }
         judged.push(facts);
         let distinct = match &facts.answer {
-            Answered::Branches(branches) => count_distinct(facts, branches),
+            Answered::Branches(branches) => count_distinct(&facts.robot, branches),
             Answered::Position(_) | Answered::Invalid(_) | Answered::Stopped => 0,
         };
         let complete = distinct >= *expected as usize;
@@ -70,12 +71,12 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
 }
 
 /// How many of the branches differ by more than whole circles and rounding.
-fn count_distinct(facts: &CaseFacts<'_>, branches: &[Vec<f64>]) -> usize {
+pub(crate) fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
     let mut distinct: Vec<&Vec<f64>> = Vec::new();
     for branch in branches {
         if !distinct
             .iter()
-            .any(|other| same_branch(facts, branch, other))
+            .any(|other| same_branch(robot, branch, other))
         {
             distinct.push(branch);
         }
@@ -84,10 +85,9 @@ fn count_distinct(facts: &CaseFacts<'_>, branches: &[Vec<f64>]) -> usize {
 }
 
 /// Whether two answers are one configuration: angles equal but for whole circles, slides equal, to a thousandth.
-pub(crate) fn same_branch(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
+pub(crate) fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
     let near = 1e-3; // far above rounding, far below the difference of two branches inside the boundary
-    facts
-        .robot
+    robot
         .moving_joints()
         .zip(a.iter().zip(b))
         .all(|(joint, (a, b))| {

@@ -19,7 +19,7 @@ use nalgebra::Vector3;
 
 use crate::grade::{Evidence, Measure};
 use crate::graded::{Curve, TcpPath};
-use crate::lab::model::{Case, Check, CheckKind, Function, MotionTask};
+use crate::lab::model::{Band, Case, Check, CheckKind, Function, MotionTask};
 use stay::Stay;
 
 /// What a check found.
@@ -48,6 +48,8 @@ pub struct MotionFacts<'a> {
     pub trace: &'a Trace,
     /// The best stay at each goal, in order; empty where the task has no goals or the run is shorter than the dwells.
     pub stays: Vec<Stay>,
+    /// The band by which stays were chosen \[m\].
+    pub pose_band: Band,
     /// The reference's path.
     pub reference: Option<&'a TcpPath>,
 }
@@ -146,7 +148,7 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             band,
         } => joint_reached::judge(facts, *joint, *position, *hold_ticks, *band, &check.name),
         CheckKind::PoseReached(band) => pose_reached::judge(facts, *band, &check.name),
-        CheckKind::FinishTime(band) => finish_time::judge(facts, *band),
+        CheckKind::FinishTime(band) => finish_time::judge(facts, *band, facts.pose_band),
         CheckKind::Overshoot(band) => overshoot::judge(facts, *band, &check.name),
         CheckKind::EffortSaturation(band) => effort_saturation::judge(facts, *band, &check.name),
         CheckKind::JointLimits(band) => joint_limits::judge(facts, *band),

@@ -526,8 +526,8 @@ impl Reader<'_> {
         let duration_s = self.positive(&motion.duration_s, "the duration")?;
         let whole_ticks = |seconds: f64, at: &NumberAt, what: &str| {
             match whole_ratio(seconds, step_s) {
-                // an hour at a tenth of a millisecond: more would not fit in memory
-                Some(ticks) if ticks <= 36_000_000 => Ok(ticks),
+                // a quarter of an hour at 1 ms: more would not fit in the memory of a grade
+                Some(ticks) if ticks <= 900_000 => Ok(ticks),
                 _ => self.report.err(
                     at.span(),
                     "lab::periods",
@@ -553,6 +553,19 @@ impl Reader<'_> {
                 position_m: Vector3::from(goal.position_m),
                 dwell_ticks: whole_ticks(dwell_s, &goal.dwell_s, "the dwell")?,
             });
+        }
+        let dwells: u64 = goals.iter().map(|goal| goal.dwell_ticks).sum();
+        if dwells > ticks {
+            return self.report.err(
+                motion.duration_s.span(),
+                "lab::periods",
+                format!(
+                    "the dwells take {} s of a run of {duration_s} s",
+                    periods.time_s(dwells)
+                ),
+                "shorter than its dwells",
+                None,
+            );
         }
         let default_servo = ServoTable::default();
         let (servo_table, servo_at) = match &motion.servo {
@@ -609,7 +622,14 @@ impl Reader<'_> {
                 return self.report.err(
                     at.clone(),
                     "lab::out_of_range",
-                    format!("`{what}` must be at least {lowest}, got {bad}"),
+                    format!(
+                        "`{what}` must be {}, got {bad:e}",
+                        if lowest > 0.0 {
+                            "positive"
+                        } else {
+                            "zero or more"
+                        }
+                    ),
                     "this servo",
                     None,
                 );
@@ -788,6 +808,15 @@ impl Reader<'_> {
                     None,
                 );
             };
+            if matches!(work, TaskWork::Motion(motion) if hold_ticks > motion.ticks) {
+                return self.report.err(
+                    reached.hold_s.span(),
+                    "lab::periods",
+                    format!("{hold_s} s is longer than the run"),
+                    "longer than the run",
+                    None,
+                );
+            }
             kinds.push(CheckKind::JointReached {
                 joint,
                 position: reached.position_rad,

@@ -58,7 +58,19 @@ impl Staff {
         };
         digest(&solution);
         let mut hidden = Vec::new();
-        if let Some(source) = read(files, &format!("{folder}/hidden.toml"))? {
+        let hidden_path = format!("{folder}/hidden.toml");
+        let hidden_source = read(files, &hidden_path)?;
+        let has_functions = lab
+            .tasks
+            .iter()
+            .any(|task| matches!(task.work, TaskWork::Function(_)));
+        if has_functions && hidden_source.is_none() {
+            return Err(LoadError::Unreadable {
+                path: format!("{}/{hidden_path}", files.name()),
+                why: "there is no such file, and function tasks need hidden cases".to_owned(),
+            });
+        }
+        if let Some(source) = hidden_source {
             digest(&source);
             let table: HiddenTable = tables(&source)?;
             let report = Reporter { source: &source };

@@ -220,7 +220,13 @@ fn pid(
         }
         Derivative::Velocity => -rate,
     };
-    gains.kp * error + gains.ki * *integral + gains.kd * slope
+    // a sum that grew beyond all numbers must not matter where nothing integrates: 0 times infinity is no number
+    let held = if gains.ki == 0.0 {
+        0.0
+    } else {
+        gains.ki * *integral
+    };
+    gains.kp * error + held + gains.kd * slope
 }
 
 fn bounded_integral(gains: &Gains, integral: f64) -> f64 {

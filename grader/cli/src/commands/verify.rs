@@ -52,8 +52,25 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     };
     let mut host = WorkerHost::default();
     let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
-    let now = graded.map_err(|_| Failure::interrupted())?.grade;
-    let comparison = compare(&report.grade, &now)?;
+    let graded = graded.map_err(|_| Failure::interrupted())?;
+    let mut comparison = compare(&report.grade, &graded.grade)?;
+    if comparison.differences.is_empty() && comparison.not_compared.is_empty() {
+        for file in report_folder::files(&lab, &report.submission, &graded)? {
+            let there = std::fs::read(args.folder.join(&file.path)).ok();
+            if there.as_ref() != Some(&file.bytes) {
+                let digest = |bytes: &[u8]| blake3::hash(bytes).to_hex().to_string();
+                comparison.differences.push(Difference {
+                    what: format!("file `{}`", file.path),
+                    task: None,
+                    second: None,
+                    signal: None,
+                    recorded: there.map_or("missing".to_owned(), |bytes| digest(&bytes)),
+                    now: digest(&file.bytes),
+                });
+            }
+        }
+        comparison.same = comparison.differences.is_empty();
+    }
     if args.json {
         output::print_json(&comparison)?;
     } else {
