@@ -1,4 +1,4 @@
-//! Labs: the TOML types ([`file`]), what they become ([`model`]), the way from one to the other ([`load`]), and the cases that
+//! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`]), and the cases that
 //! hidden draws add ([`draw`]).
 
 pub mod brief;

@@ -1,5 +1,5 @@
 //! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`aba`]), energy
-//! ([`energy`]), dry friction as it acts over a step ([`dry_friction`]), and the smooth step ([`smooth`]).
+//! ([`mod@energy`]), dry friction as it acts over a step ([`dry_friction`]), and the smooth step ([`smooth`]).
 //!
 //! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
 //! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is

@@ -1,4 +1,4 @@
-//! The robot: a TOML description ([`file`]), arithmetic over its dimensions ([`expression`]), and the immutable model ([`model`])
+//! The robot: a TOML description ([`mod@file`]), arithmetic over its dimensions ([`expression`]), and the immutable model ([`model`])
 //! that [`build`] makes of them.
 
 pub mod build;
