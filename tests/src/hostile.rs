@@ -163,7 +163,10 @@ fn inverse_kinematics(robot, position) {
         if name == "submission.rhai" {
             continue;
         }
-        assert!(!text.contains("secret 1.") && !text.contains("secret 2."), "{name}");
+        assert!(
+            !text.contains("secret 1.") && !text.contains("secret 2."),
+            "{name}"
+        );
         for line in text.lines().filter(|line| line.contains("height ")) {
             assert!(
                 !line.contains("height 1.") && !line.contains("height 2."),

@@ -1,5 +1,9 @@
 //! From the tables of a robot file to the immutable robot: names become indices, expressions numbers, links moving bodies.
 
+mod mass;
+mod origin;
+mod tree;
+
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -8,16 +12,13 @@ use toml::Spanned;
 
 use super::expression;
 use super::file::{
-    Dimension, Dimensions, InertiaTable, JointTable, JointType, LimitTable, LinkTable, Number,
-    NumberAt, OriginTable, RobotFile, RoundTable, ShapeTable,
+    Dimension, Dimensions, JointTable, JointType, LimitTable, Number, NumberAt, RobotFile,
 };
-use super::inertia::{self, Inertia, Solid};
-use super::model::{
-    Attachment, Body, Contact, Frame, Joint, JointKind, Limits, Link, Robot, Shape,
-};
+use super::inertia::Inertia;
+use super::model::{Attachment, Body, Contact, Frame, Joint, JointKind, Limits, Link, Robot};
 use super::problem::{RobotError, RobotProblem};
 use crate::source::{Source, suggest};
-use crate::spatial::{Pose, Symmetric3, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
+use crate::spatial::{Pose, Symmetric3, pose};
 
 impl RobotFile {
     /// Makes the robot, with the dimensions `changed` instead of the file's (those of a variant or a hidden case).
@@ -153,249 +154,6 @@ impl Builder<'_> {
                 message: format!("{what} is zero"),
             },
         )
-    }
-
-    fn origin(&self, origin: Option<&OriginTable>) -> Result<Pose, RobotError> {
-        let Some(table) = origin else {
-            return Ok(Pose::identity());
-        };
-        let position_m = match &table.xyz_m {
-            Some(xyz) => self.triple(xyz, "xyz_m")?,
-            None => Vector3::zeros(),
-        };
-        Ok(pose(self.rotation(table)?, position_m))
-    }
-
-    fn rotation(&self, table: &OriginTable) -> Result<Matrix3<f64>, RobotError> {
-        let help = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
-        let clash = |at: Range<usize>, message: &str| {
-            self.err(
-                at,
-                RobotProblem::Origin {
-                    message: message.to_owned(),
-                    help: help.to_owned(),
-                },
-            )
-        };
-        match table {
-            OriginTable {
-                rpy_deg: Some(rpy),
-                axis: None,
-                angle_deg: None,
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(rotation_from_rpy_deg(
-                self.triple(rpy.get_ref(), "rpy_deg")?.into(),
-            )),
-            OriginTable {
-                rpy_deg: None,
-                axis: Some(axis),
-                angle_deg: Some(angle),
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(rotation_about_axis_deg(
-                self.unit(axis, "axis")?,
-                self.number(angle, "angle_deg", Allowed::Any)?,
-            )),
-            OriginTable {
-                rpy_deg: None,
-                axis: None,
-                angle_deg: None,
-                x_axis: Some(x),
-                y_axis: Some(y),
-                ..
-            } => {
-                let x_axis = self.unit(x, "x_axis")?;
-                let y_axis = self.unit(y, "y_axis")?;
-                if x_axis.dot(&y_axis).abs() > 1e-6 {
-                    return clash(y.span(), "`y_axis` is not perpendicular to `x_axis`");
-                }
-                let z_axis = x_axis.cross(&y_axis).normalize();
-                Ok(Matrix3::from_columns(&[
-                    x_axis,
-                    z_axis.cross(&x_axis),
-                    z_axis,
-                ]))
-            }
-            OriginTable {
-                rpy_deg: None,
-                axis: None,
-                angle_deg: None,
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(Matrix3::identity()),
-            OriginTable {
-                rpy_deg,
-                axis,
-                angle_deg,
-                x_axis,
-                y_axis,
-                ..
-            } => {
-                let at = [
-                    rpy_deg.as_ref().map(Spanned::span),
-                    axis.as_ref().map(Spanned::span),
-                    angle_deg.as_ref().map(Spanned::span),
-                    x_axis.as_ref().map(Spanned::span),
-                    y_axis.as_ref().map(Spanned::span),
-                ];
-                let at = at.into_iter().flatten().max_by_key(|at| at.start);
-                clash(
-                    at.unwrap_or(0..0),
-                    "this rotation is half said, or said twice",
-                )
-            }
-        }
-    }
-
-    fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, RobotError> {
-        let round = |round: &RoundTable| -> Result<(f64, f64), RobotError> {
-            Ok((
-                self.number(&round.radius_m, "radius_m", Allowed::Positive)?,
-                self.number(&round.length_m, "length_m", Allowed::Positive)?,
-            ))
-        };
-        let ShapeTable {
-            cuboid,
-            cylinder,
-            capsule,
-            sphere,
-            origin,
-        } = table.get_ref();
-        let solid = match (cuboid, cylinder, capsule, sphere) {
-            (Some(b), None, None, None) => {
-                let [x, y, z] = &b.size_m;
-                Solid::Box {
-                    size_m: [
-                        self.number(x, "size_m", Allowed::Positive)?,
-                        self.number(y, "size_m", Allowed::Positive)?,
-                        self.number(z, "size_m", Allowed::Positive)?,
-                    ],
-                }
-            }
-            (None, Some(c), None, None) => {
-                let (radius_m, length_m) = round(c)?;
-                Solid::Cylinder { radius_m, length_m }
-            }
-            (None, None, Some(c), None) => {
-                let (radius_m, length_m) = round(c)?;
-                Solid::Capsule { radius_m, length_m }
-            }
-            (None, None, None, Some(s)) => Solid::Sphere {
-                radius_m: self.number(&s.radius_m, "radius_m", Allowed::Positive)?,
-            },
-            _ => {
-                return self.err(
-                    table.span(),
-                    RobotProblem::Toml {
-                        message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`"
-                            .to_owned(),
-                        help: Some("{ box = { size_m = [0.05, 0.05, 1.0] } }".to_owned()),
-                    },
-                );
-            }
-        };
-        Ok(Shape {
-            solid,
-            link_from_shape: self.origin(origin.as_ref())?,
-        })
-    }
-
-    fn inertia(
-        &self,
-        link: &LinkTable,
-        shapes: &[Shape],
-        table: &Spanned<InertiaTable>,
-    ) -> Result<Inertia, RobotError> {
-        let refuse = |message: String, help: &str| {
-            self.err(
-                table.span(),
-                RobotProblem::Inertia {
-                    message,
-                    help: help.to_owned(),
-                },
-            )
-        };
-        let name = link.name.get_ref();
-        let InertiaTable {
-            mass_kg,
-            density_kg_m3,
-            com_m,
-            tensor_kg_m2,
-        } = table.get_ref();
-        if let Some(tensor_at) = tensor_kg_m2 {
-            let Some(mass) = mass_kg else {
-                return refuse(
-                    format!("link `{name}` has an inertia tensor but no mass"),
-                    "add `mass_kg`",
-                );
-            };
-            let [xx, yy, zz, xy, xz, yz] = tensor_at.get_ref();
-            let part = |n| self.number(n, "tensor_kg_m2", Allowed::Any);
-            let about_com_kg_m2 = Symmetric3 {
-                xx: part(xx)?,
-                yy: part(yy)?,
-                zz: part(zz)?,
-                xy: part(xy)?,
-                xz: part(xz)?,
-                yz: part(yz)?,
-            };
-            if let Some(why) = inertia::unphysical(&about_com_kg_m2) {
-                return self.err(
-                    tensor_at.span(),
-                    RobotProblem::Inertia {
-                        message: format!("link `{name}`: {why}"),
-                        help:
-                            "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass"
-                                .to_owned(),
-                    },
-                );
-            }
-            return Ok(Inertia {
-                mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
-                com_m: match com_m {
-                    Some(com) => self.triple(com, "com_m")?,
-                    None => Vector3::zeros(),
-                },
-                about_com_kg_m2,
-            });
-        }
-        if com_m.is_some() {
-            return refuse(
-                format!("link `{name}` has `com_m` but no `tensor_kg_m2`"),
-                "leave `com_m` out to take both from the shapes, or give the tensor too",
-            );
-        }
-        if shapes.is_empty() {
-            return refuse(
-                format!("link `{name}` has no shapes to take its inertia from"),
-                "add `shapes`, or give `com_m` and `tensor_kg_m2`",
-            );
-        }
-        let volume: f64 = shapes.iter().map(|s| s.solid.volume_m3()).sum();
-        let density = match (mass_kg, density_kg_m3) {
-            (Some(mass), None) => self.number(mass, "mass_kg", Allowed::NotNegative)? / volume,
-            (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
-            _ => {
-                return refuse(
-                    format!("link `{name}` needs either a mass or a density"),
-                    "write `mass_kg` or `density_kg_m3`, one of them",
-                );
-            }
-        };
-        let mut sum = Inertia::zero();
-        for shape in shapes {
-            let mass = match (mass_kg, shapes) {
-                // one shape keeps the mass as typed, without a rounding through its volume
-                (Some(mass), [_]) => self.number(mass, "mass_kg", Allowed::NotNegative)?,
-                _ => density * shape.solid.volume_m3(),
-            };
-            sum = sum.plus(&shape.solid.inertia(mass).seen_from(&shape.link_from_shape));
-        }
-        Ok(sum)
     }
 
     fn limits(
@@ -638,88 +396,6 @@ impl Builder<'_> {
             bodies,
             world_inertia,
         })
-    }
-
-    /// The joints from the root outwards, each after the joint that carries its parent; siblings in file order.
-    fn order(&self, joints: &[Joint]) -> Result<Vec<usize>, RobotError> {
-        let tables = &self.file.tables;
-        let link_name = |link: usize| tables.links[link].name.get_ref().clone();
-        let mut carrier: Vec<Option<usize>> = vec![None; tables.links.len()];
-        for (j, joint) in joints.iter().enumerate() {
-            let child_at = tables.joints[j].child.span();
-            if joint.child == 0 {
-                let link = link_name(0);
-                return self.err(child_at, RobotProblem::RootIsChild { link });
-            }
-            if let Some(first) = carrier[joint.child] {
-                return self.err(
-                    child_at,
-                    RobotProblem::TwoParents {
-                        link: link_name(joint.child),
-                        first: joints[first].name.clone(),
-                        second: joint.name.clone(),
-                    },
-                );
-            }
-            carrier[joint.child] = Some(j);
-        }
-        let mut order = Vec::with_capacity(joints.len());
-        let mut reached = vec![false; tables.links.len()];
-        let mut waiting = vec![0];
-        while let Some(link) = waiting.pop() {
-            reached[link] = true;
-            if let Some(j) = carrier[link] {
-                order.push(j);
-            }
-            let children = joints.iter().filter(|joint| joint.parent == link);
-            waiting.extend(children.map(|joint| joint.child).rev());
-        }
-        match reached.iter().position(|reached| !reached) {
-            None => Ok(order),
-            Some(link) => match carrier[link] {
-                None => self.err(
-                    tables.links[link].name.span(),
-                    RobotProblem::Detached {
-                        link: link_name(link),
-                        root: link_name(0),
-                    },
-                ),
-                Some(start) => self.unreached(joints, &carrier, start),
-            },
-        }
-    }
-
-    /// A link that is carried but not reached: its chain ends in the air or in itself.
-    fn unreached(
-        &self,
-        joints: &[Joint],
-        carrier: &[Option<usize>],
-        start: usize,
-    ) -> Result<Vec<usize>, RobotError> {
-        let tables = &self.file.tables;
-        let mut joint = start;
-        for _ in 0..joints.len() {
-            match carrier[joints[joint].parent] {
-                Some(up) => joint = up,
-                None => {
-                    let link = joints[joint].parent;
-                    return self.err(
-                        tables.links[link].name.span(),
-                        RobotProblem::Detached {
-                            link: tables.links[link].name.get_ref().clone(),
-                            root: tables.links[0].name.get_ref().clone(),
-                        },
-                    );
-                }
-            }
-        }
-        self.err(
-            tables.joints[joint].name.span(),
-            RobotProblem::Cycle {
-                joint: joints[joint].name.clone(),
-                link: tables.joints[joint].child.get_ref().clone(),
-            },
-        )
     }
 
     fn frames(

@@ -1,0 +1,197 @@
+//! A motion task: periods that divide, goals that fit, servos that fit the robot.
+
+use std::ops::Range;
+
+use kinemark_sim::control::servo::Servo;
+use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::ticks::{Periods, whole_ratio};
+use nalgebra::Vector3;
+use toml::Spanned;
+
+use super::Reader;
+use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
+use crate::lab::model::{MotionGoal, MotionTask};
+use crate::lab::problem::LabError;
+
+impl Reader<'_> {
+    pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
+        let motion = table.get_ref();
+        let milliseconds = |typed: &Option<NumberAt>, what, absent: f64| match typed {
+            None => Ok(absent),
+            Some(number) => Ok(self.positive(number, what)? / 1000.0),
+        };
+        let step_s = milliseconds(&motion.physics_step_ms, "the physics step", 0.001)?;
+        let servo_s = milliseconds(&motion.servo_period_ms, "the servo period", 0.001)?;
+        let control_s = milliseconds(&motion.control_period_ms, "the control period", 0.01)?;
+        let periods = match Periods::new(step_s, servo_s, control_s) {
+            Ok(periods) => periods,
+            Err(error) => {
+                let typed = [&motion.control_period_ms, &motion.servo_period_ms];
+                let at = typed.into_iter().flatten().next();
+                return self.report.err(
+                    at.map_or(table.span(), Spanned::span),
+                    "lab::periods",
+                    error.to_string(),
+                    "does not divide",
+                    Some("each period is a whole number of the one before".to_owned()),
+                );
+            }
+        };
+        let duration_s = self.positive(&motion.duration_s, "the duration")?;
+        let whole_ticks = |seconds: f64, at: &NumberAt, what: &str| {
+            match whole_ratio(seconds, step_s) {
+                // a quarter of an hour at 1 ms: more would not fit in the memory of a grade
+                Some(ticks) if ticks <= 900_000 => Ok(ticks),
+                _ => self.report.err(
+                    at.span(),
+                    "lab::periods",
+                    format!("{what} of {seconds} s is not a whole, sensible number of physics steps of {step_s} s"),
+                    "this time",
+                    None,
+                ),
+            }
+        };
+        let ticks = whole_ticks(duration_s, &motion.duration_s, "the duration")?;
+        let n = self.robot.n();
+        let start_q = match &motion.start_rad {
+            None => vec![0.0; n],
+            Some(start) => {
+                self.counted(start, "start_rad")?;
+                start.get_ref().clone()
+            }
+        };
+        let mut goals = Vec::new();
+        for goal in &motion.goals {
+            let dwell_s = self.positive(&goal.dwell_s, "the dwell")?;
+            goals.push(MotionGoal {
+                position_m: Vector3::from(goal.position_m),
+                dwell_ticks: whole_ticks(dwell_s, &goal.dwell_s, "the dwell")?,
+            });
+        }
+        let dwells: u64 = goals.iter().map(|goal| goal.dwell_ticks).sum();
+        if dwells > ticks {
+            return self.report.err(
+                motion.duration_s.span(),
+                "lab::periods",
+                format!(
+                    "the dwells take {} s of a run of {duration_s} s",
+                    periods.time_s(dwells)
+                ),
+                "shorter than its dwells",
+                None,
+            );
+        }
+        let default_servo = ServoTable::default();
+        let (servo_table, servo_at) = match &motion.servo {
+            Some(servo) => (servo.get_ref(), servo.span()),
+            None => (&default_servo, table.span()),
+        };
+        let servo = self.servo(motion.mode, servo_table, servo_at.clone())?;
+        if let Err(error) = Servo::new(self.robot, servo.clone(), servo_s, GRAVITY_M_S2) {
+            return self.report.err(
+                servo_at,
+                "lab::servo",
+                error.to_string(),
+                "this servo",
+                None,
+            );
+        }
+        Ok(MotionTask {
+            periods,
+            ticks,
+            servo,
+            gravity_m_s2: GRAVITY_M_S2,
+            start_q,
+            target: motion.target.clone().unwrap_or_default(),
+            goals,
+        })
+    }
+
+    fn servo(
+        &self,
+        mode: ModeName,
+        table: &ServoTable,
+        at: Range<usize>,
+    ) -> Result<ServoSettings, LabError> {
+        let n = self.robot.n();
+        let spread = |typed: &Option<PerJoint>, what: &str, absent: f64, lowest: f64| {
+            let values = match typed {
+                None => vec![absent; n],
+                Some(PerJoint::All(value)) => vec![*value; n],
+                Some(PerJoint::Each(values)) if values.len() == n => values.clone(),
+                Some(PerJoint::Each(values)) => {
+                    return self.report.err(
+                        at.clone(),
+                        "lab::joint_count",
+                        format!("`{what}` has {} numbers for {n} joints", values.len()),
+                        "this servo",
+                        Some("give one number for all joints, or one per joint".to_owned()),
+                    );
+                }
+            };
+            if let Some(bad) = values
+                .iter()
+                .find(|value| **value < lowest || value.is_nan())
+            {
+                return self.report.err(
+                    at.clone(),
+                    "lab::out_of_range",
+                    format!(
+                        "`{what}` must be {}, got {bad:e}",
+                        if lowest > 0.0 {
+                            "positive"
+                        } else {
+                            "zero or more"
+                        }
+                    ),
+                    "this servo",
+                    None,
+                );
+            }
+            Ok(values)
+        };
+        let least = f64::MIN_POSITIVE; // a limit of zero would hold the arm limp
+        let kp = spread(&table.kp, "kp", 0.0, 0.0)?;
+        let ki = spread(&table.ki, "ki", 0.0, 0.0)?;
+        let kd = spread(&table.kd, "kd", 0.0, 0.0)?;
+        let effort = spread(&table.effort_limit, "effort_limit", f64::INFINITY, least)?;
+        let integral = spread(
+            &table.integral_limit,
+            "integral_limit",
+            f64::INFINITY,
+            least,
+        )?;
+        let of_robot = |joint: usize| {
+            let limit = self
+                .robot
+                .moving_joints()
+                .nth(joint)
+                .and_then(|j| j.limits.effort);
+            limit.unwrap_or(f64::INFINITY)
+        };
+        Ok(ServoSettings {
+            mode: match mode {
+                ModeName::Position => Mode::Position,
+                ModeName::Velocity => Mode::Velocity,
+                ModeName::Effort => Mode::Effort,
+            },
+            derivative: match table.derivative {
+                Some(DerivativeName::Error) => Derivative::Error,
+                Some(DerivativeName::Velocity) => Derivative::Velocity,
+                Some(DerivativeName::Measurement) | None => Derivative::Measurement,
+            },
+            gains: (0..n)
+                .map(|i| Gains {
+                    kp: kp[i],
+                    ki: ki[i],
+                    kd: kd[i],
+                    // a lab may be stricter than the robot, never more generous
+                    effort_limit: effort[i].min(of_robot(i)),
+                    integral_limit: integral[i],
+                })
+                .collect(),
+            gravity_compensation: table.gravity_compensation,
+        })
+    }
+}

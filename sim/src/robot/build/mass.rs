@@ -1,0 +1,160 @@
+//! What a link is made of: its shapes, and its mass properties given or taken from them.
+
+use nalgebra::Vector3;
+use toml::Spanned;
+
+use super::{Allowed, Builder};
+use crate::robot::file::{InertiaTable, LinkTable, RoundTable, ShapeTable};
+use crate::robot::inertia::{self, Inertia, Solid};
+use crate::robot::model::Shape;
+use crate::robot::problem::{RobotError, RobotProblem};
+use crate::spatial::Symmetric3;
+
+impl Builder<'_> {
+    pub(super) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, RobotError> {
+        let round = |round: &RoundTable| -> Result<(f64, f64), RobotError> {
+            Ok((
+                self.number(&round.radius_m, "radius_m", Allowed::Positive)?,
+                self.number(&round.length_m, "length_m", Allowed::Positive)?,
+            ))
+        };
+        let ShapeTable {
+            cuboid,
+            cylinder,
+            capsule,
+            sphere,
+            origin,
+        } = table.get_ref();
+        let solid = match (cuboid, cylinder, capsule, sphere) {
+            (Some(b), None, None, None) => {
+                let [x, y, z] = &b.size_m;
+                Solid::Box {
+                    size_m: [
+                        self.number(x, "size_m", Allowed::Positive)?,
+                        self.number(y, "size_m", Allowed::Positive)?,
+                        self.number(z, "size_m", Allowed::Positive)?,
+                    ],
+                }
+            }
+            (None, Some(c), None, None) => {
+                let (radius_m, length_m) = round(c)?;
+                Solid::Cylinder { radius_m, length_m }
+            }
+            (None, None, Some(c), None) => {
+                let (radius_m, length_m) = round(c)?;
+                Solid::Capsule { radius_m, length_m }
+            }
+            (None, None, None, Some(s)) => Solid::Sphere {
+                radius_m: self.number(&s.radius_m, "radius_m", Allowed::Positive)?,
+            },
+            _ => {
+                return self.err(
+                    table.span(),
+                    RobotProblem::Toml {
+                        message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`"
+                            .to_owned(),
+                        help: Some("{ box = { size_m = [0.05, 0.05, 1.0] } }".to_owned()),
+                    },
+                );
+            }
+        };
+        Ok(Shape {
+            solid,
+            link_from_shape: self.origin(origin.as_ref())?,
+        })
+    }
+
+    pub(super) fn inertia(
+        &self,
+        link: &LinkTable,
+        shapes: &[Shape],
+        table: &Spanned<InertiaTable>,
+    ) -> Result<Inertia, RobotError> {
+        let refuse = |message: String, help: &str| {
+            self.err(
+                table.span(),
+                RobotProblem::Inertia {
+                    message,
+                    help: help.to_owned(),
+                },
+            )
+        };
+        let name = link.name.get_ref();
+        let InertiaTable {
+            mass_kg,
+            density_kg_m3,
+            com_m,
+            tensor_kg_m2,
+        } = table.get_ref();
+        if let Some(tensor_at) = tensor_kg_m2 {
+            let Some(mass) = mass_kg else {
+                return refuse(
+                    format!("link `{name}` has an inertia tensor but no mass"),
+                    "add `mass_kg`",
+                );
+            };
+            let [xx, yy, zz, xy, xz, yz] = tensor_at.get_ref();
+            let part = |n| self.number(n, "tensor_kg_m2", Allowed::Any);
+            let about_com_kg_m2 = Symmetric3 {
+                xx: part(xx)?,
+                yy: part(yy)?,
+                zz: part(zz)?,
+                xy: part(xy)?,
+                xz: part(xz)?,
+                yz: part(yz)?,
+            };
+            if let Some(why) = inertia::unphysical(&about_com_kg_m2) {
+                return self.err(
+                    tensor_at.span(),
+                    RobotProblem::Inertia {
+                        message: format!("link `{name}`: {why}"),
+                        help:
+                            "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass"
+                                .to_owned(),
+                    },
+                );
+            }
+            return Ok(Inertia {
+                mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
+                com_m: match com_m {
+                    Some(com) => self.triple(com, "com_m")?,
+                    None => Vector3::zeros(),
+                },
+                about_com_kg_m2,
+            });
+        }
+        if com_m.is_some() {
+            return refuse(
+                format!("link `{name}` has `com_m` but no `tensor_kg_m2`"),
+                "leave `com_m` out to take both from the shapes, or give the tensor too",
+            );
+        }
+        if shapes.is_empty() {
+            return refuse(
+                format!("link `{name}` has no shapes to take its inertia from"),
+                "add `shapes`, or give `com_m` and `tensor_kg_m2`",
+            );
+        }
+        let volume: f64 = shapes.iter().map(|s| s.solid.volume_m3()).sum();
+        let density = match (mass_kg, density_kg_m3) {
+            (Some(mass), None) => self.number(mass, "mass_kg", Allowed::NotNegative)? / volume,
+            (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
+            _ => {
+                return refuse(
+                    format!("link `{name}` needs either a mass or a density"),
+                    "write `mass_kg` or `density_kg_m3`, one of them",
+                );
+            }
+        };
+        let mut sum = Inertia::zero();
+        for shape in shapes {
+            let mass = match (mass_kg, shapes) {
+                // one shape keeps the mass as typed, without a rounding through its volume
+                (Some(mass), [_]) => self.number(mass, "mass_kg", Allowed::NotNegative)?,
+                _ => density * shape.solid.volume_m3(),
+            };
+            sum = sum.plus(&shape.solid.inertia(mass).seen_from(&shape.link_from_shape));
+        }
+        Ok(sum)
+    }
+}
