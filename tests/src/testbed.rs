@@ -16,6 +16,9 @@ pub(crate) fn root() -> PathBuf {
 
 /// Builds the binary in `profile` (as `--profile` names it) and returns its path.
 pub(crate) fn build(profile: &str) -> PathBuf {
+    // target/<folder>/deps/system-<hash>: the build of another profile lies beside this one's
+    let here = std::env::current_exe().expect("this test's path");
+    let target = here.ancestors().nth(3).expect("the target folder");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(root()).args([
         "build",
@@ -26,6 +29,7 @@ pub(crate) fn build(profile: &str) -> PathBuf {
         "--profile",
         profile,
     ]);
+    cargo.arg("--target-dir").arg(target);
     // what cargo tells a test about its own package must not reach the build of another
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
@@ -39,9 +43,6 @@ pub(crate) fn build(profile: &str) -> PathBuf {
         "the binary builds"
     );
     let folder = if profile == "dev" { "debug" } else { profile };
-    // target/<folder>/deps/system-<hash>: the build of another profile lies beside this one's
-    let here = std::env::current_exe().expect("this test's path");
-    let target = here.ancestors().nth(3).expect("the target folder");
     let name = format!("kinemark{}", std::env::consts::EXE_SUFFIX);
     target.join(folder).join(name)
 }

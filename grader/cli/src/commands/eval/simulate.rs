@@ -47,7 +47,8 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     let duration_s = fields.positive("duration_s")?;
     let servo_s = fields.positive("servo_period_s")?;
     let step_s = match fields.number("physics_step_s")? {
-        None => 0.001,
+        // a faster servo needs a step at least as short
+        None => servo_s.min(0.001),
         Some(step_s) if step_s > 0.0 => step_s,
         Some(step_s) => {
             return Err(Refusal::new(
