@@ -78,7 +78,7 @@ fn a_crash_in_one_task_leaves_the_others_their_points() {
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("1/1  passed"), "{ran:?}");
-    assert!(ran.stdout.contains("at 1.01 s (tick 1010)"), "{ran:?}");
+    assert!(ran.stdout.contains("(at 1.01 s, tick 1010)"), "{ran:?}");
     assert!(
         ran.stdout.contains("3 |         throw \"lost\";"),
         "{ran:?}"

@@ -29,7 +29,7 @@ pub fn text(grade: &Grade) -> String {
     line(&mut out, &mode.dimmed().to_string());
     for task in &grade.tasks {
         out.push('\n');
-        push_task(&mut out, task);
+        push_task(&mut out, task, &grade.submission.name);
     }
     out.push('\n');
     let total = format!(
@@ -54,7 +54,7 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
-fn push_task(out: &mut String, task: &TaskGrade) {
+fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
     let verdict = match task.verdict {
         Verdict::Passed => task.verdict.name().green().to_string(),
         Verdict::Missed => task.verdict.name().yellow().to_string(),
@@ -71,7 +71,7 @@ fn push_task(out: &mut String, task: &TaskGrade) {
         ),
     );
     if let Some(stopped) = &task.stopped {
-        push_stopped(out, stopped);
+        push_stopped(out, stopped, file);
     }
     for diagnosis in &task.diagnoses {
         line(
@@ -107,18 +107,18 @@ fn push_task(out: &mut String, task: &TaskGrade) {
     }
 }
 
-fn push_stopped(out: &mut String, stopped: &Stopped) {
+fn push_stopped(out: &mut String, stopped: &Stopped, file: &str) {
     let mut where_ = String::new();
     if let Some(time_s) = stopped.time_s {
         let _ = write!(
             where_,
-            " at {} (tick {})",
+            " (at {}, tick {})",
             seconds(time_s),
             stopped.tick.unwrap_or(0)
         );
     }
     if let Some(case) = &stopped.case {
-        let _ = write!(where_, " in case \"{case}\"");
+        let _ = write!(where_, " (case \"{case}\")");
     }
     line(
         out,
@@ -129,6 +129,9 @@ fn push_stopped(out: &mut String, stopped: &Stopped) {
         ),
     );
     if let (Some(number), Some(source)) = (stopped.line, &stopped.source_line) {
+        let column = stopped.column.unwrap_or(1);
+        let place = format!("{}:{number}:{column}", visible(file));
+        line(out, &format!("    {}", place.dimmed()));
         let gutter = number.to_string();
         line(
             out,
