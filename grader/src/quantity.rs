@@ -30,6 +30,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "m" => metres(value),
         "s" => seconds(value),
         "" => format!("{} %", trimmed(value * 100.0, 1)),
+        unit if value != 0.0 && value.abs() < 5e-5 => format!("under 0.0001 {unit}"),
         unit => format!("{} {unit}", trimmed(value, 4)),
     }
 }
@@ -89,6 +90,7 @@ mod tests {
         }
         assert_eq!(seconds(2.35), "2.35 s");
         assert_eq!(with_unit(0.25, ""), "25 %");
+        assert_eq!(with_unit(4.3e-5, "rad"), "under 0.0001 rad");
         assert_eq!(points(3.0), "3");
         assert_eq!(trimmed(-0.00001, 3), "0");
         assert_eq!(list(&[1.0, -0.25]), "[1, -0.25]");
