@@ -205,3 +205,21 @@ fn files_that_are_no_submission_are_refused_or_judged() {
         "{ran:?}"
     );
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_as_submission_is_refused_and_does_not_wait() {
+    let bed = bed();
+    let made = std::process::Command::new("mkfifo")
+        .arg(bed.path("pipe.rhai"))
+        .status();
+    assert!(made.expect("mkfifo").success());
+    for args in [
+        &["grade", "01-kinematics", "pipe.rhai"][..],
+        &["robot", "eval", "pipe.rhai"],
+    ] {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains("is a pipe or a device"), "{ran:?}");
+    }
+}
