@@ -22,7 +22,7 @@ pub struct CasesRun<'a> {
     pub facts: Vec<CaseFacts<'a>>,
     /// The first stop, and the case it happened in.
     pub stop: Option<(usize, Stop)>,
-    /// Operations used.
+    /// Operations used in visible cases.
     pub operations: u64,
     /// Lines printed, each with the number of its case.
     pub log: Vec<LogEntry>,
@@ -60,7 +60,10 @@ pub fn run<'a>(
         if exhausted < MOST_EXHAUSTED {
             match ask(&mut controller, &robot, case, opening, host) {
                 Ok(answer) => {
-                    operations += answer.operations;
+                    // a loop as long as a hidden number would count it out
+                    if case.hidden_class.is_none() {
+                        operations += answer.operations;
+                    }
                     hash_value(&mut hasher, &answer.value);
                     said = answer.said;
                     answered = Some(answer.value);

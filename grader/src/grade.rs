@@ -94,7 +94,7 @@ pub struct TaskGrade {
     pub cases: Vec<CaseGrade>,
     /// Hidden cases of a function task, counted by class.
     pub hidden: Vec<HiddenClass>,
-    /// Operations the submission used.
+    /// Operations the submission used; in a function task those of visible cases.
     pub operations: u64,
     /// Lines the submission printed (the first 200).
     pub log: Vec<LogEntry>,

@@ -137,6 +137,30 @@ fn ctrl_c_writes_nothing_and_leaves_nothing() {
 }
 
 #[test]
+fn hidden_cases_are_not_counted_out_by_operations() {
+    let lab = crate::testbed::lab("01-kinematics");
+    let staff = crate::testbed::staff(&lab, None);
+    let submission = "fn forward_kinematics(robot, q) {
+    let i = 0;
+    while i < robot.base_height * 100 { i += 1; }
+    [0.0, 0.0, 0.0]
+}
+";
+    let fk = |staff| {
+        let graded = crate::testbed::grade(&lab, staff, "submission.rhai", submission);
+        graded
+            .grade
+            .tasks
+            .into_iter()
+            .find(|task| task.name == "fk")
+            .expect("fk")
+    };
+    let (practice, graded) = (fk(None), fk(Some(&staff)));
+    assert!(!graded.hidden.is_empty() && graded.operations > 1000);
+    assert_eq!(practice.operations, graded.operations);
+}
+
+#[test]
 fn hidden_cases_cannot_be_read_out_of_a_report() {
     let bed = TestBed::new();
     bed.copy_labs();
