@@ -11,6 +11,7 @@
 //! | [`kinematics`] | where frames are and how they move |
 //! | [`dynamics`] | RNEA, CRBA, ABA, energy, the smooth step |
 //! | [`control`] | joint servos: command in, effort out |
+//! | [`trajectory`] | time in; position, velocity, acceleration out |
 //! | [`ticks`] | time as whole numbers of physics steps |
 //! | [`run`] | the tick loop: observe, control, servo, step |
 //! | [`trace`] | the columns of one run and their digests |
@@ -37,3 +38,4 @@ pub mod source;
 pub mod spatial;
 pub mod ticks;
 pub mod trace;
+pub mod trajectory;

@@ -54,6 +54,69 @@ pub fn rotation_about_axis_deg(axis: Vector3<f64>, angle_deg: f64) -> Matrix3<f6
     Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
+/// Rotation about the axis of `rotation_vector_rad` by its length \[rad\]: the exponential of SO(3), for any angle.
+///
+/// The identity at zero. Not a number where the vector is not finite or its square is not.
+///
+/// Source: Rodrigues' formula as `cos θ 1 + sin θ/θ [φ] + (1 - cos θ)/θ² φ φᵀ`, with `1 - cos θ = 2 sin²(θ/2)`.
+pub fn rotation_exp(rotation_vector_rad: &Vector3<f64>) -> Matrix3<f64> {
+    let v = rotation_vector_rad;
+    let angle = v.norm_squared().sqrt();
+    // both quotients are well behaved down to the smallest angle; only zero itself needs its limit
+    let (sine_by_angle, half_sine_by_angle) = if angle == 0.0 {
+        (1.0, 0.5)
+    } else {
+        (libm::sin(angle) / angle, libm::sin(0.5 * angle) / angle)
+    };
+    let outer = 2.0 * half_sine_by_angle * half_sine_by_angle;
+    let s = v * sine_by_angle;
+    let c = 1.0 - outer * (angle * angle);
+    Matrix3::new(
+        c + outer * v.x * v.x,
+        outer * v.x * v.y - s.z,
+        outer * v.x * v.z + s.y,
+        outer * v.x * v.y + s.z,
+        c + outer * v.y * v.y,
+        outer * v.y * v.z - s.x,
+        outer * v.x * v.z - s.y,
+        outer * v.y * v.z + s.x,
+        c + outer * v.z * v.z,
+    )
+}
+
+/// Axis times angle \[rad\] of a rotation, the angle from 0 to pi: the logarithm of SO(3).
+///
+/// Zero at the identity. At exactly half a turn both axes are right, and the one whose largest component is positive is
+/// returned; a rounding error away from half a turn the sign of the axis is the matrix's own.
+///
+/// Source: Lynch & Park, *Modern Robotics* (2017), sec. 3.2.3.3, with the angle from sine and cosine together, and the
+/// axis from the symmetric part `cos θ 1 + (1 - cos θ) n nᵀ` beyond 120 degrees, where the antisymmetric part fades.
+pub fn rotation_log(rotation: &Matrix3<f64>) -> Vector3<f64> {
+    let r = rotation;
+    // sin θ n and cos θ
+    let v = Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12) * 0.5;
+    let cosine = 0.5 * (r.m11 + r.m22 + r.m33 - 1.0);
+    let sine = v.norm();
+    let angle = libm::atan2(sine, cosine);
+    if cosine > -0.5 {
+        return if sine > 0.0 { v * (angle / sine) } else { v };
+    }
+    // the longest column of n nᵀ (1 - cos θ) has the direction of n
+    let xy = 0.5 * (r.m12 + r.m21);
+    let xz = 0.5 * (r.m13 + r.m31);
+    let yz = 0.5 * (r.m23 + r.m32);
+    let (xx, yy, zz) = (r.m11 - cosine, r.m22 - cosine, r.m33 - cosine);
+    let column = if xx >= yy && xx >= zz {
+        Vector3::new(xx, xy, xz)
+    } else if yy >= zz {
+        Vector3::new(xy, yy, yz)
+    } else {
+        Vector3::new(xz, yz, zz)
+    };
+    let signed_angle = if column.dot(&v) < 0.0 { -angle } else { angle };
+    column * (signed_angle / column.norm())
+}
+
 /// Sine and cosine of an angle in degrees, exact at whole quarter turns, where `sin(pi)` is not zero in floating point.
 fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = angle_deg / 90.0;
@@ -169,7 +232,8 @@ impl Symmetric3 {
         self.yz += other.yz;
     }
 
-    /// The inertia `m (|c|² 1 - c cᵀ)` of a point mass at `c`: what moving the reference point away from a centre of mass adds.
+    /// The inertia `m (|c|² 1 - c cᵀ)` of a point mass at `c`: what moving the reference point away from a centre of mass
+    /// adds.
     pub fn of_point_mass(mass_kg: f64, c: &Vector3<f64>) -> Self {
         Self {
             xx: mass_kg * (c.y * c.y + c.z * c.z),
@@ -215,5 +279,74 @@ mod tests {
         let r = rotation_from_rpy_deg([20.0, -35.0, 70.0]);
         let full = r * s.to_matrix() * r.transpose();
         assert!((s.rotated(&r).to_matrix() - full).norm() < 1e-14);
+    }
+
+    #[test]
+    fn exp_and_log_of_quarter_and_half_turns() {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let quarter = rotation_from_rpy_deg([0.0, 0.0, 90.0]);
+        assert_eq!(rotation_log(&quarter), Vector3::z() * FRAC_PI_2);
+        assert!((rotation_exp(&(Vector3::z() * FRAC_PI_2)) - quarter).norm() < 1e-15);
+        assert_eq!(rotation_log(&Matrix3::identity()), Vector3::zeros());
+        assert_eq!(rotation_exp(&Vector3::zeros()), Matrix3::identity());
+        // at exactly half a turn the largest component of the axis is positive, whichever way it was turned
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            let half = rotation_about_axis_deg(-axis, 180.0);
+            assert_eq!(rotation_log(&half), axis * PI);
+        }
+        let axis = Vector3::new(2.0, -3.0, 6.0) / 7.0;
+        let half = 2.0 * axis * axis.transpose() - Matrix3::identity();
+        assert!((rotation_log(&half) - axis * PI).norm() < 1e-15);
+    }
+
+    #[test]
+    fn small_rotations_keep_their_relative_precision() {
+        for size in [1e-3, 1e-7, 1e-9, 1e-12, 1e-100, 1e-160, 5e-324] {
+            let v = Vector3::new(0.6 * size, 0.0, -0.8 * size);
+            let back = rotation_log(&rotation_exp(&v));
+            // 1e-15 of the vector, or what is left of numbers this small
+            assert!((back - v).amax() <= 1e-15 * size + 5e-324, "{size}: {back}");
+        }
+    }
+
+    #[test]
+    fn near_half_a_turn_the_log_is_still_the_inverse_of_exp() {
+        use std::f64::consts::PI;
+        let axes = [
+            Vector3::new(1.0, 0.0, 0.0),
+            Vector3::new(-2.0, 3.0, 6.0) / 7.0,
+            Vector3::new(1.0, 1.0, -1.0) / 3.0_f64.sqrt(),
+            Vector3::new(1e-9, -1.0, 0.0).normalize(),
+        ];
+        for axis in axes {
+            for short_of_pi in [1.0, 0.1, 1e-3, 1e-6, 1e-8, 1e-10, 1e-13] {
+                let v = axis * (PI - short_of_pi);
+                let back = rotation_log(&rotation_exp(&v));
+                // a few roundings of numbers near pi
+                assert!((back - v).norm() < 5e-15, "{axis} {short_of_pi}: {back}");
+            }
+            // closer than rounding, the axis may flip: then the rotations agree
+            for angle in [PI, PI - 1e-16, PI + 4e-16] {
+                let r = rotation_exp(&(axis * angle));
+                assert!((rotation_exp(&rotation_log(&r)) - r).norm() < 5e-15);
+            }
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn log_inverts_exp_and_exp_is_a_rotation(
+            x in -1.8..1.8_f64, y in -1.8..1.8_f64, z in -1.8..1.8_f64,
+        ) {
+            // at most sqrt(3) 1.8 = 3.118 rad, less than half a turn
+            let v = Vector3::new(x, y, z);
+            let r = rotation_exp(&v);
+            // a few roundings of numbers up to 3
+            proptest::prop_assert!((rotation_log(&r) - v).norm() < 1e-14);
+            proptest::prop_assert!((r * r.transpose() - Matrix3::identity()).norm() < 1e-14);
+            proptest::prop_assert!((r.determinant() - 1.0).abs() < 1e-14);
+            // the axis stays
+            proptest::prop_assert!((r * v - v).norm() < 1e-14);
+        }
     }
 }

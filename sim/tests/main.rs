@@ -6,3 +6,4 @@ mod golden_rrbot;
 mod golden_steps;
 mod laws;
 mod robot_files;
+mod trajectories;

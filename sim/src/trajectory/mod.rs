@@ -1,0 +1,45 @@
+//! Trajectories: time in; position, velocity and acceleration out, with an exact end time.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`axis`] | what all trajectories share: the trait, samples, limits |
+//! | [`cubic`] | positions and velocities at both ends in a given time |
+//! | [`quintic`] | positions, velocities and accelerations at both ends in a given time |
+//! | [`trapezoid`] | rest to rest under limits of speed and acceleration |
+//! | [`jerk_limited`] | rest to rest under limits of speed, acceleration and jerk |
+//! | [`spline`] | via points at given times |
+//! | [`joints`] | several axes that start and end together |
+//! | [`turn`] | orientation about one fixed axis |
+//! | [`line`](mod@line), [`arc`] | straight and circular paths in task space |
+//! | [`path`] | a path with a time law: pose, twist and its rate |
+//! | [`error`] | what cannot be planned, with numbers |
+//!
+//! A trajectory lives on the closed interval from 0 to its duration. There the ends are exact to the bit in position, and
+//! acceleration is the limit from inside. Before and after, it holds the end position with velocity and acceleration zero,
+//! also where the velocity asked for at that end is not zero. A time that is NaN gives NaN, never a position.
+
+pub mod arc;
+pub mod axis;
+pub mod cubic;
+pub mod error;
+pub mod jerk_limited;
+pub mod joints;
+pub mod line;
+pub mod path;
+pub mod quintic;
+pub mod spline;
+pub mod trapezoid;
+pub mod turn;
+
+pub use arc::{Arc, ArcOrientation};
+pub use axis::{JerkLimits, Knot, Limits, RestToRest, Sample, Trajectory};
+pub use cubic::Cubic;
+pub use error::TrajectoryError;
+pub use jerk_limited::JerkLimited;
+pub use joints::{JointSample, JointTrajectory};
+pub use line::Line;
+pub use path::{AlongPath, Path, PathPoint, PoseSample, TwistRate};
+pub use quintic::Quintic;
+pub use spline::{Spline, SplineEnds};
+pub use trapezoid::Trapezoid;
+pub use turn::Turn;
