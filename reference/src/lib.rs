@@ -3,6 +3,7 @@
 //! Everything here is derived on paper for one mechanism or one loop, and shares no algorithm with the simulator:
 //!
 //! - [`planar_2r`]: the planar arm with two revolute joints; kinematics, both inverse branches, dynamics, energy.
+//! - [`rppr`]: the robot with a revolute, two prismatic and a revolute joint; kinematics, both inverse branches, rates.
 //! - [`linear_response`]: rational transfer functions and their step responses as sums of exponentials.
 //!   - `pid_loop`: the loops of one joint under PID, as transfer functions.
 //!   - `transfer_function`: ratio of polynomials; poles, zeros, gain, step response.
@@ -14,3 +15,4 @@
 
 pub mod linear_response;
 pub mod planar_2r;
+pub mod rppr;
