@@ -4,8 +4,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::dynamics::ForwardDynamics;
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::dynamics::aba::Aba;
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::run::{Recorder, Row, Setup, run};
 use kinemark_sim::source::Source;
@@ -66,7 +66,7 @@ fn step(c: &mut Criterion) {
     let robot = rrbot();
     let mut group = c.benchmark_group("rr arm");
     group.bench_function("aba", |b| {
-        let mut aba = Aba::new(&robot);
+        let mut aba = ForwardDynamics::new(&robot);
         let mut qdd = [0.0; 2];
         b.iter(|| {
             aba.acceleration(

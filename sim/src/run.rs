@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::control::servo::{Servo, ServoError, ServoSettings};
-use crate::dynamics::aba::SingularMassMatrix;
+use crate::dynamics::SingularMassMatrix;
 use crate::dynamics::smooth::SmoothStep;
 use crate::kinematics::FramePoses;
 use crate::robot::{Frame, Robot};

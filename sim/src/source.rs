@@ -173,10 +173,17 @@ impl TomlRefusal {
     }
 }
 
+/// Names longer than this many bytes are not searched for typos: the distance costs memory by the product of the lengths.
+const LONGEST_TYPO: usize = 200;
+
 /// The known name nearest to `given`, if one is near enough to be a typo.
 pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    if given.len() > LONGEST_TYPO {
+        return None;
+    }
     let lower = given.to_lowercase();
     known
+        .filter(|name| name.len() <= LONGEST_TYPO)
         .map(|name| {
             (
                 strsim::damerau_levenshtein(&lower, &name.to_lowercase()),
@@ -207,6 +214,9 @@ mod tests {
         let known = ["shoulder", "elbow"];
         assert_eq!(nearest("elbwo", known.into_iter()), Some("elbow"));
         assert_eq!(nearest("gripper", known.into_iter()), None);
+        // nor does a name of a size that only a broken file has
+        let long = "x".repeat(1_000_000);
+        assert_eq!(nearest(&long, [long.as_str()].into_iter()), None);
     }
 
     #[test]

@@ -40,11 +40,30 @@ pub fn pose(rotation: Matrix3<f64>, position_m: Vector3<f64>) -> Pose {
 ///
 /// Whole quarter turns are exact when `rpy_deg` holds whole multiples of 90.
 pub fn rotation_from_rpy_deg(rpy_deg: [f64; 3]) -> Matrix3<f64> {
-    let [(sr, cr), (sp, cp), (sy, cy)] = rpy_deg.map(sin_cos_deg);
+    rotation_from_sines(rpy_deg.map(sin_cos_deg))
+}
+
+/// The same rotation as [`rotation_from_rpy_deg`], from angles in rad: `Rz(yaw) Ry(pitch) Rx(roll)`, as a URDF has them.
+pub fn rotation_from_rpy(rpy_rad: [f64; 3]) -> Matrix3<f64> {
+    rotation_from_sines(rpy_rad.map(libm::sincos))
+}
+
+/// `Rz Ry Rx` from sine and cosine of roll, pitch and yaw.
+fn rotation_from_sines([(sr, cr), (sp, cp), (sy, cy)]: [(f64, f64); 3]) -> Matrix3<f64> {
     let rx = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
     let ry = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
     let rz = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
     rz * ry * rx
+}
+
+/// The unit vector along `v`, or `None` where `v` is zero. Coordinate axes stay exact.
+pub fn direction(v: Vector3<f64>) -> Option<Vector3<f64>> {
+    // scaled first, so that neither tiny nor huge vectors are lost in their squares
+    let largest = v.amax();
+    (largest > 0.0).then(|| {
+        let scaled = v / largest;
+        scaled / scaled.norm()
+    })
 }
 
 /// Rotation by `angle_deg` about the unit vector `axis` (Rodrigues).
@@ -264,6 +283,24 @@ mod tests {
         // roll takes y to z, yaw leaves z alone
         assert_eq!(r * Vector3::y(), Vector3::z());
         assert_eq!(r * Vector3::x(), Vector3::y());
+    }
+
+    #[test]
+    fn radians_and_degrees_make_the_same_rotation() {
+        let deg = [20.0, -35.0, 170.0];
+        let error = rotation_from_rpy(deg.map(f64::to_radians)) - rotation_from_rpy_deg(deg);
+        assert_eq!(error.amax(), 0.0);
+    }
+
+    #[test]
+    fn a_direction_survives_the_ends_of_the_number_range() {
+        for size in [5e-324, 1e-200, 1.0, 1e300] {
+            assert_eq!(
+                direction(Vector3::new(0.0, -size, 0.0)),
+                Some(-Vector3::y())
+            );
+        }
+        assert_eq!(direction(Vector3::zeros()), None);
     }
 
     #[test]

@@ -9,10 +9,15 @@ pub(crate) fn robot(text: &str) -> Robot {
     file.build(&[]).expect("a robot")
 }
 
+/// A robot of the labs.
+pub(crate) fn lab_robot(name: &str) -> Robot {
+    let path = format!("{}/../labs/robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    robot(&std::fs::read_to_string(&path).expect(&path))
+}
+
 /// The arm of the course.
 pub(crate) fn rrbot() -> Robot {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../labs/robots/rrbot.toml");
-    robot(&std::fs::read_to_string(path).expect("labs/robots/rrbot.toml"))
+    lab_robot("rrbot")
 }
 
 /// A stream of numbers in [0, 1), the same for the same seed.

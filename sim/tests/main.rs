@@ -2,8 +2,12 @@
 
 mod algorithms;
 mod arms;
+mod golden_robots;
 mod golden_rrbot;
 mod golden_steps;
 mod laws;
+mod loops;
+mod mesh_files;
+mod mesh_solids;
 mod robot_files;
 mod trajectories;

@@ -130,6 +130,7 @@ impl Entity {
                 }
             }
             Solid::Sphere { radius_m } => self.sphere(at, radius_m, color),
+            Solid::Mesh(_) => {}
         }
     }
 

@@ -2,8 +2,6 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::sign;
-use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::kinematics::forward::Placed;
 use crate::robot::Robot;
 use crate::spatial::Symmetric3;
@@ -16,37 +14,9 @@ pub struct SingularMassMatrix {
     pub joint: String,
 }
 
-/// Returns the joint accelerations, shape `(n)`, that `effort` causes at `(q, qd)`, with damping and dry friction.
-///
-/// # Errors
-/// [`SingularMassMatrix`] if a joint moves neither mass nor armature.
-pub fn forward_dynamics(
-    robot: &Robot,
-    gravity_m_s2: &Vector3<f64>,
-    q: &JointPositions,
-    qd: &JointVelocities,
-    effort: &JointEfforts,
-) -> Result<JointAccelerations, SingularMassMatrix> {
-    let mut applied = effort.clone();
-    for body in robot.bodies() {
-        let i = body.q_index;
-        applied.as_mut_slice()[i] -= body.dry_friction * sign(qd.as_slice()[i]);
-    }
-    let mut qdd = JointAccelerations::zeros(robot.n());
-    Aba::new(robot).acceleration(
-        robot,
-        gravity_m_s2,
-        q.as_slice(),
-        qd.as_slice(),
-        applied.as_slice(),
-        qdd.as_mut_slice(),
-    )?;
-    Ok(qdd)
-}
-
 /// Room for the algorithm on one robot, so that a loop allocates nothing.
 #[derive(Debug, Clone)]
-pub struct Aba {
+pub(super) struct Aba {
     nodes: Vec<Node>,
 }
 
@@ -105,8 +75,8 @@ impl Node {
 }
 
 impl Aba {
-    /// Room for `robot`.
-    pub fn new(robot: &Robot) -> Self {
+    /// Room for `robot`, a plain tree.
+    pub(super) fn new(robot: &Robot) -> Self {
         Self {
             nodes: vec![Node::zero(); robot.bodies().len()],
         }
@@ -120,7 +90,7 @@ impl Aba {
     ///
     /// # Panics
     /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
-    pub fn acceleration(
+    pub(super) fn acceleration(
         &mut self,
         robot: &Robot,
         gravity_m_s2: &Vector3<f64>,

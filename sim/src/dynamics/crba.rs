@@ -50,10 +50,11 @@ impl Crba {
     /// # Panics
     /// If `q` or `matrix` does not have the shape of `robot`, or `robot` is not the one the room was made for.
     pub fn fill(&mut self, robot: &Robot, q: &[f64], matrix: &mut DMatrix<f64>) {
-        matrix.fill(0.0);
+        // as one block: entry by entry it would cost as much as the rest
+        matrix.as_mut_slice().fill(0.0);
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(Placed::WORLD, |p| self.nodes[p].placed);
-            let placed = Placed::on(&parent, body, q[body.q_index]);
+            let placed = Placed::on(&parent, body, body.position(q));
             self.nodes[i] = Node {
                 placed,
                 mass_kg: body.mass_kg,
@@ -91,7 +92,8 @@ impl Crba {
             };
             let k = body.q_index;
             let along = if body.turns { n } else { f };
-            matrix[(k, k)] = axis.dot(&along) + body.armature;
+            // a mimic joint adds to the row and column of its master
+            matrix[(k, k)] += body.gear * body.gear * (axis.dot(&along) + body.armature);
             // carried inwards, it is felt by every joint on the way
             let mut at = node.placed.position;
             let mut next = body.parent;
@@ -101,9 +103,9 @@ impl Crba {
                 n += (at - placed.position).cross(&f);
                 at = placed.position;
                 let along = if carrier.turns { n } else { f };
-                let value = placed.axis().dot(&along);
-                matrix[(k, carrier.q_index)] = value;
-                matrix[(carrier.q_index, k)] = value;
+                let value = placed.axis().dot(&along) * body.gear * carrier.gear;
+                matrix[(k, carrier.q_index)] += value;
+                matrix[(carrier.q_index, k)] += value;
                 next = carrier.parent;
             }
         }

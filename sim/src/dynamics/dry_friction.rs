@@ -6,9 +6,9 @@
 //!
 //! Source: Stewart & Trinkle, *An implicit time-stepping scheme for rigid body dynamics* (1996), restricted to joint friction.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use super::crba::Crba;
+use super::forward::ForwardDynamics;
 use crate::robot::Robot;
 
 /// Sweeps over the joints. The iteration contracts on any positive definite matrix; 40 sweeps leave less than rounding on arms.
@@ -17,10 +17,7 @@ const SWEEPS: usize = 40;
 /// Room for the friction efforts of one robot; does nothing for a robot without dry friction.
 #[derive(Debug, Clone)]
 pub struct DryFriction {
-    crba: Crba,
     limits: Vec<f64>,
-    /// The mass matrix, then its inverse.
-    matrix: DMatrix<f64>,
     rates: DVector<f64>,
     efforts: Vec<f64>,
     present: bool,
@@ -32,13 +29,11 @@ impl DryFriction {
         let n = robot.n();
         let mut limits = vec![0.0; n];
         for body in robot.bodies() {
-            limits[body.q_index] = body.dry_friction;
+            limits[body.q_index] += body.gear.abs() * body.dry_friction;
         }
         Self {
-            crba: Crba::new(robot),
             present: limits.iter().any(|limit| *limit > 0.0),
             limits,
-            matrix: DMatrix::zeros(n, n),
             rates: DVector::zeros(n),
             efforts: vec![0.0; n],
         }
@@ -55,6 +50,7 @@ impl DryFriction {
     pub fn efforts(
         &mut self,
         robot: &Robot,
+        dynamics: &mut ForwardDynamics,
         dt_s: f64,
         q: &[f64],
         qd: &[f64],
@@ -62,8 +58,7 @@ impl DryFriction {
     ) -> &[f64] {
         let n = self.limits.len();
         self.efforts.fill(0.0);
-        self.crba.fill(robot, q, &mut self.matrix);
-        let Some(inverse) = self.matrix.clone().cholesky().map(|c| c.inverse()) else {
+        let Some(inverse) = dynamics.inverse_inertia(robot, q) else {
             return &self.efforts;
         };
         for i in 0..n {
@@ -72,6 +67,10 @@ impl DryFriction {
         for _ in 0..SWEEPS {
             for i in 0..n {
                 let per_effort = dt_s * inverse[(i, i)];
+                // a joint that the loops hold fast gives way to no effort
+                if per_effort <= 0.0 {
+                    continue;
+                }
                 let wanted = self.efforts[i] - self.rates[i] / per_effort;
                 let next = wanted.clamp(-self.limits[i], self.limits[i]);
                 let change = next - self.efforts[i];

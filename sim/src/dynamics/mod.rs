@@ -1,5 +1,5 @@
-//! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`aba`]), energy
-//! ([`mod@energy`]), dry friction as it acts over a step ([`dry_friction`]), and the smooth step ([`smooth`]).
+//! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`ForwardDynamics`]), energy
+//! ([`mod@energy`]), closed loops ([`loops`]), dry friction as it acts over a step ([`dry_friction`]), and the smooth step ([`smooth`]).
 //!
 //! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
 //! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is
@@ -8,18 +8,22 @@
 //! Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), ch. 5 to 7, whose spatial accelerations are restated here as
 //! classical ones.
 
-pub mod aba;
+mod aba;
 pub mod crba;
 pub mod dry_friction;
 pub mod energy;
+mod forward;
+pub mod loops;
 pub mod rnea;
 pub mod smooth;
 
 use nalgebra::Vector3;
 
-pub use aba::{SingularMassMatrix, forward_dynamics};
+pub use aba::SingularMassMatrix;
 pub use crba::mass_matrix;
 pub use energy::{Energy, energy};
+pub use forward::{ForwardDynamics, forward_dynamics};
+pub use loops::{driven_efforts, driven_mass_matrix};
 pub use rnea::{bias_effort, gravity_effort, inverse_dynamics};
 
 /// Standard gravity in the world, z up \[m/s²\].

@@ -18,9 +18,9 @@ pub fn inverse_dynamics(
 ) -> JointEfforts {
     let mut effort = rigid(robot, gravity_m_s2, q, Some(qd), Some(qdd));
     for body in robot.bodies() {
-        let i = body.q_index;
-        let v = qd.as_slice()[i];
-        effort.as_mut_slice()[i] += body.damping * v + body.dry_friction * sign(v);
+        let v = body.rate(qd.as_slice());
+        effort.as_mut_slice()[body.q_index] +=
+            body.gear * (body.damping * v + body.dry_friction * sign(v));
     }
     effort
 }
@@ -160,17 +160,22 @@ impl Rnea {
         let world = Node::world(gravity_m_s2);
         // outward pass: motion, and the force each body needs for it
         for (i, body) in robot.bodies().iter().enumerate() {
-            let k = body.q_index;
             let parent = body.parent.map_or(&world, |p| &self.nodes[p]);
-            self.nodes[i] = Node::moved(parent, body, q[k], qd[k], qdd[k]);
+            self.nodes[i] = Node::moved(
+                parent,
+                body,
+                body.position(q),
+                body.rate(qd),
+                body.rate(qdd),
+            );
         }
         // inward pass: project each subtree's force on its joint, hand it to the parent
+        effort[..robot.n()].fill(0.0);
         for (i, body) in robot.bodies().iter().enumerate().rev() {
             let node = self.nodes[i];
             let axis = node.placed.axis();
-            let k = body.q_index;
             let along = if body.turns { node.n } else { node.f };
-            effort[k] = axis.dot(&along) + body.armature * qdd[k];
+            effort[body.q_index] += body.gear * (axis.dot(&along) + body.armature * body.rate(qdd));
             if let Some(p) = body.parent {
                 let parent = &mut self.nodes[p];
                 let r = node.placed.position - parent.placed.position;
@@ -195,16 +200,17 @@ impl Rnea {
         let world = Node::world(gravity_m_s2);
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(&world, |p| &self.nodes[p]);
-            let placed = Placed::on(&parent.placed, body, q[body.q_index]);
+            let placed = Placed::on(&parent.placed, body, body.position(q));
             let node = &mut self.nodes[i];
             node.placed = placed;
             node.f = world.a * body.mass_kg;
             node.n = (placed.world_from_body * body.first_moment).cross(&world.a);
         }
+        effort[..robot.n()].fill(0.0);
         for (i, body) in robot.bodies().iter().enumerate().rev() {
             let node = self.nodes[i];
             let along = if body.turns { node.n } else { node.f };
-            effort[body.q_index] = node.placed.axis().dot(&along);
+            effort[body.q_index] += body.gear * node.placed.axis().dot(&along);
             if let Some(p) = body.parent {
                 let parent = &mut self.nodes[p];
                 let r = node.placed.position - parent.placed.position;

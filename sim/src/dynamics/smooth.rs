@@ -1,11 +1,13 @@
-//! The smooth step: classical Runge-Kutta of order four over the articulated-body algorithm, effort held over the step.
+//! The smooth step: classical Runge-Kutta of order four over forward dynamics, effort held over the step; then back onto the loops'
+//! conditions, if the robot has loops.
 //!
 //! This is the seam where contact joins: a step takes a state and held efforts and leaves the next state.
 
 use nalgebra::Vector3;
 
-use super::aba::{Aba, SingularMassMatrix};
+use super::aba::SingularMassMatrix;
 use super::dry_friction::DryFriction;
+use super::forward::ForwardDynamics;
 use crate::robot::Robot;
 
 /// Integrates one robot with a fixed step; all its room is allocated once.
@@ -13,7 +15,7 @@ use crate::robot::Robot;
 pub struct SmoothStep {
     dt_s: f64,
     gravity_m_s2: Vector3<f64>,
-    aba: Aba,
+    dynamics: ForwardDynamics,
     friction: DryFriction,
     held: Vec<f64>,
     stage_q: Vec<f64>,
@@ -30,7 +32,7 @@ impl SmoothStep {
         Self {
             dt_s,
             gravity_m_s2,
-            aba: Aba::new(robot),
+            dynamics: ForwardDynamics::new(robot),
             friction: DryFriction::new(robot),
             held: room(),
             stage_q: room(),
@@ -56,9 +58,11 @@ impl SmoothStep {
         self.held[..n].copy_from_slice(&effort[..n]);
         if self.friction.is_present() {
             let slope = &mut self.slopes[0];
-            self.aba
+            self.dynamics
                 .acceleration(robot, &self.gravity_m_s2, q, qd, effort, slope)?;
-            let friction = self.friction.efforts(robot, dt, q, qd, slope);
+            let friction = self
+                .friction
+                .efforts(robot, &mut self.dynamics, dt, q, qd, slope);
             for (held, friction) in self.held.iter_mut().zip(friction) {
                 *held += friction;
             }
@@ -78,7 +82,7 @@ impl SmoothStep {
                 }
             }
             self.rates[stage][..n].copy_from_slice(stage_qd);
-            self.aba.acceleration(
+            self.dynamics.acceleration(
                 robot,
                 &self.gravity_m_s2,
                 stage_q,
@@ -93,6 +97,6 @@ impl SmoothStep {
             q[i] += sixth * (r0[i] + 2.0 * (r1[i] + r2[i]) + r3[i]);
             qd[i] += sixth * (s0[i] + 2.0 * (s1[i] + s2[i]) + s3[i]);
         }
-        Ok(())
+        self.dynamics.close_loops(robot, q, qd)
     }
 }

@@ -73,7 +73,7 @@ impl FramePoses {
         assert_eq!(q.len(), robot.n(), "one position per joint that moves");
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(Placed::WORLD, |p| self.placed[p]);
-            self.placed[i] = Placed::on(&parent, body, q[body.q_index]);
+            self.placed[i] = Placed::on(&parent, body, body.position(q));
         }
     }
 

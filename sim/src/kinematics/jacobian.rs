@@ -1,5 +1,7 @@
 //! The geometric Jacobian of any frame, and the twist it maps joint velocities to.
 
+use std::ops::AddAssign as _;
+
 use nalgebra::Matrix6xX;
 
 use super::forward::{FramePoses, forward_kinematics};
@@ -28,20 +30,22 @@ pub fn fill(robot: &Robot, poses: &FramePoses, frame: &Frame, jacobian: &mut Mat
         robot.n(),
         "one column per joint that moves"
     );
-    jacobian.fill(0.0);
+    jacobian.as_mut_slice().fill(0.0);
     let p_frame = poses.world_from(frame).translation.vector;
     let mut next = frame.attachment.body;
     while let Some(i) = next {
         let body = &robot.bodies()[i];
         let placed = &poses.placed[i];
         let axis = placed.axis();
+        // a mimic joint adds to the column of its master
+        let axis = axis * body.gear;
         let mut column = jacobian.column_mut(body.q_index);
         if body.turns {
             let linear = axis.cross(&(p_frame - placed.position));
-            column.fixed_rows_mut::<3>(0).copy_from(&linear);
-            column.fixed_rows_mut::<3>(3).copy_from(&axis);
+            column.fixed_rows_mut::<3>(0).add_assign(&linear);
+            column.fixed_rows_mut::<3>(3).add_assign(&axis);
         } else {
-            column.fixed_rows_mut::<3>(0).copy_from(&axis);
+            column.fixed_rows_mut::<3>(0).add_assign(&axis);
         }
         next = body.parent;
     }

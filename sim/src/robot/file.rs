@@ -2,11 +2,13 @@
 //! check may point at keeps its span.
 
 use std::fmt;
+use std::sync::Arc;
 
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
+use super::mesh::Mesh;
 use super::problem::{RobotError, RobotProblem};
 use crate::source::{Source, TomlRefusal};
 
@@ -15,6 +17,7 @@ use crate::source::{Source, TomlRefusal};
 pub struct RobotFile {
     pub(super) source: Source,
     pub(super) tables: Tables,
+    meshes: Vec<(String, Arc<Mesh>)>,
 }
 
 impl RobotFile {
@@ -24,7 +27,11 @@ impl RobotFile {
     /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key.
     pub fn parse(source: Source) -> Result<Self, RobotError> {
         match toml::from_str::<Tables>(source.text()) {
-            Ok(tables) => Ok(Self { source, tables }),
+            Ok(tables) => Ok(Self {
+                source,
+                tables,
+                meshes: Vec::new(),
+            }),
             Err(error) => {
                 let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
                 Err(RobotError::new(
@@ -34,6 +41,48 @@ impl RobotFile {
                 ))
             }
         }
+    }
+
+    /// Reads the meshes that its shapes name, each once, by `read`: the bytes of a file, or why there are none.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no mesh.
+    pub fn with_meshes(
+        mut self,
+        mut read: impl FnMut(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, RobotError> {
+        for link in &self.tables.links {
+            for shape in &link.shapes {
+                let Some(table) = &shape.get_ref().mesh else {
+                    continue;
+                };
+                let file = table.file.get_ref();
+                if self.meshes.iter().any(|(name, _)| name == file) {
+                    continue;
+                }
+                let refuse = |message: String, help: Option<String>| {
+                    RobotError::new(
+                        RobotProblem::Mesh { message, help },
+                        &self.source,
+                        table.file.span(),
+                    )
+                };
+                let bytes = read(file).map_err(|why| {
+                    let help = "the path starts at the folder of the robot file".to_owned();
+                    refuse(format!("mesh `{file}`: {why}"), Some(help))
+                })?;
+                let mesh = Mesh::parse(file, &bytes).map_err(|problem| {
+                    refuse(format!("mesh `{file}`: {problem}"), problem.help())
+                })?;
+                self.meshes.push((file.clone(), Arc::new(mesh)));
+            }
+        }
+        Ok(self)
+    }
+
+    pub(super) fn mesh(&self, file: &str) -> Option<&Arc<Mesh>> {
+        let found = self.meshes.iter().find(|(name, _)| name == file);
+        found.map(|(_, mesh)| mesh)
     }
 
     /// The text it was read from.
@@ -215,6 +264,9 @@ pub(super) struct Tables {
     pub(super) joints: Vec<JointTable>,
     #[serde(default)]
     pub(super) frames: Vec<FrameTable>,
+    #[serde(default)]
+    pub(super) loops: Vec<Spanned<LoopTable>>,
+    pub(super) dh: Option<DhTable>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -235,6 +287,7 @@ pub(super) struct ShapeTable {
     pub(super) cylinder: Option<RoundTable>,
     pub(super) capsule: Option<RoundTable>,
     pub(super) sphere: Option<SphereTable>,
+    pub(super) mesh: Option<MeshTable>,
     pub(super) origin: Option<OriginTable>,
 }
 
@@ -259,11 +312,20 @@ pub(super) struct SphereTable {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
+pub(super) struct MeshTable {
+    pub(super) file: Spanned<String>,
+    pub(super) scale: Option<[NumberAt; 3]>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct InertiaTable {
     pub(super) mass_kg: Option<NumberAt>,
     pub(super) density_kg_m3: Option<NumberAt>,
     pub(super) com_m: Option<[NumberAt; 3]>,
     pub(super) tensor_kg_m2: Option<Spanned<[NumberAt; 6]>>,
+    #[serde(default)]
+    pub(super) accept_unphysical: bool,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -296,6 +358,74 @@ pub(super) struct JointTable {
     pub(super) dry_friction: Option<NumberAt>,
     pub(super) armature: Option<NumberAt>,
     pub(super) limit: Option<Spanned<LimitTable>>,
+    pub(super) mimic: Option<MimicTable>,
+    #[serde(default)]
+    pub(super) passive: bool,
+    pub(super) guess: Option<NumberAt>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MimicTable {
+    pub(super) joint: Spanned<String>,
+    pub(super) multiplier: Option<NumberAt>,
+    pub(super) offset: Option<NumberAt>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum LoopType {
+    Revolute,
+    Spherical,
+    Point,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LoopTable {
+    #[serde(rename = "type")]
+    pub(super) kind: LoopType,
+    pub(super) links: [Spanned<String>; 2],
+    pub(super) frame_on_first: Option<OriginTable>,
+    pub(super) frame_on_second: Option<OriginTable>,
+    pub(super) axis: Option<TripleAt>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum DhConvention {
+    Standard,
+    Modified,
+}
+
+/// A Denavit-Hartenberg table: one chain that starts at the first link.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DhTable {
+    pub(super) convention: Spanned<DhConvention>,
+    pub(super) base: Option<OriginTable>,
+    pub(super) tool: Option<OriginTable>,
+    #[serde(default)]
+    pub(super) rows: Vec<Spanned<DhRowTable>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DhRowTable {
+    pub(super) joint: Spanned<String>,
+    pub(super) link: Option<Spanned<String>>,
+    #[serde(rename = "type")]
+    pub(super) kind: Spanned<JointType>,
+    pub(super) a_m: Option<NumberAt>,
+    pub(super) alpha_deg: Option<NumberAt>,
+    pub(super) d_m: Option<NumberAt>,
+    pub(super) theta_deg: Option<NumberAt>,
+    pub(super) direction: Option<NumberAt>,
+    pub(super) damping: Option<NumberAt>,
+    pub(super) dry_friction: Option<NumberAt>,
+    pub(super) armature: Option<NumberAt>,
+    pub(super) limit: Option<Spanned<LimitTable>>,
+    pub(super) mimic: Option<MimicTable>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -316,7 +446,7 @@ pub(super) struct FrameTable {
 }
 
 /// Position, and at most one way to say the rotation: `rpy_deg`, `axis` with `angle_deg`, or `x_axis` with `y_axis`.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OriginTable {
     pub(super) xyz_m: Option<[NumberAt; 3]>,

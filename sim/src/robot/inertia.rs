@@ -1,7 +1,10 @@
 //! Mass, centre of mass and rotational inertia: of shapes, of sums, and what makes a tensor physical.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, Vector3};
 
+use super::mesh::{Mesh, MeshProblem};
 use crate::spatial::{Pose, Symmetric3};
 
 /// Mass properties of a rigid body, in the axes of the frame its owner names.
@@ -66,8 +69,19 @@ impl Inertia {
     }
 }
 
-/// A solid of uniform density, centred on its own frame; the axis of round ones is `z`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A mesh as a robot uses it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSolid {
+    /// The file as the description names it.
+    pub file: Arc<str>,
+    /// Scale of the file's coordinates along x, y, z; already in `mesh`.
+    pub scale: [f64; 3],
+    /// Its triangles, scaled \[m\].
+    pub mesh: Arc<Mesh>,
+}
+
+/// A solid of uniform density, centred on its own frame; the axis of round ones is `z`, a mesh lies as its file says.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// Edge lengths \[m\].
     Box {
@@ -93,13 +107,26 @@ pub enum Solid {
         /// Radius \[m\].
         radius_m: f64,
     },
+    /// What a closed mesh encloses.
+    Mesh(MeshSolid),
 }
 
 impl Solid {
     /// Volume \[m³\].
-    pub fn volume_m3(&self) -> f64 {
+    ///
+    /// # Errors
+    /// A mesh that encloses nothing: leaky, inside-out, or flat.
+    pub fn volume_m3(&self) -> Result<f64, MeshProblem> {
+        Ok(match self {
+            Self::Mesh(solid) => solid.mesh.volume_m3()?,
+            primitive => primitive.primitive_volume_m3(),
+        })
+    }
+
+    fn primitive_volume_m3(&self) -> f64 {
         let pi = std::f64::consts::PI;
         match *self {
+            Self::Mesh(_) => 0.0,
             Self::Box { size_m: [x, y, z] } => x * y * z,
             Self::Cylinder { radius_m, length_m } => pi * radius_m * radius_m * length_m,
             Self::Capsule {
@@ -111,8 +138,12 @@ impl Solid {
     }
 
     /// Mass properties for a mass \[kg\] spread evenly.
-    pub fn inertia(&self, mass_kg: f64) -> Inertia {
+    ///
+    /// # Errors
+    /// A mesh that encloses nothing: leaky, inside-out, or flat.
+    pub fn inertia(&self, mass_kg: f64) -> Result<Inertia, MeshProblem> {
         let diagonal = match *self {
+            Self::Mesh(ref solid) => return solid.mesh.inertia_of_mass(mass_kg),
             Self::Box { size_m: [x, y, z] } => {
                 let m = mass_kg / 12.0;
                 [
@@ -133,7 +164,7 @@ impl Solid {
                 length_m: l,
             } => {
                 let pi = std::f64::consts::PI;
-                let density = mass_kg / self.volume_m3();
+                let density = mass_kg / self.primitive_volume_m3();
                 let barrel = density * pi * r * r * l;
                 let balls = density * 4.0 / 3.0 * pi * r * r * r;
                 // each half ball's centre of mass lies 3r/8 beyond the barrel's end
@@ -147,7 +178,7 @@ impl Solid {
             }
             Self::Sphere { radius_m: r } => [2.0 / 5.0 * mass_kg * r * r; 3],
         };
-        Inertia {
+        Ok(Inertia {
             mass_kg,
             com_m: Vector3::zeros(),
             about_com_kg_m2: Symmetric3 {
@@ -156,7 +187,7 @@ impl Solid {
                 zz: diagonal[2],
                 ..Symmetric3::default()
             },
-        }
+        })
     }
 }
 
@@ -188,12 +219,13 @@ mod tests {
 
     #[test]
     fn a_capsule_without_barrel_is_a_ball() {
-        let ball = Solid::Sphere { radius_m: 0.3 }.inertia(2.0);
+        let ball = Solid::Sphere { radius_m: 0.3 }.inertia(2.0).unwrap();
         let capsule = Solid::Capsule {
             radius_m: 0.3,
             length_m: 0.0,
         }
-        .inertia(2.0);
+        .inertia(2.0)
+        .unwrap();
         let (a, b) = (ball.about_com_kg_m2, capsule.about_com_kg_m2);
         for (x, y) in [(a.xx, b.xx), (a.yy, b.yy), (a.zz, b.zz)] {
             assert!((x - y).abs() < 1e-15, "{x} against {y}");
@@ -219,7 +251,7 @@ mod tests {
             across += s2 * (s2 / 4.0 + z * z);
         }
         let expected = mass * across / volume;
-        let got = capsule.inertia(mass).about_com_kg_m2.xx;
+        let got = capsule.inertia(mass).unwrap().about_com_kg_m2.xx;
         assert!((got - expected).abs() < 1e-9, "{got} against {expected}");
     }
 
@@ -228,11 +260,13 @@ mod tests {
         let whole = Solid::Box {
             size_m: [0.1, 0.2, 1.0],
         }
-        .inertia(4.0);
+        .inertia(4.0)
+        .unwrap();
         let half = Solid::Box {
             size_m: [0.1, 0.2, 0.5],
         }
-        .inertia(2.0);
+        .inertia(2.0)
+        .unwrap();
         let shift = |z| crate::spatial::pose(Matrix3::identity(), Vector3::new(0.0, 0.0, z));
         let sum = half
             .seen_from(&shift(0.25))

@@ -1,12 +1,19 @@
-//! The robot: a TOML description ([`mod@file`]), arithmetic over its dimensions ([`expression`]), and the immutable model ([`model`])
-//! that [`build`] makes of them.
+//! The robot: its descriptions and the immutable [`model`] that each of them ends in.
+//!
+//! A robot file ([`mod@file`], with arithmetic over its dimensions in [`expression`]) or a configuration
+//! string ([`config_string`]) becomes parts with places; the parts become the robot, which can be written as a robot file again.
 
-pub mod build;
+mod assemble;
+pub mod config_string;
+mod description;
 pub mod expression;
 pub mod file;
 pub mod inertia;
+pub mod mesh;
 pub mod model;
 pub mod problem;
+mod resolve;
+mod write;
 
 pub use file::{Dimension, Dimensions, RobotFile};
 pub use model::{Frame, Joint, JointKind, Limits, Link, Robot};

@@ -73,6 +73,63 @@ pub struct Joint {
     pub armature: f64,
     /// Limits.
     pub limits: Limits,
+    /// The joint that drives it, if it has no entry in `q` of its own.
+    pub mimic: Option<Mimic>,
+    /// Whether no drive acts on it: a joint inside a loop that follows the others.
+    pub passive: bool,
+    /// Where it is looked for when loops are first closed \[rad or m\].
+    pub guess: f64,
+}
+
+/// A joint that follows another: its position is `multiplier * q + offset` of the master's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mimic {
+    /// Index of the master among all joints.
+    pub joint: usize,
+    /// Position of this joint per position of the master.
+    pub multiplier: f64,
+    /// Position of this joint where the master is at zero \[rad or m\].
+    pub offset: f64,
+}
+
+/// What a loop keeps together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoopKind {
+    /// A hinge: one point and the direction of the axis, 5 conditions.
+    Revolute,
+    /// One point: 3 conditions.
+    Spherical,
+}
+
+impl LoopKind {
+    /// The word of the robot file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Spherical => "spherical",
+        }
+    }
+
+    /// How many conditions it sets, redundant ones too.
+    pub fn conditions(self) -> usize {
+        match self {
+            Self::Revolute => 5,
+            Self::Spherical => 3,
+        }
+    }
+}
+
+/// A joint that closes a chain: two frames that stay together. The axis of a hinge is the `z` of both.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loop {
+    /// What it keeps together.
+    pub kind: LoopKind,
+    /// Indices of the two links.
+    pub links: [usize; 2],
+    /// Where its frame lies in each of the links.
+    pub link_from_end: [Pose; 2],
+    /// Where it is fixed, on each side.
+    pub ends: [Attachment; 2],
 }
 
 /// A shape of a link.
@@ -137,8 +194,12 @@ pub(crate) struct Body {
     pub(crate) parent: Option<usize>,
     /// Whether the joint turns about z (else it slides along z).
     pub(crate) turns: bool,
-    /// Index of its joint in `q`.
+    /// Index of its joint, or of that joint's master, in `q`.
     pub(crate) q_index: usize,
+    /// Position of its joint per entry of `q`: 1, or the multiplier of a mimic joint.
+    pub(crate) gear: f64,
+    /// Position of its joint where that entry is zero: 0, or the offset of a mimic joint.
+    pub(crate) offset: f64,
     /// Axes of this body in the parent body's axes at `q = 0`.
     pub(crate) parent_from_body: Matrix3<f64>,
     /// Origin of this body in the parent body at `q = 0` \[m\].
@@ -154,7 +215,21 @@ pub(crate) struct Body {
     pub(crate) armature: f64,
 }
 
-/// A robot: a tree of links and joints, immutable once built.
+impl Body {
+    /// The position of its joint \[rad or m\].
+    #[inline]
+    pub(crate) fn position(&self, q: &[f64]) -> f64 {
+        self.gear * q[self.q_index] + self.offset
+    }
+
+    /// The rate of its joint from `qd`, or the acceleration from `qdd`.
+    #[inline]
+    pub(crate) fn rate(&self, qd: &[f64]) -> f64 {
+        self.gear * qd[self.q_index]
+    }
+}
+
+/// A robot: a tree of links and joints, and the loops that close it; immutable once built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
     pub(super) name: String,
@@ -165,6 +240,11 @@ pub struct Robot {
     pub(super) frames: Vec<Frame>,
     pub(super) bodies: Vec<Body>,
     pub(super) world_inertia: Inertia,
+    pub(super) loops: Vec<Loop>,
+    pub(super) dependent: Vec<usize>,
+    pub(super) independent: Vec<usize>,
+    pub(super) home: Vec<f64>,
+    pub(super) warnings: Vec<String>,
 }
 
 /// Values for a robot with another number of joints.
@@ -198,12 +278,12 @@ impl Robot {
         &self.joints
     }
 
-    /// The joints that move, in the order of `q`.
+    /// The joints that have an entry in `q`, in its order.
     pub fn moving_joints(&self) -> impl ExactSizeIterator<Item = &Joint> {
         self.moving.iter().map(|&i| &self.joints[i])
     }
 
-    /// The number of joints that move: the length of `q`.
+    /// The length of `q`: joints that move, less those that mimic another.
     pub fn n(&self) -> usize {
         self.moving.len()
     }
@@ -222,6 +302,36 @@ impl Robot {
     pub fn tcp(&self) -> &Frame {
         self.frame("tcp")
             .unwrap_or_else(|| &self.frames[self.links.len() - 1])
+    }
+
+    /// The loops that close its chains.
+    pub fn loops(&self) -> &[Loop] {
+        &self.loops
+    }
+
+    /// Entries of `q` that are free to choose, in order; all of them where there are no loops.
+    pub fn independent(&self) -> &[usize] {
+        &self.independent
+    }
+
+    /// Entries of `q` that follow from the independent ones because loops are closed, in order.
+    pub fn dependent(&self) -> &[usize] {
+        &self.dependent
+    }
+
+    /// Positions at which every loop is closed, independent joints at zero; all zeros where there are no loops.
+    pub fn home(&self) -> &[f64] {
+        &self.home
+    }
+
+    /// What a reader of the description should know, though it is no mistake.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Whether every entry of `q` drives one body of a tree: no loop and no mimic joint.
+    pub(crate) fn is_plain_tree(&self) -> bool {
+        self.loops.is_empty() && self.bodies.len() == self.moving.len()
     }
 
     /// Mass of all links \[kg\].

@@ -29,6 +29,10 @@ pub enum RobotProblem {
     BadName { what: &'static str, name: String },
     #[error("no link is called `{name}`")]
     UnknownLink { name: String, help: String },
+    #[error("no joint is called `{name}`")]
+    UnknownJoint { name: String, help: String },
+    #[error("{found} links are more than a robot may have ({most})")]
+    TooLarge { found: usize, most: usize },
     #[error("link `{link}` is moved by two joints: `{first}` and `{second}`")]
     TwoParents {
         link: String,
@@ -54,6 +58,25 @@ pub enum RobotProblem {
     #[error("{message}")]
     Origin { message: String, help: String },
     #[error("{message}")]
+    Mesh {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("{message}")]
+    Mimic { message: String, help: String },
+    #[error("{message}")]
+    Loop { message: String, help: String },
+    #[error("{message}")]
+    Dh { message: String, help: String },
+    #[error("{message}")]
+    Urdf {
+        message: String,
+        label: String,
+        help: Option<String>,
+    },
+    #[error("{message}")]
+    ConfigString { message: String, help: String },
+    #[error("{message}")]
     Limit { message: String, help: String },
     #[error("no dimension `{name}` in this robot")]
     UnknownDimension { name: String, help: String },
@@ -75,6 +98,14 @@ impl Problem for RobotProblem {
             Self::Duplicate { .. } => "robot::duplicate",
             Self::BadName { .. } => "robot::bad_name",
             Self::UnknownLink { .. } => "robot::unknown_link",
+            Self::UnknownJoint { .. } => "robot::unknown_joint",
+            Self::TooLarge { .. } => "robot::too_large",
+            Self::Mesh { .. } => "robot::mesh",
+            Self::Mimic { .. } => "robot::mimic",
+            Self::Loop { .. } => "robot::loop",
+            Self::Dh { .. } => "robot::dh",
+            Self::Urdf { .. } => "robot::urdf",
+            Self::ConfigString { .. } => "robot::config_string",
             Self::TwoParents { .. } => "robot::two_parents",
             Self::RootIsChild { .. } => "robot::root_is_child",
             Self::Detached { .. } => "robot::detached",
@@ -98,6 +129,14 @@ impl Problem for RobotProblem {
             Self::Duplicate { .. } => "the second one".to_owned(),
             Self::BadName { .. } => "this name".to_owned(),
             Self::UnknownLink { .. } => "not a link of this robot".to_owned(),
+            Self::UnknownJoint { .. } => "not a joint of this robot".to_owned(),
+            Self::TooLarge { .. } => "this robot".to_owned(),
+            Self::Mesh { .. } => "this mesh".to_owned(),
+            Self::Mimic { .. } => "this mimic".to_owned(),
+            Self::Loop { .. } => "this loop".to_owned(),
+            Self::Dh { .. } => "this table".to_owned(),
+            Self::Urdf { label, .. } => label.clone(),
+            Self::ConfigString { .. } => "here".to_owned(),
             Self::TwoParents { .. } => "the second joint that moves it".to_owned(),
             Self::RootIsChild { .. } => "the root".to_owned(),
             Self::Detached { .. } => "hangs in the air".to_owned(),
@@ -115,7 +154,10 @@ impl Problem for RobotProblem {
 
     fn help(&self) -> Option<String> {
         match self {
-            Self::Toml { help, .. } | Self::Expression { help, .. } => help.clone(),
+            Self::Toml { help, .. }
+            | Self::Expression { help, .. }
+            | Self::Mesh { help, .. }
+            | Self::Urdf { help, .. } => help.clone(),
             Self::UnknownFormat { .. } => Some("write `format = 1`".to_owned()),
             Self::NoLinks => Some("add a [[links]] table: the first link is the root".to_owned()),
             Self::Duplicate { .. } => Some("give each its own name".to_owned()),
@@ -123,6 +165,11 @@ impl Problem for RobotProblem {
                 Some("a name is not empty, and `world` is taken by the world itself".to_owned())
             }
             Self::UnknownLink { help, .. }
+            | Self::UnknownJoint { help, .. }
+            | Self::Mimic { help, .. }
+            | Self::Loop { help, .. }
+            | Self::Dh { help, .. }
+            | Self::ConfigString { help, .. }
             | Self::Inertia { help, .. }
             | Self::Origin { help, .. }
             | Self::Limit { help, .. }
@@ -140,6 +187,7 @@ impl Problem for RobotProblem {
             Self::Axis { .. } => {
                 Some("an axis has three numbers, in the child's frame, not all zero".to_owned())
             }
+            Self::TooLarge { .. } => Some("leave out links that nothing needs".to_owned()),
             Self::OutOfRange { .. } | Self::DimensionShape { .. } => None,
         }
     }

@@ -1,24 +1,26 @@
-//! From the tables of a robot file to the immutable robot: names become indices, expressions numbers, links moving bodies.
+//! From the tables of a robot file to parts: expressions become numbers, origins poses, DH rows joints.
 
+mod dh;
 mod mass;
 mod origin;
-mod tree;
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use toml::Spanned;
 
+use super::assemble::axes_with_z_along;
+use super::description::{Description, FramePart, JointPart, LinkPart, LoopPart, MimicPart};
 use super::expression;
 use super::file::{
-    Dimension, Dimensions, JointTable, JointType, LimitTable, Number, NumberAt, RobotFile,
+    Dimension, Dimensions, JointTable, JointType, LimitTable, LoopTable, LoopType, MimicTable,
+    Number, NumberAt, RobotFile,
 };
 use super::inertia::Inertia;
-use super::model::{Attachment, Body, Contact, Frame, Joint, JointKind, Limits, Link, Robot};
+use super::model::{Contact, JointKind, Limits, LoopKind, Robot};
 use super::problem::{RobotError, RobotProblem};
 use crate::source::{Source, suggest};
-use crate::spatial::{Pose, Symmetric3, pose};
+use crate::spatial::{direction, pose};
 
 impl RobotFile {
     /// Makes the robot, with the dimensions `changed` instead of the file's (those of a variant or a hidden case).
@@ -31,11 +33,11 @@ impl RobotFile {
             check_change(&self.source, &dimensions, name, value)?;
             dimensions.set(name.clone(), value.clone());
         }
-        let builder = Builder {
+        let resolver = Resolver {
             file: self,
             dimensions: &dimensions,
         };
-        builder.robot()
+        resolver.description()?.assemble()
     }
 }
 
@@ -64,7 +66,7 @@ fn check_change(
     Err(RobotError::new(problem, source, at))
 }
 
-struct Builder<'a> {
+struct Resolver<'a> {
     file: &'a RobotFile,
     dimensions: &'a Dimensions,
 }
@@ -77,7 +79,7 @@ enum Allowed {
     NotNegative,
 }
 
-impl Builder<'_> {
+impl Resolver<'_> {
     fn err<T>(&self, at: Range<usize>, problem: RobotProblem) -> Result<T, RobotError> {
         Err(RobotError::new(problem, &self.file.source, at))
     }
@@ -142,11 +144,8 @@ impl Builder<'_> {
         what: &str,
     ) -> Result<Vector3<f64>, RobotError> {
         let axis = self.triple(numbers.get_ref(), what)?;
-        // scaled first, so that neither tiny nor huge axes are lost in their squares
-        let largest = axis.amax();
-        if largest > 0.0 {
-            let scaled = axis / largest;
-            return Ok(scaled / scaled.norm());
+        if let Some(unit) = direction(axis) {
+            return Ok(unit);
         }
         self.err(
             numbers.span(),
@@ -205,28 +204,9 @@ impl Builder<'_> {
         Ok(limits)
     }
 
-    fn joint(
-        &self,
-        table: &JointTable,
-        links: &BTreeMap<&str, usize>,
-    ) -> Result<Joint, RobotError> {
-        let name = table.name.get_ref().clone();
-        let link = |end: &Spanned<String>| match links.get(end.get_ref().as_str()) {
-            Some(&index) => Ok(index),
-            None => self.err(
-                end.span(),
-                RobotProblem::UnknownLink {
-                    name: end.get_ref().clone(),
-                    help: suggest(end.get_ref(), "links", links.keys().copied()),
-                },
-            ),
-        };
-        let kind = match table.kind.get_ref() {
-            JointType::Revolute => JointKind::Revolute,
-            JointType::Continuous => JointKind::Continuous,
-            JointType::Prismatic => JointKind::Prismatic,
-            JointType::Fixed => JointKind::Fixed,
-        };
+    fn joint(&self, table: &JointTable) -> Result<JointPart, RobotError> {
+        let name = table.name.get_ref();
+        let kind = kind(*table.kind.get_ref());
         let axis = match (&table.axis, kind) {
             (None, JointKind::Fixed) => Vector3::zeros(),
             (Some(axis), JointKind::Fixed) => {
@@ -247,114 +227,82 @@ impl Builder<'_> {
                 );
             }
         };
-        let not_negative = |n: &Option<NumberAt>, what| {
-            self.number_or(n.as_ref(), what, Allowed::NotNegative, 0.0)
-        };
-        Ok(Joint {
-            parent: link(&table.parent)?,
-            child: link(&table.child)?,
+        Ok(JointPart {
+            kind,
+            parent: table.parent.clone(),
+            child: table.child.clone(),
             parent_from_child: self.origin(table.origin.as_ref())?,
-            damping: not_negative(&table.damping, "damping")?,
-            dry_friction: not_negative(&table.dry_friction, "dry_friction")?,
-            armature: not_negative(&table.armature, "armature")?,
+            axis,
+            damping: self.not_negative(&table.damping, "damping")?,
+            dry_friction: self.not_negative(&table.dry_friction, "dry_friction")?,
+            armature: self.not_negative(&table.armature, "armature")?,
             limits: match &table.limit {
-                Some(limit) => self.limits(&name, kind, limit)?,
+                Some(limit) => self.limits(name, kind, limit)?,
                 None => Limits::default(),
             },
-            name,
-            kind,
-            axis,
+            mimic: self.mimic(table.mimic.as_ref())?,
+            passive: table.passive,
+            guess: self.number_or(table.guess.as_ref(), "guess", Allowed::Any, 0.0)?,
+            name: table.name.clone(),
         })
     }
 
-    /// Names of one kind, each checked to be usable and to be there once.
-    fn names<'n>(
+    fn not_negative(
         &self,
+        number: &Option<NumberAt>,
         what: &'static str,
-        names: impl Iterator<Item = &'n Spanned<String>>,
-        taken: &BTreeMap<&str, usize>,
-    ) -> Result<BTreeMap<&'n str, usize>, RobotError> {
-        let mut seen = BTreeMap::new();
-        for (index, at) in names.enumerate() {
-            let name = at.get_ref().as_str();
-            if name.trim().is_empty() || name == "world" {
-                let name = name.to_owned();
-                return self.err(at.span(), RobotProblem::BadName { what, name });
-            }
-            if taken.contains_key(name) || seen.insert(name, index).is_some() {
-                let name = name.to_owned();
-                return self.err(at.span(), RobotProblem::Duplicate { what, name });
-            }
-        }
-        Ok(seen)
+    ) -> Result<f64, RobotError> {
+        self.number_or(number.as_ref(), what, Allowed::NotNegative, 0.0)
     }
 
-    fn robot(&self) -> Result<Robot, RobotError> {
-        let tables = &self.file.tables;
-        if *tables.format.get_ref() != 1 {
-            let found = *tables.format.get_ref();
-            return self.err(tables.format.span(), RobotProblem::UnknownFormat { found });
-        }
-        if tables.links.is_empty() {
-            return self.err(tables.name.span(), RobotProblem::NoLinks);
-        }
-        let nothing = BTreeMap::new();
-        let link_names = self.names("link", tables.links.iter().map(|l| &l.name), &nothing)?;
-        self.names("joint", tables.joints.iter().map(|j| &j.name), &nothing)?;
-        self.names("frame", tables.frames.iter().map(|f| &f.name), &link_names)?;
+    fn mimic(&self, table: Option<&MimicTable>) -> Result<Option<MimicPart>, RobotError> {
+        let Some(table) = table else { return Ok(None) };
+        let number = |n: &Option<NumberAt>, what, absent| {
+            self.number_or(n.as_ref(), what, Allowed::Any, absent)
+        };
+        Ok(Some(MimicPart {
+            joint: table.joint.clone(),
+            multiplier: number(&table.multiplier, "multiplier", 1.0)?,
+            offset: number(&table.offset, "offset", 0.0)?,
+        }))
+    }
 
-        let joints: Vec<Joint> = tables
-            .joints
-            .iter()
-            .map(|table| self.joint(table, &link_names))
-            .collect::<Result<_, _>>()?;
-        let order = self.order(&joints)?;
-        let moving: Vec<usize> = (0..joints.len())
-            .filter(|&j| joints[j].kind != JointKind::Fixed)
-            .collect();
+    fn loop_part(&self, table: &Spanned<LoopTable>) -> Result<LoopPart, RobotError> {
+        let at = table.span();
+        let table = table.get_ref();
+        let kind = match table.kind {
+            LoopType::Revolute => LoopKind::Revolute,
+            LoopType::Spherical | LoopType::Point => LoopKind::Spherical,
+        };
+        let turned = match &table.axis {
+            None => pose(nalgebra::Matrix3::identity(), Vector3::zeros()),
+            Some(axis) if kind == LoopKind::Revolute => pose(
+                axes_with_z_along(&self.unit(axis, "axis of a loop")?),
+                Vector3::zeros(),
+            ),
+            Some(axis) => {
+                return self.err(
+                    axis.span(),
+                    RobotProblem::Axis {
+                        message: "a point has no axis; only a revolute loop has".to_owned(),
+                    },
+                );
+            }
+        };
+        Ok(LoopPart {
+            at,
+            kind,
+            links: table.links.clone(),
+            link_from_end: [
+                self.origin(table.frame_on_first.as_ref())? * turned,
+                self.origin(table.frame_on_second.as_ref())? * turned,
+            ],
+        })
+    }
 
-        let mut attachments = vec![
-            Attachment {
-                body: None,
-                body_from_here: Pose::identity(),
-            };
-            tables.links.len()
-        ];
-        let mut bodies = Vec::with_capacity(moving.len());
-        for &j in &order {
-            let joint = &joints[j];
-            let parent = &attachments[joint.parent];
-            let body_from_child = parent.body_from_here * joint.parent_from_child;
-            attachments[joint.child] = match moving.binary_search(&j) {
-                Err(_) => Attachment {
-                    body: parent.body,
-                    body_from_here: body_from_child,
-                },
-                Ok(q_index) => {
-                    let child_from_body = axes_with_z_along(&joint.axis);
-                    bodies.push(Body {
-                        parent: parent.body,
-                        turns: joint.kind.turns(),
-                        q_index,
-                        parent_from_body: body_from_child.rotation.matrix() * child_from_body,
-                        p_body_in_parent: body_from_child.translation.vector,
-                        mass_kg: 0.0,
-                        first_moment: Vector3::zeros(),
-                        inertia: Symmetric3::default(),
-                        damping: joint.damping,
-                        dry_friction: joint.dry_friction,
-                        armature: joint.armature,
-                    });
-                    Attachment {
-                        body: Some(bodies.len() - 1),
-                        body_from_here: pose(child_from_body.transpose(), Vector3::zeros()),
-                    }
-                }
-            };
-        }
-
-        let mut links = Vec::with_capacity(tables.links.len());
-        for (table, attachment) in tables.links.iter().zip(attachments) {
+    fn links(&self) -> Result<Vec<LinkPart>, RobotError> {
+        let mut links = Vec::with_capacity(self.file.tables.links.len());
+        for table in &self.file.tables.links {
             let shapes = table
                 .shapes
                 .iter()
@@ -376,97 +324,64 @@ impl Builder<'_> {
                 }),
                 None => None,
             };
-            links.push(Link {
-                name: table.name.get_ref().clone(),
+            links.push(LinkPart {
+                name: table.name.clone(),
                 shapes,
                 inertia,
                 contact,
-                attachment,
             });
         }
-        let world_inertia = gather_inertia(&links, &mut bodies);
-        let frames = self.frames(&links, &link_names)?;
-        Ok(Robot {
-            name: tables.name.get_ref().clone(),
-            dimensions: self.dimensions.clone(),
-            links,
-            joints,
-            moving,
-            frames,
-            bodies,
-            world_inertia,
-        })
+        Ok(links)
     }
 
-    fn frames(
-        &self,
-        links: &[Link],
-        link_names: &BTreeMap<&str, usize>,
-    ) -> Result<Vec<Frame>, RobotError> {
-        let mut frames: Vec<Frame> = links
+    fn description(&self) -> Result<Description, RobotError> {
+        let tables = &self.file.tables;
+        if *tables.format.get_ref() != 1 {
+            let found = *tables.format.get_ref();
+            return self.err(tables.format.span(), RobotProblem::UnknownFormat { found });
+        }
+        let frames = tables
+            .frames
             .iter()
-            .enumerate()
-            .map(|(index, link)| Frame {
-                name: link.name.clone(),
-                link: index,
-                attachment: link.attachment.clone(),
+            .map(|table| {
+                Ok(FramePart {
+                    name: table.name.clone(),
+                    link: table.link.clone(),
+                    link_from_frame: self.origin(table.origin.as_ref())?,
+                })
             })
-            .collect();
-        for table in &self.file.tables.frames {
-            let Some(&link) = link_names.get(table.link.get_ref().as_str()) else {
-                return self.err(
-                    table.link.span(),
-                    RobotProblem::UnknownLink {
-                        name: table.link.get_ref().clone(),
-                        help: suggest(table.link.get_ref(), "links", link_names.keys().copied()),
-                    },
-                );
-            };
-            let Attachment {
-                body,
-                body_from_here,
-            } = &links[link].attachment;
-            frames.push(Frame {
-                name: table.name.get_ref().clone(),
-                link,
-                attachment: Attachment {
-                    body: *body,
-                    body_from_here: body_from_here * self.origin(table.origin.as_ref())?,
-                },
-            });
+            .collect::<Result<_, RobotError>>()?;
+        let mut description = Description {
+            source: self.file.source.clone(),
+            name: tables.name.get_ref().clone(),
+            at: tables.name.span(),
+            dimensions: self.dimensions.clone(),
+            links: self.links()?,
+            joints: Vec::new(),
+            frames,
+            loops: Vec::new(),
+            warnings: Vec::new(),
+        };
+        if let Some(table) = &tables.dh {
+            self.dh(table, &mut description)?;
         }
-        Ok(frames)
+        for table in &tables.joints {
+            description.joints.push(self.joint(table)?);
+        }
+        for table in &tables.loops {
+            description.loops.push(self.loop_part(table)?);
+        }
+        Ok(description)
     }
 }
 
-/// Gives every body the mass of the links fixed to it; returns what is fixed to the world.
-fn gather_inertia(links: &[Link], bodies: &mut [Body]) -> Inertia {
-    let mut sums = vec![Inertia::zero(); bodies.len()];
-    let mut world = Inertia::zero();
-    for link in links {
-        let Attachment {
-            body,
-            body_from_here,
-        } = &link.attachment;
-        let part = link.inertia.seen_from(body_from_here);
-        let sum = body.map_or(&mut world, |body| &mut sums[body]);
-        *sum = sum.plus(&part);
+fn kind(word: JointType) -> JointKind {
+    match word {
+        JointType::Revolute => JointKind::Revolute,
+        JointType::Continuous => JointKind::Continuous,
+        JointType::Prismatic => JointKind::Prismatic,
+        JointType::Fixed => JointKind::Fixed,
     }
-    for (body, sum) in bodies.iter_mut().zip(sums) {
-        body.mass_kg = sum.mass_kg;
-        body.first_moment = sum.com_m * sum.mass_kg;
-        body.inertia = sum.about_origin_kg_m2();
-    }
-    world
-}
-
-/// Axes, as columns, whose third is `axis`; a cyclic or signed permutation, and so exact, where `axis` is a coordinate axis.
-fn axes_with_z_along(axis: &Vector3<f64>) -> Matrix3<f64> {
-    let largest = axis.iamax();
-    let mut beside = Vector3::zeros();
-    beside[(largest + 1) % 3] = 1.0;
-    let x = (beside - axis * axis.dot(&beside)).normalize();
-    Matrix3::from_columns(&[x, axis.cross(&x), *axis])
 }
 
 #[cfg(test)]
@@ -475,23 +390,6 @@ mod tests {
 
     fn parse(text: &str) -> Result<Robot, RobotError> {
         RobotFile::parse(Source::new("robot.toml", text))?.build(&[])
-    }
-
-    #[test]
-    fn coordinate_axes_are_exact() {
-        for axis in [
-            Vector3::x(),
-            Vector3::y(),
-            Vector3::z(),
-            -Vector3::x(),
-            -Vector3::y(),
-            -Vector3::z(),
-        ] {
-            let m = axes_with_z_along(&axis);
-            assert!(m.iter().all(|v| *v == 0.0 || v.abs() == 1.0), "{m}");
-            assert_eq!(m.determinant(), 1.0);
-            assert_eq!(m * Vector3::z(), axis);
-        }
     }
 
     const HEAD: &str =

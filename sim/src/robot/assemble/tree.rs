@@ -1,17 +1,17 @@
 //! The order of the joints from the root outwards, or why the links are no tree.
 
-use super::Builder;
+use super::Assembler;
 use crate::robot::model::Joint;
 use crate::robot::problem::{RobotError, RobotProblem};
 
-impl Builder<'_> {
+impl Assembler<'_> {
     /// The joints from the root outwards, each after the joint that carries its parent; siblings in file order.
     pub(super) fn order(&self, joints: &[Joint]) -> Result<Vec<usize>, RobotError> {
-        let tables = &self.file.tables;
-        let link_name = |link: usize| tables.links[link].name.get_ref().clone();
-        let mut carrier: Vec<Option<usize>> = vec![None; tables.links.len()];
+        let parts = self.parts;
+        let link_name = |link: usize| parts.links[link].name.get_ref().clone();
+        let mut carrier: Vec<Option<usize>> = vec![None; parts.links.len()];
         for (j, joint) in joints.iter().enumerate() {
-            let child_at = tables.joints[j].child.span();
+            let child_at = parts.joints[j].child.span();
             if joint.child == 0 {
                 let link = link_name(0);
                 return self.err(child_at, RobotProblem::RootIsChild { link });
@@ -29,7 +29,7 @@ impl Builder<'_> {
             carrier[joint.child] = Some(j);
         }
         let mut order = Vec::with_capacity(joints.len());
-        let mut reached = vec![false; tables.links.len()];
+        let mut reached = vec![false; parts.links.len()];
         let mut waiting = vec![0];
         while let Some(link) = waiting.pop() {
             reached[link] = true;
@@ -43,7 +43,7 @@ impl Builder<'_> {
             None => Ok(order),
             Some(link) => match carrier[link] {
                 None => self.err(
-                    tables.links[link].name.span(),
+                    parts.links[link].name.span(),
                     RobotProblem::Detached {
                         link: link_name(link),
                         root: link_name(0),
@@ -61,7 +61,7 @@ impl Builder<'_> {
         carrier: &[Option<usize>],
         start: usize,
     ) -> Result<Vec<usize>, RobotError> {
-        let tables = &self.file.tables;
+        let parts = self.parts;
         let mut joint = start;
         for _ in 0..joints.len() {
             match carrier[joints[joint].parent] {
@@ -69,20 +69,20 @@ impl Builder<'_> {
                 None => {
                     let link = joints[joint].parent;
                     return self.err(
-                        tables.links[link].name.span(),
+                        parts.links[link].name.span(),
                         RobotProblem::Detached {
-                            link: tables.links[link].name.get_ref().clone(),
-                            root: tables.links[0].name.get_ref().clone(),
+                            link: parts.links[link].name.get_ref().clone(),
+                            root: parts.links[0].name.get_ref().clone(),
                         },
                     );
                 }
             }
         }
         self.err(
-            tables.joints[joint].name.span(),
+            parts.joints[joint].name.span(),
             RobotProblem::Cycle {
                 joint: joints[joint].name.clone(),
-                link: tables.joints[joint].child.get_ref().clone(),
+                link: parts.joints[joint].child.get_ref().clone(),
             },
         )
     }

@@ -1,16 +1,19 @@
 //! What a link is made of: its shapes, and its mass properties given or taken from them.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::{Allowed, Builder};
-use crate::robot::file::{InertiaTable, LinkTable, RoundTable, ShapeTable};
-use crate::robot::inertia::{self, Inertia, Solid};
+use super::{Allowed, Resolver};
+use crate::robot::file::{InertiaTable, LinkTable, MeshTable, RoundTable, ShapeTable};
+use crate::robot::inertia::{self, Inertia, MeshSolid, Solid};
+use crate::robot::mesh::MeshProblem;
 use crate::robot::model::Shape;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::spatial::Symmetric3;
 
-impl Builder<'_> {
+impl Resolver<'_> {
     pub(super) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, RobotError> {
         let round = |round: &RoundTable| -> Result<(f64, f64), RobotError> {
             Ok((
@@ -23,10 +26,11 @@ impl Builder<'_> {
             cylinder,
             capsule,
             sphere,
+            mesh,
             origin,
         } = table.get_ref();
-        let solid = match (cuboid, cylinder, capsule, sphere) {
-            (Some(b), None, None, None) => {
+        let solid = match (cuboid, cylinder, capsule, sphere, mesh) {
+            (Some(b), None, None, None, None) => {
                 let [x, y, z] = &b.size_m;
                 Solid::Box {
                     size_m: [
@@ -36,22 +40,23 @@ impl Builder<'_> {
                     ],
                 }
             }
-            (None, Some(c), None, None) => {
+            (None, Some(c), None, None, None) => {
                 let (radius_m, length_m) = round(c)?;
                 Solid::Cylinder { radius_m, length_m }
             }
-            (None, None, Some(c), None) => {
+            (None, None, Some(c), None, None) => {
                 let (radius_m, length_m) = round(c)?;
                 Solid::Capsule { radius_m, length_m }
             }
-            (None, None, None, Some(s)) => Solid::Sphere {
+            (None, None, None, Some(s), None) => Solid::Sphere {
                 radius_m: self.number(&s.radius_m, "radius_m", Allowed::Positive)?,
             },
+            (None, None, None, None, Some(m)) => self.mesh(m)?,
             _ => {
                 return self.err(
                     table.span(),
                     RobotProblem::Toml {
-                        message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`"
+                        message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`, `mesh`"
                             .to_owned(),
                         help: Some("{ box = { size_m = [0.05, 0.05, 1.0] } }".to_owned()),
                     },
@@ -62,6 +67,40 @@ impl Builder<'_> {
             solid,
             link_from_shape: self.origin(origin.as_ref())?,
         })
+    }
+
+    fn mesh(&self, table: &MeshTable) -> Result<Solid, RobotError> {
+        let file = table.file.get_ref();
+        let scale: Option<[f64; 3]> = match &table.scale {
+            Some(scale) => Some(self.triple(scale, "scale")?.into()),
+            None => None,
+        };
+        if scale.is_some_and(|scale| scale.contains(&0.0)) {
+            return self.err(
+                table.file.span(),
+                RobotProblem::Mesh {
+                    message: format!("mesh `{file}` is scaled to nothing"),
+                    help: Some("no part of `scale` may be zero".to_owned()),
+                },
+            );
+        }
+        match self.file.mesh(file) {
+            Some(mesh) => Ok(Solid::Mesh(MeshSolid {
+                file: file.as_str().into(),
+                scale: scale.unwrap_or([1.0; 3]),
+                mesh: match scale {
+                    Some(scale) => Arc::new(mesh.scaled(scale)),
+                    None => Arc::clone(mesh),
+                },
+            })),
+            None => self.err(
+                table.file.span(),
+                RobotProblem::Mesh {
+                    message: format!("mesh `{file}` was not read"),
+                    help: Some("meshes lie beside the robot file".to_owned()),
+                },
+            ),
+        }
     }
 
     pub(super) fn inertia(
@@ -85,6 +124,7 @@ impl Builder<'_> {
             density_kg_m3,
             com_m,
             tensor_kg_m2,
+            accept_unphysical,
         } = table.get_ref();
         if let Some(tensor_at) = tensor_kg_m2 {
             let Some(mass) = mass_kg else {
@@ -103,14 +143,16 @@ impl Builder<'_> {
                 xz: part(xz)?,
                 yz: part(yz)?,
             };
-            if let Some(why) = inertia::unphysical(&about_com_kg_m2) {
+            if let Some(why) = inertia::unphysical(&about_com_kg_m2)
+                && !accept_unphysical
+            {
                 return self.err(
                     tensor_at.span(),
                     RobotProblem::Inertia {
                         message: format!("link `{name}`: {why}"),
-                        help:
-                            "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass"
-                                .to_owned(),
+                        help: "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
+                               numbers that are so anyway pass with `accept_unphysical = true`"
+                            .to_owned(),
                     },
                 );
             }
@@ -135,7 +177,20 @@ impl Builder<'_> {
                 "add `shapes`, or give `com_m` and `tensor_kg_m2`",
             );
         }
-        let volume: f64 = shapes.iter().map(|s| s.solid.volume_m3()).sum();
+        let from_mesh = |problem: MeshProblem| {
+            let message = format!("link `{name}` cannot take its inertia from its mesh: {problem}");
+            let help = problem.help();
+            RobotError::new(
+                RobotProblem::Mesh { message, help },
+                &self.file.source,
+                table.span(),
+            )
+        };
+        let volumes = shapes
+            .iter()
+            .map(|shape| shape.solid.volume_m3().map_err(from_mesh))
+            .collect::<Result<Vec<f64>, _>>()?;
+        let volume: f64 = volumes.iter().sum();
         let density = match (mass_kg, density_kg_m3) {
             (Some(mass), None) => self.number(mass, "mass_kg", Allowed::NotNegative)? / volume,
             (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
@@ -147,13 +202,14 @@ impl Builder<'_> {
             }
         };
         let mut sum = Inertia::zero();
-        for shape in shapes {
+        for (shape, volume) in shapes.iter().zip(volumes) {
             let mass = match (mass_kg, shapes) {
                 // one shape keeps the mass as typed, without a rounding through its volume
                 (Some(mass), [_]) => self.number(mass, "mass_kg", Allowed::NotNegative)?,
-                _ => density * shape.solid.volume_m3(),
+                _ => density * volume,
             };
-            sum = sum.plus(&shape.solid.inertia(mass).seen_from(&shape.link_from_shape));
+            let part = shape.solid.inertia(mass).map_err(from_mesh)?;
+            sum = sum.plus(&part.seen_from(&shape.link_from_shape));
         }
         Ok(sum)
     }

@@ -5,12 +5,12 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
-use super::{Allowed, Builder};
+use super::{Allowed, Resolver};
 use crate::robot::file::OriginTable;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::spatial::{Pose, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
 
-impl Builder<'_> {
+impl Resolver<'_> {
     pub(super) fn origin(&self, origin: Option<&OriginTable>) -> Result<Pose, RobotError> {
         let Some(table) = origin else {
             return Ok(Pose::identity());

@@ -1,0 +1,111 @@
+//! Forward dynamics of any robot: the articulated-body algorithm on a plain tree, constrained dynamics where loops or mimic
+//! joints couple the joints.
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::aba::{Aba, SingularMassMatrix};
+use super::loops::Constrained;
+use super::sign;
+use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::robot::Robot;
+
+/// Returns the joint accelerations, shape `(n)`, that `effort` causes at `(q, qd)`, with damping and dry friction.
+///
+/// # Errors
+/// [`SingularMassMatrix`] if a joint moves neither mass nor armature.
+pub fn forward_dynamics(
+    robot: &Robot,
+    gravity_m_s2: &Vector3<f64>,
+    q: &JointPositions,
+    qd: &JointVelocities,
+    effort: &JointEfforts,
+) -> Result<JointAccelerations, SingularMassMatrix> {
+    let mut applied = effort.clone();
+    for body in robot.bodies() {
+        applied.as_mut_slice()[body.q_index] -=
+            body.gear * body.dry_friction * sign(body.rate(qd.as_slice()));
+    }
+    let mut qdd = JointAccelerations::zeros(robot.n());
+    ForwardDynamics::new(robot).acceleration(
+        robot,
+        gravity_m_s2,
+        q.as_slice(),
+        qd.as_slice(),
+        applied.as_slice(),
+        qdd.as_mut_slice(),
+    )?;
+    Ok(qdd)
+}
+
+/// Room for forward dynamics of one robot. Allocates nothing in its loop on a plain tree.
+#[derive(Debug, Clone)]
+pub struct ForwardDynamics(Way);
+
+#[derive(Debug, Clone)]
+enum Way {
+    Tree(Aba),
+    Coupled(Box<Constrained>),
+}
+
+impl ForwardDynamics {
+    /// Room for `robot`.
+    pub fn new(robot: &Robot) -> Self {
+        Self(if robot.is_plain_tree() {
+            Way::Tree(Aba::new(robot))
+        } else {
+            Way::Coupled(Box::new(Constrained::new(robot)))
+        })
+    }
+
+    /// Writes the accelerations into `qdd`; all slices have shape `(n)`. With viscous damping, without dry friction (whose sign a
+    /// caller decides).
+    ///
+    /// # Errors
+    /// [`SingularMassMatrix`] if a joint moves neither mass nor armature; `qdd` is then unfinished.
+    ///
+    /// # Panics
+    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
+    pub fn acceleration(
+        &mut self,
+        robot: &Robot,
+        gravity_m_s2: &Vector3<f64>,
+        q: &[f64],
+        qd: &[f64],
+        effort: &[f64],
+        qdd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        match &mut self.0 {
+            Way::Tree(aba) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
+            Way::Coupled(coupled) => coupled.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
+        }
+    }
+
+    /// Moves a state of shape `(n)` back onto the loops' conditions; nothing to do on a tree.
+    ///
+    /// # Errors
+    /// [`SingularMassMatrix`] if a joint moves neither mass nor armature.
+    pub fn close_loops(
+        &mut self,
+        robot: &Robot,
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        match &mut self.0 {
+            Way::Tree(_) => Ok(()),
+            Way::Coupled(coupled) => coupled.close(robot, q, qd),
+        }
+    }
+
+    /// The accelerations that unit efforts cause, shape `(n, n)`; `None` where the mass matrix is singular.
+    pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
+        match &mut self.0 {
+            Way::Coupled(coupled) => coupled.inverse_inertia(robot, q),
+            Way::Tree(_) => {
+                let q = JointPositions::new(q.iter().copied());
+                super::mass_matrix(robot, &q)
+                    .cholesky()
+                    .map(|c| c.inverse())
+            }
+        }
+    }
+}
