@@ -9,19 +9,25 @@ use kinemark_sim::dynamics::crba::Crba;
 use kinemark_sim::dynamics::rnea::Rnea;
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2};
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::robot::Robot;
+use kinemark_sim::robot::urdf::{self, UrdfOptions};
 use kinemark_sim::source::Source;
 use nalgebra::DMatrix;
 
 const STATES: usize = 64;
 
 fn robot(name: &str) -> Robot {
-    let path = format!("/tmp/robots/{name}.toml");
+    let path = format!(
+        "{}/../tests/golden/models/{name}.urdf",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let text = std::fs::read_to_string(&path).expect(&path);
-    RobotFile::parse(Source::new(path, text))
-        .expect("readable")
-        .build(&[])
-        .expect("a robot")
+    // every joint counts, as for the peer
+    let options = UrdfOptions { ignore_mimic: true };
+    urdf::robot(Source::new(path, text), &options, &mut |_| {
+        Err("no meshes here".to_owned())
+    })
+    .expect("a robot")
 }
 
 /// Numbers in [-1, 1), the same in every run.

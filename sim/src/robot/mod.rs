@@ -1,6 +1,6 @@
 //! The robot: its descriptions and the immutable [`model`] that each of them ends in.
 //!
-//! A robot file ([`mod@file`], with arithmetic over its dimensions in [`expression`]) or a configuration
+//! A robot file ([`mod@file`], with arithmetic over its dimensions in [`expression`]), a URDF ([`urdf`]) or a configuration
 //! string ([`config_string`]) becomes parts with places; the parts become the robot, which can be written as a robot file again.
 
 mod assemble;
@@ -13,6 +13,7 @@ pub mod mesh;
 pub mod model;
 pub mod problem;
 mod resolve;
+pub mod urdf;
 mod write;
 
 pub use file::{Dimension, Dimensions, RobotFile};

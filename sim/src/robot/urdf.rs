@@ -1,0 +1,175 @@
+//! URDF to robot: the format people bring, read with a line and a column for whatever is wrong.
+//!
+//! What a URDF may say and this reader does:
+//! - The link that is no joint's child is the root, fixed to the world, and comes first; all else keeps its order, so that `q` follows
+//!   the file.
+//! - A `floating` joint is the base's: it becomes `NAME_x`, `_y`, `_z` (prismatic), `_yaw`, `_pitch`, `_roll` (continuous) with
+//!   massless links between. A `planar` one becomes `NAME_x`, `_y` in the plane normal to its axis, and `_yaw` about it.
+//! - A `mimic` joint follows its master and has no entry in `q`, unless [`UrdfOptions::ignore_mimic`].
+//! - Shapes come from `<collision>`, or from `<visual>` where a link has no collision. A mesh that cannot be read is a warning.
+//! - Materials, transmissions, calibration, safety controllers and extensions of simulators are left out without a word; what looks
+//!   like a slip of the pen inside a link or a joint is a warning.
+//!
+//! Source: the URDF specification of ROS (wiki.ros.org/urdf/XML).
+
+mod document;
+mod inertial;
+mod joint;
+mod limits;
+pub mod mesh_location;
+mod reader;
+mod shape;
+mod tree;
+
+use toml::Spanned;
+
+use self::joint::Head;
+use self::reader::{Node, Reader};
+use self::shape::Meshes;
+use super::assemble::MOST_LINKS;
+use super::description::{Description, JointPart, LinkPart};
+use super::file::Dimensions;
+use super::model::Robot;
+use super::problem::{RobotError, RobotProblem};
+use crate::source::{Source, nearest};
+
+/// How a URDF is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct UrdfOptions {
+    /// Whether a mimic joint gets an entry of its own in `q`, as if it followed nothing.
+    pub ignore_mimic: bool,
+}
+
+/// Reads the robot of a URDF.
+///
+/// `read_mesh` gets the `filename` of a mesh as written (`package://x/y.stl`, `file:///x.stl`, `y.stl`; see
+/// [`mesh_location`]) and returns the bytes of that file, or why it cannot. Each file is asked for once. What cannot be read is in
+/// [`Robot::warnings`], and its shape is left out.
+///
+/// # Errors
+/// Whatever makes the text no robot, with its place: see [`RobotProblem`].
+pub fn robot(
+    source: Source,
+    options: &UrdfOptions,
+    read_mesh: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<Robot, RobotError> {
+    let mut robot = describe(&source, *options, read_mesh)?.assemble()?;
+    inertial::warn_of_massless(&mut robot);
+    Ok(robot)
+}
+
+fn describe(
+    source: &Source,
+    options: UrdfOptions,
+    read_mesh: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<Description, RobotError> {
+    let document = document::parse(source)?;
+    let root: Node<'_> = document.root_element();
+    let mut reader = Reader::new(source);
+    let name = document::robot_name(&reader, root)?;
+    let (links, joints) = parts(&mut reader, root);
+    let links = links
+        .into_iter()
+        .map(|link| Ok((reader.required(link, "name", "a link")?, link)))
+        .collect::<Result<Vec<_>, RobotError>>()?;
+    let joints = joints
+        .into_iter()
+        .map(|joint| joint::head(&reader, joint))
+        .collect::<Result<Vec<Head<'_>>, RobotError>>()?;
+    // before anything is unfolded, so that no file costs more than its size
+    let found = links.len() + joints.iter().map(|j| j.kind.links_between()).sum::<usize>();
+    if found > MOST_LINKS {
+        let most = MOST_LINKS;
+        return reader.err(Reader::tag(root), RobotProblem::TooLarge { found, most });
+    }
+    let names: Vec<&Spanned<String>> = links.iter().map(|(name, _)| name).collect();
+    let base = tree::root(&reader, root, &names, &joints)?;
+
+    let mut meshes = Meshes::new(read_mesh);
+    let mut link_parts = Vec::with_capacity(found);
+    for (name, node) in &links {
+        link_parts.push(link(&mut reader, &mut meshes, name, *node)?);
+    }
+    let base = link_parts.remove(base);
+    let base_name = base.name.get_ref().clone();
+    link_parts.insert(0, base);
+    let held_by_base = joints.iter().filter(|j| j.parent.get_ref() == &base_name);
+    let one_joint_on_base = held_by_base.count() == 1;
+    let mut joint_parts: Vec<JointPart> = Vec::with_capacity(found);
+    for head in &joints {
+        let is_base = one_joint_on_base && head.parent.get_ref() == &base_name;
+        let chain = joint::chain(&mut reader, options, head, is_base)?;
+        if !chain.links_between.is_empty() {
+            // before the link they lead to, so that the last link stays the last
+            let is_child = |link: &LinkPart| link.name.get_ref() == head.child.get_ref();
+            let at = link_parts.iter().position(is_child);
+            let at = at.unwrap_or(link_parts.len());
+            link_parts.splice(at..at, chain.links_between);
+        }
+        joint_parts.extend(chain.joints);
+    }
+    Ok(Description {
+        source: source.clone(),
+        name: name.get_ref().clone(),
+        at: name.span(),
+        dimensions: Dimensions::default(),
+        links: link_parts,
+        joints: joint_parts,
+        frames: Vec::new(),
+        loops: Vec::new(),
+        warnings: reader.into_warnings(),
+    })
+}
+
+/// The links and the joints of a robot element, each in file order.
+fn parts<'a>(reader: &mut Reader<'_>, robot: Node<'a>) -> (Vec<Node<'a>>, Vec<Node<'a>>) {
+    let (mut links, mut joints) = (Vec::new(), Vec::new());
+    for node in reader::elements(robot) {
+        match node.tag_name().name() {
+            "link" => links.push(node),
+            "joint" => joints.push(node),
+            // extensions come under any name, so only a near miss is worth a word
+            other => {
+                if let Some(near) = nearest(other, ["link", "joint"].into_iter())
+                    && node.has_attribute("name")
+                {
+                    let message = format!(
+                        "unknown element `<{other}>` is left out: did you mean `<{near}>`?"
+                    );
+                    reader.warn(Reader::tag(node), &message);
+                }
+            }
+        }
+    }
+    (links, joints)
+}
+
+fn link(
+    reader: &mut Reader<'_>,
+    meshes: &mut Meshes<'_>,
+    name: &Spanned<String>,
+    node: Node<'_>,
+) -> Result<LinkPart, RobotError> {
+    let owner = format!("link `{}`", name.get_ref());
+    reader.check(
+        node,
+        &owner,
+        &["name", "type"],
+        &[
+            "inertial",
+            "visual",
+            "collision",
+            "contact",
+            "self_collision_checking",
+            "sensor",
+            "gazebo",
+            "material",
+        ],
+    );
+    Ok(LinkPart {
+        name: name.clone(),
+        inertia: inertial::inertia(reader, &owner, node)?,
+        shapes: shape::shapes(reader, meshes, &owner, node)?,
+        contact: None,
+    })
+}

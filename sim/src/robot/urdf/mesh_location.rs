@@ -1,0 +1,63 @@
+//! What the `filename` of a mesh means: a file of a package, a file by its full path, or one beside the URDF. No file is opened here.
+
+/// Where a URDF says that a mesh lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshLocation<'a> {
+    /// `package://NAME/PATH` (or `model://`): `PATH` below the folder of the package `NAME`.
+    Package {
+        /// The package.
+        name: &'a str,
+        /// The path below its folder; empty where the URDF gives none.
+        path: &'a str,
+    },
+    /// `file:///PATH`, or a path that starts with `/`.
+    Absolute(&'a str),
+    /// A path from the folder of the URDF.
+    Relative(&'a str),
+    /// Another scheme, such as `https`: nothing that can be read.
+    Unsupported {
+        /// The scheme.
+        scheme: &'a str,
+    },
+}
+
+/// Reads the `filename` of a mesh. Percent signs stand for themselves: ROS decodes none.
+pub fn mesh_location(filename: &str) -> MeshLocation<'_> {
+    match filename.split_once("://") {
+        Some(("package" | "model", rest)) => {
+            let (name, path) = rest.split_once('/').unwrap_or((rest, ""));
+            MeshLocation::Package { name, path }
+        }
+        Some(("file", path)) if path.starts_with('/') => MeshLocation::Absolute(path),
+        // `file://meshes/a.stl` has a host by the letter of the standard, and means a path wherever it is written
+        Some(("file", path)) => MeshLocation::Relative(path),
+        Some((scheme, _)) => MeshLocation::Unsupported { scheme },
+        None if filename.starts_with('/') => MeshLocation::Absolute(filename),
+        None => MeshLocation::Relative(filename),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_form_is_told_apart() {
+        let package = |name, path| MeshLocation::Package { name, path };
+        for (filename, expected) in [
+            ("package://arm/meshes/a.stl", package("arm", "meshes/a.stl")),
+            ("model://arm/a.stl", package("arm", "a.stl")),
+            ("package://arm", package("arm", "")),
+            ("file:///opt/a.stl", MeshLocation::Absolute("/opt/a.stl")),
+            ("file://a.stl", MeshLocation::Relative("a.stl")),
+            ("/opt/a.stl", MeshLocation::Absolute("/opt/a.stl")),
+            ("meshes/a.stl", MeshLocation::Relative("meshes/a.stl")),
+            (
+                "https://x/a.stl",
+                MeshLocation::Unsupported { scheme: "https" },
+            ),
+        ] {
+            assert_eq!(mesh_location(filename), expected, "{filename}");
+        }
+    }
+}
