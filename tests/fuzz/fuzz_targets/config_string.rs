@@ -1,0 +1,14 @@
+//! Configuration string and link lengths to robot. The input is the string, then the lengths, on two lines.
+#![no_main]
+
+use kinemark_fuzz::{exercise, explain};
+use kinemark_sim::robot::config_string;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let (string, lengths) = text.split_once('\n').unwrap_or((text, ""));
+    match config_string::robot(string, 0.5, lengths) {
+        Ok(robot) => exercise(&robot),
+        Err(error) => explain(&error),
+    }
+});

@@ -1,0 +1,27 @@
+//! URDF text to robot: never a panic, and what loads can be worked with.
+#![no_main]
+
+use kinemark_fuzz::{exercise, explain};
+use kinemark_sim::robot::urdf::{UrdfOptions, mesh_location::mesh_location, robot};
+use kinemark_sim::source::Source;
+use libfuzzer_sys::fuzz_target;
+
+/// The smallest mesh that loads: one triangle, as OBJ.
+const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+fuzz_target!(|text: &str| {
+    for ignore_mimic in [false, true] {
+        let options = UrdfOptions { ignore_mimic };
+        let mut read_mesh = |file: &str| {
+            mesh_location(file);
+            match file.ends_with("obj") {
+                true => Ok(TRIANGLE.to_vec()),
+                false => Err("none here".to_owned()),
+            }
+        };
+        match robot(Source::new("fuzz.urdf", text), &options, &mut read_mesh) {
+            Ok(robot) => exercise(&robot),
+            Err(error) => explain(&error),
+        }
+    }
+});
