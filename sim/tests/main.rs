@@ -2,10 +2,12 @@
 
 mod algorithms;
 mod arms;
+mod differential;
 mod golden_robots;
 mod golden_rrbot;
 mod golden_steps;
 mod golden_urdf;
+mod inverse;
 mod laws;
 mod loops;
 mod mesh_files;

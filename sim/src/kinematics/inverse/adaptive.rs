@@ -1,0 +1,115 @@
+//! One start of damped least squares whose damping follows the error: strong far away and where the target is out of reach, vanishing
+//! at the solution, where the steps become Newton's.
+//!
+//! Source: Sugihara, *Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method* (2011), eq. 18, without its
+//! constant bias; joint limits inside the step.
+
+use super::step::StepRoom;
+use super::system::{Residual, System};
+use crate::kinematics::position_range::PositionRange;
+
+/// Damping `λ²` per half square of the error.
+const DAMPING_PER_OBJECTIVE: f64 = 0.1;
+
+/// Damping at the solution: far below any singular value worth having, far above rounding.
+const LEAST_DAMPING: f64 = 1e-12;
+
+/// Greatest change of a joint in one step \[rad or m\]: beyond it, the slope says nothing about the way.
+const LARGEST_STEP: f64 = 1.0;
+
+/// A start is given up if the objective has not come down to this part of itself ...
+const PROGRESS: f64 = 0.5;
+/// ... in this many steps.
+const PATIENCE: usize = 5;
+
+/// Factor of the damping after a step that made it worse, undone by steps that do not; for starts that are not given up.
+const CAUTION: f64 = 4.0;
+
+/// Factor beyond which steps are too small to change anything.
+const MOST_CAUTION: f64 = 1e12;
+
+/// Steps beyond the tolerance, while each still gains: quadratic convergence makes rounding of 1e-5 in two.
+const POLISH_STEPS: usize = 3;
+
+/// An objective that further steps would not improve: errors near 1e-11.
+const POLISHED: f64 = 1e-22;
+
+/// What one start is allowed and asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rules<'a> {
+    pub(super) steps: usize,
+    pub(super) tolerance_m: f64,
+    pub(super) tolerance_rad: f64,
+    pub(super) limits: Option<&'a [PositionRange]>,
+    /// Whether a start that makes no progress is given up.
+    pub(super) impatient: bool,
+}
+
+/// Goes from `q` towards the targets; `q` is then the best position met, and what is left there is returned with the steps taken.
+pub(super) fn descend(
+    system: &mut System<'_>,
+    room: &mut StepRoom,
+    rules: &Rules<'_>,
+    q: &mut [f64],
+    best: &mut [f64],
+) -> (Residual, usize) {
+    let mut residual = system.place(q);
+    let mut least = residual;
+    best.copy_from_slice(q);
+    let (mut steps, mut polished) = (0, 0);
+    let (mut milestone, mut since) = (residual.objective, 0);
+    let mut caution = 1.0;
+    while steps < rules.steps {
+        if residual.within(rules.tolerance_m, rules.tolerance_rad) {
+            if residual.objective <= POLISHED || polished == POLISH_STEPS {
+                break;
+            }
+            polished += 1;
+        } else if rules.impatient {
+            if residual.objective <= PROGRESS * milestone {
+                (milestone, since) = (residual.objective, 0);
+            } else if since == PATIENCE {
+                break;
+            }
+            since += 1;
+        }
+        if system.differentiate(q).is_err() {
+            break;
+        }
+        for (k, &i) in system.unknowns.iter().enumerate() {
+            (room.down[k], room.up[k]) = match rules.limits {
+                None => (-LARGEST_STEP, LARGEST_STEP),
+                Some(limits) => (
+                    (limits[i].lower - q[i]).clamp(-LARGEST_STEP, 0.0),
+                    (limits[i].upper - q[i]).clamp(0.0, LARGEST_STEP),
+                ),
+            };
+        }
+        let damping = caution * (DAMPING_PER_OBJECTIVE * residual.objective + LEAST_DAMPING);
+        if !room.damped(&system.jacobian, &system.error, damping, true) {
+            break;
+        }
+        if !system.advance(&room.step, rules.limits, q) {
+            break;
+        }
+        steps += 1;
+        residual = system.place(q);
+        if residual.objective < least.objective {
+            least = residual;
+            best.copy_from_slice(q);
+            caution = (caution / CAUTION).max(1.0);
+        } else if polished > 0 || !residual.objective.is_finite() {
+            break;
+        } else if !rules.impatient {
+            // overshot, as happens where the target is out of reach: back, and on more carefully
+            caution *= CAUTION;
+            if caution > MOST_CAUTION {
+                break;
+            }
+            q.copy_from_slice(best);
+            residual = system.place(q);
+        }
+    }
+    q.copy_from_slice(best);
+    (least, steps)
+}
