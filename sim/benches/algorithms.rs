@@ -9,6 +9,7 @@ use kinemark_sim::dynamics::crba::Crba;
 use kinemark_sim::dynamics::rnea::Rnea;
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2};
 use kinemark_sim::kinematics::FramePoses;
+use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::robot::Robot;
 use kinemark_sim::robot::urdf::{self, UrdfOptions};
 use kinemark_sim::source::Source;
@@ -45,7 +46,11 @@ fn states(n: usize, seed: u64) -> Vec<Vec<f64>> {
 }
 
 fn algorithms(c: &mut Criterion) {
-    for name in ["ur5", "panda", "humanoid25"] {
+    for (name, frame) in [
+        ("ur5", "tool0"),
+        ("panda", "panda_hand_tcp"),
+        ("humanoid25", "right_gear"),
+    ] {
         let robot = robot(name);
         let n = robot.n();
         let (q, v, a) = (states(n, 1), states(n, 2), states(n, 3));
@@ -61,6 +66,14 @@ fn algorithms(c: &mut Criterion) {
             b.iter(|| {
                 poses.update(&robot, &q[at()]);
                 black_box(&poses);
+            });
+        });
+        let mut chain = Chain::new(&robot, robot.frame(frame).expect(frame));
+        let mut at = next;
+        group.bench_function("jacobian", |b| {
+            b.iter(|| {
+                chain.update(&q[at()]);
+                black_box(chain.jacobian());
             });
         });
         let mut effort = vec![0.0; n];

@@ -1,9 +1,13 @@
 //! What every target does with a robot or an error it gets: walk through all of it, so that whatever loads can be worked with.
 
 use kinemark_sim::dynamics::{
-    GRAVITY_M_S2, energy, forward_dynamics, gravity_effort, inverse_dynamics, mass_matrix,
+    GRAVITY_M_S2, driven_efforts, energy, forward_dynamics, gravity_effort, inverse_dynamics,
+    mass_matrix,
 };
 use kinemark_sim::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use kinemark_sim::kinematics::derivative::jacobian_derivative;
+use kinemark_sim::kinematics::inverse::{IkSettings, Target, inverse_kinematics};
+use kinemark_sim::kinematics::manipulability::{Manipulability, TWIST};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::robot::{Robot, RobotError};
 use kinemark_sim::source::Problem as _;
@@ -36,6 +40,25 @@ pub fn exercise(robot: &Robot) {
         energy(robot, &GRAVITY_M_S2, &q, &qd);
         // a joint without mass is an error, not a panic
         let _singular = forward_dynamics(robot, &GRAVITY_M_S2, &q, &qd, &tau);
+        let jacobian = jacobian_derivative(robot, &q, &qd, robot.tcp());
+        Manipulability::of(&jacobian, TWIST);
+        let settings = IkSettings {
+            max_iterations: 3,
+            restarts: 2,
+            ..IkSettings::default()
+        };
+        let target = Target::Position(nalgebra::Vector3::new(0.3, -0.2, 0.5));
+        let q0 = q.as_slice();
+        if let Ok(answer) = inverse_kinematics(robot, robot.tcp(), target, q0, &settings) {
+            assert_eq!(answer.q.len(), n);
+        }
+        let _open = driven_efforts(
+            robot,
+            &GRAVITY_M_S2,
+            &vec![size; robot.independent().len()],
+            &vec![size; robot.independent().len()],
+            &vec![size; robot.independent().len()],
+        );
     }
 }
 
