@@ -12,8 +12,8 @@ impl Files for Folder {
         self.0.to_owned()
     }
 
-    fn read(&self, path: &str) -> Result<Option<String>, String> {
-        Ok(std::fs::read_to_string(format!("{}/{path}", self.0)).ok())
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(std::fs::read(format!("{}/{path}", self.0)).ok())
     }
 
     fn list(&self, _: &str) -> Vec<String> {

@@ -14,7 +14,7 @@ use crate::graded::{Goal, GradedRun, TaskRun, TcpPath};
 use crate::lab::model::{
     Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
 };
-use crate::lab::{Staff, staff::Mutant};
+use crate::lab::{LabRobot, Staff, staff::Mutant};
 use crate::motion::{self, EarlyEnd, MotionRun};
 use crate::quantity::list;
 use crate::stopped;
@@ -100,7 +100,9 @@ pub fn grade(
         },
         robot: Part {
             name: lab.robot.name().to_owned(),
-            digest: digest(lab.robot_file.source().text()),
+            digest: LabRobot::digest(&lab.robot_file, &lab.robot_meshes)
+                .to_hex()
+                .to_string(),
         },
         submission: Part {
             name: submission.name().to_owned(),

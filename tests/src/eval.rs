@@ -9,8 +9,16 @@ use crate::testbed::{TestBed, root};
 
 /// Sends requests, returns answers and the exit code.
 fn eval(robot: &str, requests: &[String]) -> (Vec<Value>, Option<i32>) {
-    let bed = TestBed::new();
-    let mut command = bed.command(&["robot", "eval", robot]);
+    eval_with(&TestBed::new(), &[robot], requests)
+}
+
+/// The same with options, from a folder with files.
+pub(crate) fn eval_with(
+    bed: &TestBed,
+    robot: &[&str],
+    requests: &[String],
+) -> (Vec<Value>, Option<i32>) {
+    let mut command = bed.command(&[&["robot", "eval"], robot].concat());
     let mut child = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -28,12 +36,12 @@ fn eval(robot: &str, requests: &[String]) -> (Vec<Value>, Option<i32>) {
     (answers.collect(), output.status.code())
 }
 
-fn golden(name: &str) -> Value {
+pub(crate) fn golden(name: &str) -> Value {
     let path = root().join("tests/golden").join(name);
     serde_json::from_str(&std::fs::read_to_string(&path).expect("golden")).expect("JSON")
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(items) => items.iter().flat_map(numbers).collect(),
         other => vec![
@@ -44,7 +52,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-fn close(got: &Value, expected: &Value, tolerance: f64, what: &str) {
+pub(crate) fn close(got: &Value, expected: &Value, tolerance: f64, what: &str) {
     let (got, expected) = (numbers(got), numbers(expected));
     assert_eq!(got.len(), expected.len(), "{what}");
     for (got, expected) in got.iter().zip(&expected) {

@@ -173,12 +173,12 @@ impl Files for Folder {
         self.0.display().to_string()
     }
 
-    fn read(&self, path: &str) -> Result<Option<String>, String> {
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
         let path = self.0.join(path);
         if !path.is_file() {
             return Ok(None);
         }
-        std::fs::read_to_string(path)
+        std::fs::read(path)
             .map(Some)
             .map_err(|error| error.to_string())
     }

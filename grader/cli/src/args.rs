@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
@@ -55,7 +56,7 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     Labs(LabsArgs),
     New(NewArgs),
-    /// Ask a robot: kinematics, dynamics, simulation
+    /// Show, convert or ask a robot: kinematics, dynamics, simulation
     #[command(subcommand)]
     Robot(RobotCommand),
     Completions(CompletionsArgs),
@@ -139,21 +140,89 @@ pub(crate) struct NewArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotCommand {
+    Show(ShowArgs),
+    Convert(ConvertArgs),
     Eval(EvalArgs),
+}
+
+/// Which robot, and how it is read.
+#[derive(Debug, Clone, ClapArgs)]
+pub(crate) struct RobotArgs {
+    /// A robot file (.toml or .urdf), a robot of the labs by its name, or its joints in a row such as RzRyRz
+    pub(crate) robot: OsString,
+    /// Height of the first joint of joints in a row, in metres [default: 0]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) base: Option<f64>,
+    /// Links of joints in a row: one lx,ly,lz per joint, in metres, with semicolons between
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub(crate) links: Option<String>,
+    /// Folder of a ROS package that a URDF names its meshes by; may be given several times
+    #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
+    pub(crate) packages: Vec<(String, PathBuf)>,
+    /// Give the mimic joints of a URDF entries of their own
+    #[arg(long)]
+    pub(crate) ignore_mimic: bool,
+    #[command(flatten)]
+    pub(crate) places: PlaceArgs,
+}
+
+/// Reads `NAME=DIR`.
+fn package(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => {
+            Ok((name.to_owned(), PathBuf::from(folder)))
+        }
+        _ => Err(
+            "write the package's name, `=` and its folder, such as ur_description=../ur".to_owned(),
+        ),
+    }
+}
+
+/// Show a robot: its links and joints as a tree, totals, loops, frames and warnings
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark robot show rrbot\n  kinemark robot show panda.urdf --package franka_description=../franka\n  \
+    kinemark robot show RzRyRz --base 2 --links \"0,0,4; 3,0,0; 1,0,0\"\n\n\
+    Exit codes: 0 shown, 2 usage, 3 the robot is broken."
+)]
+pub(crate) struct ShowArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    /// Print all of it as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Write any robot as a robot file (TOML)
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark robot convert panda.urdf --out panda.toml\n  \
+    kinemark robot convert RzRyRz --base 2 --links \"0,0,4; 3,0,0; 1,0,0\"\n\n\
+    Meshes are not copied: the file names them where they lie, seen from its own folder. Warnings go to standard error.\n\
+    Exit codes: 0 written, 2 usage, 3 the robot is broken, 4 the file cannot be written."
+)]
+pub(crate) struct ConvertArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    /// File to write [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
 }
 
 /// Answer requests about a robot: one JSON object per line in, one per line out
 #[derive(Debug, ClapArgs)]
 #[command(
     after_help = "Example:\n  echo '{\"id\": 1, \"op\": \"fk\", \"q\": [0.3, -1.2]}' | kinemark robot eval labs/robots/rrbot.toml\n\n\
-    Operations: info, fk, jacobian, rnea, bias, crba, aba, energy, simulate. See docs/robot-eval.md.\n\
+    Operations: info, fk, jacobian, manipulability, ik, com, rnea, bias, inverse_dynamics, crba, aba, energy, simulate.\n\
+    See docs/robot-eval.md.\n\
     Exit codes: 0 every request answered, 1 some answered with an error, 2 usage, 3 the robot is broken."
 )]
 pub(crate) struct EvalArgs {
-    /// A robot file, or the name of a robot of the labs
-    pub(crate) robot: PathBuf,
     #[command(flatten)]
-    pub(crate) places: PlaceArgs,
+    pub(crate) robot: RobotArgs,
 }
 
 /// Print shell completions

@@ -5,6 +5,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::Files;
+use kinemark_grader::lab::files::text;
 use kinemark_sim::source::Source;
 
 use crate::failure::Failure;
@@ -17,9 +18,21 @@ pub(crate) struct Folder {
 /// Labs, robots and references are written by people; above this a file is something else.
 const MOST_BYTES: u64 = 16 << 20;
 
+/// Above this a file is no mesh of a link.
+pub(crate) const MOST_MESH_BYTES: u64 = 256 << 20;
+
 impl Folder {
     pub(crate) fn new(path: PathBuf) -> Self {
         Self { path }
+    }
+
+    /// The file at `path`, if there is one; names in lab files stay inside the folder.
+    fn inside(&self, path: &str) -> Option<PathBuf> {
+        let plain = Path::new(path)
+            .components()
+            .all(|part| matches!(part, std::path::Component::Normal(_)));
+        let full = self.path.join(path);
+        (plain && full.is_file()).then_some(full)
     }
 }
 
@@ -28,19 +41,18 @@ impl Files for Folder {
         self.path.display().to_string()
     }
 
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        match self.inside(path) {
+            Some(full) => bytes_of(&full, MOST_MESH_BYTES).map(Some),
+            None => Ok(None),
+        }
+    }
+
     fn read(&self, path: &str) -> Result<Option<String>, String> {
-        // names in lab files stay inside the folder
-        if Path::new(path)
-            .components()
-            .any(|part| !matches!(part, std::path::Component::Normal(_)))
-        {
-            return Ok(None);
+        match self.inside(path) {
+            Some(full) => text(bytes_of(&full, MOST_BYTES)?).map(Some),
+            None => Ok(None),
         }
-        let full = self.path.join(path);
-        if !full.is_file() {
-            return Ok(None);
-        }
-        text_of(&full, MOST_BYTES).map(Some)
     }
 
     fn list(&self, folder: &str) -> Vec<String> {
@@ -55,8 +67,8 @@ impl Files for Folder {
     }
 }
 
-/// The text of a file of at most `most` bytes; why not, in words.
-fn text_of(path: &Path, most: u64) -> Result<String, String> {
+/// What a file of at most `most` bytes holds; why not, in words.
+pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let file = File::open(path).map_err(|error| plain(&error))?;
     let mut bytes = Vec::new();
     // one byte more tells a longer file without reading it
@@ -66,10 +78,7 @@ fn text_of(path: &Path, most: u64) -> Result<String, String> {
     if bytes.len() as u64 > most {
         return Err(format!("more than {most} bytes"));
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        format!("not text: byte {at} is no UTF-8")
-    })
+    Ok(bytes)
 }
 
 /// An operating system's message without its number.
@@ -102,7 +111,7 @@ pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure
             "save it to a file first",
         ));
     }
-    match text_of(path, most) {
+    match bytes_of(path, most).and_then(text) {
         Ok(text) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
             Ok(Source::new(name.to_string_lossy().into_owned(), text))

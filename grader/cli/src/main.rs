@@ -12,6 +12,7 @@ mod interrupt;
 mod output;
 mod places;
 mod report_folder;
+mod robot_source;
 mod worker;
 
 fn main() -> ExitCode {

@@ -22,12 +22,8 @@ impl Files for BuiltIn {
         "the labs built in".to_owned()
     }
 
-    fn read(&self, path: &str) -> Result<Option<String>, String> {
-        Embedded::get(path)
-            .map(|file| {
-                String::from_utf8(file.data.into_owned()).map_err(|error| error.to_string())
-            })
-            .transpose()
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(Embedded::get(path).map(|file| file.data.into_owned()))
     }
 
     fn list(&self, folder: &str) -> Vec<String> {

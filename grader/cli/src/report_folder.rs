@@ -157,6 +157,12 @@ pub(crate) fn files(
             lab.reference_paths.text.as_str(),
         ));
     }
+    for mesh in &lab.robot_meshes {
+        files.push(OutFile::new(
+            format!("{LABS}/{}", mesh.path),
+            mesh.bytes.as_slice(),
+        ));
+    }
     for (run, plots) in graded.runs.iter().zip(plots) {
         for plot in plots {
             files.push(OutFile::new(format!("plots/{}.svg", plot.name), plot.svg));

@@ -1,16 +1,35 @@
-//! Where labs are read from: a folder, or the copy inside the binary. The grader asks for texts by path and opens no file itself.
+//! Where labs are read from: a folder, or the copy inside the binary. The grader asks for files by path and opens none itself.
 
-/// Texts by path, `/` between folders.
+/// Files by path, `/` between folders.
 pub trait Files {
     /// What a person calls the place: a folder's name, or `built in`.
     fn name(&self) -> String;
+
+    /// The bytes at `path`; `None` where there is no file.
+    ///
+    /// # Errors
+    /// Why a file that is there cannot be read.
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String>;
 
     /// The text at `path`; `None` where there is none.
     ///
     /// # Errors
     /// Why a file that is there cannot be read as UTF-8 text.
-    fn read(&self, path: &str) -> Result<Option<String>, String>;
+    fn read(&self, path: &str) -> Result<Option<String>, String> {
+        self.bytes(path)?.map(text).transpose()
+    }
 
     /// Names inside `folder` (`""` for the top), files and folders, sorted.
     fn list(&self, folder: &str) -> Vec<String>;
+}
+
+/// A file's bytes as text.
+///
+/// # Errors
+/// At which byte it stops being UTF-8, in words.
+pub fn text(bytes: Vec<u8>) -> Result<String, String> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        format!("not text: byte {at} is no UTF-8")
+    })
 }

@@ -20,6 +20,7 @@ use super::model::{
     Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Task, TaskWork,
 };
 use super::problem::{LabError, LabProblem, LoadError};
+use super::robot::{LabRobot, robot_names};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -162,13 +163,13 @@ impl Lab {
                 Some(format!("write `name = \"{name}\"`, or rename the folder")),
             )?);
         }
-        let robot_path = format!("robots/{}.toml", lab.robot.get_ref());
-        let Some(robot_source) = read(files, &robot_path)? else {
-            let known: Vec<String> = files
-                .list("robots")
-                .iter()
-                .filter_map(|file| Some(file.strip_suffix(".toml")?.to_owned()))
-                .collect();
+        let Some(LabRobot {
+            file: robot_file,
+            meshes: robot_meshes,
+        }) = LabRobot::load(files, lab.robot.get_ref())?
+        else {
+            let robot_path = format!("robots/{}.toml", lab.robot.get_ref());
+            let known = robot_names(files);
             return Ok(report.err(
                 lab.robot.span(),
                 "lab::unknown_robot",
@@ -181,7 +182,6 @@ impl Lab {
                 )),
             )?);
         };
-        let robot_file = RobotFile::parse(robot_source)?;
         let robot = robot_file.build(&[])?;
         let frame = match &lab.frame {
             None => robot.links()[0].name.clone(),
@@ -217,6 +217,7 @@ impl Lab {
             tasks,
             source,
             robot_file,
+            robot_meshes,
             robot,
             frame,
             reference_paths,

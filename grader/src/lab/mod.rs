@@ -1,5 +1,5 @@
-//! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`]), and the cases that
-//! hidden draws add ([`draw`]).
+//! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`], [`robot`]), and the
+//! cases that hidden draws add ([`draw`]).
 
 pub mod brief;
 pub mod draw;
@@ -8,9 +8,11 @@ pub mod files;
 pub mod load;
 pub mod model;
 pub mod problem;
+pub mod robot;
 pub mod staff;
 
 pub use files::Files;
 pub use model::{Band, Case, Check, CheckKind, FunctionTask, Lab, MotionTask, Task, TaskWork};
 pub use problem::{LabError, LabProblem, LoadError};
+pub use robot::{LabRobot, MeshFile};
 pub use staff::Staff;

@@ -6,6 +6,7 @@ use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 
+use super::robot::MeshFile;
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -22,6 +23,8 @@ pub struct Lab {
     pub source: Source,
     /// The robot file, which variants and cases build with other dimensions.
     pub robot_file: RobotFile,
+    /// The meshes the robot file names.
+    pub robot_meshes: Vec<MeshFile>,
     /// The robot as its file states it.
     pub robot: Robot,
     /// The frame in which students work.

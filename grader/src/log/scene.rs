@@ -61,6 +61,15 @@ struct Line {
 }
 
 #[derive(Debug, Clone, Serialize)]
+struct Triangles {
+    pose: Pose,
+    points: Vec<Vector>,
+    color: Colour,
+    colors: [Colour; 0],
+    indices: Vec<u32>,
+}
+
+#[derive(Debug, Clone, Serialize)]
 struct KeyValue {
     key: &'static str,
     value: String,
@@ -82,7 +91,7 @@ struct Entity {
     spheres: Vec<Solid3>,
     cylinders: Vec<Cylinder>,
     lines: Vec<Line>,
-    triangles: Nothing,
+    triangles: Vec<Triangles>,
     texts: Nothing,
     models: Nothing,
 }
@@ -101,7 +110,7 @@ impl Entity {
             spheres: Vec::new(),
             cylinders: Vec::new(),
             lines: Vec::new(),
-            triangles: [],
+            triangles: Vec::new(),
             texts: [],
             models: [],
         }
@@ -130,7 +139,19 @@ impl Entity {
                 }
             }
             Solid::Sphere { radius_m } => self.sphere(at, radius_m, color),
-            Solid::Mesh(_) => {}
+            Solid::Mesh(ref solid) => self.triangles.push(Triangles {
+                pose: at,
+                points: solid
+                    .mesh
+                    .vertices()
+                    .iter()
+                    .copied()
+                    .map(Vector::new)
+                    .collect(),
+                color,
+                colors: [],
+                indices: solid.mesh.triangles().as_flattened().to_vec(),
+            }),
         }
     }
 

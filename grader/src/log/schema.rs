@@ -138,6 +138,16 @@ pub(super) fn scene_update() -> Value {
             "indices": list(json!({ "type": "integer", "minimum": 0 })),
         }),
     );
+    let triangles = object(
+        "foxglove.TriangleListPrimitive",
+        json!({
+            "pose": pose(),
+            "points": list(point()),
+            "color": colour(),
+            "colors": list(colour()),
+            "indices": list(json!({ "type": "integer", "minimum": 0 })),
+        }),
+    );
     let pair = object(
         "foxglove.KeyValuePair",
         json!({ "key": text(), "value": text() }),
@@ -157,7 +167,7 @@ pub(super) fn scene_update() -> Value {
             "spheres": list(sphere),
             "cylinders": list(cylinder),
             "lines": list(line),
-            "triangles": none(),
+            "triangles": list(triangles),
             "texts": none(),
             "models": none(),
         }),

@@ -8,6 +8,7 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::rnea::Rnea;
+use crate::kinematics::closure::independent_motions;
 use crate::robot::Robot;
 
 /// What a command means.
@@ -144,7 +145,8 @@ impl Servo {
         &self.settings
     }
 
-    /// Takes one sample and writes the effort to hold until the next; all slices have shape `(n)`. Allocates nothing.
+    /// Takes one sample and writes the effort to hold until the next; all slices have shape `(n)`. Allocates nothing, but for the
+    /// gravity compensation of a robot with loops, whose dependent joints carry nothing.
     pub fn sample(
         &mut self,
         robot: &Robot,
@@ -156,6 +158,9 @@ impl Servo {
         if self.settings.gravity_compensation {
             let hold = &mut self.gravity_effort;
             self.rnea.gravity(robot, &self.gravity_m_s2, q, hold);
+            if !robot.loops().is_empty() {
+                carried_by_independent(robot, q, hold);
+            }
         }
         for (i, gains) in self.settings.gains.iter().enumerate() {
             let u = match self.settings.mode {
@@ -187,6 +192,19 @@ impl Servo {
             effort[i] = wanted.clamp(-gains.effort_limit, gains.effort_limit);
         }
         self.started = true;
+    }
+}
+
+/// Moves the efforts of a tree to its independent joints; at a singular position, where nothing can, dependent joints just let go.
+fn carried_by_independent(robot: &Robot, q: &[f64], effort: &mut [f64]) {
+    if let Ok(motions) = independent_motions(robot, q) {
+        let tree = effort.to_vec();
+        for (&i, column) in robot.independent().iter().zip(motions.column_iter()) {
+            effort[i] = column.iter().zip(&tree).map(|(b, t)| b * t).sum();
+        }
+    }
+    for &i in robot.dependent() {
+        effort[i] = 0.0;
     }
 }
 

@@ -24,7 +24,7 @@ pub use crba::mass_matrix;
 pub use energy::{Energy, energy};
 pub use forward::{ForwardDynamics, forward_dynamics};
 pub use loops::{driven_efforts, driven_mass_matrix};
-pub use rnea::{bias_effort, gravity_effort, inverse_dynamics};
+pub use rnea::{bias_effort, coriolis_effort, gravity_effort, inverse_dynamics};
 
 /// Standard gravity in the world, z up \[m/s²\].
 pub const GRAVITY_M_S2: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);

@@ -35,6 +35,11 @@ pub fn bias_effort(
     rigid(robot, gravity_m_s2, q, Some(qd), None)
 }
 
+/// Returns the Coriolis and centrifugal efforts, shape `(n)`: the bias without gravity.
+pub fn coriolis_effort(robot: &Robot, q: &JointPositions, qd: &JointVelocities) -> JointEfforts {
+    rigid(robot, &Vector3::zeros(), q, Some(qd), None)
+}
+
 /// Returns the efforts, shape `(n)`, that hold the robot still at `q` against gravity.
 pub fn gravity_effort(
     robot: &Robot,

@@ -22,6 +22,9 @@ pub const CLOSED: f64 = 1e-10;
 /// Greatest step of an independent joint while its loop is followed \[rad or m\].
 const FOLLOW_STEP: f64 = 0.05;
 
+/// Loops are followed no further from where they start: 100 turns \[rad or m\].
+const FURTHEST: f64 = 630.0;
+
 /// Halvings of a step before a way is given up.
 const HALVINGS: u32 = 12;
 
@@ -52,6 +55,12 @@ pub enum LoopError {
         /// Joints the loops determine at that position.
         determined: usize,
     },
+    /// The position is too far from home to be followed in small steps.
+    #[error("a joint is {far:?} from home: loops are followed up to {FURTHEST} rad or m")]
+    TooFar {
+        /// The farthest way asked for \[rad or m\].
+        far: f64,
+    },
     /// The passive joints do not follow from the others at that position.
     #[error("the loops do not determine the dependent joints at this position (it is singular)")]
     Singular,
@@ -67,6 +76,7 @@ impl LoopError {
             Self::PassiveCount { .. } => {
                 "mark as `passive` the joints of the loop without a drive: one fewer free motion per condition"
             }
+            Self::TooFar { .. } => "take whole turns off the angles",
             Self::Singular => {
                 "give the joints a `guess` away from flat positions, or mark other joints `passive`"
             }
@@ -331,7 +341,10 @@ impl Closure {
             .iter()
             .zip(target)
             .map(|(a, b)| (b - a).abs())
-            .fold(0.0, f64::max);
+            .fold(0.0, |far: f64, way| if way <= far { far } else { way });
+        if far.is_nan() || far > FURTHEST {
+            return Err(LoopError::TooFar { far });
+        }
         let smallest = 1.0 / (far / FOLLOW_STEP).ceil().max(1.0);
         let (mut done, mut step, mut halved) = (0.0_f64, smallest, 0);
         let mut trial = q.to_vec();
@@ -425,7 +438,8 @@ impl Closure {
 /// `independent` itself where there are no loops.
 ///
 /// # Errors
-/// [`LoopError::Open`] where the mechanism does not reach that far, [`LoopError::Singular`] where it stands flat.
+/// [`LoopError::Open`] where the mechanism does not reach that far, [`LoopError::Singular`] where it stands flat,
+/// [`LoopError::TooFar`] beyond 630 rad or m.
 ///
 /// # Panics
 /// If `independent` has another length than [`Robot::independent`].
@@ -449,4 +463,88 @@ pub fn loop_gap_m(robot: &Robot, q: &[f64]) -> f64 {
         return 0.0;
     }
     Closure::new(robot).gap_m(robot, q)
+}
+
+/// All joint velocities, shape `(n)`, that keep the loops closed while the independent joints move at `independent`; `q` is the
+/// closed position, shape `(n)`.
+///
+/// # Errors
+/// [`LoopError::Singular`] where the loops do not determine the dependent joints.
+///
+/// # Panics
+/// If a slice has another length than stated.
+pub fn closed_velocities(
+    robot: &Robot,
+    q: &[f64],
+    independent: &[f64],
+) -> Result<Vec<f64>, LoopError> {
+    let mut rates = spread(robot, independent);
+    if !robot.loops().is_empty() {
+        let mut closure = Closure::new(robot);
+        closure.update(robot, q, &rates);
+        closure.complete(robot, None, &mut rates)?;
+    }
+    Ok(rates)
+}
+
+/// All joint accelerations, shape `(n)`, that keep the loops closed while the independent joints accelerate at `independent`; `q`
+/// and `qd` are the closed position and its velocity, shape `(n)`.
+///
+/// # Errors
+/// [`LoopError::Singular`] where the loops do not determine the dependent joints.
+///
+/// # Panics
+/// If a slice has another length than stated.
+pub fn closed_accelerations(
+    robot: &Robot,
+    q: &[f64],
+    qd: &[f64],
+    independent: &[f64],
+) -> Result<Vec<f64>, LoopError> {
+    let mut accelerations = spread(robot, independent);
+    if !robot.loops().is_empty() {
+        let mut closure = Closure::new(robot);
+        closure.update(robot, q, qd);
+        let bias = closure.bias.clone();
+        closure.complete(robot, Some(&bias), &mut accelerations)?;
+    }
+    Ok(accelerations)
+}
+
+/// How all joints move per unit of each independent one, shape `(n, independent)`, at the closed position `q`, shape `(n)`: the
+/// identity where there are no loops.
+///
+/// # Errors
+/// [`LoopError::Singular`] where the loops do not determine the dependent joints.
+///
+/// # Panics
+/// If `q` has another length than [`Robot::n`].
+pub fn independent_motions(robot: &Robot, q: &[f64]) -> Result<DMatrix<f64>, LoopError> {
+    let (n, k) = (robot.n(), robot.independent().len());
+    let mut motions = DMatrix::zeros(n, k);
+    let mut closure = Closure::new(robot);
+    closure.update(robot, q, &vec![0.0; n]);
+    for (mut column, &i) in motions.column_iter_mut().zip(robot.independent()) {
+        let mut rates = vec![0.0; n];
+        rates[i] = 1.0;
+        if !robot.loops().is_empty() {
+            closure.complete(robot, None, &mut rates)?;
+        }
+        column.copy_from_slice(&rates);
+    }
+    Ok(motions)
+}
+
+/// Values of the independent joints at their places in `q`, zeros elsewhere.
+fn spread(robot: &Robot, independent: &[f64]) -> Vec<f64> {
+    assert_eq!(
+        independent.len(),
+        robot.independent().len(),
+        "one value per independent joint"
+    );
+    let mut all = vec![0.0; robot.n()];
+    for (&i, value) in robot.independent().iter().zip(independent) {
+        all[i] = *value;
+    }
+    all
 }

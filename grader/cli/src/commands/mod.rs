@@ -1,10 +1,12 @@
 //! One file per subcommand.
 
 mod completions;
+mod convert;
 mod eval;
 mod grade;
 mod labs;
 mod new;
+mod show;
 mod verify;
 
 use std::process::ExitCode;
@@ -20,6 +22,8 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Verify(args) => verify::run(&args),
         Command::Labs(args) => labs::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Robot(RobotCommand::Show(args)) => show::run(&args),
+        Command::Robot(RobotCommand::Convert(args)) => convert::run(&args),
         Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Worker => Ok(worker::serve()),

@@ -1,21 +1,22 @@
 //! `kinemark robot eval`: one request per line in, one answer per line out, in order; a bad request is answered with an error and
 //! the stream goes on.
 
+mod ik;
 mod operation;
 mod request;
 mod simulate;
+mod state;
+mod trajectory;
 
 use std::io::{BufRead as _, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
-use std::path::Path;
 use std::process::ExitCode;
 
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::robot::Robot;
 use serde_json::{Map, Value};
 
-use crate::args::{EvalArgs, PlaceArgs};
-use crate::failure::{BROKEN, Failure, LOST};
-use crate::{disk, places};
+use crate::args::EvalArgs;
+use crate::failure::{Failure, LOST};
+use crate::{disk, robot_source};
 
 /// A longer line is refused unread.
 const MOST_LINE_BYTES: u64 = 16 << 20;
@@ -38,7 +39,8 @@ impl Refusal {
 
 /// Answers requests until the input ends.
 pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
-    let robot = robot(&args.robot, &args.places)?;
+    let loaded = robot_source::load(&args.robot)?;
+    let robot = &loaded.robot;
     let mut input = BufReader::new(std::io::stdin());
     let mut output = BufWriter::new(std::io::stdout());
     let mut refused = false;
@@ -65,7 +67,7 @@ pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
             );
             with_id(None, Err(refusal))
         } else {
-            answer(&robot, &line)
+            answer(robot, &line)
         };
         refused |= answer.contains_key("error");
         let written = serde_json::to_writer(&mut output, &Value::Object(answer))
@@ -138,37 +140,4 @@ fn with_id(id: Option<Value>, answer: Result<Map<String, Value>, Refusal>) -> Ma
         }
     }
     whole
-}
-
-/// The robot of a file, or a robot of the labs by its name.
-fn robot(path: &Path, args: &PlaceArgs) -> Result<Robot, Failure> {
-    let source = if path.exists() || path.extension().is_some() || path.components().count() > 1 {
-        disk::read(path, "a robot file", 16 << 20)?
-    } else {
-        let (files, _) = places::labs(args)?;
-        let name = path.to_string_lossy();
-        match files.read(&format!("robots/{name}.toml")) {
-            Ok(Some(text)) => Source::new(format!("robots/{name}.toml"), text),
-            Ok(None) => {
-                let known: Vec<String> = files
-                    .list("robots")
-                    .iter()
-                    .filter_map(|file| Some(file.strip_suffix(".toml")?.to_owned()))
-                    .collect();
-                return Err(Failure::usage(
-                    format!("there is no robot file or robot `{name}`"),
-                    &suggest(&name, "robots", known.iter().map(String::as_str)),
-                ));
-            }
-            Err(why) => {
-                return Err(Failure::broken(
-                    format!("robot `{name}`: {why}"),
-                    "save it as UTF-8 text",
-                ));
-            }
-        }
-    };
-    let file = RobotFile::parse(source).map_err(|error| Failure::diagnostic(BROKEN, error))?;
-    file.build(&[])
-        .map_err(|error| Failure::diagnostic(BROKEN, error))
 }

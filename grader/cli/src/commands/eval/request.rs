@@ -1,11 +1,13 @@
 //! The fields of requests, read with errors that name the field.
 
+use kinemark_sim::kinematics::manipulability::{ANGULAR, LINEAR, TWIST};
 use kinemark_sim::robot::{Frame, Robot};
 use kinemark_sim::source::suggest;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde_json::{Map, Value};
 
 use super::Refusal;
+use super::ik::rotation_of;
 
 /// The fields of one request that have not been read yet.
 pub(super) struct Fields<'r> {
@@ -21,6 +23,20 @@ impl<'r> Fields<'r> {
             fields,
             known: vec!["id", "op"],
         }
+    }
+
+    /// The fields of an object inside a request.
+    pub(super) fn part(robot: &'r Robot, fields: Map<String, Value>) -> Self {
+        Self {
+            robot,
+            fields,
+            known: Vec::new(),
+        }
+    }
+
+    /// Whether a field stands there and is not `null`.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.fields.get(name).is_some_and(|value| !value.is_null())
     }
 
     fn take(&mut self, name: &'static str) -> Option<Value> {
@@ -47,27 +63,16 @@ impl<'r> Fields<'r> {
         }
     }
 
-    /// One number per joint that moves; a bare number where there is one joint.
-    pub(super) fn per_joint(&mut self, name: &'static str) -> Result<Vec<f64>, Refusal> {
+    /// Numbers; a bare one counts as a list of one.
+    pub(super) fn numbers(&mut self, name: &'static str) -> Result<Vec<f64>, Refusal> {
         let value = self.need(name)?;
-        let values = match &value {
-            Value::Number(_) => vec![number(name, &value)?],
-            _ => list(name, &value)?,
-        };
-        let n = self.robot.n();
-        if values.len() == n {
-            return Ok(values);
+        match &value {
+            Value::Number(_) => Ok(vec![number(name, &value)?]),
+            _ => list(name, &value),
         }
-        Err(Refusal::new(
-            "wrong-length",
-            format!(
-                "`{name}` has {} numbers, the robot has {n} joints that move",
-                values.len()
-            ),
-        ))
     }
 
-    /// A number, or one per joint, spread over the joints.
+    /// A number, or one per joint, spread over the joints; zeros at dependent joints where there is one per independent joint.
     pub(super) fn spread(&mut self, name: &'static str) -> Result<Option<Vec<f64>>, Refusal> {
         let n = self.robot.n();
         match self.take(name) {
@@ -75,15 +80,63 @@ impl<'r> Fields<'r> {
             Some(value @ Value::Number(_)) => Ok(Some(vec![number(name, &value)?; n])),
             Some(value) => {
                 let values = list(name, &value)?;
+                let k = self.robot.independent().len();
                 if values.len() == n {
                     Ok(Some(values))
+                } else if values.len() == k {
+                    Ok(Some(self.over_all(&values)))
                 } else {
+                    let or = if k < n {
+                        format!(", {k}")
+                    } else {
+                        String::new()
+                    };
                     Err(Refusal::new(
                         "wrong-length",
-                        format!("`{name}` has {} numbers, expected 1 or {n}", values.len()),
+                        format!(
+                            "`{name}` has {} numbers, expected 1{or} or {n}",
+                            values.len()
+                        ),
                     ))
                 }
             }
+        }
+    }
+
+    /// A number for all of `n` axes, or one for each.
+    pub(super) fn per_axis(
+        &mut self,
+        name: &'static str,
+        n: usize,
+    ) -> Result<Option<Vec<f64>>, Refusal> {
+        match self.take(name) {
+            None => Ok(None),
+            Some(value @ Value::Number(_)) => Ok(Some(vec![number(name, &value)?; n])),
+            Some(value) => {
+                let values = list(name, &value)?;
+                if values.len() == n {
+                    return Ok(Some(values));
+                }
+                let found = values.len();
+                let message = format!("`{name}` has {found} numbers, expected 1 or {n}");
+                Err(Refusal::new("wrong-length", message))
+            }
+        }
+    }
+
+    /// A list of lists of numbers.
+    pub(super) fn lists(&mut self, name: &'static str) -> Result<Vec<Vec<f64>>, Refusal> {
+        match self.need(name)? {
+            Value::Array(items) => items.iter().map(|item| list(name, item)).collect(),
+            other => Err(wrong_type(name, "a list of lists of numbers", &other)),
+        }
+    }
+
+    /// The fields of an object inside the request.
+    pub(super) fn object(&mut self, name: &'static str) -> Result<Fields<'r>, Refusal> {
+        match self.need(name)? {
+            Value::Object(fields) => Ok(Fields::part(self.robot, fields)),
+            other => Err(wrong_type(name, "an object", &other)),
         }
     }
 
@@ -91,6 +144,61 @@ impl<'r> Fields<'r> {
         self.take(name)
             .map(|value| number(name, &value))
             .transpose()
+    }
+
+    /// A whole number, zero or more.
+    pub(super) fn whole(&mut self, name: &'static str) -> Result<Option<usize>, Refusal> {
+        match self.take(name) {
+            None => Ok(None),
+            Some(value) => match value.as_u64().and_then(|n| usize::try_from(n).ok()) {
+                Some(n) => Ok(Some(n)),
+                None => Err(Refusal::new(
+                    "out-of-range",
+                    format!("`{name}` must be a whole number, zero or more, got {value}"),
+                )),
+            },
+        }
+    }
+
+    /// Three numbers.
+    pub(super) fn triple(&mut self, name: &'static str) -> Result<Option<Vector3<f64>>, Refusal> {
+        match self.take(name) {
+            None => Ok(None),
+            Some(value) => match list(name, &value)?.as_slice() {
+                [x, y, z] => Ok(Some(Vector3::new(*x, *y, *z))),
+                other => Err(Refusal::new(
+                    "wrong-length",
+                    format!("`{name}` has {} numbers, expected 3", other.len()),
+                )),
+            },
+        }
+    }
+
+    /// A rotation as three rows, as `fk` answers it.
+    pub(super) fn rotation(&mut self, name: &'static str) -> Result<Option<Matrix3<f64>>, Refusal> {
+        match self.take(name) {
+            None => Ok(None),
+            Some(Value::Array(rows)) => {
+                let rows: Result<Vec<Vec<f64>>, Refusal> =
+                    rows.iter().map(|row| list(name, row)).collect();
+                rotation_of(name, &rows?).map(Some)
+            }
+            Some(other) => Err(wrong_type(name, "three rows of three numbers", &other)),
+        }
+    }
+
+    /// A list of texts.
+    pub(super) fn texts(&mut self, name: &'static str) -> Result<Option<Vec<String>>, Refusal> {
+        let Some(value) = self.take(name) else {
+            return Ok(None);
+        };
+        let texts = value.as_array().and_then(|items| {
+            let texts = items.iter().map(|item| Some(item.as_str()?.to_owned()));
+            texts.collect::<Option<Vec<String>>>()
+        });
+        texts
+            .map(Some)
+            .ok_or_else(|| wrong_type(name, "a list of texts", &value))
     }
 
     /// A positive, finite number.
@@ -123,16 +231,46 @@ impl<'r> Fields<'r> {
     }
 
     pub(super) fn gravity_m_s2(&mut self) -> Result<Vector3<f64>, Refusal> {
-        let name = "gravity_m_s2";
+        let given = self.triple("gravity_m_s2")?;
+        Ok(given.unwrap_or(kinemark_sim::dynamics::GRAVITY_M_S2))
+    }
+
+    /// The rows of a Jacobian: a name for three or six of them, or their numbers from zero. All without the field.
+    pub(super) fn rows(&mut self) -> Result<Vec<usize>, Refusal> {
+        let name = "rows";
+        let refuse = |found: &str| {
+            Err(Refusal::new(
+                "out-of-range",
+                format!(
+                    "`{name}` is `all`, `linear`, `angular` or a list of rows 0 to 5, got {found}"
+                ),
+            ))
+        };
         match self.take(name) {
-            None => Ok(kinemark_sim::dynamics::GRAVITY_M_S2),
-            Some(value) => match list(name, &value)?.as_slice() {
-                [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-                other => Err(Refusal::new(
-                    "wrong-length",
-                    format!("`{name}` has {} numbers, expected 3", other.len()),
-                )),
+            None => Ok(TWIST.to_vec()),
+            Some(Value::String(text)) => match text.as_str() {
+                "all" => Ok(TWIST.to_vec()),
+                "linear" => Ok(LINEAR.to_vec()),
+                "angular" => Ok(ANGULAR.to_vec()),
+                other => refuse(&format!("`{other}`")),
             },
+            Some(Value::Array(items)) => {
+                let mut rows = Vec::new();
+                for item in &items {
+                    match item.as_u64() {
+                        Some(row @ 0..=5) if !rows.contains(&(row as usize)) => {
+                            rows.push(row as usize)
+                        }
+                        _ => return refuse(&item.to_string()),
+                    }
+                }
+                if rows.is_empty() {
+                    refuse("[]")
+                } else {
+                    Ok(rows)
+                }
+            }
+            Some(other) => Err(wrong_type(name, "a text or a list of numbers", &other)),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::num::NonZeroU32;
 
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::kinematics::closure::loop_gap_m;
 use kinemark_sim::run::{self, End, Recorder, Row, Setup};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use serde_json::{Map, Value, json};
@@ -10,11 +11,15 @@ use serde_json::{Map, Value, json};
 use super::Refusal;
 use super::operation::finite;
 use super::request::Fields;
+use super::state::names_of;
 
 /// More steps than this take minutes.
 const MOST_STEPS: u64 = 100_000_000;
 /// More numbers than this do not belong on one line.
 const MOST_NUMBERS: u64 = 10_000_000;
+
+/// A start counts as closed below this gap; the first step takes up what is left.
+const MOST_GAP_M: f64 = 1e-6;
 
 /// Keeps every `stride`-th row.
 struct Sampler {
@@ -41,9 +46,22 @@ impl Recorder for Sampler {
 pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     let robot = fields.robot;
     let n = robot.n();
-    let start_q = fields.per_joint("q0")?;
-    let start_qd = fields.per_joint("qd0")?;
-    let command = fields.per_joint("command")?;
+    let q0 = fields.positions("q0")?;
+    let gap_m = loop_gap_m(robot, q0.as_slice());
+    let closed = gap_m <= MOST_GAP_M;
+    if !closed {
+        return Err(Refusal::new(
+            "open-loop",
+            format!(
+                "`q0` leaves a loop open by {gap_m} m, at most {MOST_GAP_M} m; give the independent joints only ({}), and the \
+                 others follow",
+                names_of(robot, robot.independent()).join(", ")
+            ),
+        ));
+    }
+    let start_qd = fields.velocities("qd0", &q0)?.as_slice().to_vec();
+    let start_q = q0.as_slice().to_vec();
+    let command = fields.efforts("command")?.as_slice().to_vec();
     let duration_s = fields.positive("duration_s")?;
     let servo_s = fields.positive("servo_period_s")?;
     let step_s = match fields.number("physics_step_s")? {
@@ -192,18 +210,29 @@ fn servo_of(
     let integral_limit = limit("integral_limit")?;
     let gravity_compensation = fields.truth("gravity_compensation")?.unwrap_or(false);
     fields.finish()?;
+    let mut gains: Vec<Gains> = (0..n)
+        .map(|i| Gains {
+            kp: kp[i],
+            ki: ki[i],
+            kd: kd[i],
+            effort_limit: effort_limit[i],
+            integral_limit: integral_limit[i],
+        })
+        .collect();
+    // a joint that follows from a loop has no drive
+    for &i in robot.dependent() {
+        gains[i] = Gains {
+            kp: 0.0,
+            ki: 0.0,
+            kd: 0.0,
+            effort_limit: 0.0,
+            integral_limit: 0.0,
+        };
+    }
     Ok(ServoSettings {
         mode,
         derivative,
-        gains: (0..n)
-            .map(|i| Gains {
-                kp: kp[i],
-                ki: ki[i],
-                kd: kd[i],
-                effort_limit: effort_limit[i],
-                integral_limit: integral_limit[i],
-            })
-            .collect(),
+        gains,
         gravity_compensation,
     })
 }

@@ -1,0 +1,296 @@
+//! The robot that a person names on the command line: a robot file, a URDF, joints in a row, or a robot of the labs.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::lab::LabRobot;
+use kinemark_grader::lab::robot::robot_names;
+use kinemark_sim::robot::urdf::mesh_location::{MeshLocation, mesh_location};
+use kinemark_sim::robot::urdf::{self, UrdfOptions};
+use kinemark_sim::robot::{Robot, RobotError, RobotFile, config_string};
+use kinemark_sim::source::{Source, suggest};
+
+use crate::args::RobotArgs;
+use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
+use crate::failure::{BROKEN, Failure, USAGE};
+use crate::places;
+
+/// Above this a file is no robot's description.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// A robot, and where the meshes lie that its description names.
+#[derive(Debug)]
+pub(crate) struct Loaded {
+    pub(crate) robot: Robot,
+    /// Files by the names the description has for them; those inside the binary are not among them.
+    pub(crate) meshes: BTreeMap<String, PathBuf>,
+}
+
+/// Reads the robot that `args` name.
+///
+/// # Errors
+/// Exit code 2 for what was typed, 3 for a description that is no robot.
+pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
+    let path = Path::new(&args.robot);
+    if path.exists() || path.extension().is_some() || path.components().count() > 1 {
+        return from_file(path, args);
+    }
+    let name = args.robot.to_string_lossy();
+    let (files, folder) = places::labs(&args.places)?;
+    if let Some(LabRobot { file, meshes }) = LabRobot::load(files.as_ref(), &name)? {
+        let what = format!("`{name}` is a robot of the labs");
+        refuse_row_options(args, &what)?;
+        refuse_urdf_options(args, &what)?;
+        let robot = file.build(&[]).map_err(broken)?;
+        let meshes = folder.iter().flat_map(|folder| {
+            meshes.iter().filter_map(|mesh| {
+                let inside = mesh.path.strip_prefix("robots/")?;
+                Some((inside.to_owned(), folder.join(&mesh.path)))
+            })
+        });
+        let meshes = meshes.collect();
+        return Ok(Loaded { robot, meshes });
+    }
+    if args.links.is_some() || args.base.is_some() || config_string::is_config_string(&name) {
+        return joints_in_a_row(&name, args);
+    }
+    let known = robot_names(files.as_ref());
+    Err(Failure::usage(
+        format!("there is no robot file or robot `{name}`"),
+        &format!(
+            "{}; joints in a row are written like RzRyRz, with --links",
+            suggest(&name, "robots", known.iter().map(String::as_str))
+        ),
+    ))
+}
+
+fn broken(error: RobotError) -> Failure {
+    Failure::diagnostic(BROKEN, error)
+}
+
+fn joints_in_a_row(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
+    refuse_urdf_options(args, &format!("`{text}` are joints in a row"))?;
+    let Some(links) = &args.links else {
+        let count = text.chars().count() / 2;
+        let example = vec!["0,0,1"; count.clamp(1, 8)].join("; ");
+        return Err(Failure::usage(
+            format!("`{text}` says its joints but not its links"),
+            &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
+        ));
+    };
+    let robot = config_string::robot(text, args.base.unwrap_or(0.0), links)
+        // it was typed, so it is a matter of usage
+        .map_err(|error| Failure::diagnostic(USAGE, error))?;
+    let meshes = BTreeMap::new();
+    Ok(Loaded { robot, meshes })
+}
+
+/// `--links` and `--base` belong to joints in a row; elsewhere they would say something that nobody hears.
+fn refuse_row_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
+    let given = match (&args.links, args.base) {
+        (Some(_), _) => "--links",
+        (None, Some(_)) => "--base",
+        (None, None) => return Ok(()),
+    };
+    Err(Failure::usage(
+        format!("{given} is for joints in a row such as RzRyRz, and {what}"),
+        &format!("leave {given} out"),
+    ))
+}
+
+/// `--package` and `--ignore-mimic` belong to URDFs.
+fn refuse_urdf_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
+    let (given, instead) = if args.ignore_mimic {
+        (
+            "--ignore-mimic",
+            "; in a robot file, remove `mimic` from the joint",
+        )
+    } else if !args.packages.is_empty() {
+        (
+            "--package",
+            "; in a robot file, paths of meshes start at its own folder",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(Failure::usage(
+        format!("{given} is for URDFs, and {what}"),
+        &format!("leave {given} out{instead}"),
+    ))
+}
+
+fn from_file(path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
+    let shown = path.display();
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    if extension.as_deref() == Some("xacro") && path.is_file() {
+        let plain = path.with_extension("");
+        let plain = plain.file_name().unwrap_or_default().to_string_lossy();
+        let stem = plain.trim_end_matches(".urdf");
+        return Err(Failure::usage(
+            format!("`{shown}` is a xacro file, from which a URDF is made first"),
+            &format!("run `xacro {shown} > {stem}.urdf`, and name {stem}.urdf here"),
+        ));
+    }
+    let source = disk::read(path, "a robot file", MOST_BYTES)?;
+    let is_xml = source
+        .text()
+        .trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with('<')
+        || matches!(extension.as_deref(), Some("urdf" | "xml"));
+    refuse_row_options(args, &format!("`{shown}` is a file"))?;
+    if is_xml {
+        from_urdf(source, path, args)
+    } else {
+        refuse_urdf_options(args, &format!("`{shown}` is a robot file"))?;
+        from_toml(source, path)
+    }
+}
+
+fn from_toml(source: Source, path: &Path) -> Result<Loaded, Failure> {
+    let folder = folder_of(path);
+    let mut meshes = BTreeMap::new();
+    let file = RobotFile::parse(source).and_then(|file| {
+        file.with_meshes(|name| {
+            let (place, bytes) = first_of(&[folder.join(name)])?;
+            meshes.insert(name.to_owned(), place);
+            Ok(bytes)
+        })
+    });
+    let robot = file.and_then(|file| file.build(&[])).map_err(broken)?;
+    Ok(Loaded { robot, meshes })
+}
+
+fn from_urdf(source: Source, path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
+    for (name, folder) in &args.packages {
+        if !folder.is_dir() {
+            return Err(Failure::usage(
+                format!(
+                    "the folder `{}` of package `{name}` is not there",
+                    folder.display()
+                ),
+                "give the folder that holds the package's package.xml",
+            ));
+        }
+    }
+    let options = UrdfOptions {
+        ignore_mimic: args.ignore_mimic,
+    };
+    let meshes = RefCell::new(BTreeMap::new());
+    let mut read_mesh = |name: &str| {
+        let (place, bytes) = first_of(&mesh_places(name, &folder_of(path), &args.packages)?)?;
+        meshes.borrow_mut().insert(name.to_owned(), place);
+        Ok(bytes)
+    };
+    let robot = urdf::robot(source, &options, &mut read_mesh).map_err(broken)?;
+    let meshes = meshes.into_inner();
+    Ok(Loaded { robot, meshes })
+}
+
+/// The folder a file lies in; `.` for a bare name.
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Where the mesh that a URDF in `folder` calls `name` may lie, the best first.
+fn mesh_places(
+    name: &str,
+    folder: &Path,
+    packages: &[(String, PathBuf)],
+) -> Result<Vec<PathBuf>, String> {
+    let (package, inside) = match mesh_location(name) {
+        MeshLocation::Absolute(place) | MeshLocation::Relative(place) => {
+            return Ok(vec![folder.join(place)]);
+        }
+        MeshLocation::Unsupported { scheme } => {
+            return Err(format!(
+                "addresses with `{scheme}://` are not read; save the file beside the URDF and name it there"
+            ));
+        }
+        MeshLocation::Package { path: "", .. } => {
+            return Err("the address names a package but no file in it".to_owned());
+        }
+        MeshLocation::Package { name, path } => (name, path),
+    };
+    // the last one given wins, as with other options
+    let given = packages.iter().rev().find(|(name, _)| name == package);
+    if let Some((_, given)) = given {
+        return Ok(vec![given.join(inside)]);
+    }
+    // a URDF usually lies in `NAME/urdf/`
+    let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    let mut places = Vec::new();
+    for above in whole.ancestors() {
+        if above.file_name().is_some_and(|name| name == package) {
+            places.push(above.join(inside));
+        }
+        if above.join(package).is_dir() {
+            places.push(above.join(package).join(inside));
+        }
+    }
+    places.push(folder.join(inside));
+    if places.iter().any(|place| place.is_file()) {
+        return Ok(places);
+    }
+    Err(format!(
+        "there is no package `{package}` with it around the URDF, nor `{}`; name the package's folder: --package {package}=DIR",
+        folder.join(inside).display()
+    ))
+}
+
+/// The first of `places` that is a file, read whole.
+fn first_of(places: &[PathBuf]) -> Result<(PathBuf, Vec<u8>), String> {
+    match places.iter().find(|place| place.is_file()) {
+        Some(place) => Ok((place.clone(), bytes_of(place, MOST_MESH_BYTES)?)),
+        None => {
+            let tried: Vec<String> = places
+                .iter()
+                .map(|p| format!("`{}`", p.display()))
+                .collect();
+            Err(format!("there is no file {}", tried.join(" or ")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn meshes_are_looked_for_where_ros_keeps_them() {
+        let bed = tempfile::tempdir().unwrap();
+        let package = bed.path().join("arm_description");
+        let urdf = package.join("urdf");
+        std::fs::create_dir_all(package.join("meshes")).unwrap();
+        std::fs::create_dir_all(&urdf).unwrap();
+        std::fs::write(package.join("meshes/hand.stl"), "x").unwrap();
+        let find = |name: &str, packages: &[(String, PathBuf)]| {
+            first_of(&mesh_places(name, &urdf, packages)?).map(|(place, _)| place)
+        };
+        let inside = "package://arm_description/meshes/hand.stl";
+        // by the folder around the URDF
+        assert_eq!(find(inside, &[]).unwrap(), package.join("meshes/hand.stl"));
+        // by the option, which wins even where it leads nowhere
+        let elsewhere = [("arm_description".to_owned(), bed.path().to_owned())];
+        let why = find(inside, &elsewhere).unwrap_err();
+        assert!(why.contains("there is no file"), "{why}");
+        let other = [("other".to_owned(), package.clone())];
+        let named = "package://other/meshes/hand.stl";
+        assert_eq!(
+            find(named, &other).unwrap(),
+            package.join("meshes/hand.stl")
+        );
+        let why = find(named, &[]).unwrap_err();
+        assert!(why.contains("--package other=DIR"), "{why}");
+        // by plain paths
+        assert!(find("../meshes/hand.stl", &[]).is_ok());
+        let whole = format!("file://{}", package.join("meshes/hand.stl").display());
+        assert!(find(&whole, &[]).is_ok());
+        assert!(find("https://example.org/hand.stl", &[]).is_err());
+        assert!(find("package://arm_description", &[]).is_err());
+    }
+}
