@@ -120,15 +120,27 @@ pub(crate) fn dependents(robot: &Robot) -> Result<Dependents, LoopError> {
     // close with all joints first, then let the later joints of the loops follow the earlier ones
     closure.newton(robot, &(0..n).collect::<Vec<_>>(), &mut home)?;
     closure.update(robot, &home, &vec![0.0; n]);
-    let determined = rank(&closure.jacobian);
-    let mut dependent: Vec<usize> = Vec::new();
+    let strongest = closure
+        .jacobian
+        .column_iter()
+        .map(|column| column.norm())
+        .fold(0.0, f64::max);
+    let (mut dependent, mut basis) = (Vec::new(), Vec::<DVector<f64>>::new());
     for i in (0..n).rev() {
-        dependent.insert(0, i);
-        if rank(&closure.columns(&dependent)) < dependent.len() {
-            dependent.remove(0);
+        let mut column = closure.jacobian.column(i).into_owned();
+        // twice is enough to be orthogonal to rounding
+        for _ in 0..2 {
+            for known in &basis {
+                let along = known.dot(&column);
+                column.axpy(-along, known, 1.0);
+            }
+        }
+        let news = column.norm();
+        if news > RANK_TOLERANCE * strongest {
+            basis.push(column / news);
+            dependent.insert(0, i);
         }
     }
-    debug_assert_eq!(dependent.len(), determined);
     Ok(Dependents { dependent, home })
 }
 

@@ -16,6 +16,12 @@ use crate::kinematics::closure;
 use crate::source::suggest;
 use crate::spatial::{Pose, Symmetric3, pose};
 
+/// A robot with loops has at most this many of them: each makes a dense system larger.
+const MOST_LOOPS: usize = 50;
+
+/// A robot with loops has at most this many joints that move, for the same reason.
+const MOST_LOOPED_JOINTS: usize = 300;
+
 /// A robot has at most this many links: far beyond any real one, and small enough that no short text makes a large robot.
 pub(super) const MOST_LINKS: usize = 2000;
 
@@ -290,6 +296,16 @@ impl Assembler<'_> {
             robot.home.fill(0.0);
             return Ok(robot);
         };
+        let (loops, joints) = (robot.loops.len(), robot.n());
+        if loops > MOST_LOOPS || joints > MOST_LOOPED_JOINTS {
+            let problem = RobotProblem::Loop {
+                message: format!("{loops} loops over {joints} joints are too many"),
+                help: format!(
+                    "a robot with loops has at most {MOST_LOOPS} of them and {MOST_LOOPED_JOINTS} joints that move"
+                ),
+            };
+            return self.err(first.at.clone(), problem);
+        }
         match closure::dependents(&robot) {
             Ok(closure::Dependents { dependent, home }) => {
                 robot.independent.retain(|i| !dependent.contains(i));
