@@ -12,7 +12,10 @@ use super::aba::SingularMassMatrix;
 use super::crba::Crba;
 use super::rnea::{Rnea, inverse_dynamics};
 use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
-use crate::kinematics::closure::{Closure, LoopError, closed_positions};
+use crate::kinematics::closure::{
+    Closure, LoopError, closed_accelerations, closed_positions, closed_velocities,
+    independent_motions,
+};
 use crate::robot::Robot;
 
 /// Pivots below this part of the largest belong to conditions that say nothing new.
@@ -259,37 +262,20 @@ pub fn driven_efforts(
     qd: &[f64],
     qdd: &[f64],
 ) -> Result<DrivenMotion, LoopError> {
-    let n = robot.n();
-    let independent = robot.independent();
     let closed = closed_positions(robot, q)?;
-    let mut rates = vec![0.0; n];
-    let mut accelerations = vec![0.0; n];
-    for (k, &i) in independent.iter().enumerate() {
-        rates[i] = qd[k];
-        accelerations[i] = qdd[k];
-    }
-    let mut closure = Closure::new(robot);
-    closure.update(robot, &closed, &rates);
-    closure.complete(robot, None, &mut rates)?;
-    closure.update(robot, &closed, &rates);
-    let bias = closure.bias.clone();
-    closure.complete(robot, Some(&bias), &mut accelerations)?;
+    let rates = closed_velocities(robot, &closed, qd)?;
+    let accelerations = closed_accelerations(robot, &closed, &rates, qdd)?;
+    let motions = independent_motions(robot, &closed)?;
     let (q, qd, qdd) = (
         JointPositions::new(closed),
         JointVelocities::new(rates),
         JointAccelerations::new(accelerations),
     );
     let tree = inverse_dynamics(robot, gravity_m_s2, &q, &qd, &qdd);
-    let effort = independent
-        .iter()
-        .map(|&i| {
-            // column of B: the rates of all joints per rate of this one
-            let mut column = vec![0.0; n];
-            column[i] = 1.0;
-            closure.complete(robot, None, &mut column)?;
-            Ok(column.iter().zip(tree.as_slice()).map(|(b, t)| b * t).sum())
-        })
-        .collect::<Result<Vec<f64>, LoopError>>()?;
+    let effort = motions
+        .column_iter()
+        .map(|b| b.iter().zip(tree.as_slice()).map(|(b, t)| b * t).sum())
+        .collect();
     Ok(DrivenMotion { q, qd, qdd, effort })
 }
 
@@ -299,20 +285,9 @@ pub fn driven_efforts(
 /// # Errors
 /// [`LoopError::Singular`] where the loops do not determine the dependent joints.
 pub fn driven_mass_matrix(robot: &Robot, q: &JointPositions) -> Result<DMatrix<f64>, LoopError> {
-    let n = robot.n();
-    let independent = robot.independent();
     let mass = super::mass_matrix(robot, q);
-    let mut closure = Closure::new(robot);
-    closure.update(robot, q.as_slice(), &vec![0.0; n]);
-    let columns = independent
-        .iter()
-        .map(|&i| {
-            let mut column = vec![0.0; n];
-            column[i] = 1.0;
-            closure.complete(robot, None, &mut column)?;
-            Ok(DVector::from_vec(column))
-        })
-        .collect::<Result<Vec<_>, LoopError>>()?;
+    let motions = independent_motions(robot, q.as_slice())?;
+    let columns: Vec<DVector<f64>> = motions.column_iter().map(|b| b.into_owned()).collect();
     let k = columns.len();
     let moved: Vec<DVector<f64>> = columns.iter().map(|column| &mass * column).collect();
     Ok(DMatrix::from_fn(k, k, |i, j| columns[i].dot(&moved[j])))
