@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`source`] | text from outside, and errors that point into it |
 //! | [`robot`] | the immutable robot and its TOML description |
+//! | [`scene`] | what is around the robot, and its TOML description |
 //! | [`joint`] | vectors over the joints that move |
 //! | [`spatial`] | poses, twists, symmetric tensors |
 //! | [`kinematics`] | where frames are and how they move |
@@ -13,6 +14,7 @@
 //! | [`control`] | joint servos: command in, effort out |
 //! | [`trajectory`] | time in; position, velocity, acceleration out |
 //! | [`ticks`] | time as whole numbers of physics steps |
+//! | [`random`] | numbers drawn from a seed |
 //! | [`run`] | the tick loop: observe, control, servo, step |
 //! | [`trace`] | the columns of one run and their digests |
 //!
@@ -32,8 +34,10 @@ pub mod control;
 pub mod dynamics;
 pub mod joint;
 pub mod kinematics;
+pub mod random;
 pub mod robot;
 pub mod run;
+pub mod scene;
 pub mod source;
 pub mod spatial;
 pub mod ticks;

@@ -56,7 +56,7 @@ pub trait Problem: fmt::Debug + fmt::Display + Send + Sync + 'static {
 
 /// A [`Problem`] with its place in a [`Source`].
 #[derive(Debug)]
-pub struct Located<P: Problem> {
+pub struct Located<P> {
     /// What is wrong.
     pub problem: P,
     inner: Box<Place>,
@@ -69,7 +69,7 @@ struct Place {
     at: SourceSpan,
 }
 
-impl<P: Problem> Located<P> {
+impl<P> Located<P> {
     /// Puts `problem` at the bytes `at` of `source`.
     pub fn new(problem: P, source: &Source, at: std::ops::Range<usize>) -> Self {
         let named = NamedSource::new(source.name(), source.text().to_owned());
@@ -80,6 +80,14 @@ impl<P: Problem> Located<P> {
                 named,
                 at: (at.start, at.end.saturating_sub(at.start)).into(),
             }),
+        }
+    }
+
+    /// The same place with the problem said in other words.
+    pub(crate) fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
+        Located {
+            problem: words(self.problem),
+            inner: self.inner,
         }
     }
 

@@ -15,6 +15,14 @@ pub struct Twist {
 }
 
 impl Twist {
+    /// No velocity at all.
+    pub fn zero() -> Self {
+        Self {
+            linear: Vector3::zeros(),
+            angular: Vector3::zeros(),
+        }
+    }
+
     /// Stacks as `[linear; angular]`, the row order of every Jacobian here.
     pub fn to_vector(self) -> Vector6<f64> {
         Vector6::new(

@@ -13,6 +13,7 @@ mod loops;
 mod mesh_files;
 mod mesh_solids;
 mod robot_files;
+mod scenes;
 mod trajectories;
 mod urdf;
 mod urdf_mistakes;

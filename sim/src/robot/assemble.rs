@@ -9,8 +9,10 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::description::{Description, JointPart};
+use super::file::KIND;
 use super::inertia::Inertia;
 use super::model::{Attachment, Body, Frame, Joint, JointKind, Link, Loop, Mimic, Robot};
+use super::part::PartProblem;
 use super::problem::{RobotError, RobotProblem};
 use crate::kinematics::closure;
 use crate::source::suggest;
@@ -37,8 +39,8 @@ struct Assembler<'a> {
 }
 
 impl Assembler<'_> {
-    fn err<T>(&self, at: Range<usize>, problem: RobotProblem) -> Result<T, RobotError> {
-        Err(RobotError::new(problem, &self.parts.source, at))
+    fn err<T>(&self, at: Range<usize>, problem: impl Into<RobotProblem>) -> Result<T, RobotError> {
+        Err(RobotError::new(problem.into(), &self.parts.source, at))
     }
 
     /// Names of one kind, each checked to be usable and to be there once.
@@ -54,11 +56,18 @@ impl Assembler<'_> {
             // `world` may be the root, as URDFs have it, and nothing else
             if name.trim().is_empty() || (name == "world" && (what, index) != ("link", 0)) {
                 let name = name.to_owned();
-                return self.err(at.span(), RobotProblem::BadName { what, name });
+                return self.err(
+                    at.span(),
+                    PartProblem::BadName {
+                        what,
+                        name,
+                        help: "a name is not empty, and `world` is taken by the world itself",
+                    },
+                );
             }
             if taken.contains_key(name) || seen.insert(name, index).is_some() {
                 let name = name.to_owned();
-                return self.err(at.span(), RobotProblem::Duplicate { what, name });
+                return self.err(at.span(), PartProblem::Duplicate { what, name });
             }
         }
         Ok(seen)
@@ -90,7 +99,9 @@ impl Assembler<'_> {
             return self.err(parts.at.clone(), RobotProblem::NoLinks);
         }
         if parts.links.len() > MOST_LINKS {
-            let problem = RobotProblem::TooLarge {
+            let problem = PartProblem::TooLarge {
+                kind: KIND,
+                parts: "links",
                 found: parts.links.len(),
                 most: MOST_LINKS,
             };

@@ -2,22 +2,27 @@
 //! check may point at keeps its span.
 
 use std::fmt;
-use std::sync::Arc;
 
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use super::mesh::Mesh;
-use super::problem::{RobotError, RobotProblem};
+use super::part::tables::{
+    ContactTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
+};
+use super::part::{Meshes, PartProblem};
+use super::problem::RobotError;
 use crate::source::{Source, TomlRefusal};
+
+/// What messages call this kind of file.
+pub(super) const KIND: &str = "robot";
 
 /// A robot file: its text and its tables. [`RobotFile::build`](RobotFile::build) makes the robot.
 #[derive(Debug, Clone)]
 pub struct RobotFile {
     pub(super) source: Source,
     pub(super) tables: Tables,
-    meshes: Vec<(String, Arc<Mesh>)>,
+    pub(super) meshes: Meshes,
 }
 
 impl RobotFile {
@@ -30,15 +35,12 @@ impl RobotFile {
             Ok(tables) => Ok(Self {
                 source,
                 tables,
-                meshes: Vec::new(),
+                meshes: Meshes::default(),
             }),
             Err(error) => {
                 let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
-                Err(RobotError::new(
-                    RobotProblem::Toml { message, help },
-                    &source,
-                    at,
-                ))
+                let problem = PartProblem::Toml { message, help };
+                Err(RobotError::new(problem.into(), &source, at))
             }
         }
     }
@@ -49,40 +51,11 @@ impl RobotFile {
     /// A file that cannot be read, or is no mesh.
     pub fn with_meshes(
         mut self,
-        mut read: impl FnMut(&str) -> Result<Vec<u8>, String>,
+        read: impl FnMut(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, RobotError> {
-        for link in &self.tables.links {
-            for shape in &link.shapes {
-                let Some(table) = &shape.get_ref().mesh else {
-                    continue;
-                };
-                let file = table.file.get_ref();
-                if self.meshes.iter().any(|(name, _)| name == file) {
-                    continue;
-                }
-                let refuse = |message: String, help: Option<String>| {
-                    RobotError::new(
-                        RobotProblem::Mesh { message, help },
-                        &self.source,
-                        table.file.span(),
-                    )
-                };
-                let bytes = read(file).map_err(|why| {
-                    let help = "the path starts at the folder of the robot file".to_owned();
-                    refuse(format!("mesh `{file}`: {why}"), Some(help))
-                })?;
-                let mesh = Mesh::parse(file, &bytes).map_err(|problem| {
-                    refuse(format!("mesh `{file}`: {problem}"), problem.help())
-                })?;
-                self.meshes.push((file.clone(), Arc::new(mesh)));
-            }
-        }
+        let shapes = self.tables.links.iter().flat_map(|link| &link.shapes);
+        self.meshes = Meshes::read(&self.source, KIND, shapes, read)?;
         Ok(self)
-    }
-
-    pub(super) fn mesh(&self, file: &str) -> Option<&Arc<Mesh>> {
-        let found = self.meshes.iter().find(|(name, _)| name == file);
-        found.map(|(_, mesh)| mesh)
     }
 
     /// The text it was read from.
@@ -215,42 +188,6 @@ impl<'de> Deserialize<'de> for Dimension {
     }
 }
 
-/// A number as typed: a literal, or an expression over the dimensions.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Number {
-    Literal(f64),
-    Expression(String),
-}
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct LiteralOrText;
-        impl Visitor<'_> for LiteralOrText {
-            type Value = Number;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or an expression over the dimensions")
-            }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
-                Ok(Number::Literal(value as f64))
-            }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
-                if value.is_finite() {
-                    Ok(Number::Literal(value))
-                } else {
-                    Err(E::custom(format!("expected a finite number, got {value}")))
-                }
-            }
-            fn visit_str<E: de::Error>(self, value: &str) -> Result<Number, E> {
-                Ok(Number::Expression(value.to_owned()))
-            }
-        }
-        deserializer.deserialize_any(LiteralOrText)
-    }
-}
-
-pub(super) type NumberAt = Spanned<Number>;
-pub(super) type TripleAt = Spanned<[NumberAt; 3]>;
-
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tables {
@@ -277,62 +214,6 @@ pub(super) struct LinkTable {
     pub(super) shapes: Vec<Spanned<ShapeTable>>,
     pub(super) inertia: Option<Spanned<InertiaTable>>,
     pub(super) contact: Option<ContactTable>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ShapeTable {
-    #[serde(rename = "box")]
-    pub(super) cuboid: Option<BoxTable>,
-    pub(super) cylinder: Option<RoundTable>,
-    pub(super) capsule: Option<RoundTable>,
-    pub(super) sphere: Option<SphereTable>,
-    pub(super) mesh: Option<MeshTable>,
-    pub(super) origin: Option<OriginTable>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BoxTable {
-    pub(super) size_m: [NumberAt; 3],
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RoundTable {
-    pub(super) radius_m: NumberAt,
-    pub(super) length_m: NumberAt,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SphereTable {
-    pub(super) radius_m: NumberAt,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MeshTable {
-    pub(super) file: Spanned<String>,
-    pub(super) scale: Option<[NumberAt; 3]>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct InertiaTable {
-    pub(super) mass_kg: Option<NumberAt>,
-    pub(super) density_kg_m3: Option<NumberAt>,
-    pub(super) com_m: Option<[NumberAt; 3]>,
-    pub(super) tensor_kg_m2: Option<Spanned<[NumberAt; 6]>>,
-    #[serde(default)]
-    pub(super) accept_unphysical: bool,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ContactTable {
-    pub(super) friction: NumberAt,
-    pub(super) restitution: Option<NumberAt>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -443,16 +324,4 @@ pub(super) struct FrameTable {
     pub(super) name: Spanned<String>,
     pub(super) link: Spanned<String>,
     pub(super) origin: Option<OriginTable>,
-}
-
-/// Position, and at most one way to say the rotation: `rpy_deg`, `axis` with `angle_deg`, or `x_axis` with `y_axis`.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct OriginTable {
-    pub(super) xyz_m: Option<[NumberAt; 3]>,
-    pub(super) rpy_deg: Option<Spanned<[NumberAt; 3]>>,
-    pub(super) axis: Option<TripleAt>,
-    pub(super) angle_deg: Option<NumberAt>,
-    pub(super) x_axis: Option<TripleAt>,
-    pub(super) y_axis: Option<TripleAt>,
 }

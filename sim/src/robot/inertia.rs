@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::mesh::{Mesh, MeshProblem};
 use crate::spatial::{Pose, Symmetric3};
@@ -69,7 +69,7 @@ impl Inertia {
     }
 }
 
-/// A mesh as a robot uses it.
+/// A mesh as a robot or a scene uses it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshSolid {
     /// The file as the description names it.
@@ -78,6 +78,8 @@ pub struct MeshSolid {
     pub scale: [f64; 3],
     /// Its triangles, scaled \[m\].
     pub mesh: Arc<Mesh>,
+    /// Whether it touches others as its convex hull; else as the triangles themselves, which only fixed bodies may.
+    pub convex: bool,
 }
 
 /// A solid of uniform density, centred on its own frame; the axis of round ones is `z`, a mesh lies as its file says.
@@ -194,9 +196,7 @@ impl Solid {
 /// Why a tensor about a centre of mass cannot belong to any body, if it cannot: a negative principal moment, or one larger than
 /// the sum of the other two (the triangle inequality).
 pub fn unphysical(tensor: &Symmetric3) -> Option<String> {
-    let full: Matrix3<f64> = tensor.to_matrix();
-    let mut moments: Vec<f64> = full.symmetric_eigenvalues().iter().copied().collect();
-    moments.sort_by(f64::total_cmp);
+    let moments = principal_moments(tensor);
     let slack = 1e-9 * moments[2].abs(); // printed tensors are rounded
     if moments[0] < -slack {
         return Some(format!(
@@ -213,9 +213,23 @@ pub fn unphysical(tensor: &Symmetric3) -> Option<String> {
     None
 }
 
+/// The principal moments of an inertia tensor \[kg m²\], least first; not numbers where the tensor is not finite.
+pub(crate) fn principal_moments(tensor: &Symmetric3) -> [f64; 3] {
+    let full = tensor.to_matrix();
+    // scaled first: neither squares that overflow nor numbers that are none may reach the iteration
+    let largest = full.amax();
+    if largest == 0.0 || !full.iter().all(|x| x.is_finite()) {
+        return full.diagonal().map(|x| x * 0.0).into();
+    }
+    let mut moments: [f64; 3] = (full / largest).symmetric_eigenvalues().into();
+    moments.sort_by(f64::total_cmp);
+    moments.map(|moment| moment * largest)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Matrix3;
 
     #[test]
     fn a_capsule_without_barrel_is_a_ball() {
@@ -274,6 +288,28 @@ mod tests {
         assert!(
             (sum.about_com_kg_m2.to_matrix() - whole.about_com_kg_m2.to_matrix()).norm() < 1e-15
         );
+    }
+
+    #[test]
+    fn principal_moments_of_any_size_come_to_an_end() {
+        let tensor = |size: f64| Symmetric3 {
+            xx: 2.0 * size,
+            yy: 2.0 * size,
+            zz: 4.0 * size,
+            xy: size,
+            ..Symmetric3::default()
+        };
+        for size in [1e-300, 1.0, 1e300] {
+            // (2, 1; 1, 2) has the eigenvalues 1 and 3
+            let moments = principal_moments(&tensor(size)).map(|moment| moment / size);
+            for (moment, expected) in moments.into_iter().zip([1.0, 3.0, 4.0]) {
+                assert!((moment - expected).abs() < 1e-14, "{moments:?}");
+            }
+        }
+        for broken in [f64::NAN, f64::INFINITY] {
+            assert!(principal_moments(&tensor(broken))[0].is_nan());
+        }
+        assert_eq!(principal_moments(&tensor(0.0)), [0.0; 3]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! A robot file ([`mod@file`], with arithmetic over its dimensions in [`expression`]), a URDF ([`urdf`]) or a configuration
 //! string ([`config_string`]) becomes parts with places; the parts become the robot, which can be written as a robot file again.
+//! What robot files share with scene files is in [`part`].
 
 mod assemble;
 pub mod config_string;
@@ -11,6 +12,7 @@ pub mod file;
 pub mod inertia;
 pub mod mesh;
 pub mod model;
+pub mod part;
 pub mod problem;
 mod resolve;
 pub mod urdf;

@@ -1,8 +1,6 @@
 //! From the tables of a robot file to parts: expressions become numbers, origins poses, DH rows joints.
 
 mod dh;
-mod mass;
-mod origin;
 
 use std::ops::Range;
 
@@ -11,16 +9,15 @@ use toml::Spanned;
 
 use super::assemble::axes_with_z_along;
 use super::description::{Description, FramePart, JointPart, LinkPart, LoopPart, MimicPart};
-use super::expression;
 use super::file::{
-    Dimension, Dimensions, JointTable, JointType, LimitTable, LoopTable, LoopType, MimicTable,
-    Number, NumberAt, RobotFile,
+    Dimension, JointTable, JointType, KIND, LimitTable, LoopTable, LoopType, MimicTable, RobotFile,
 };
-use super::inertia::Inertia;
-use super::model::{Contact, JointKind, Limits, LoopKind, Robot};
+use super::inertia::{Inertia, Solid};
+use super::model::{JointKind, Limits, LoopKind, Robot, Shape};
+use super::part::tables::{NumberAt, ShapeTable};
+use super::part::{Allowed, PartProblem, Values, changed_dimensions};
 use super::problem::{RobotError, RobotProblem};
-use crate::source::{Source, suggest};
-use crate::spatial::{direction, pose};
+use crate::spatial::pose;
 
 impl RobotFile {
     /// Makes the robot, with the dimensions `changed` instead of the file's (those of a variant or a hidden case).
@@ -28,131 +25,29 @@ impl RobotFile {
     /// # Errors
     /// Whatever makes the description no robot: see [`RobotProblem`].
     pub fn build(&self, changed: &[(String, Dimension)]) -> Result<Robot, RobotError> {
-        let mut dimensions = self.tables.dimensions.clone();
-        for (name, value) in changed {
-            check_change(&self.source, &dimensions, name, value)?;
-            dimensions.set(name.clone(), value.clone());
-        }
+        let dimensions = &self.tables.dimensions;
+        let dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
         let resolver = Resolver {
             file: self,
-            dimensions: &dimensions,
+            values: Values {
+                source: &self.source,
+                kind: KIND,
+                dimensions: &dimensions,
+                meshes: &self.meshes,
+            },
         };
         resolver.description()?.assemble()
     }
 }
 
-fn check_change(
-    source: &Source,
-    dimensions: &Dimensions,
-    name: &str,
-    value: &Dimension,
-) -> Result<(), RobotError> {
-    let at = source
-        .text()
-        .find("[dimensions]")
-        .map_or(0..0, |start| start..start + "[dimensions]".len());
-    let problem = match dimensions.get(name) {
-        None => RobotProblem::UnknownDimension {
-            name: name.to_owned(),
-            help: suggest(name, "dimensions", dimensions.names()),
-        },
-        Some(old) if old.to_string() != value.to_string() => RobotProblem::DimensionShape {
-            name: name.to_owned(),
-            expected: old.to_string(),
-            found: value.to_string(),
-        },
-        Some(_) => return Ok(()),
-    };
-    Err(RobotError::new(problem, source, at))
-}
-
 struct Resolver<'a> {
     file: &'a RobotFile,
-    dimensions: &'a Dimensions,
-}
-
-/// What a number may be.
-#[derive(Clone, Copy)]
-enum Allowed {
-    Any,
-    Positive,
-    NotNegative,
+    values: Values<'a>,
 }
 
 impl Resolver<'_> {
-    fn err<T>(&self, at: Range<usize>, problem: RobotProblem) -> Result<T, RobotError> {
-        Err(RobotError::new(problem, &self.file.source, at))
-    }
-
-    fn number(&self, number: &NumberAt, what: &str, allowed: Allowed) -> Result<f64, RobotError> {
-        let span = number.span();
-        let value = match number.get_ref() {
-            Number::Literal(value) => *value,
-            Number::Expression(text) => match expression::evaluate(text, self.dimensions) {
-                Ok(value) => value,
-                Err(problem) => {
-                    // inside the quotes, where the text stands as typed
-                    let inside = span.start + 1;
-                    let typed = self.file.source.text().get(inside..inside + text.len());
-                    let at = if typed == Some(text.as_str()) {
-                        inside + problem.at.start..inside + problem.at.end
-                    } else {
-                        span
-                    };
-                    let (message, help) = (problem.message, problem.help);
-                    return self.err(at, RobotProblem::Expression { message, help });
-                }
-            },
-        };
-        let expected = match allowed {
-            Allowed::Positive if value <= 0.0 => "positive",
-            Allowed::NotNegative if value < 0.0 => "zero or more",
-            _ => return Ok(value),
-        };
-        self.err(
-            span,
-            RobotProblem::OutOfRange {
-                what: what.to_owned(),
-                expected,
-                found: value.to_string(),
-            },
-        )
-    }
-
-    fn number_or(
-        &self,
-        number: Option<&NumberAt>,
-        what: &str,
-        allowed: Allowed,
-        absent: f64,
-    ) -> Result<f64, RobotError> {
-        number.map_or(Ok(absent), |number| self.number(number, what, allowed))
-    }
-
-    fn triple(&self, numbers: &[NumberAt; 3], what: &str) -> Result<Vector3<f64>, RobotError> {
-        let [x, y, z] = numbers;
-        Ok(Vector3::new(
-            self.number(x, what, Allowed::Any)?,
-            self.number(y, what, Allowed::Any)?,
-            self.number(z, what, Allowed::Any)?,
-        ))
-    }
-
-    fn unit(
-        &self,
-        numbers: &Spanned<[NumberAt; 3]>,
-        what: &str,
-    ) -> Result<Vector3<f64>, RobotError> {
-        let axis = self.triple(numbers.get_ref(), what)?;
-        if let Some(unit) = direction(axis) {
-            return Ok(unit);
-        }
-        self.err(
-            numbers.span(),
-            RobotProblem::Axis {
-                message: format!("{what} is zero"),
-            },
-        )
+    fn err<T>(&self, at: Range<usize>, problem: impl Into<RobotProblem>) -> Result<T, RobotError> {
+        Err(RobotError::new(problem.into(), &self.file.source, at))
     }
 
     fn limits(
@@ -169,7 +64,7 @@ impl Resolver<'_> {
         } = table.get_ref();
         let read = |n: &Option<NumberAt>, what, allowed| {
             n.as_ref()
-                .map(|n| self.number(n, what, allowed))
+                .map(|n| self.values.number(n, what, allowed))
                 .transpose()
         };
         let limits = Limits {
@@ -212,16 +107,16 @@ impl Resolver<'_> {
             (Some(axis), JointKind::Fixed) => {
                 return self.err(
                     axis.span(),
-                    RobotProblem::Axis {
+                    PartProblem::Axis {
                         message: format!("joint `{name}` is fixed and has no axis"),
                     },
                 );
             }
-            (Some(axis), _) => self.unit(axis, &format!("axis of joint `{name}`"))?,
+            (Some(axis), _) => self.values.unit(axis, &format!("axis of joint `{name}`"))?,
             (None, _) => {
                 return self.err(
                     table.name.span(),
-                    RobotProblem::Axis {
+                    PartProblem::Axis {
                         message: format!("joint `{name}` moves but has no axis"),
                     },
                 );
@@ -231,7 +126,7 @@ impl Resolver<'_> {
             kind,
             parent: table.parent.clone(),
             child: table.child.clone(),
-            parent_from_child: self.origin(table.origin.as_ref())?,
+            parent_from_child: self.values.origin(table.origin.as_ref())?,
             axis,
             damping: self.not_negative(&table.damping, "damping")?,
             dry_friction: self.not_negative(&table.dry_friction, "dry_friction")?,
@@ -242,7 +137,9 @@ impl Resolver<'_> {
             },
             mimic: self.mimic(table.mimic.as_ref())?,
             passive: table.passive,
-            guess: self.number_or(table.guess.as_ref(), "guess", Allowed::Any, 0.0)?,
+            guess: self
+                .values
+                .number_or(table.guess.as_ref(), "guess", Allowed::Any, 0.0)?,
             name: table.name.clone(),
         })
     }
@@ -252,13 +149,17 @@ impl Resolver<'_> {
         number: &Option<NumberAt>,
         what: &'static str,
     ) -> Result<f64, RobotError> {
-        self.number_or(number.as_ref(), what, Allowed::NotNegative, 0.0)
+        let number = number.as_ref();
+        Ok(self
+            .values
+            .number_or(number, what, Allowed::NotNegative, 0.0)?)
     }
 
     fn mimic(&self, table: Option<&MimicTable>) -> Result<Option<MimicPart>, RobotError> {
         let Some(table) = table else { return Ok(None) };
         let number = |n: &Option<NumberAt>, what, absent| {
-            self.number_or(n.as_ref(), what, Allowed::Any, absent)
+            self.values
+                .number_or(n.as_ref(), what, Allowed::Any, absent)
         };
         Ok(Some(MimicPart {
             joint: table.joint.clone(),
@@ -277,13 +178,13 @@ impl Resolver<'_> {
         let turned = match &table.axis {
             None => pose(nalgebra::Matrix3::identity(), Vector3::zeros()),
             Some(axis) if kind == LoopKind::Revolute => pose(
-                axes_with_z_along(&self.unit(axis, "axis of a loop")?),
+                axes_with_z_along(&self.values.unit(axis, "axis of a loop")?),
                 Vector3::zeros(),
             ),
             Some(axis) => {
                 return self.err(
                     axis.span(),
-                    RobotProblem::Axis {
+                    PartProblem::Axis {
                         message: "a point has no axis; only a revolute loop has".to_owned(),
                     },
                 );
@@ -294,10 +195,32 @@ impl Resolver<'_> {
             kind,
             links: table.links.clone(),
             link_from_end: [
-                self.origin(table.frame_on_first.as_ref())? * turned,
-                self.origin(table.frame_on_second.as_ref())? * turned,
+                self.values.origin(table.frame_on_first.as_ref())? * turned,
+                self.values.origin(table.frame_on_second.as_ref())? * turned,
             ],
         })
+    }
+
+    fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, RobotError> {
+        if let Some(convex) = table
+            .get_ref()
+            .mesh
+            .as_ref()
+            .and_then(|m| m.convex.as_ref())
+        {
+            let problem = PartProblem::Toml {
+                message: "`convex` belongs to the bodies of a scene".to_owned(),
+                help: Some(
+                    "leave it out: a link touches others as the convex hull of its mesh".to_owned(),
+                ),
+            };
+            return self.err(convex.span(), problem);
+        }
+        let mut shape = self.values.shape(table)?;
+        if let Solid::Mesh(mesh) = &mut shape.solid {
+            mesh.convex = true;
+        }
+        Ok(shape)
     }
 
     fn links(&self) -> Result<Vec<LinkPart>, RobotError> {
@@ -309,21 +232,14 @@ impl Resolver<'_> {
                 .map(|shape| self.shape(shape))
                 .collect::<Result<Vec<_>, _>>()?;
             let inertia = match &table.inertia {
-                Some(inertia) => self.inertia(table, &shapes, inertia)?,
+                Some(inertia) => {
+                    let owner = format!("link `{}`", table.name.get_ref());
+                    self.values.inertia(&owner, &shapes, inertia)?
+                }
                 None => Inertia::zero(),
             };
-            let contact = match &table.contact {
-                Some(contact) => Some(Contact {
-                    friction: self.number(&contact.friction, "friction", Allowed::NotNegative)?,
-                    restitution: self.number_or(
-                        contact.restitution.as_ref(),
-                        "restitution",
-                        Allowed::NotNegative,
-                        0.0,
-                    )?,
-                }),
-                None => None,
-            };
+            let contact = table.contact.as_ref();
+            let contact = contact.map(|c| self.values.contact(c)).transpose()?;
             links.push(LinkPart {
                 name: table.name.clone(),
                 shapes,
@@ -338,7 +254,10 @@ impl Resolver<'_> {
         let tables = &self.file.tables;
         if *tables.format.get_ref() != 1 {
             let found = *tables.format.get_ref();
-            return self.err(tables.format.span(), RobotProblem::UnknownFormat { found });
+            return self.err(
+                tables.format.span(),
+                PartProblem::UnknownFormat { kind: KIND, found },
+            );
         }
         let frames = tables
             .frames
@@ -347,7 +266,7 @@ impl Resolver<'_> {
                 Ok(FramePart {
                     name: table.name.clone(),
                     link: table.link.clone(),
-                    link_from_frame: self.origin(table.origin.as_ref())?,
+                    link_from_frame: self.values.origin(table.origin.as_ref())?,
                 })
             })
             .collect::<Result<_, RobotError>>()?;
@@ -355,7 +274,7 @@ impl Resolver<'_> {
             source: self.file.source.clone(),
             name: tables.name.get_ref().clone(),
             at: tables.name.span(),
-            dimensions: self.dimensions.clone(),
+            dimensions: self.values.dimensions.clone(),
             links: self.links()?,
             joints: Vec::new(),
             frames,
@@ -387,6 +306,7 @@ fn kind(word: JointType) -> JointKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Source;
 
     fn parse(text: &str) -> Result<Robot, RobotError> {
         RobotFile::parse(Source::new("robot.toml", text))?.build(&[])
@@ -426,6 +346,16 @@ mod tests {
                 joint("axis = [0, 0, 1]\norigin = { rpy_deg = [0, 0, 0], angle_deg = 3 }"),
                 "robot::origin",
                 13,
+            ),
+            (
+                format!("{HEAD}contact = {{ friction = 1, restitution = 1.1 }}"),
+                "robot::out_of_range",
+                7,
+            ),
+            (
+                format!("{HEAD}shapes = [{{ mesh = {{ file = \"a.stl\", convex = true }} }}]"),
+                "robot::toml",
+                7,
             ),
             (
                 joint("axis = [0, 0, 1]").replace("child = \"arm\"", "child = \"amr\""),

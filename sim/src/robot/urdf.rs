@@ -29,8 +29,10 @@ use self::shape::Meshes;
 use super::assemble::MOST_LINKS;
 use super::description::{Description, JointPart, LinkPart};
 use super::file::Dimensions;
+use super::file::KIND;
 use super::model::Robot;
-use super::problem::{RobotError, RobotProblem};
+use super::part::PartProblem;
+use super::problem::RobotError;
 use crate::source::{Source, nearest};
 
 /// How a URDF is read.
@@ -47,7 +49,7 @@ pub struct UrdfOptions {
 /// [`Robot::warnings`], and its shape is left out.
 ///
 /// # Errors
-/// Whatever makes the text no robot, with its place: see [`RobotProblem`].
+/// Whatever makes the text no robot, with its place: see [`RobotProblem`](super::RobotProblem).
 pub fn robot(
     source: Source,
     options: &UrdfOptions,
@@ -80,7 +82,15 @@ fn describe(
     let found = links.len() + joints.iter().map(|j| j.kind.links_between()).sum::<usize>();
     if found > MOST_LINKS {
         let most = MOST_LINKS;
-        return reader.err(Reader::tag(root), RobotProblem::TooLarge { found, most });
+        return reader.err(
+            Reader::tag(root),
+            PartProblem::TooLarge {
+                kind: KIND,
+                parts: "links",
+                found,
+                most,
+            },
+        );
     }
     let names: Vec<&Spanned<String>> = links.iter().map(|(name, _)| name).collect();
     let base = tree::root(&reader, root, &names, &joints)?;

@@ -9,10 +9,11 @@
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
-use super::{Allowed, Resolver, kind};
+use super::{Resolver, kind};
 use crate::robot::description::{Description, FramePart, JointPart, LinkPart};
 use crate::robot::file::{DhConvention, DhRowTable, DhTable};
 use crate::robot::model::{JointKind, Limits};
+use crate::robot::part::Allowed;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::spatial::{Pose, pose, rotation_from_rpy_deg};
 
@@ -51,7 +52,7 @@ impl Resolver<'_> {
         };
         let mut carrier = base.name.clone();
         description.links.push(base);
-        let mut before = self.origin(table.base.as_ref())?;
+        let mut before = self.values.origin(table.base.as_ref())?;
         for (row, name) in table.rows.iter().zip(&names) {
             let at = given
                 .iter()
@@ -67,7 +68,7 @@ impl Resolver<'_> {
             description.frames.push(FramePart {
                 name: Spanned::new(table.convention.span(), "tcp".to_owned()),
                 link: carrier,
-                link_from_frame: self.origin(table.tool.as_ref())?,
+                link_from_frame: self.values.origin(table.tool.as_ref())?,
             });
         } else if table.tool.is_some() {
             return self.err(
@@ -93,7 +94,8 @@ impl Resolver<'_> {
     ) -> Result<(), RobotError> {
         let row = row.get_ref();
         let joint = row.joint.get_ref();
-        let number = |n: &Option<_>, what| self.number_or(n.as_ref(), what, Allowed::Any, 0.0);
+        let number =
+            |n: &Option<_>, what| self.values.number_or(n.as_ref(), what, Allowed::Any, 0.0);
         let along_x = pose(
             rotation_from_rpy_deg([number(&row.alpha_deg, "alpha_deg")?, 0.0, 0.0]),
             Vector3::new(number(&row.a_m, "a_m")?, 0.0, 0.0),
@@ -102,7 +104,9 @@ impl Resolver<'_> {
             rotation_from_rpy_deg([0.0, 0.0, number(&row.theta_deg, "theta_deg")?]),
             Vector3::new(0.0, 0.0, number(&row.d_m, "d_m")?),
         );
-        let direction = self.number_or(row.direction.as_ref(), "direction", Allowed::Any, 1.0)?;
+        let direction =
+            self.values
+                .number_or(row.direction.as_ref(), "direction", Allowed::Any, 1.0)?;
         if ![1.0, -1.0].contains(&direction) {
             return self.err(
                 row.joint.span(),

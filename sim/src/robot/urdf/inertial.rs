@@ -3,7 +3,8 @@
 use super::reader::{Allowed, Node, Reader};
 use crate::robot::inertia::{Inertia, unphysical};
 use crate::robot::model::{JointKind, Robot};
-use crate::robot::problem::{RobotError, RobotProblem};
+use crate::robot::part::PartProblem;
+use crate::robot::problem::RobotError;
 use crate::spatial::{Pose, Symmetric3};
 
 /// Reads `<inertial>`; a link without it has no mass.
@@ -61,7 +62,7 @@ fn incomplete<T>(
     help: &str,
 ) -> Result<T, RobotError> {
     let help = help.to_owned();
-    reader.err(Reader::tag(node), RobotProblem::Inertia { message, help })
+    reader.err(Reader::tag(node), PartProblem::Inertia { message, help })
 }
 
 /// The tensor, all six numbers, in the axes of the inertial frame.

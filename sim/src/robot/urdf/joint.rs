@@ -8,6 +8,7 @@ use super::reader::{Allowed, Node, Reader};
 use crate::robot::assemble::axes_with_z_along;
 use crate::robot::description::{JointPart, LinkPart, MimicPart};
 use crate::robot::model::JointKind;
+use crate::robot::part::PartProblem;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::source::suggest;
 use crate::spatial::{Pose, direction};
@@ -247,7 +248,7 @@ fn axis(reader: &mut Reader<'_>, node: Node<'_>, owner: &str) -> Result<Vector3<
             let message = format!("the axis of {owner} is zero");
             reader.err(
                 at.unwrap_or_else(|| Reader::tag(axis)),
-                RobotProblem::Axis { message },
+                PartProblem::Axis { message },
             )
         }
     }

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use roxmltree::Attribute;
 use toml::Spanned;
 
+use crate::robot::part::PartProblem;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::source::{Source, nearest};
 use crate::spatial::{Pose, pose, rotation_from_rpy};
@@ -51,8 +52,12 @@ impl<'s> Reader<'s> {
         }
     }
 
-    pub(super) fn err<T>(&self, at: Range<usize>, problem: RobotProblem) -> Result<T, RobotError> {
-        Err(RobotError::new(problem, self.source, at))
+    pub(super) fn err<T>(
+        &self,
+        at: Range<usize>,
+        problem: impl Into<RobotProblem>,
+    ) -> Result<T, RobotError> {
+        Err(RobotError::new(problem.into(), self.source, at))
     }
 
     /// A problem that only URDFs have.
@@ -207,7 +212,7 @@ impl<'s> Reader<'s> {
         };
         let [value] = self.list(&attribute, owner)?;
         if allowed == Allowed::NotNegative && value < 0.0 {
-            let problem = RobotProblem::OutOfRange {
+            let problem = PartProblem::OutOfRange {
                 what: format!("{} `{name}` of {owner}", node.tag_name().name()),
                 expected: "zero or more",
                 found: value.to_string(),

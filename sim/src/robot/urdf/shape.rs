@@ -7,7 +7,8 @@ use super::reader::{Allowed, Node, Reader, elements};
 use crate::robot::inertia::{MeshSolid, Solid};
 use crate::robot::mesh::Mesh;
 use crate::robot::model::Shape;
-use crate::robot::problem::{RobotError, RobotProblem};
+use crate::robot::part::PartProblem;
+use crate::robot::problem::RobotError;
 
 /// A mesh file may be used at this many scales: each is a copy of its own.
 const MOST_SCALES: usize = 8;
@@ -132,7 +133,7 @@ fn solid(
             let at = reader.required(node, "size", owner)?.span();
             let size_m = reader.triple(node, "size", owner)?.unwrap_or_default();
             if let Some(negative) = size_m.iter().find(|size| **size < 0.0) {
-                let problem = RobotProblem::OutOfRange {
+                let problem = PartProblem::OutOfRange {
                     what: format!("box `size` of {owner}"),
                     expected: "zero or more",
                     found: negative.to_string(),
@@ -180,7 +181,7 @@ fn mesh(
     let file = filename.get_ref();
     let scale = reader.triple(node, "scale", owner)?.unwrap_or([1.0; 3]);
     if scale.contains(&0.0) {
-        let problem = RobotProblem::Mesh {
+        let problem = PartProblem::Mesh {
             message: format!("{owner}: mesh `{file}` is scaled to nothing"),
             help: Some("no part of `scale` may be zero".to_owned()),
         };
@@ -192,6 +193,7 @@ fn mesh(
             file: file.as_str().into(),
             scale,
             mesh,
+            convex: true, // as every mesh that moves
         }))),
         Err(why) => {
             reader.warn(filename.span(), &format!("{owner}: mesh `{file}` {why}"));

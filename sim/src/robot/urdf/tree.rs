@@ -6,6 +6,7 @@ use toml::Spanned;
 
 use super::joint::Head;
 use super::reader::{Node, Reader};
+use crate::robot::part::PartProblem;
 use crate::robot::problem::{RobotError, RobotProblem};
 use crate::source::suggest;
 
@@ -21,7 +22,7 @@ pub(super) fn root(
         let name = at.get_ref().as_str();
         if index.insert(name, i).is_some() {
             let (what, name) = ("link", name.to_owned());
-            return reader.err(at.span(), RobotProblem::Duplicate { what, name });
+            return reader.err(at.span(), PartProblem::Duplicate { what, name });
         }
     }
     // a name that is not there would otherwise look like a second root

@@ -1,21 +1,21 @@
-//! What a link is made of: its shapes, and its mass properties given or taken from them.
+//! What a link or a body is made of: its shapes and surface, and its mass properties given or taken from the shapes.
 
 use std::sync::Arc;
 
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::{Allowed, Resolver};
-use crate::robot::file::{InertiaTable, LinkTable, MeshTable, RoundTable, ShapeTable};
+use super::tables::{ContactTable, InertiaTable, MeshTable, RoundTable, ShapeTable};
+use super::{Allowed, PartError, PartProblem, Values};
 use crate::robot::inertia::{self, Inertia, MeshSolid, Solid};
 use crate::robot::mesh::MeshProblem;
-use crate::robot::model::Shape;
-use crate::robot::problem::{RobotError, RobotProblem};
+use crate::robot::model::{Contact, Shape};
+use crate::source::Located;
 use crate::spatial::Symmetric3;
 
-impl Resolver<'_> {
-    pub(super) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, RobotError> {
-        let round = |round: &RoundTable| -> Result<(f64, f64), RobotError> {
+impl Values<'_> {
+    pub(crate) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, PartError> {
+        let round = |round: &RoundTable| -> Result<(f64, f64), PartError> {
             Ok((
                 self.number(&round.radius_m, "radius_m", Allowed::Positive)?,
                 self.number(&round.length_m, "length_m", Allowed::Positive)?,
@@ -55,7 +55,7 @@ impl Resolver<'_> {
             _ => {
                 return self.err(
                     table.span(),
-                    RobotProblem::Toml {
+                    PartProblem::Toml {
                         message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`, `mesh`"
                             .to_owned(),
                         help: Some("{ box = { size_m = [0.05, 0.05, 1.0] } }".to_owned()),
@@ -69,7 +69,7 @@ impl Resolver<'_> {
         })
     }
 
-    fn mesh(&self, table: &MeshTable) -> Result<Solid, RobotError> {
+    fn mesh(&self, table: &MeshTable) -> Result<Solid, PartError> {
         let file = table.file.get_ref();
         let scale: Option<[f64; 3]> = match &table.scale {
             Some(scale) => Some(self.triple(scale, "scale")?.into()),
@@ -78,13 +78,13 @@ impl Resolver<'_> {
         if scale.is_some_and(|scale| scale.contains(&0.0)) {
             return self.err(
                 table.file.span(),
-                RobotProblem::Mesh {
+                PartProblem::Mesh {
                     message: format!("mesh `{file}` is scaled to nothing"),
                     help: Some("no part of `scale` may be zero".to_owned()),
                 },
             );
         }
-        match self.file.mesh(file) {
+        match self.meshes.get(file) {
             Some(mesh) => Ok(Solid::Mesh(MeshSolid {
                 file: file.as_str().into(),
                 scale: scale.unwrap_or([1.0; 3]),
@@ -92,33 +92,50 @@ impl Resolver<'_> {
                     Some(scale) => Arc::new(mesh.scaled(scale)),
                     None => Arc::clone(mesh),
                 },
+                convex: table.convex.as_ref().is_some_and(|c| *c.get_ref()),
             })),
             None => self.err(
                 table.file.span(),
-                RobotProblem::Mesh {
+                PartProblem::Mesh {
                     message: format!("mesh `{file}` was not read"),
-                    help: Some("meshes lie beside the robot file".to_owned()),
+                    help: Some(format!("meshes lie beside the {} file", self.kind)),
                 },
             ),
         }
     }
 
-    pub(super) fn inertia(
+    pub(crate) fn contact(&self, table: &ContactTable) -> Result<Contact, PartError> {
+        let ContactTable {
+            friction,
+            restitution,
+        } = table;
+        Ok(Contact {
+            friction: self.number(friction, "friction", Allowed::NotNegative)?,
+            restitution: self.number_or(
+                restitution.as_ref(),
+                "restitution",
+                Allowed::Fraction, // above one, every bounce would add energy
+                0.0,
+            )?,
+        })
+    }
+
+    /// The mass properties of `owner` ("link `arm`"), in its own frame.
+    pub(crate) fn inertia(
         &self,
-        link: &LinkTable,
+        owner: &str,
         shapes: &[Shape],
         table: &Spanned<InertiaTable>,
-    ) -> Result<Inertia, RobotError> {
+    ) -> Result<Inertia, PartError> {
         let refuse = |message: String, help: &str| {
             self.err(
                 table.span(),
-                RobotProblem::Inertia {
+                PartProblem::Inertia {
                     message,
                     help: help.to_owned(),
                 },
             )
         };
-        let name = link.name.get_ref();
         let InertiaTable {
             mass_kg,
             density_kg_m3,
@@ -129,7 +146,7 @@ impl Resolver<'_> {
         if let Some(tensor_at) = tensor_kg_m2 {
             let Some(mass) = mass_kg else {
                 return refuse(
-                    format!("link `{name}` has an inertia tensor but no mass"),
+                    format!("{owner} has an inertia tensor but no mass"),
                     "add `mass_kg`",
                 );
             };
@@ -148,8 +165,8 @@ impl Resolver<'_> {
             {
                 return self.err(
                     tensor_at.span(),
-                    RobotProblem::Inertia {
-                        message: format!("link `{name}`: {why}"),
+                    PartProblem::Inertia {
+                        message: format!("{owner}: {why}"),
                         help: "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
                                numbers that are so anyway pass with `accept_unphysical = true`"
                             .to_owned(),
@@ -167,22 +184,22 @@ impl Resolver<'_> {
         }
         if com_m.is_some() {
             return refuse(
-                format!("link `{name}` has `com_m` but no `tensor_kg_m2`"),
+                format!("{owner} has `com_m` but no `tensor_kg_m2`"),
                 "leave `com_m` out to take both from the shapes, or give the tensor too",
             );
         }
         if shapes.is_empty() {
             return refuse(
-                format!("link `{name}` has no shapes to take its inertia from"),
+                format!("{owner} has no shapes to take its inertia from"),
                 "add `shapes`, or give `com_m` and `tensor_kg_m2`",
             );
         }
         let from_mesh = |problem: MeshProblem| {
-            let message = format!("link `{name}` cannot take its inertia from its mesh: {problem}");
+            let message = format!("{owner} cannot take its inertia from its mesh: {problem}");
             let help = problem.help();
-            RobotError::new(
-                RobotProblem::Mesh { message, help },
-                &self.file.source,
+            Located::new(
+                PartProblem::Mesh { message, help },
+                self.source,
                 table.span(),
             )
         };
@@ -196,7 +213,7 @@ impl Resolver<'_> {
             (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
             _ => {
                 return refuse(
-                    format!("link `{name}` needs either a mass or a density"),
+                    format!("{owner} needs either a mass or a density"),
                     "write `mass_kg` or `density_kg_m3`, one of them",
                 );
             }

@@ -5,13 +5,12 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
-use super::{Allowed, Resolver};
-use crate::robot::file::OriginTable;
-use crate::robot::problem::{RobotError, RobotProblem};
+use super::tables::OriginTable;
+use super::{Allowed, PartError, PartProblem, Values};
 use crate::spatial::{Pose, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
 
-impl Resolver<'_> {
-    pub(super) fn origin(&self, origin: Option<&OriginTable>) -> Result<Pose, RobotError> {
+impl Values<'_> {
+    pub(crate) fn origin(&self, origin: Option<&OriginTable>) -> Result<Pose, PartError> {
         let Some(table) = origin else {
             return Ok(Pose::identity());
         };
@@ -22,12 +21,12 @@ impl Resolver<'_> {
         Ok(pose(self.rotation(table)?, position_m))
     }
 
-    fn rotation(&self, table: &OriginTable) -> Result<Matrix3<f64>, RobotError> {
+    fn rotation(&self, table: &OriginTable) -> Result<Matrix3<f64>, PartError> {
         let help = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
         let clash = |at: Range<usize>, message: &str| {
             self.err(
                 at,
-                RobotProblem::Origin {
+                PartProblem::Origin {
                     message: message.to_owned(),
                     help: help.to_owned(),
                 },
