@@ -7,6 +7,8 @@
 //! | [`source`] | text from outside, and errors that point into it |
 //! | [`robot`] | the immutable robot and its TOML description |
 //! | [`scene`] | what is around the robot, and its TOML description |
+//! | [`engine`] | contact, and the only place that knows how it is computed |
+//! | [`hybrid`] | the step in a scene: smooth while the robot is free, contact while it touches |
 //! | [`joint`] | vectors over the joints that move |
 //! | [`spatial`] | poses, twists, symmetric tensors |
 //! | [`kinematics`] | where frames are and how they move |
@@ -32,6 +34,8 @@
 
 pub mod control;
 pub mod dynamics;
+pub mod engine;
+pub mod hybrid;
 pub mod joint;
 pub mod kinematics;
 pub mod random;

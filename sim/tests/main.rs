@@ -2,6 +2,8 @@
 
 mod algorithms;
 mod arms;
+mod contact;
+mod contact_scenes;
 mod differential;
 mod golden_robots;
 mod golden_rrbot;

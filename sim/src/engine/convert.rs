@@ -1,0 +1,71 @@
+//! Between our vectors and poses and the engine's.
+
+use nalgebra::{Matrix3, Vector3};
+use rapier3d_f64::math::{Matrix, Pose as EnginePose, Rotation, Vector};
+
+use crate::spatial::{Pose, pose};
+
+pub(super) fn vector(v: &Vector3<f64>) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}
+
+pub(super) fn from_vector(v: Vector) -> Vector3<f64> {
+    Vector3::new(v.x, v.y, v.z)
+}
+
+pub(super) fn matrix(m: &Matrix3<f64>) -> Matrix {
+    Matrix::from_cols(
+        Vector::new(m.m11, m.m21, m.m31),
+        Vector::new(m.m12, m.m22, m.m32),
+        Vector::new(m.m13, m.m23, m.m33),
+    )
+}
+
+pub(super) fn rotation(m: &Matrix3<f64>) -> Rotation {
+    Rotation::from_mat3(&matrix(m)).normalize()
+}
+
+pub(super) fn engine_pose(ours: &Pose) -> EnginePose {
+    EnginePose::from_parts(
+        vector(&ours.translation.vector),
+        rotation(ours.rotation.matrix()),
+    )
+}
+
+pub(super) fn from_engine_pose(theirs: &EnginePose) -> Pose {
+    let r = theirs.rotation;
+    let axis = |x, y, z| from_vector(r * Vector::new(x, y, z));
+    pose(
+        Matrix3::from_columns(&[
+            axis(1.0, 0.0, 0.0),
+            axis(0.0, 1.0, 0.0),
+            axis(0.0, 0.0, 1.0),
+        ]),
+        from_vector(theirs.translation),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::rotation_from_rpy_deg;
+
+    #[test]
+    fn a_pose_survives_the_way_there_and_back() {
+        for rpy in [
+            [0.0, 0.0, 0.0],
+            [20.0, -35.0, 170.0],
+            [180.0, 0.0, 0.0],
+            [0.0, 90.0, -90.0],
+        ] {
+            let ours = pose(rotation_from_rpy_deg(rpy), Vector3::new(1.0, -2.0, 3.0));
+            let back = from_engine_pose(&engine_pose(&ours));
+            // a quaternion and its products round a few times
+            assert!(
+                (back.rotation.matrix() - ours.rotation.matrix()).norm() < 1e-15,
+                "{rpy:?}"
+            );
+            assert_eq!(back.translation, ours.translation);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The air of one run: the mean wind of the scene with its gusts, felt by bodies as drag.
+
+use nalgebra::Vector3;
+
+use crate::scene::{Drag, GustSequence, Wind};
+
+/// The air of one run, step by step; a copy goes on with the same gusts.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Air {
+    wind: Wind,
+    gusts: Option<GustSequence>,
+    velocity_m_s: Vector3<f64>,
+}
+
+impl Air {
+    pub(super) fn new(wind: &Wind, dt_s: f64) -> Self {
+        let mut air = Self {
+            wind: wind.clone(),
+            gusts: wind.gust.map(|gust| gust.sequence(dt_s)),
+            velocity_m_s: wind.velocity_m_s,
+        };
+        // no run begins in calm air
+        air.advance();
+        air
+    }
+
+    /// Whether the air changes with time.
+    pub(super) fn gusts(&self) -> bool {
+        self.gusts.is_some()
+    }
+
+    /// The force on something that moves at `v_in_world` \[m/s\], world axes \[N\].
+    pub(super) fn drag_n(&self, drag: &Drag, v_in_world: &Vector3<f64>) -> Vector3<f64> {
+        let past = self.velocity_m_s - v_in_world;
+        drag.force_n(self.wind.air_density_kg_m3, &past)
+    }
+
+    /// Moves on by one step.
+    pub(super) fn advance(&mut self) {
+        if let Some(gust_m_s) = self.gusts.as_mut().and_then(Iterator::next) {
+            self.velocity_m_s = self.wind.air_velocity_m_s(gust_m_s);
+        }
+    }
+}
