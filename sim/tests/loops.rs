@@ -6,7 +6,7 @@ use kinemark_sim::dynamics::{
     mass_matrix,
 };
 use kinemark_sim::joint::{JointAccelerations, JointPositions, JointVelocities};
-use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
+use kinemark_sim::kinematics::closure::{LoopError, closed_positions, loop_gap_m};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::source::{Problem as _, Source};
@@ -18,21 +18,31 @@ use crate::arms::{Numbers, lab_robot, random_tree, robot};
 /// A crank-rocker in the x-z plane: ground 1 m, crank 0.4, coupler 1.0, rocker 0.8; at crank 0 the 3-4-5 triangle stands on its
 /// side, so that the coupler is at 53.13 degrees and the rocker upright.
 fn four_bar(marks: &str, loops: &str) -> String {
+    bars([0.4, 1.0, 1.0, 0.8], [0.0, 0.9, 1.6], marks, loops)
+}
+
+/// Crank, coupler, ground and rocker of these lengths \[m\]; crank, coupler and rocker looked for at `guess` \[rad\].
+fn bars(lengths: [f64; 4], guess: [f64; 3], marks: &str, loops: &str) -> String {
+    let [crank, coupler, ground, rocker] = lengths;
     let mut text = String::from("format = 1\nname = \"four-bar\"\n[[links]]\nname = \"ground\"\n");
-    for (name, length) in [("crank", 0.4), ("coupler", 1.0), ("rocker", 0.8)] {
+    for (name, length) in [("crank", crank), ("coupler", coupler), ("rocker", rocker)] {
         text += &format!(
             "[[links]]\nname = \"{name}\"\nshapes = [{{ box = {{ size_m = [{length}, 0.02, 0.02] }}, origin = {{ xyz_m = [{}, 0, 0] }} }}]\ninertia = {{ mass_kg = {length} }}\n",
             length / 2.0
         );
     }
-    for (name, parent, x, extra) in [
-        ("crank", "ground", 0.0, ""),
-        ("coupler", "crank", 0.4, "guess = 0.9\n"),
-        ("rocker", "ground", 1.0, "guess = 1.6\n"),
-    ] {
+    for (i, (name, parent, x)) in [
+        ("crank", "ground", 0.0),
+        ("coupler", "crank", crank),
+        ("rocker", "ground", ground),
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let mark = if name == "crank" { "" } else { marks };
         text += &format!(
-            "[[joints]]\nname = \"{name}\"\ntype = \"continuous\"\nparent = \"{parent}\"\nchild = \"{name}\"\norigin = {{ xyz_m = [{x}, 0, 0] }}\naxis = [0, -1, 0]\n{extra}{mark}"
+            "[[joints]]\nname = \"{name}\"\ntype = \"continuous\"\nparent = \"{parent}\"\nchild = \"{name}\"\norigin = {{ xyz_m = [{x}, 0, 0] }}\naxis = [0, -1, 0]\nguess = {:?}\n{mark}",
+            guess[i]
         );
     }
     text + loops
@@ -156,6 +166,80 @@ fn rates_along_a_loop_are_those_of_its_positions() {
     }
 }
 
+/// A linkage whose crank cannot go round: 0.3 + 0.5 exceeds 0.2 + 0.25.
+fn rocking() -> Robot {
+    let hinge = HINGE.replace("[1.0,", "[0.2,").replace("[0.8,", "[0.25,");
+    robot(&bars(
+        [0.3, 0.2, 0.5, 0.25],
+        [0.4, 1.0, 2.0],
+        "passive = true\n",
+        &hinge,
+    ))
+}
+
+#[test]
+fn a_position_out_of_reach_is_an_answer_with_the_gap_that_is_left() {
+    let robot = rocking();
+    let (mut reached, mut open) = (0, 0);
+    for k in -125..=125 {
+        let crank = f64::from(k) * 0.05;
+        match closed_positions(&robot, &[crank]) {
+            Ok(q) => {
+                reached += 1;
+                assert!(loop_gap_m(&robot, &q) < 1e-12);
+            }
+            Err(LoopError::Open { gap_m, .. }) => {
+                open += 1;
+                // between the crank's tip and the rocker's foot the other two bars reach from 0.05 to 0.45
+                let (x, z) = (0.3 * libm::cos(crank) - 0.5, 0.3 * libm::sin(crank));
+                let wanted = libm::hypot(x, z) - 0.45;
+                assert!(wanted > 0.0, "{crank}: closed is possible there");
+                // Newton's steps do not minimise: what they leave is near the least, never below it
+                assert!(
+                    gap_m >= wanted - 1e-9 && gap_m <= 3.0 * wanted + 1e-3,
+                    "{crank}: {gap_m} {wanted}"
+                );
+            }
+            Err(LoopError::Apart) => {}
+            Err(other) => panic!("{crank}: {other}"),
+        }
+    }
+    assert!(reached > 20 && open > 100, "{reached} {open}");
+    assert!(matches!(
+        closed_positions(&robot, &[1e300]),
+        Err(LoopError::TooFar { .. })
+    ));
+}
+
+#[test]
+fn near_a_flat_position_inverse_dynamics_is_right_or_an_error() {
+    // a parallelogram: all bars turn at the same rate, so the coupler only translates
+    let hinge = HINGE.replace("[0.8,", "[0.4,");
+    let robot = robot(&bars(
+        [0.4, 1.0, 1.0, 0.4],
+        [1.0, -1.0, 1.0],
+        "passive = true\n",
+        &hinge,
+    ));
+    for e in [0.1_f64, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+        let q = [std::f64::consts::PI - e];
+        match driven_efforts(&robot, &GRAVITY_M_S2, &q, &[1.0], &[0.0]) {
+            Ok(motion) => {
+                // potential of crank, coupler and rocker: (0.4 0.2 + 1.0 0.4 + 0.4 0.2) g sin q
+                let expected = 9.81 * 0.56 * libm::cos(q[0]);
+                assert!(
+                    (motion.effort[0] - expected).abs() < 1e-4,
+                    "{e}: {motion:?}"
+                );
+            }
+            Err(error) => {
+                assert_eq!(error, LoopError::Singular, "{e}");
+                assert!(e <= 1e-5);
+            }
+        }
+    }
+}
+
 #[test]
 fn loops_that_cannot_be_are_refused_with_a_reason() {
     let refuse = |text: &str| {
@@ -176,7 +260,7 @@ fn loops_that_cannot_be_are_refused_with_a_reason() {
     let (code, message, _) = refuse(&one);
     assert_eq!(code, "robot::loop");
     assert!(
-        message.contains("1 joints are passive") || message.contains("cannot be closed"),
+        message.contains("1 joints are passive, but the loops determine 2"),
         "{message}"
     );
     let (code, message, _) = refuse(&four_bar("", &HINGE.replace("\"rocker\"", "\"rocket\"")));

@@ -143,6 +143,22 @@ fn nothing_is_overwritten_unasked() {
     );
     let ran = bed.run(&["robot", "convert", "rrbot", "--out", "mine.toml", "--force"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
+    // not even with --force is a robot lost under what is made of it
+    let before = std::fs::read_to_string(bed.path("mine.toml")).expect("there");
+    let ran = bed.run(&[
+        "robot",
+        "convert",
+        "mine.toml",
+        "--out",
+        "./mine.toml",
+        "--force",
+    ]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is the robot itself"), "{ran:?}");
+    assert_eq!(
+        std::fs::read_to_string(bed.path("mine.toml")).expect("there"),
+        before
+    );
     assert_eq!(bed.run(&["robot", "show", "mine.toml"]).code, Some(0));
     // a broken robot leaves no file
     bed.write("broken.urdf", "<robot");
@@ -180,7 +196,7 @@ fn what_cannot_be_shown_says_why() {
             "--links \"0,0,1; 0,0,1; 0,0,1\"",
         ),
         (&["RzRyRw", "--links", links], 2, "`w` is no axis"),
-        (&["RzRyRz", "--links", "0,0,1"], 2, "1 links for 3 joints"),
+        (&["RzRyRz", "--links", "0,0,1"], 2, "1 link for 3 joints"),
         (
             &["RzRyRz", "--links", links, "--ignore-mimic"],
             2,

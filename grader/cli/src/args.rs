@@ -216,7 +216,8 @@ pub(crate) struct ConvertArgs {
 #[derive(Debug, ClapArgs)]
 #[command(
     after_help = "Example:\n  echo '{\"id\": 1, \"op\": \"fk\", \"q\": [0.3, -1.2]}' | kinemark robot eval labs/robots/rrbot.toml\n\n\
-    Operations: info, fk, jacobian, manipulability, ik, com, rnea, bias, inverse_dynamics, crba, aba, energy, simulate.\n\
+    Operations: info, fk, jacobian, jacobian_derivative, manipulability, workspace, ik, com, rnea, bias, gravity, coriolis,\n\
+    inverse_dynamics, crba, aba, energy, trajectory, simulate.\n\
     See docs/robot-eval.md.\n\
     Exit codes: 0 every request answered, 1 some answered with an error, 2 usage, 3 the robot is broken."
 )]

@@ -52,7 +52,7 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         let meshes = meshes.collect();
         return Ok(Loaded { robot, meshes });
     }
-    if args.links.is_some() || args.base.is_some() || config_string::is_config_string(&name) {
+    if args.links.is_some() || args.base.is_some() || config_string::looks_like_one(&name) {
         return joints_in_a_row(&name, args);
     }
     let known = robot_names(files.as_ref());

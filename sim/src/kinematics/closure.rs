@@ -31,6 +31,10 @@ const HALVINGS: u32 = 12;
 /// Newton steps for one position; it converges quadratically or not at all.
 const NEWTON_STEPS: usize = 30;
 
+/// Dependent joints do not follow from the others where the weakest of their motions is this part of the strongest: accelerations
+/// would lose all digits soon after.
+const DETERMINED: f64 = 1e-5;
+
 /// Columns weaker than this part of the strongest have no say.
 const RANK_TOLERANCE: f64 = 1e-9;
 
@@ -38,9 +42,7 @@ const RANK_TOLERANCE: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoopError {
     /// No position of the dependent joints closes the loops.
-    #[error(
-        "the loop cannot be closed: a gap of {gap_m:.3e} m or an angle of {angle_rad:.3e} rad is left"
-    )]
+    #[error("the loop cannot be closed: {} is left", left(*gap_m, *angle_rad))]
     Open {
         /// Largest distance left \[m\].
         gap_m: f64,
@@ -55,6 +57,11 @@ pub enum LoopError {
         /// Joints the loops determine at that position.
         determined: usize,
     },
+    /// The loops close there, but not on the straight way from home.
+    #[error(
+        "the loops close there, but open on the straight way from home: it lies on another branch"
+    )]
+    Apart,
     /// The position is too far from home to be followed in small steps.
     #[error("a joint is {far:?} from home: loops are followed up to {FURTHEST} rad or m")]
     TooFar {
@@ -66,6 +73,18 @@ pub enum LoopError {
     Singular,
 }
 
+/// A gap and an angle in words, what is zero left out.
+fn left(gap_m: f64, angle_rad: f64) -> String {
+    let mut parts = Vec::new();
+    if gap_m > CLOSED {
+        parts.push(format!("a gap of {gap_m:.3e} m"));
+    }
+    if angle_rad > CLOSED {
+        parts.push(format!("an angle of {angle_rad:.3e} rad"));
+    }
+    parts.join(" and ")
+}
+
 impl LoopError {
     /// What to do.
     pub fn help(&self) -> &'static str {
@@ -74,8 +93,9 @@ impl LoopError {
                 "check the two frames and the lengths; give passive joints a `guess` near the closed position"
             }
             Self::PassiveCount { .. } => {
-                "mark as `passive` the joints of the loop without a drive: one fewer free motion per condition"
+                "mark as `passive` all joints of the loop that have no drive; if it is flat at home, give them another `guess`"
             }
+            Self::Apart => "give the joints a `guess` on that branch",
             Self::TooFar { .. } => "take whole turns off the angles",
             Self::Singular => {
                 "give the joints a `guess` away from flat positions, or mark other joints `passive`"
@@ -100,7 +120,21 @@ pub(crate) fn dependents(robot: &Robot) -> Result<Dependents, LoopError> {
         .filter(|&i| robot.moving_joints().nth(i).is_some_and(|j| j.passive))
         .collect();
     if !marked.is_empty() {
-        closure.newton(robot, &marked, &mut home)?;
+        if let Err(open) = closure.newton(robot, &marked, &mut home) {
+            // too few marked joints cannot close what all could
+            let mut all = robot.home().to_vec();
+            closure.newton(robot, &(0..n).collect::<Vec<_>>(), &mut all)?;
+            closure.update(robot, &all, &vec![0.0; n]);
+            let determined = rank(&closure.jacobian);
+            return Err(if determined > marked.len() {
+                LoopError::PassiveCount {
+                    passive: marked.len(),
+                    determined,
+                }
+            } else {
+                open
+            });
+        }
         closure.update(robot, &home, &vec![0.0; n]);
         let determined = rank(&closure.jacobian);
         if determined != marked.len() {
@@ -145,13 +179,17 @@ pub(crate) fn dependents(robot: &Robot) -> Result<Dependents, LoopError> {
 }
 
 fn rank(matrix: &DMatrix<f64>) -> usize {
+    rank_within(matrix, RANK_TOLERANCE)
+}
+
+fn rank_within(matrix: &DMatrix<f64>, tolerance: f64) -> usize {
     if matrix.ncols() == 0 || matrix.nrows() == 0 {
         return 0;
     }
     let r = matrix.clone().col_piv_qr().r();
     let strongest = r[(0, 0)].abs();
     (0..r.nrows().min(r.ncols()))
-        .filter(|&i| r[(i, i)].abs() > RANK_TOLERANCE * strongest.max(f64::MIN_POSITIVE))
+        .filter(|&i| r[(i, i)].abs() > tolerance * strongest.max(f64::MIN_POSITIVE))
         .count()
 }
 
@@ -357,8 +395,10 @@ impl Closure {
         if far.is_nan() || far > FURTHEST {
             return Err(LoopError::TooFar { far });
         }
-        let smallest = 1.0 / (far / FOLLOW_STEP).ceil().max(1.0);
-        let (mut done, mut step, mut halved) = (0.0_f64, smallest, 0);
+        let longest = 1.0 / (far / FOLLOW_STEP).ceil().max(1.0);
+        // halved so often, the way is at its end: what is done then no longer grows
+        let shortest = longest / f64::from(1_u32 << HALVINGS);
+        let (mut done, mut step) = (0.0_f64, longest);
         let mut trial = q.to_vec();
         while done < 1.0 {
             let next = (done + step).min(1.0);
@@ -385,23 +425,40 @@ impl Closure {
                     .map(|i| (predicted[i] - q[i]).abs())
                     .fold(0.0, f64::max),
             );
-            match closed {
-                Ok(()) if corrected <= 0.5 * moved => {
-                    q.copy_from_slice(&trial);
-                    done = next;
-                    step = (2.0 * step).min(smallest);
-                    halved = 0;
-                }
-                other => {
-                    halved += 1;
-                    if halved > HALVINGS {
-                        return Err(other.err().unwrap_or(LoopError::Singular));
-                    }
-                    step *= 0.5;
+            if closed.is_ok() && corrected <= 0.5 * moved {
+                q.copy_from_slice(&trial);
+                done = next;
+                step = (2.0 * step).min(longest);
+            } else {
+                step *= 0.5;
+                if step < shortest {
+                    return Err(self.blocked(robot, target, q));
                 }
             }
         }
         Ok(())
+    }
+
+    /// Why `target` was not reached from the last closed position `q` on the way there.
+    fn blocked(&mut self, robot: &Robot, target: &[f64], q: &[f64]) -> LoopError {
+        let mut least = LoopError::Apart;
+        let mut least_m = f64::INFINITY;
+        // by the dependent joints as they are, or as they are at home
+        for from in [q, robot.home()] {
+            let mut there = from.to_vec();
+            for (&i, position) in robot.independent().iter().zip(target) {
+                there[i] = *position;
+            }
+            match self.newton(robot, robot.dependent(), &mut there) {
+                Ok(()) => return LoopError::Apart,
+                Err(LoopError::Open { gap_m, angle_rad }) if gap_m < least_m => {
+                    least_m = gap_m;
+                    least = LoopError::Open { gap_m, angle_rad };
+                }
+                Err(_) => {}
+            }
+        }
+        least
     }
 
     /// Rates of the dependent joints while the independent ones go from `start` to `target` in unit time.
@@ -435,7 +492,7 @@ impl Closure {
             pull += given;
         }
         let columns = self.columns(dependent);
-        if rank(&columns) < dependent.len() {
+        if rank_within(&columns, DETERMINED) < dependent.len() {
             return Err(LoopError::Singular);
         }
         let rest = least_squares(columns, &pull);

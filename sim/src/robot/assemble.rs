@@ -233,10 +233,7 @@ impl Assembler<'_> {
         }
         let part = &self.parts.joints[j];
         let problem = RobotProblem::Mimic {
-            message: format!(
-                "joint `{}` mimics itself, through others",
-                part.name.get_ref()
-            ),
+            message: format!("joint `{}` mimics itself in a circle", part.name.get_ref()),
             help: "one joint of the circle must have an entry of its own".to_owned(),
         };
         self.err(part.name.span(), problem)

@@ -25,6 +25,13 @@ pub fn is_config_string(text: &str) -> bool {
     joints(&Source::new("", text)).is_ok()
 }
 
+/// Whether `text` starts like a configuration string, so that what is wrong with it is worth telling.
+pub fn looks_like_one(text: &str) -> bool {
+    let mut letters = text.chars();
+    matches!(letters.next(), Some('R' | 'T' | 'P'))
+        && matches!(letters.next(), Some('x' | 'y' | 'z'))
+}
+
 /// Makes the robot of a configuration string.
 ///
 /// `base_m` is the height of the first joint; `links_m` holds one `lx, ly, lz` per joint in metres, separated by semicolons, as in
@@ -178,7 +185,7 @@ fn links(source: &Source, joints: usize) -> Result<Vec<Vector3<f64>>, RobotError
             Some(&[x, y, z]) => links.push(Vector3::new(x, y, z)),
             _ => {
                 let message = format!(
-                    "link {} is `{}`: expected three numbers",
+                    "link {} is `{}`: expected three finite numbers",
                     links.len() + 1,
                     piece.trim()
                 );
@@ -187,7 +194,12 @@ fn links(source: &Source, joints: usize) -> Result<Vec<Vector3<f64>>, RobotError
         }
     }
     if links.len() != joints {
-        let message = format!("{} links for {joints} joints", links.len());
+        let plural = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let message = format!(
+            "{} for {}",
+            plural(links.len(), "link"),
+            plural(joints, "joint")
+        );
         return refuse(source, 0..source.text().len(), message, &help);
     }
     Ok(links)

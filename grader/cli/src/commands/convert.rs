@@ -14,6 +14,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<ExitCode, Failure> {
     let folder = match &args.out {
         None => Path::new("."),
         Some(out) => {
+            refuse_itself(Path::new(&args.robot.robot), out)?;
             refuse_taken(out, args.force)?;
             match out.parent() {
                 Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -48,6 +49,17 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<ExitCode, Failure> {
         })?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Checks that a robot is not written over the file it is read from, where its own format would be lost.
+fn refuse_itself(robot: &Path, out: &Path) -> Result<(), Failure> {
+    match (robot.canonicalize(), out.canonicalize()) {
+        (Ok(from), Ok(to)) if from == to => Err(Failure::usage(
+            format!("`{}` is the robot itself", out.display()),
+            "name another file: what is converted is kept",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Checks, before anything is read, that `out` may be written.

@@ -25,6 +25,9 @@ const PATIENCE: usize = 5;
 /// Factor of the damping after a step that made it worse, undone by steps that do not; for starts that are not given up.
 const CAUTION: f64 = 4.0;
 
+/// Least factor of the damping of such starts: where something is left for good, damping by the error alone would creep.
+const LEAST_CAUTION: f64 = 1e-6;
+
 /// Factor beyond which steps are too small to change anything.
 const MOST_CAUTION: f64 = 1e12;
 
@@ -59,6 +62,7 @@ pub(super) fn descend(
     let (mut steps, mut polished) = (0, 0);
     let (mut milestone, mut since) = (residual.objective, 0);
     let mut caution = 1.0;
+    let least_caution = if rules.impatient { 1.0 } else { LEAST_CAUTION };
     while steps < rules.steps {
         if residual.within(rules.tolerance_m, rules.tolerance_rad) {
             if residual.objective <= POLISHED || polished == POLISH_STEPS {
@@ -97,7 +101,7 @@ pub(super) fn descend(
         if residual.objective < least.objective {
             least = residual;
             best.copy_from_slice(q);
-            caution = (caution / CAUTION).max(1.0);
+            caution = (caution / CAUTION).max(least_caution);
         } else if polished > 0 || !residual.objective.is_finite() {
             break;
         } else if !rules.impatient {

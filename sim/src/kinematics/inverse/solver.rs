@@ -11,6 +11,9 @@ use crate::kinematics::joint_samples::JointSamples;
 use crate::kinematics::position_range::{PositionRange, position_ranges};
 use crate::robot::Robot;
 
+/// How many times the steps of one start the best of them may go on where none has arrived.
+const LAST_WAY: usize = 10;
+
 /// Answers many questions about the same frames; all goals are solved together, as one stacked system.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'r> {
@@ -147,8 +150,16 @@ impl<'r> IkSolver<'r> {
         }
         self.q.copy_from_slice(&self.best);
         if !self.reached(&least) {
-            // nothing arrives: make the most of the best
-            let (residual, steps) = self.descend(false);
+            // nothing arrives: make the most of the best, which takes long where much is left
+            let mut rules = self.settings.rules(&self.ranges, false);
+            rules.steps = rules.steps.saturating_mul(LAST_WAY);
+            let (residual, steps) = descend(
+                &mut self.system,
+                &mut self.room,
+                &rules,
+                &mut self.q,
+                &mut self.spare,
+            );
             iterations += steps;
             least = residual;
         }

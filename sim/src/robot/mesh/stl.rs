@@ -1,4 +1,4 @@
-//! STL, binary and text: single-precision corners, three to a facet.
+//! STL, binary and text: corners, three to a facet, of single precision in binary files.
 //!
 //! Binary: 80 bytes of anything, the count as u32, then 50 bytes a facet (normal, three corners, two bytes of colour), all
 //! little-endian. Text: `solid name`, facets, `endsolid name`, one or more times.
@@ -161,9 +161,9 @@ impl<'a> Words<'a> {
         let word = self.next_word();
         let number = word
             .and_then(|word| std::str::from_utf8(word).ok())
-            .and_then(|word| word.parse::<f32>().ok());
+            .and_then(|word| word.parse::<f64>().ok());
         match (number, word) {
-            (Some(x), _) if x.is_finite() => Ok(f64::from(x)),
+            (Some(x), _) if x.is_finite() => Ok(x),
             (Some(_), Some(word)) => Err(MeshProblem::NotFinite {
                 place: Place::Line(self.line),
                 found: shown(word),

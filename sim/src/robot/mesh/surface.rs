@@ -21,9 +21,8 @@ pub struct Mesh {
 impl Mesh {
     /// Reads a mesh; `name` tells its format by its extension, `.stl` (binary or text) or `.obj`, in any case.
     ///
-    /// Corners with the same coordinates become one vertex; triangles with two equal corners are dropped. STL holds single
-    /// precision, so its text is read as such: a mesh is the same in both forms. OBJ is read in double precision, polygons
-    /// become fans. Colours, normals, textures, names and groups are passed over: the winding says which side is out.
+    /// Corners with the same coordinates become one vertex; triangles with two equal corners are dropped. Binary STL holds
+    /// single precision; text is read in double precision, in both formats. Polygons become fans. Colours, normals, textures, names and groups are passed over: the winding says which side is out.
     ///
     /// # Errors
     ///

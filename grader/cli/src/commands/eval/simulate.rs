@@ -16,7 +16,7 @@ use super::state::names_of;
 /// More steps than this take minutes.
 const MOST_STEPS: u64 = 100_000_000;
 /// More numbers than this do not belong on one line.
-const MOST_NUMBERS: u64 = 10_000_000;
+const MOST_NUMBERS: u64 = 2_000_000;
 
 /// A start counts as closed below this gap; the first step takes up what is left.
 const MOST_GAP_M: f64 = 1e-6;

@@ -28,7 +28,7 @@ pub(super) fn names_of(robot: &Robot, places: &[usize]) -> Vec<String> {
 /// Why loops are not closed, as an answer.
 pub(super) fn loop_refusal(error: &LoopError) -> Refusal {
     let code = match error {
-        LoopError::Open { .. } => "open-loop",
+        LoopError::Open { .. } | LoopError::Apart => "open-loop",
         LoopError::TooFar { .. } => "out-of-range",
         LoopError::PassiveCount { .. } | LoopError::Singular => "singular",
     };
