@@ -1,7 +1,7 @@
 //! Contact: robot and scene as bodies that press on each other. The only place that names rapier; no type of it leaves.
 //!
-//! [`world`] holds all bodies and steps them, [`arm`] puts the robot among them as a reduced-coordinate multibody, [`shape`] makes
-//! colliders, [`contact`] reads who pressed on whom, [`clearance`] says when nobody can, [`wind`] blows, [`settings`] are the numbers.
+//! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `shape` makes
+//! colliders, `contact` reads who pressed on whom, `clearance` says when nobody can, `wind` blows, `settings` are the numbers.
 
 mod arm;
 mod clearance;
