@@ -194,9 +194,9 @@ fn a_position_out_of_reach_is_an_answer_with_the_gap_that_is_left() {
                 let (x, z) = (0.3 * libm::cos(crank) - 0.5, 0.3 * libm::sin(crank));
                 let wanted = libm::hypot(x, z) - 0.45;
                 assert!(wanted > 0.0, "{crank}: closed is possible there");
-                // Newton's steps do not minimise: what they leave is near the least, never below it
+                // the least there is, up to the last steps of a search that creeps there
                 assert!(
-                    gap_m >= wanted - 1e-9 && gap_m <= 3.0 * wanted + 1e-3,
+                    gap_m >= wanted - 1e-9 && gap_m <= 1.05 * wanted + 1e-6,
                     "{crank}: {gap_m} {wanted}"
                 );
             }

@@ -35,6 +35,12 @@ const NEWTON_STEPS: usize = 30;
 /// would lose all digits soon after.
 const DETERMINED: f64 = 1e-5;
 
+/// Steps of the search for the least gap; it serves a message only.
+const NEAREST_STEPS: usize = 200;
+
+/// A gap that this search brings below this is none: it converges slowly where loops just touch \[m or rad\].
+const ONCE_CLOSED: f64 = 1e-8;
+
 /// Columns weaker than this part of the strongest have no say.
 const RANK_TOLERANCE: f64 = 1e-9;
 
@@ -377,6 +383,43 @@ impl Closure {
         }
     }
 
+    /// Brings the loops as near to closed as the joints `free` can, from `q`; returns the gap \[m\] and the angle \[rad\] left there.
+    ///
+    /// Source: Levenberg and Marquardt's damping, raised until a step lessens the conditions' squares.
+    fn nearest(&mut self, robot: &Robot, free: &[usize], q: &mut [f64]) -> (f64, f64) {
+        let still = vec![0.0; robot.n()];
+        self.update(robot, q, &still);
+        let (mut left, mut damping) = (self.residual.norm_squared(), 1e-3);
+        let mut trial = q.to_vec();
+        for _ in 0..NEAREST_STEPS {
+            let columns = self.columns(free);
+            let k = free.len();
+            let normal = DMatrix::from_fn(k, k, |i, j| {
+                let along = columns.column(i).dot(&columns.column(j));
+                if i == j { along + damping } else { along }
+            });
+            let slope = DVector::from_fn(k, |i, _| columns.column(i).dot(&self.residual));
+            let Some(factor) = normal.cholesky() else {
+                break;
+            };
+            let step = factor.solve(&slope);
+            trial.copy_from_slice(q);
+            for (&i, change) in free.iter().zip(step.iter()) {
+                trial[i] -= change;
+            }
+            self.update(robot, &trial, &still);
+            let then = self.residual.norm_squared();
+            if then < left {
+                q.copy_from_slice(&trial);
+                (left, damping) = (then, 0.2 * damping);
+            } else {
+                damping *= 5.0;
+                self.update(robot, q, &still);
+            }
+        }
+        self.errors(robot)
+    }
+
     /// Follows the loops from the closed position `q` to the independent positions `target`, shape `(independent)`; `q` is then
     /// the closed position there.
     pub(crate) fn follow(
@@ -441,24 +484,24 @@ impl Closure {
 
     /// Why `target` was not reached from the last closed position `q` on the way there.
     fn blocked(&mut self, robot: &Robot, target: &[f64], q: &[f64]) -> LoopError {
-        let mut least = LoopError::Apart;
-        let mut least_m = f64::INFINITY;
+        let mut least = (f64::INFINITY, f64::INFINITY);
         // by the dependent joints as they are, or as they are at home
         for from in [q, robot.home()] {
             let mut there = from.to_vec();
             for (&i, position) in robot.independent().iter().zip(target) {
                 there[i] = *position;
             }
-            match self.newton(robot, robot.dependent(), &mut there) {
-                Ok(()) => return LoopError::Apart,
-                Err(LoopError::Open { gap_m, angle_rad }) if gap_m < least_m => {
-                    least_m = gap_m;
-                    least = LoopError::Open { gap_m, angle_rad };
-                }
-                Err(_) => {}
+            let left = self.nearest(robot, robot.dependent(), &mut there);
+            if left.0.max(left.1) < least.0.max(least.1) {
+                least = left;
             }
         }
-        least
+        let (gap_m, angle_rad) = least;
+        if gap_m.max(angle_rad) <= ONCE_CLOSED {
+            LoopError::Apart
+        } else {
+            LoopError::Open { gap_m, angle_rad }
+        }
     }
 
     /// Rates of the dependent joints while the independent ones go from `start` to `target` in unit time.
