@@ -24,6 +24,9 @@ pub struct Grade {
     pub lab: Part,
     /// The robot file.
     pub robot: Part,
+    /// The scenes of its motion tasks: name and digest of file and meshes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scenes: Vec<Part>,
     /// The submission; `name` is its file name.
     pub submission: Part,
     /// The staff's reference folder, if it took part.
@@ -94,12 +97,50 @@ pub struct TaskGrade {
     pub cases: Vec<CaseGrade>,
     /// Hidden cases of a function task, counted by class.
     pub hidden: Vec<HiddenClass>,
+    /// What happened in the run of a motion task (the first 200 events).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<EventRecord>,
+    /// Who pressed on whom in a scene (the first 200 contacts).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<ContactRecord>,
     /// Operations the submission used; in a function task those of visible cases.
     pub operations: u64,
     /// Lines the submission printed (the first 200).
     pub log: Vec<LogEntry>,
     /// Identity of what the submission did.
     pub digests: Digests,
+}
+
+/// Something that happened in a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EventRecord {
+    /// The tick.
+    pub tick: u64,
+    /// Its time \[s\].
+    pub time_s: f64,
+    /// Its kind: `saturated`, `limit-hit`, `near-singular`, `touched`, `moved`, `toppled`, `left-support`, `body-fell`, `diverged` or `stopped`.
+    pub event: String,
+    /// In words.
+    pub message: String,
+}
+
+/// One contact of two parties: links of the robot, bodies of the scene, or the ground.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactRecord {
+    /// The two.
+    pub parties: [String; 2],
+    /// The first tick at which they pressed on each other.
+    pub first_tick: u64,
+    /// The last one; shorter pauses than 20 ms count as contact.
+    pub last_tick: u64,
+    /// The greatest normal force, mean over a physics step \[N\].
+    pub peak_force_n: f64,
+    /// The tick of that.
+    pub peak_tick: u64,
+    /// Sum of the normal impulses \[N s\].
+    pub impulse_n_s: f64,
 }
 
 /// What stopped a submission in a task.
@@ -284,6 +325,9 @@ pub struct SecondDigests {
     pub effort: String,
     /// TCP poses.
     pub tcp: String,
+    /// Poses of the scene's bodies, where any can move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bodies: Option<String>,
 }
 
 #[cfg(test)]

@@ -1,10 +1,14 @@
 //! A graded run: the record, and what the renderers draw from besides it.
 
+use std::sync::Arc;
+
 use kinemark_sim::control::Mode;
 use kinemark_sim::robot::Robot;
 use kinemark_sim::trace::Trace;
 
+use crate::event_words::Names;
 use crate::grade::Grade;
+use crate::lab::LabScene;
 
 /// The grade of a submission with the runs it rests on.
 #[derive(Debug, Clone)]
@@ -22,6 +26,8 @@ pub struct TaskRun {
     pub task: String,
     /// The robot that moved.
     pub robot: Robot,
+    /// What was around it, where anything was.
+    pub scene: Option<Arc<LabScene>>,
     /// The frame in which the TCP, the goals and the paths are told.
     pub seen_from: String,
     /// The servo's mode: what the command means.
@@ -36,6 +42,17 @@ pub struct TaskRun {
     pub reference_tcp: Option<TcpPath>,
     /// The curves that checks judged, in the lab's order.
     pub curves: Vec<Curve>,
+}
+
+impl TaskRun {
+    /// The names in it, for events and contacts.
+    pub fn names(&self) -> Names<'_> {
+        Names {
+            robot: &self.robot,
+            scene: self.scene.as_ref().map(|scene| &scene.scene),
+            seen_from: &self.seen_from,
+        }
+    }
 }
 
 /// A place the TCP is to reach and to stay at.

@@ -6,6 +6,7 @@ use crate::cases::{self, CasesRun};
 use crate::check::{self, Answered, CaseError, CaseFacts, Finding, MotionFacts, stay};
 use crate::controller::{Controller, Opening, Stop, Value};
 use crate::diagnose;
+use crate::event_words::Names;
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Digests, FORMAT, Grade, GradeMode, HiddenClass, LogEntry,
     Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
@@ -104,6 +105,14 @@ pub fn grade(
                 .to_hex()
                 .to_string(),
         },
+        scenes: lab
+            .scenes
+            .iter()
+            .map(|scene| Part {
+                name: scene.name.clone(),
+                digest: scene.digest().to_hex().to_string(),
+            })
+            .collect(),
         submission: Part {
             name: submission.name().to_owned(),
             digest: digest(submission.text()),
@@ -241,6 +250,8 @@ impl Grader<'_> {
                 .map(|facts| case_grade(self.lab, facts, good))
                 .collect(),
             hidden: hidden_classes(&run.facts, good),
+            events: Vec::new(),
+            contacts: Vec::new(),
             operations: run.operations,
             log: run.log.into_iter().take(MOST_LOG_LINES).collect(),
             digests: Digests {
@@ -295,7 +306,7 @@ impl Grader<'_> {
                     verdict = Verdict::InvalidOutput;
                     said(what.clone(), not_finite_help(what))
                 }
-                EarlyEnd::Diverged => {
+                EarlyEnd::Diverged(_) => {
                     verdict = Verdict::Missed;
                     said(
                         "the arm's state was no longer finite: the loop is unstable".to_owned(),
@@ -348,6 +359,11 @@ impl Grader<'_> {
         };
         let checks = without_hints(checks, !diagnoses.is_empty());
         let digest = trace.digest();
+        let names = Names {
+            robot: &self.lab.robot,
+            scene: work.scene.as_ref().map(|scene| &scene.scene),
+            seen_from: &self.lab.frame,
+        };
         let grade = TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
@@ -360,6 +376,8 @@ impl Grader<'_> {
             diagnoses,
             cases: Vec::new(),
             hidden: Vec::new(),
+            events: names.events(&trace, &work.periods),
+            contacts: names.contacts(&trace),
             operations,
             log: trace
                 .log
@@ -383,6 +401,7 @@ impl Grader<'_> {
                             command: signal(2),
                             effort: signal(3),
                             tcp: signal(4),
+                            bodies: (trace.bodies.width() > 0).then(|| signal(5)),
                         }
                     })
                     .collect(),
@@ -400,6 +419,7 @@ impl Grader<'_> {
         let run = TaskRun {
             task: task.name.clone(),
             robot: self.lab.robot.clone(),
+            scene: work.scene.clone(),
             seen_from: self.lab.frame.clone(),
             mode: work.servo.mode,
             effort_limits: work.servo.gains.iter().map(|g| g.effort_limit).collect(),

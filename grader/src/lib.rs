@@ -10,6 +10,7 @@
 //! | [`cases`], [`motion`] | a function task, a motion task |
 //! | [`check`] | one file per check |
 //! | [`diagnose`] | known mistakes, recognised |
+//! | [`event_words`] | events and contacts in words |
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
 //! | [`graded`] | the record with the runs it rests on |
 
@@ -26,6 +27,7 @@ pub mod cases;
 pub mod check;
 pub mod controller;
 pub mod diagnose;
+pub mod event_words;
 pub mod grade;
 pub mod graded;
 pub mod grading;

@@ -1,12 +1,14 @@
 //! Runs a motion task: the simulator under the submission's `control`.
 
-use kinemark_sim::run::{self, End, Setup};
-use kinemark_sim::trace::{Event, EventKind, LogLine, PlotSignal, Trace, TraceRecorder};
+use kinemark_sim::event::{Event, EventKind};
+use kinemark_sim::run::{self, End, Run, RunSnapshot, Setup};
+use kinemark_sim::runaway::BlowUp;
+use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 
 use crate::answer;
 use crate::cases::robot_facts;
 use crate::controller::{
-    Answer, Call, Controller, Observation, Opening, RobotFacts, Said, Stop, Value,
+    Answer, Call, Controller, Memory, Observation, Opening, RobotFacts, Said, Stop, Value,
 };
 use crate::grading::Host;
 use crate::lab::model::{Lab, MotionTask};
@@ -29,8 +31,8 @@ pub enum EarlyEnd {
     Stopped(Stop),
     /// `control` returned no command; in words.
     InvalidOutput(String),
-    /// The arm's state was no longer finite.
-    Diverged,
+    /// The motion was beyond all reason.
+    Diverged(BlowUp),
 }
 
 /// The robot as a motion task's submission sees it, with the task's effort limits.
@@ -55,25 +57,92 @@ pub fn target_of(motion: &MotionTask) -> Value {
 
 /// Runs `motion` under the submission of `opening`.
 pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Host) -> MotionRun {
-    let robot = &lab.robot;
-    let world = &robot.frames()[0];
-    let setup = Setup {
-        robot,
-        tcp: robot.tcp(),
-        seen_from: robot.frame(&lab.frame).unwrap_or(world),
-        periods: motion.periods,
-        gravity_m_s2: motion.gravity_m_s2,
-        servo: motion.servo.clone(),
-        start_q: motion.start_q.clone(),
-        start_qd: vec![0.0; robot.n()],
-        ticks: motion.ticks,
+    let mut session = match Session::open(lab, motion, opening, host) {
+        Ok(session) => session,
+        Err(run) => return *run,
     };
-    let mut recorder = TraceRecorder::new(&setup);
-    let mut told = Told::default();
-    let ended = match started(opening, host, &mut told) {
-        Err(stop) => Some((0, EarlyEnd::Stopped(stop))),
-        Ok(mut controller) => {
-            let control = |seen: &run::Observation<'_>, command: &mut [f64]| {
+    session.advance_to(u64::MAX);
+    session.finish()
+}
+
+/// A motion task between two ticks: the simulator, the submission, and what was recorded so far.
+pub struct Session<'a> {
+    run: Run<'a>,
+    controller: Box<dyn Controller>,
+    recorder: TraceRecorder<'a>,
+    told: Told,
+    ended: Option<Ended>,
+}
+
+/// How a session ended.
+type Ended = Result<(), (u64, EarlyEnd)>;
+
+/// A session as it stood between two ticks: robot, scene, servos, sensors, the submission's memory, and what was recorded.
+#[derive(Debug, Clone)]
+pub struct SessionSnapshot<'a> {
+    run: RunSnapshot,
+    memory: Memory,
+    recorder: TraceRecorder<'a>,
+    told: Told,
+    ended: Option<Ended>,
+}
+
+impl<'a> Session<'a> {
+    /// Starts the submission of `opening` and stands before the first tick.
+    ///
+    /// # Errors
+    /// The run as it went, if the submission does not start.
+    pub fn open(
+        lab: &'a Lab,
+        motion: &'a MotionTask,
+        opening: &Opening,
+        host: &mut dyn Host,
+    ) -> Result<Self, Box<MotionRun>> {
+        let robot = &lab.robot;
+        let world = &robot.frames()[0];
+        let setup = Setup {
+            robot,
+            scene: motion.scene.as_ref().map(|scene| &scene.scene),
+            tcp: robot.tcp(),
+            seen_from: robot.frame(&lab.frame).unwrap_or(world),
+            periods: motion.periods,
+            gravity_m_s2: motion.gravity_m_s2,
+            servo: motion.servo.clone(),
+            start_q: motion.start_q.clone(),
+            start_qd: vec![0.0; robot.n()],
+            ticks: motion.ticks,
+        };
+        let recorder = TraceRecorder::new(&setup);
+        let mut told = Told::default();
+        let opened = started(opening, host, &mut told).and_then(|controller| {
+            let run = Run::new(setup).map_err(|error| Stop::GraderFault(error.to_string()))?;
+            Ok((controller, run))
+        });
+        match opened {
+            Ok((controller, run)) => Ok(Self {
+                run,
+                controller,
+                recorder,
+                told,
+                ended: None,
+            }),
+            Err(stop) => Err(Box::new(motion_run(
+                recorder,
+                told,
+                Some((0, EarlyEnd::Stopped(stop))),
+            ))),
+        }
+    }
+
+    /// The tick that comes next.
+    pub fn tick(&self) -> u64 {
+        self.run.tick()
+    }
+
+    /// Goes on until `tick` comes next, or to the end.
+    pub fn advance_to(&mut self, tick: u64) {
+        while self.ended.is_none() && self.run.tick() < tick {
+            let mut control = |seen: &run::Observation<'_>, command: &mut [f64]| {
                 let call = Call::Control(Observation {
                     tick: seen.tick,
                     time_s: seen.time_s,
@@ -83,30 +152,73 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
                     effort: seen.effort.to_vec(),
                     tcp_m: seen.tcp.translation.vector.into(),
                 });
-                let value = ask(controller.as_mut(), &call, seen.tick, &mut told)
+                let value = ask(self.controller.as_mut(), &call, seen.tick, &mut self.told)
                     .map_err(EarlyEnd::Stopped)?;
                 let numbers = answer::command(&value, command.len())
                     .map_err(|what| EarlyEnd::InvalidOutput(format!("control returned {what}")))?;
                 command.copy_from_slice(&numbers);
                 Ok(())
             };
-            match run::run(&setup, control, &mut recorder) {
-                Ok(End::Finished) => None,
-                Ok(End::Stopped { tick, why }) => Some((tick, why)),
-                Ok(End::Diverged { tick }) => Some((tick, EarlyEnd::Diverged)),
+            self.ended = match self.run.advance(&mut control, &mut self.recorder) {
+                Ok(None) => None,
+                Ok(Some(End::Finished)) => Some(Ok(())),
+                Ok(Some(End::Stopped { tick, why })) => Some(Err((tick, why))),
+                Ok(Some(End::Diverged { tick, what })) => {
+                    Some(Err((tick, EarlyEnd::Diverged(what))))
+                }
                 Err(error) => {
                     let fault = Stop::GraderFault(error.to_string());
-                    Some((0, EarlyEnd::Stopped(fault)))
+                    Some(Err((0, EarlyEnd::Stopped(fault))))
                 }
-            }
+            };
         }
-    };
+    }
+
+    /// The session as it stands; another one of the same lab, task and submission can go on from it with the same bits.
+    ///
+    /// # Errors
+    /// [`Stop`] if the submission keeps something in `this` that cannot be kept, or no longer answers.
+    pub fn snapshot(&mut self) -> Result<SessionSnapshot<'a>, Stop> {
+        Ok(SessionSnapshot {
+            run: self.run.snapshot(),
+            memory: self.controller.memory()?,
+            recorder: self.recorder.clone(),
+            told: self.told.clone(),
+            ended: self.ended.clone(),
+        })
+    }
+
+    /// Goes back, or on, to `snapshot`.
+    ///
+    /// # Errors
+    /// [`Stop`] if the submission no longer answers.
+    pub fn restore(&mut self, snapshot: &SessionSnapshot<'a>) -> Result<(), Stop> {
+        self.controller.recall(&snapshot.memory)?;
+        self.run.restore(&snapshot.run);
+        self.recorder = snapshot.recorder.clone();
+        self.told = snapshot.told.clone();
+        self.ended = snapshot.ended.clone();
+        Ok(())
+    }
+
+    /// What was recorded up to here.
+    pub fn finish(self) -> MotionRun {
+        let ended = self.ended.and_then(Result::err);
+        motion_run(self.recorder, self.told, ended)
+    }
+}
+
+fn motion_run(
+    recorder: TraceRecorder<'_>,
+    told: Told,
+    ended: Option<(u64, EarlyEnd)>,
+) -> MotionRun {
     let mut trace = recorder.finish();
     trace.log = told.log;
     trace.plots = told.plots;
     if let Some((tick, why)) = &ended {
         let kind = match why {
-            EarlyEnd::Diverged => EventKind::Diverged,
+            EarlyEnd::Diverged(_) => EventKind::Diverged,
             EarlyEnd::Stopped(_) | EarlyEnd::InvalidOutput(_) => EventKind::Stopped,
         };
         trace.events.push(Event { tick: *tick, kind });
@@ -153,7 +265,7 @@ fn ask(
 }
 
 /// What a submission said in a run besides its commands.
-#[derive(Default)]
+#[derive(Debug, Clone, Default)]
 struct Told {
     log: Vec<LogLine>,
     plots: Vec<PlotSignal>,

@@ -31,6 +31,7 @@ fn setup(robot: &Robot, gravity_compensation: bool) -> Setup<'_> {
     };
     Setup {
         robot,
+        scene: None,
         tcp: robot.tcp(),
         seen_from: robot.frame("lab").expect("lab"),
         periods: Periods::new(0.001, 0.001, 0.01).expect("periods"),

@@ -243,6 +243,11 @@ impl HybridStep {
         self.world.body(index)
     }
 
+    /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
+    pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
+        self.world.fastest_body()
+    }
+
     /// All that the steps to come depend on, save the robot's `(q, qd)`: they continue from it with the same bits.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(Box::new(self.clone()))
@@ -251,5 +256,13 @@ impl HybridStep {
     /// Goes back, or on, to `snapshot`, which must be of the same robot and scene.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         *self = (*snapshot.0).clone();
+    }
+}
+
+impl std::fmt::Debug for HybridStep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("HybridStep")
+            .field("report", &self.report)
+            .finish_non_exhaustive()
     }
 }

@@ -18,6 +18,9 @@
 //! | [`ticks`] | time as whole numbers of physics steps |
 //! | [`random`] | numbers drawn from a seed |
 //! | [`run`] | the tick loop: observe, control, servo, step |
+//! | [`runaway`] | when motion is beyond all reason |
+//! | [`event`] | what can happen in a run |
+//! | [`watch`] | what did happen: limits, singular positions, contacts, falls |
 //! | [`trace`] | the columns of one run and their digests |
 //!
 //! Conventions: SI units and radians; the world is z-up; `a_from_b` maps coordinates in `b` to coordinates in `a`; Jacobian
@@ -35,15 +38,18 @@
 pub mod control;
 pub mod dynamics;
 pub mod engine;
+pub mod event;
 pub mod hybrid;
 pub mod joint;
 pub mod kinematics;
 pub mod random;
 pub mod robot;
 pub mod run;
+pub mod runaway;
 pub mod scene;
 pub mod source;
 pub mod spatial;
 pub mod ticks;
 pub mod trace;
 pub mod trajectory;
+pub mod watch;

@@ -1,20 +1,31 @@
 //! The tick loop: observe, control, servo, step. Time is counted, never measured.
+//!
+//! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
+//! world moves on to the next tick. [`Run`] goes tick by tick and can be copied in the middle; [`run`] goes to the end.
+
+mod stepper;
 
 use nalgebra::Vector3;
 
 use crate::control::servo::{Servo, ServoError, ServoSettings};
 use crate::dynamics::SingularMassMatrix;
-use crate::dynamics::smooth::SmoothStep;
+use crate::engine::EngineError;
+use crate::hybrid::HybridStep;
 use crate::kinematics::FramePoses;
 use crate::robot::{Frame, Robot};
+use crate::runaway::{BlowUp, RunawayGuard};
+use crate::scene::Scene;
 use crate::spatial::Pose;
 use crate::ticks::Periods;
+use stepper::{Moved, Stepper};
 
 /// Everything a run needs but its controller.
 #[derive(Debug, Clone)]
 pub struct Setup<'a> {
     /// The robot.
     pub robot: &'a Robot,
+    /// What is around it; without a scene nothing is, and joint limits stop nothing.
+    pub scene: Option<&'a Scene>,
     /// The frame commands and checks refer to.
     pub tcp: &'a Frame,
     /// The frame in which the TCP is told.
@@ -65,6 +76,8 @@ pub struct Row<'a> {
     pub command: &'a [f64],
     /// Joint efforts \[N m or N\].
     pub effort: &'a [f64],
+    /// The scene at the tick, with what happened in the step that ended there.
+    pub scene: Option<&'a HybridStep>,
 }
 
 /// Takes the rows of a run, tick by tick.
@@ -85,10 +98,12 @@ pub enum End<E> {
         /// Why.
         why: E,
     },
-    /// The state was no longer finite; rows up to the tick before are recorded.
+    /// The state was lost or grew beyond all reason; rows up to the tick before are recorded.
     Diverged {
-        /// The first tick without a finite state.
+        /// The first tick without a state that can be used.
         tick: u64,
+        /// What was lost.
+        what: BlowUp,
     },
 }
 
@@ -101,6 +116,170 @@ pub enum RunError {
     /// A joint moves no inertia.
     #[error(transparent)]
     Singular(#[from] SingularMassMatrix),
+    /// Robot or scene cannot have contact.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}
+
+/// A run between two ticks.
+#[derive(Debug)]
+pub struct Run<'a> {
+    setup: Setup<'a>,
+    state: State,
+}
+
+/// A run as it stood between two ticks: robot, scene, servos. It goes on from there with the same bits.
+#[derive(Debug, Clone)]
+pub struct RunSnapshot(State);
+
+/// All that the ticks to come depend on, save the controller's memory.
+#[derive(Debug, Clone)]
+struct State {
+    /// The tick that comes next.
+    tick: u64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    command: Vec<f64>,
+    effort: Vec<f64>,
+    servo: Servo,
+    stepper: Stepper,
+    guard: RunawayGuard,
+    poses: FramePoses,
+}
+
+impl<'a> Run<'a> {
+    /// A run of `setup` before its first tick.
+    ///
+    /// # Errors
+    /// [`RunError`] if the servo settings do not fit the robot, or robot and scene cannot have contact.
+    ///
+    /// # Panics
+    /// If a start vector does not have the shape of the robot.
+    pub fn new(setup: Setup<'a>) -> Result<Self, RunError> {
+        let Setup {
+            robot,
+            periods,
+            gravity_m_s2,
+            ..
+        } = setup;
+        let n = robot.n();
+        assert_eq!(
+            (setup.start_q.len(), setup.start_qd.len()),
+            (n, n),
+            "a start state per joint that moves"
+        );
+        let state = State {
+            tick: 0,
+            q: setup.start_q.clone(),
+            qd: setup.start_qd.clone(),
+            command: vec![0.0; n],
+            effort: vec![0.0; n],
+            servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
+            stepper: Stepper::new(&setup)?,
+            guard: RunawayGuard::new(robot),
+            poses: FramePoses::new(robot),
+        };
+        Ok(Self { setup, state })
+    }
+
+    /// What is run.
+    pub fn setup(&self) -> &Setup<'a> {
+        &self.setup
+    }
+
+    /// The tick that comes next.
+    pub fn tick(&self) -> u64 {
+        self.state.tick
+    }
+
+    /// Does one tick: asks `control` for a command if a control period begins, records the row, and moves on. The last tick
+    /// is only recorded; its command would move nothing.
+    ///
+    /// Returns how the run ended, once it has.
+    ///
+    /// # Errors
+    /// [`RunError`] if a joint moves no inertia.
+    pub fn advance<E>(
+        &mut self,
+        control: &mut impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
+        recorder: &mut impl Recorder,
+    ) -> Result<Option<End<E>>, RunError> {
+        let Setup {
+            robot,
+            tcp,
+            seen_from,
+            periods,
+            ..
+        } = self.setup;
+        let state = &mut self.state;
+        let tick = state.tick;
+        if tick > self.setup.ticks {
+            return Ok(Some(End::Finished));
+        }
+        let begins = |ticks: std::num::NonZeroU32| tick.is_multiple_of(u64::from(ticks.get()));
+        if begins(periods.ticks_per_control) && (tick < self.setup.ticks || tick == 0) {
+            state.poses.update(robot, &state.q);
+            let world_from_tcp = state.poses.world_from(tcp);
+            let tcp = state.poses.world_from(seen_from).inv_mul(&world_from_tcp);
+            let observation = Observation {
+                tick,
+                time_s: periods.time_s(tick),
+                dt_s: periods.control_s(),
+                q: &state.q,
+                qd: &state.qd,
+                effort: &state.effort,
+                tcp: &tcp,
+            };
+            if let Err(why) = control(&observation, &mut state.command) {
+                return Ok(Some(End::Stopped { tick, why }));
+            }
+        }
+        if begins(periods.ticks_per_servo) {
+            state.servo.sample(
+                robot,
+                &state.command,
+                &state.q,
+                &state.qd,
+                &mut state.effort,
+            );
+        }
+        recorder.row(Row {
+            tick,
+            q: &state.q,
+            qd: &state.qd,
+            command: &state.command,
+            effort: &state.effort,
+            scene: state.stepper.scene(),
+        });
+        state.tick += 1;
+        if tick == self.setup.ticks {
+            return Ok(Some(End::Finished));
+        }
+        let moved = state
+            .stepper
+            .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
+        let lost = match moved {
+            Moved::Lost(what) => Some(what),
+            Moved::On => {
+                let scene = state.stepper.scene();
+                state.guard.check(robot, &state.q, &state.qd, scene)
+            }
+        };
+        Ok(lost.map(|what| End::Diverged {
+            tick: tick + 1,
+            what,
+        }))
+    }
+
+    /// The run as it stands. The controller's memory and what was recorded are kept by whoever has them.
+    pub fn snapshot(&self) -> RunSnapshot {
+        RunSnapshot(self.state.clone())
+    }
+
+    /// Goes back, or on, to `snapshot`, which must be of a run of the same setup.
+    pub fn restore(&mut self, snapshot: &RunSnapshot) {
+        self.state = snapshot.0.clone();
+    }
 }
 
 /// Runs `setup` under `control`, which writes the command of each control period, and records every tick.
@@ -108,7 +287,7 @@ pub enum RunError {
 /// `control` is called at every tick that starts a control period, except the last tick, whose command would move nothing.
 ///
 /// # Errors
-/// [`RunError`] if the servo settings do not fit the robot or a joint moves no inertia.
+/// [`RunError`] if the servo settings do not fit the robot, a joint moves no inertia, or robot and scene cannot have contact.
 ///
 /// # Panics
 /// If a start vector does not have the shape of the robot.
@@ -117,65 +296,10 @@ pub fn run<E>(
     mut control: impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
     recorder: &mut impl Recorder,
 ) -> Result<End<E>, RunError> {
-    let Setup {
-        robot,
-        tcp,
-        seen_from,
-        periods,
-        gravity_m_s2,
-        ..
-    } = *setup;
-    let n = robot.n();
-    let mut q = setup.start_q.clone();
-    let mut qd = setup.start_qd.clone();
-    assert_eq!(
-        (q.len(), qd.len()),
-        (n, n),
-        "a start state per joint that moves"
-    );
-    let mut command = vec![0.0; n];
-    let mut effort = vec![0.0; n];
-    let mut poses = FramePoses::new(robot);
-    let mut servo = Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?;
-    let mut step = SmoothStep::new(robot, gravity_m_s2, periods.step_s);
-    let (servo_ticks, control_ticks) = (
-        u64::from(periods.ticks_per_servo.get()),
-        u64::from(periods.ticks_per_control.get()),
-    );
-    for tick in 0..=setup.ticks {
-        if tick % control_ticks == 0 && (tick < setup.ticks || tick == 0) {
-            poses.update(robot, &q);
-            let tcp = poses.world_from(seen_from).inv_mul(&poses.world_from(tcp));
-            let observation = Observation {
-                tick,
-                time_s: periods.time_s(tick),
-                dt_s: periods.control_s(),
-                q: &q,
-                qd: &qd,
-                effort: &effort,
-                tcp: &tcp,
-            };
-            if let Err(why) = control(&observation, &mut command) {
-                return Ok(End::Stopped { tick, why });
-            }
-        }
-        if tick % servo_ticks == 0 {
-            servo.sample(robot, &command, &q, &qd, &mut effort);
-        }
-        recorder.row(Row {
-            tick,
-            q: &q,
-            qd: &qd,
-            command: &command,
-            effort: &effort,
-        });
-        if tick == setup.ticks {
-            break;
-        }
-        step.advance(robot, &effort, &mut q, &mut qd)?;
-        if !q.iter().chain(&qd).all(|x| x.is_finite()) {
-            return Ok(End::Diverged { tick: tick + 1 });
+    let mut run = Run::new(setup.clone())?;
+    loop {
+        if let Some(end) = run.advance(&mut control, recorder)? {
+            return Ok(end);
         }
     }
-    Ok(End::Finished)
 }

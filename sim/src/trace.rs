@@ -1,8 +1,13 @@
 //! The columns of one run, in tick order, and their digests: the identity of the run.
 
+use crate::event::Event;
+use crate::hybrid::HybridStep;
 use crate::kinematics::FramePoses;
 use crate::robot::{Frame, Robot};
 use crate::run::{Recorder, Row, Setup};
+use crate::scene::BodyKind;
+use crate::spatial::Pose;
+use crate::watch::{ContactSpan, Watch};
 
 /// One signal of a run: `width` numbers a tick, rows in tick order.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,54 +50,6 @@ impl Signal {
     }
 }
 
-/// Something that happened at a tick.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Event {
-    /// The tick.
-    pub tick: u64,
-    /// What happened.
-    pub kind: EventKind,
-}
-
-/// What can happen in a run.
-#[derive(Debug, Clone, PartialEq)]
-pub enum EventKind {
-    /// A joint's effort reached its limit.
-    Saturated {
-        /// Index of the joint in `q`.
-        joint: usize,
-    },
-    /// A joint left its position limits.
-    LimitCrossed {
-        /// Index of the joint in `q`.
-        joint: usize,
-    },
-    /// The state was no longer finite.
-    Diverged,
-    /// The controller stopped the run.
-    Stopped,
-}
-
-impl EventKind {
-    /// Its word in logs and digests.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Saturated { .. } => "saturated",
-            Self::LimitCrossed { .. } => "limit-crossed",
-            Self::Diverged => "diverged",
-            Self::Stopped => "stopped",
-        }
-    }
-
-    /// The joint it happened to, if to one.
-    pub fn joint(&self) -> Option<usize> {
-        match self {
-            Self::Saturated { joint } | Self::LimitCrossed { joint } => Some(*joint),
-            Self::Diverged | Self::Stopped => None,
-        }
-    }
-}
-
 /// A line the submission printed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogLine {
@@ -126,6 +83,12 @@ pub struct Trace {
     pub effort: Signal,
     /// The TCP in the frame it is told in: position x, y, z \[m\], then the unit quaternion w, x, y, z with `w >= 0`.
     pub tcp: Signal,
+    /// The scene's bodies that can move, in scene order, in the world: of each position x, y, z \[m\] and unit quaternion w, x, y, z.
+    pub bodies: Signal,
+    /// Indices in the scene of the bodies in `bodies`.
+    pub moving_bodies: Vec<usize>,
+    /// Who pressed on whom, from when to when, in the order the contacts began.
+    pub contacts: Vec<ContactSpan>,
     /// What happened, in tick order.
     pub events: Vec<Event>,
     /// What the submission printed, in order.
@@ -163,9 +126,33 @@ impl Trace {
         self.len() == 0
     }
 
-    /// All signals.
-    pub fn signals(&self) -> [&Signal; 5] {
-        [&self.q, &self.qd, &self.command, &self.effort, &self.tcp]
+    /// All signals; without a scene that of the bodies is empty.
+    pub fn signals(&self) -> [&Signal; 6] {
+        [
+            &self.q,
+            &self.qd,
+            &self.command,
+            &self.effort,
+            &self.tcp,
+            &self.bodies,
+        ]
+    }
+
+    /// Pose in the world of body `index` of the scene at a tick; none where that body cannot move.
+    ///
+    /// # Panics
+    /// If the tick was not recorded.
+    pub fn world_from_body(&self, index: usize, tick: usize) -> Option<Pose> {
+        let at = self.moving_bodies.iter().position(|body| *body == index)?;
+        let row = &self.bodies.at(tick)[7 * at..7 * at + 7];
+        let [x, y, z, qw, qx, qy, qz] = *row else {
+            return None;
+        };
+        let turn = nalgebra::Quaternion::new(qw, qx, qy, qz);
+        Some(Pose::from_parts(
+            nalgebra::Translation3::new(x, y, z),
+            nalgebra::UnitQuaternion::from_quaternion(turn).to_rotation_matrix(),
+        ))
     }
 
     /// Position of the TCP at a tick \[m\].
@@ -187,14 +174,14 @@ impl Trace {
         let per_second = self.ticks_per_second();
         let ticks = self.len();
         let mut all = blake3::Hasher::new();
-        all.update(b"kinemark-trace/1");
+        all.update(b"kinemark-trace/2");
         all.update(&self.step_s.to_le_bytes());
         all.update(&(ticks as u64).to_le_bytes());
         let mut seconds = Vec::with_capacity(ticks.div_ceil(per_second));
         for start in (0..ticks).step_by(per_second) {
             let end = (start + per_second).min(ticks);
             let mut second = blake3::Hasher::new();
-            let mut signals = Vec::with_capacity(5);
+            let mut signals = Vec::with_capacity(6);
             for signal in self.signals() {
                 let values = &signal.values[start * signal.width..end * signal.width];
                 let hash = hash_bits(values);
@@ -214,9 +201,11 @@ impl Trace {
         all.update(&(self.events.len() as u64).to_le_bytes());
         for event in &self.events {
             all.update(&event.tick.to_le_bytes());
-            text(&mut all, event.kind.name());
-            let joint = event.kind.joint().map_or(u64::MAX, |joint| joint as u64);
-            all.update(&joint.to_le_bytes());
+            event.kind.digest_into(&mut all);
+        }
+        all.update(&(self.contacts.len() as u64).to_le_bytes());
+        for contact in &self.contacts {
+            contact.digest_into(&mut all);
         }
         all.update(&(self.log.len() as u64).to_le_bytes());
         for line in &self.log {
@@ -254,17 +243,14 @@ pub fn hash_bits(values: &[f64]) -> blake3::Hash {
     }
 }
 
-/// Records a run as a [`Trace`], with the TCP's pose at every tick and the events that show in the rows.
-#[derive(Debug)]
+/// Records a run as a [`Trace`], with the TCP's pose at every tick, the bodies of the scene, and what [`crate::watch`] sees.
+#[derive(Debug, Clone)]
 pub struct TraceRecorder<'a> {
     robot: &'a Robot,
     tcp: &'a Frame,
     seen_from: &'a Frame,
     poses: FramePoses,
-    effort_limits: Vec<f64>,
-    position_limits: Vec<(f64, f64)>,
-    saturated: Vec<bool>,
-    beyond: Vec<bool>,
+    watch: Watch<'a>,
     trace: Trace,
 }
 
@@ -273,21 +259,16 @@ impl<'a> TraceRecorder<'a> {
     pub fn new(setup: &Setup<'a>) -> Self {
         let robot = setup.robot;
         let n = robot.n();
-        let limits = |joint: &crate::robot::Joint| {
-            (
-                joint.limits.lower.unwrap_or(f64::NEG_INFINITY),
-                joint.limits.upper.unwrap_or(f64::INFINITY),
-            )
-        };
+        let bodies = setup.scene.map_or(&[][..], |scene| &scene.bodies);
+        let moving = bodies.iter().enumerate();
+        let moving = moving.filter(|(_, body)| !matches!(body.kind, BodyKind::Fixed));
+        let moving_bodies: Vec<usize> = moving.map(|(index, _)| index).collect();
         Self {
             robot,
             tcp: setup.tcp,
             seen_from: setup.seen_from,
             poses: FramePoses::new(robot),
-            effort_limits: setup.servo.gains.iter().map(|g| g.effort_limit).collect(),
-            position_limits: robot.moving_joints().map(limits).collect(),
-            saturated: vec![false; n],
-            beyond: vec![false; n],
+            watch: Watch::new(setup),
             trace: Trace {
                 step_s: setup.periods.step_s,
                 q: Signal::new("q", n, setup.ticks),
@@ -295,6 +276,9 @@ impl<'a> TraceRecorder<'a> {
                 command: Signal::new("command", n, setup.ticks),
                 effort: Signal::new("effort", n, setup.ticks),
                 tcp: Signal::new("tcp", 7, setup.ticks),
+                bodies: Signal::new("bodies", 7 * moving_bodies.len(), setup.ticks),
+                moving_bodies,
+                contacts: Vec::new(),
                 events: Vec::new(),
                 log: Vec::new(),
                 plots: Vec::new(),
@@ -304,12 +288,15 @@ impl<'a> TraceRecorder<'a> {
 
     /// The trace, once the run has ended.
     pub fn finish(self) -> Trace {
-        self.trace
+        let mut trace = self.trace;
+        (trace.events, trace.contacts) = self.watch.finish();
+        trace
     }
 }
 
 impl Recorder for TraceRecorder<'_> {
     fn row(&mut self, row: Row<'_>) {
+        self.watch.see(&row);
         let trace = &mut self.trace;
         trace.q.values.extend_from_slice(row.q);
         trace.qd.values.extend_from_slice(row.qd);
@@ -320,34 +307,32 @@ impl Recorder for TraceRecorder<'_> {
             .poses
             .world_from(self.seen_from)
             .inv_mul(&self.poses.world_from(self.tcp));
-        let p = tcp.translation.vector;
-        let [w, x, y, z] = quaternion(tcp.rotation.matrix());
-        trace
-            .tcp
-            .values
-            .extend_from_slice(&[p.x, p.y, p.z, w, x, y, z]);
-        for joint in 0..row.q.len() {
-            let saturated = row.effort[joint].abs() >= self.effort_limits[joint];
-            if saturated && !self.saturated[joint] {
-                let kind = EventKind::Saturated { joint };
-                trace.events.push(Event {
-                    tick: row.tick,
-                    kind,
-                });
-            }
-            self.saturated[joint] = saturated;
-            let (lower, upper) = self.position_limits[joint];
-            let beyond = row.q[joint] < lower || row.q[joint] > upper;
-            if beyond && !self.beyond[joint] {
-                let kind = EventKind::LimitCrossed { joint };
-                trace.events.push(Event {
-                    tick: row.tick,
-                    kind,
-                });
-            }
-            self.beyond[joint] = beyond;
+        trace.tcp.values.extend_from_slice(&pose_numbers(&tcp));
+        if let Some(scene) = row.scene {
+            record_bodies(scene, row.tick, &trace.moving_bodies, &mut trace.bodies);
         }
     }
+}
+
+/// Writes where the bodies are; of a body that sleeps, what was written at the tick before.
+fn record_bodies(scene: &HybridStep, tick: u64, moving: &[usize], signal: &mut Signal) {
+    for &index in moving {
+        let body = scene.body(index);
+        if body.sleeps && tick > 0 {
+            let before = signal.values.len() - signal.width;
+            signal.values.extend_from_within(before..before + 7);
+        } else {
+            let pose = pose_numbers(&body.world_from_body);
+            signal.values.extend_from_slice(&pose);
+        }
+    }
+}
+
+/// A pose as it is recorded: position x, y, z, then the unit quaternion w, x, y, z with `w >= 0`.
+pub fn pose_numbers(pose: &Pose) -> [f64; 7] {
+    let p = pose.translation.vector;
+    let [w, x, y, z] = quaternion(pose.rotation.matrix());
+    [p.x, p.y, p.z, w, x, y, z]
 }
 
 /// The unit quaternion `[w, x, y, z]` of a rotation matrix, with `w >= 0`; the largest element is found first, so that none is

@@ -32,6 +32,7 @@ fn simulate(scenario: &Value, mode: Mode, step_s: f64, duration_s: f64) -> Trace
     let ticks = (duration_s / step_s).round() as u64;
     let setup = Setup {
         robot: &robot,
+        scene: None,
         tcp: robot.tcp(),
         seen_from: robot.frame("lab").expect("lab"),
         periods: Periods {

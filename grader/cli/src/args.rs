@@ -224,6 +224,9 @@ pub(crate) struct ConvertArgs {
 pub(crate) struct EvalArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
+    /// What is around the robot in `simulate`: a scene file, or a scene of the labs by its name
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
 }
 
 /// Print shell completions

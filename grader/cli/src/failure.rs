@@ -94,7 +94,10 @@ impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         let code = match error {
             LoadError::UnknownLab { .. } => USAGE,
-            LoadError::Unreadable { .. } | LoadError::Lab(_) | LoadError::Robot(_) => BROKEN,
+            LoadError::Unreadable { .. }
+            | LoadError::Lab(_)
+            | LoadError::Robot(_)
+            | LoadError::Scene(_) => BROKEN,
         };
         Self::diagnostic(code, error)
     }

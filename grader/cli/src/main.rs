@@ -13,6 +13,7 @@ mod output;
 mod places;
 mod report_folder;
 mod robot_source;
+mod scene_source;
 mod worker;
 
 fn main() -> ExitCode {

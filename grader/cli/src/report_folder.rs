@@ -157,7 +157,15 @@ pub(crate) fn files(
             lab.reference_paths.text.as_str(),
         ));
     }
-    for mesh in &lab.robot_meshes {
+    for scene in &lab.scenes {
+        let source = scene.file.source();
+        files.push(OutFile::new(
+            format!("{LABS}/{}", source.name()),
+            source.text(),
+        ));
+    }
+    let meshes = lab.scenes.iter().flat_map(|scene| &scene.meshes);
+    for mesh in lab.robot_meshes.iter().chain(meshes) {
         files.push(OutFile::new(
             format!("{LABS}/{}", mesh.path),
             mesh.bytes.as_slice(),

@@ -10,10 +10,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use kinemark_grader::controller::{Answer, Call, Controller, HostLimit, Opening, Said, Stop};
+use kinemark_grader::controller::{
+    Answer, Call, Controller, HostLimit, Memory, Opening, Said, Stop,
+};
 use kinemark_grader::grading::Host;
 use kinemark_grader::submission::{STACK_BYTES, ScriptController};
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
 
@@ -76,12 +78,33 @@ fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Resu
         Err(stop) => return send(output, &Some(stop)),
     };
     loop {
-        let call: Call = receive(input)?;
-        let answer = controller
-            .call(&call)
-            .map_err(|stop| (stop, controller.unanswered()));
-        send(output, &answer)?;
+        match receive(input)? {
+            Request::Call(call) => {
+                let answer = controller
+                    .call(&call)
+                    .map_err(|stop| (stop, controller.unanswered()));
+                send(output, &answer)?;
+            }
+            Request::Memory => send(output, &controller.memory())?,
+            Request::Recall(memory) => send(output, &controller.recall(&memory))?,
+        }
     }
+}
+
+/// What a worker is asked, as it reads it.
+#[derive(Deserialize)]
+enum Request {
+    Call(Call),
+    Memory,
+    Recall(Memory),
+}
+
+/// What a worker is asked, as its parent writes it: the same variants in the same order.
+#[derive(Serialize)]
+enum Asked<'a> {
+    Call(&'a Call),
+    Memory,
+    Recall(&'a Memory),
 }
 
 /// Memory, CPU time, no core dump, no file written: set by the worker itself, before it reads anything of the submission.
@@ -257,7 +280,7 @@ impl Controller for Worker {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        let answer: Result<Answer, (Stop, Said)> = self.exchange(call)?;
+        let answer: Result<Answer, (Stop, Said)> = self.exchange(&Asked::Call(call))?;
         answer.map_err(|(stop, said)| {
             self.unanswered = said;
             stop
@@ -266,6 +289,14 @@ impl Controller for Worker {
 
     fn unanswered(&mut self) -> Said {
         std::mem::take(&mut self.unanswered)
+    }
+
+    fn memory(&mut self) -> Result<Memory, Stop> {
+        self.exchange::<Result<Memory, Stop>>(&Asked::Memory)?
+    }
+
+    fn recall(&mut self, memory: &Memory) -> Result<(), Stop> {
+        self.exchange::<Result<(), Stop>>(&Asked::Recall(memory))?
     }
 }
 

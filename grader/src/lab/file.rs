@@ -72,6 +72,7 @@ pub(super) struct CaseTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionTable {
     pub(super) mode: ModeName,
+    pub(super) scene: Option<Spanned<String>>,
     pub(super) duration_s: NumberAt,
     pub(super) physics_step_ms: Option<NumberAt>,
     pub(super) servo_period_ms: Option<NumberAt>,

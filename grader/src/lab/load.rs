@@ -6,6 +6,7 @@ mod motion;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::source::{Source, TomlRefusal, suggest};
@@ -21,6 +22,7 @@ use super::model::{
 };
 use super::problem::{LabError, LabProblem, LoadError};
 use super::robot::{LabRobot, robot_names};
+use super::scene::{LabScene, scene_names};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -202,9 +204,11 @@ impl Lab {
             }
         };
         let reference_paths = reference_paths(files, name)?;
+        let scenes = scenes(files, report, &robot, &lab)?;
         let reader = Reader {
             report,
             robot: &robot,
+            scenes: &scenes,
             robot_file: &robot_file,
             reference_paths: &reference_paths.paths,
         };
@@ -219,10 +223,52 @@ impl Lab {
             robot_file,
             robot_meshes,
             robot,
+            scenes,
             frame,
             reference_paths,
         })
     }
+}
+
+/// Loads the scenes that motion tasks name, each once.
+fn scenes(
+    files: &dyn Files,
+    report: Reporter<'_>,
+    robot: &Robot,
+    lab: &LabTable,
+) -> Result<Vec<Arc<LabScene>>, LoadError> {
+    let mut scenes: Vec<Arc<LabScene>> = Vec::new();
+    let motions = lab.tasks.iter().filter_map(|task| task.motion.as_ref());
+    for at in motions.filter_map(|motion| motion.get_ref().scene.as_ref()) {
+        let name = at.get_ref().as_str();
+        if scenes.iter().any(|scene| scene.name == name) {
+            continue;
+        }
+        let Some(scene) = LabScene::load(files, name)? else {
+            let known = scene_names(files);
+            return Ok(report.err(
+                at.span(),
+                "lab::unknown_scene",
+                format!("no scene file `scenes/{name}.toml`"),
+                "not a scene of this place",
+                Some(suggest(name, "scenes", known.iter().map(String::as_str))),
+            )?);
+        };
+        if let Some(body) = scene.namesake(robot) {
+            return Ok(report.err(
+                at.span(),
+                "lab::scene_names",
+                format!(
+                    "`{body}` is a body of this scene and a link or frame of robot `{}`",
+                    robot.name()
+                ),
+                "two things of one name",
+                Some("give the body of the scene another name".to_owned()),
+            )?);
+        }
+        scenes.push(Arc::new(scene));
+    }
+    Ok(scenes)
 }
 
 /// Reads `reference-path.json`: an object of tasks, each with `period_s` and `points_m`.
@@ -258,6 +304,7 @@ fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, Load
 struct Reader<'a> {
     report: Reporter<'a>,
     robot: &'a Robot,
+    scenes: &'a [Arc<LabScene>],
     robot_file: &'a RobotFile,
     reference_paths: &'a [(String, TcpPath)],
 }

@@ -1,4 +1,4 @@
-//! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`], [`robot`]), and the
+//! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`], [`robot`], [`scene`]), and the
 //! cases that hidden draws add ([`draw`]).
 
 pub mod brief;
@@ -6,13 +6,17 @@ pub mod draw;
 pub mod file;
 pub mod files;
 pub mod load;
+pub mod mesh_file;
 pub mod model;
 pub mod problem;
 pub mod robot;
+pub mod scene;
 pub mod staff;
 
 pub use files::Files;
+pub use mesh_file::MeshFile;
 pub use model::{Band, Case, Check, CheckKind, FunctionTask, Lab, MotionTask, Task, TaskWork};
 pub use problem::{LabError, LabProblem, LoadError};
-pub use robot::{LabRobot, MeshFile};
+pub use robot::LabRobot;
+pub use scene::LabScene;
 pub use staff::Staff;

@@ -1,12 +1,15 @@
 //! What a lab is once its file has been read: nothing in it can be wrong any more.
 
+use std::sync::Arc;
+
 use kinemark_sim::control::ServoSettings;
 use kinemark_sim::robot::{Dimension, Robot, RobotFile};
 use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 
-use super::robot::MeshFile;
+use super::mesh_file::MeshFile;
+use super::scene::LabScene;
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -27,6 +30,8 @@ pub struct Lab {
     pub robot_meshes: Vec<MeshFile>,
     /// The robot as its file states it.
     pub robot: Robot,
+    /// The scenes of its motion tasks, each once, in the order the tasks name them.
+    pub scenes: Vec<Arc<LabScene>>,
     /// The frame in which students work.
     pub frame: String,
     /// What submissions may use up.
@@ -139,7 +144,9 @@ pub struct MotionTask {
     pub ticks: u64,
     /// The servos.
     pub servo: ServoSettings,
-    /// Gravity in the world \[m/s²\].
+    /// What is around the robot, where anything is.
+    pub scene: Option<Arc<LabScene>>,
+    /// Gravity in the world: the scene's, or the usual one \[m/s²\].
     pub gravity_m_s2: Vector3<f64>,
     /// Joint positions at the start, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,

@@ -1,6 +1,7 @@
 //! Everything that can be wrong with a lab.
 
 use kinemark_sim::robot::RobotError;
+use kinemark_sim::scene::SceneError;
 use kinemark_sim::source::{Located, Problem};
 use miette::Diagnostic;
 
@@ -37,6 +38,10 @@ pub enum LoadError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Robot(#[from] RobotError),
+    /// A scene of it.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
 }
 
 /// What is wrong with a lab file.

@@ -4,6 +4,7 @@ use kinemark_sim::robot::RobotFile;
 
 use super::files::Files;
 use super::load::read;
+use super::mesh_file::{self, MeshFile};
 use super::problem::LoadError;
 
 /// A robot file of the labs with its meshes.
@@ -13,15 +14,6 @@ pub struct LabRobot {
     pub file: RobotFile,
     /// The meshes as they were read, in the order the file names them.
     pub meshes: Vec<MeshFile>,
-}
-
-/// A mesh as its file has it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MeshFile {
-    /// Its path inside the labs, such as `robots/meshes/hand.stl`.
-    pub path: String,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
 }
 
 /// Names of the robots in `files`.
@@ -44,7 +36,7 @@ impl LabRobot {
         };
         let mut meshes = Vec::new();
         let file = RobotFile::parse(source)?.with_meshes(|name| {
-            let mesh = mesh(files, name)?;
+            let mesh = mesh_file::read(files, "robots", name)?;
             let bytes = mesh.bytes.clone();
             meshes.push(mesh);
             Ok(bytes)
@@ -54,31 +46,6 @@ impl LabRobot {
 
     /// What tells this robot from any other: the digest of its file, and of its meshes where it has some.
     pub fn digest(file: &RobotFile, meshes: &[MeshFile]) -> blake3::Hash {
-        let mut hasher = blake3::Hasher::new();
-        hasher.update(file.source().text().as_bytes());
-        for mesh in meshes {
-            // a length before each part, so that no two robots have the same bytes in all
-            for part in [mesh.path.as_bytes(), &mesh.bytes] {
-                hasher.update(&(part.len() as u64).to_le_bytes());
-                hasher.update(part);
-            }
-        }
-        hasher.finalize()
-    }
-}
-
-/// A lab can be copied and graded elsewhere, so its meshes lie beside its robots.
-fn mesh(files: &dyn Files, name: &str) -> Result<MeshFile, String> {
-    let inside = |part: &str| !matches!(part, "" | "." | "..") && !part.contains(['\\', ':']);
-    if !name.split('/').all(inside) {
-        return Err(
-            "a mesh of a lab lies inside its robots folder, so its path is neither absolute nor has it `..`"
-                .to_owned(),
-        );
-    }
-    let path = format!("robots/{name}");
-    match files.bytes(&path)? {
-        Some(bytes) => Ok(MeshFile { path, bytes }),
-        None => Err(format!("there is no file `{path}` in {}", files.name())),
+        mesh_file::digest(file.source().text(), meshes)
     }
 }

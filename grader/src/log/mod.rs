@@ -1,5 +1,6 @@
 //! A run, written down for other tools: an MCAP log with everything that moved, and a layout to open it with.
 
+mod bodies;
 mod layout;
 mod mcap;
 mod message;

@@ -30,6 +30,11 @@ pub(super) fn frame_id_of(robot: &Robot, name: &str) -> String {
         .map_or_else(|| WORLD.to_owned(), |frame| frame_id(robot, frame))
 }
 
+/// The frame of a body of the scene: never that of a link.
+pub(super) fn body_frame(name: &str) -> String {
+    format!("body/{name}")
+}
+
 /// Field names from free text: letters, digits and underscores, no two the same, in the same order.
 pub(super) fn fields<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut fields: Vec<String> = Vec::new();

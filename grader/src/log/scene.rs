@@ -1,10 +1,11 @@
 //! What stands still in its frame: the shapes of the links, the goals, and the reference path.
 
 use kinemark_sim::robot::inertia::Solid;
+use kinemark_sim::scene::{BodyKind, SceneBody};
 use serde::Serialize;
 
 use super::message::{Pose, Time, Vector};
-use super::names::{frame_id, frame_id_of};
+use super::names::{body_frame, frame_id, frame_id_of};
 use crate::graded::{Goal, TaskRun};
 use kinemark_sim::spatial::{Pose as Isometry, pose};
 use nalgebra::{Matrix3, Vector3};
@@ -27,6 +28,9 @@ const LINKS: [Colour; 3] = [
     colour(0.0, 0.45, 0.7, 1.0),
     colour(0.34, 0.71, 0.91, 1.0),
 ];
+const STANDING: Colour = colour(0.75, 0.68, 0.58, 1.0);
+const DRIVEN: Colour = colour(0.9, 0.62, 0.0, 1.0);
+const FREE: Colour = colour(0.84, 0.37, 0.0, 1.0);
 const FULL: Colour = colour(0.0, 0.62, 0.45, 0.6);
 const ZERO: Colour = colour(0.84, 0.37, 0.0, 0.2);
 const REFERENCE: Colour = colour(0.8, 0.47, 0.65, 0.5);
@@ -192,6 +196,9 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
         }
         entities.push(entity);
     }
+    for body in run.scene.iter().flat_map(|scene| &scene.scene.bodies) {
+        entities.push(body_entity(body));
+    }
     let lab = frame_id_of(robot, &run.seen_from);
     let goals = run.goals.iter().enumerate();
     entities.extend(goals.map(|(i, goal)| goal_entity(i, goal, &lab)));
@@ -199,6 +206,24 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
         deletions: [],
         entities,
     }
+}
+
+/// A body of the scene, in a frame of its own.
+fn body_entity(body: &SceneBody) -> Entity {
+    let mut entity = Entity::new(format!("body {}", body.name), body_frame(&body.name));
+    let color = match body.kind {
+        BodyKind::Fixed => STANDING,
+        BodyKind::Kinematic(_) => DRIVEN,
+        BodyKind::Free => FREE,
+    };
+    for shape in &body.shapes {
+        entity.solid(&shape.solid, &shape.link_from_shape, color);
+    }
+    entity.metadata.push(KeyValue {
+        key: "type",
+        value: body.kind.name().to_owned(),
+    });
+    entity
 }
 
 fn goal_entity(index: usize, goal: &Goal, lab: &str) -> Entity {

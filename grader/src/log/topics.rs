@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
+use kinemark_sim::event::EventKind;
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::trace::EventKind;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::bodies::Bodies;
 use super::mcap::LogError;
 use super::message::{
     Flat, JointState, JointStates, Level, Log, Pose, PoseInFrame, Quaternion, Time, Vector,
@@ -152,6 +153,7 @@ impl<'a> Messages<'a> {
             schema::joint_states(),
         );
         let tree = Tree::new(&run.robot);
+        let bodies = Bodies::new(run);
         let lab = frame_id_of(&run.robot, &run.seen_from);
         let mut poses = FramePoses::new(&run.robot);
         for tick in self.ticks(POSE_RATE_HZ) {
@@ -164,7 +166,9 @@ impl<'a> Messages<'a> {
             );
             if q.iter().all(|q| q.is_finite()) {
                 poses.update(&run.robot, q);
-                self.message(tf, ns, &tree.transforms(&poses, timestamp))?;
+                let mut transforms = tree.transforms(&poses, timestamp);
+                bodies.add(&run.trace, tick, timestamp, &mut transforms);
+                self.message(tf, ns, &transforms)?;
             }
             let row = run.trace.tcp.at(tick);
             if row.iter().all(|x| x.is_finite()) {
@@ -354,26 +358,26 @@ impl<'a> Messages<'a> {
         let run = self.run;
         let topic = self.topic("/log", "foxglove.Log", schema::log());
         let mut lines: Vec<(u64, Level, Cow<'_, str>, &str)> = Vec::new();
-        let joint = |i: usize| {
-            run.robot
-                .moving_joints()
-                .nth(i)
-                .map_or("?", |joint| joint.name.as_str())
-        };
+        let names = run.names();
         for event in &run.trace.events {
-            let (level, message) = match event.kind {
-                EventKind::Saturated { joint: i } => (
-                    Level::Warning,
-                    format!("effort of `{}` reached its limit", joint(i)),
-                ),
-                EventKind::LimitCrossed { joint: i } => (
-                    Level::Warning,
-                    format!("`{}` left its position limits", joint(i)),
-                ),
-                EventKind::Diverged => (Level::Error, "the state is no longer finite".to_owned()),
-                EventKind::Stopped => (Level::Error, "the submission was stopped".to_owned()),
+            let level = match event.kind {
+                EventKind::Diverged | EventKind::Stopped => Level::Error,
+                EventKind::Saturated { .. } | EventKind::LimitHit { .. } => Level::Warning,
+                _ => Level::Info,
             };
+            let message = names.event(&event.kind);
             lines.push((self.ns(event.tick), level, message.into(), "run"));
+        }
+        for contact in &run.trace.contacts {
+            let [first, second] = contact.parties.map(|party| names.party(party));
+            let message = format!(
+                "`{first}` and `{second}` touch until {:.3} s: at most {:.3} N, {:.4} N s in all",
+                contact.last_tick as f64 * run.trace.step_s,
+                contact.peak_force_n,
+                contact.impulse_n_s
+            );
+            let ns = self.ns(contact.first_tick);
+            lines.push((ns, Level::Info, message.into(), "contact"));
         }
         for line in &run.trace.log {
             lines.push((

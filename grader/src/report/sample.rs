@@ -1,11 +1,12 @@
 //! A graded run to try the renderers on: a real simulation with a grade made by hand.
 
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::run::{Observation, Setup, run};
 use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
-use kinemark_sim::trace::{Event, EventKind, LogLine, PlotSignal, Trace, TraceRecorder};
+use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 use nalgebra::Vector3;
 
 use crate::grade::{
@@ -52,6 +53,7 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
     });
     let setup = Setup {
         robot,
+        scene: None,
         tcp: robot.tcp(),
         seen_from: robot
             .frame("lab")
@@ -149,6 +151,7 @@ pub(crate) fn task_run() -> TaskRun {
     TaskRun {
         task: "move".to_owned(),
         robot,
+        scene: None,
         seen_from: "lab".to_owned(),
         mode: Mode::Position,
         effort_limits: vec![30.0, 15.0],
@@ -199,6 +202,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
     };
     let setup = Setup {
         robot: &robot,
+        scene: None,
         tcp: robot.tcp(),
         seen_from: &robot.frames()[0],
         periods: Periods::new(0.001, 0.001, 0.01).expect("whole periods"),
@@ -222,11 +226,13 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
             qd: &row,
             command: &row,
             effort: &row,
+            scene: None,
         });
     }
     let trace = recorder.finish();
     TaskRun {
         task: "wander".to_owned(),
+        scene: None,
         seen_from: "l0".to_owned(),
         mode: Mode::Velocity,
         effort_limits: vec![f64::INFINITY; n],
@@ -299,6 +305,8 @@ fn task(
         diagnoses: Vec::new(),
         cases: Vec::new(),
         hidden: Vec::new(),
+        events: Vec::new(),
+        contacts: Vec::new(),
         operations: 12_345,
         log: Vec::new(),
         digests: Digests {
@@ -310,6 +318,7 @@ fn task(
                     command: String::new(),
                     effort: String::new(),
                     tcp: String::new(),
+                    bodies: None,
                 };
                 8
             ],
@@ -577,6 +586,7 @@ pub(crate) fn graded() -> GradedRun {
             mode: GradeMode::Practice,
             lab: part("01-kinematics", 1),
             robot: part("rrbot", 2),
+            scenes: Vec::new(),
             submission: part("submission.rhai", 3),
             reference: None,
             verdict: Verdict::Crashed,

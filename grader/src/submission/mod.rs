@@ -15,6 +15,7 @@ mod library;
 mod linear;
 mod list;
 mod math;
+mod memory;
 mod mistake;
 mod operand;
 mod output;

@@ -1,8 +1,8 @@
 //! Kinetic and potential energy: what a frictionless run must keep.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
-use super::crba::mass_matrix;
+use super::crba::Crba;
 use crate::joint::{JointPositions, JointVelocities};
 use crate::kinematics::forward_kinematics;
 use crate::robot::Robot;
@@ -23,7 +23,6 @@ pub fn energy(
     q: &JointPositions,
     qd: &JointVelocities,
 ) -> Energy {
-    let momentum = mass_matrix(robot, q) * qd.vector();
     let poses = forward_kinematics(robot, q);
     let world = robot.world_inertia();
     let mut moment = world.com_m * world.mass_kg;
@@ -31,7 +30,20 @@ pub fn energy(
         moment += placed.position * body.mass_kg + placed.world_from_body * body.first_moment;
     }
     Energy {
-        kinetic_j: 0.5 * qd.vector().dot(&momentum),
+        kinetic_j: kinetic_energy_j(robot, q.as_slice(), qd.as_slice()),
         potential_j: -gravity_m_s2.dot(&moment),
     }
+}
+
+/// Returns `qdᵀ M qd / 2`, armature included \[J\]; `q` and `qd` have shape `(n)`.
+pub(crate) fn kinetic_energy_j(robot: &Robot, q: &[f64], qd: &[f64]) -> f64 {
+    let n = robot.n();
+    let mut mass = DMatrix::zeros(n, n);
+    Crba::new(robot).fill(robot, q, &mut mass);
+    let mut twice_j = 0.0;
+    for (i, column) in mass.column_iter().enumerate() {
+        let momentum: f64 = column.iter().zip(qd).map(|(m, rate)| m * rate).sum();
+        twice_j += qd[i] * momentum;
+    }
+    0.5 * twice_j
 }

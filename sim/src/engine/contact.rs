@@ -29,6 +29,15 @@ impl Party {
         }
     }
 
+    /// Its kind and its index, as numbers for digests.
+    pub(crate) fn numbers(self) -> (u64, u64) {
+        match self {
+            Self::Link(index) => (0, index as u64),
+            Self::Body(index) => (1, index as u64),
+            Self::Ground => (2, 0),
+        }
+    }
+
     pub(super) fn from_user_data(data: u128) -> Self {
         let index = data as u64 as usize;
         match data >> 64 {

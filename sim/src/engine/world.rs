@@ -32,6 +32,8 @@ pub struct BodyState {
 /// A body that forces move.
 #[derive(Clone, Copy)]
 struct FreeBody {
+    /// Its index in the scene.
+    index: usize,
     handle: RigidBodyHandle,
     /// No point of it is farther from its centre of mass \[m\].
     radius_m: f64,
@@ -194,7 +196,11 @@ impl World {
                         (ball.center() - com).length() + ball.radius()
                     })
                     .fold(0.0, f64::max);
-                self.free.push(FreeBody { handle, radius_m });
+                self.free.push(FreeBody {
+                    index,
+                    handle,
+                    radius_m,
+                });
             }
         }
         self.bodies.push(handle);
@@ -307,6 +313,15 @@ impl World {
             farthest = farthest.max(rigid.linvel().length() * self.dt_s);
         }
         farthest
+    }
+
+    /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
+    pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
+        let speeds = self.free.iter().filter_map(|body| {
+            let rigid = &self.physics.bodies[body.handle];
+            (!rigid.is_sleeping()).then(|| (body.index, rigid.linvel().length()))
+        });
+        speeds.reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
     /// Whether something moves along a prescribed path.

@@ -8,6 +8,7 @@ mod assemble;
 pub mod config_string;
 mod description;
 pub mod expression;
+pub mod extent;
 pub mod file;
 pub mod inertia;
 pub mod mesh;

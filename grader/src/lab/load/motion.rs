@@ -1,10 +1,12 @@
 //! A motion task: periods that divide, goals that fit, servos that fit the robot.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use kinemark_sim::control::servo::Servo;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::hybrid::HybridStep;
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
@@ -97,11 +99,34 @@ impl Reader<'_> {
                 None,
             );
         }
+        let scene = motion.scene.as_ref().and_then(|name| {
+            let mut scenes = self.scenes.iter();
+            Some((
+                scenes.find(|scene| scene.name == *name.get_ref())?,
+                name.span(),
+            ))
+        });
+        let gravity_m_s2 = match &scene {
+            Some((scene, _)) => scene.scene.environment.gravity_m_s2,
+            None => GRAVITY_M_S2,
+        };
+        if let Some((scene, at)) = &scene
+            && let Err(error) = HybridStep::new(self.robot, &scene.scene, gravity_m_s2, step_s)
+        {
+            return self.report.err(
+                at.clone(),
+                "lab::scene",
+                error.to_string(),
+                "this scene with this robot",
+                None,
+            );
+        }
         Ok(MotionTask {
             periods,
             ticks,
             servo,
-            gravity_m_s2: GRAVITY_M_S2,
+            scene: scene.map(|(scene, _)| Arc::clone(scene)),
+            gravity_m_s2,
             start_q,
             target: motion.target.clone().unwrap_or_default(),
             goals,

@@ -1,6 +1,6 @@
 //! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
-use kinemark_sim::trace::EventKind;
+use kinemark_sim::event::EventKind;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};

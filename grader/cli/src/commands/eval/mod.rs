@@ -12,11 +12,12 @@ use std::io::{BufRead as _, BufReader, BufWriter, ErrorKind, Read as _, Write as
 use std::process::ExitCode;
 
 use kinemark_sim::robot::Robot;
+use kinemark_sim::scene::Scene;
 use serde_json::{Map, Value};
 
 use crate::args::EvalArgs;
 use crate::failure::{Failure, LOST};
-use crate::{disk, robot_source};
+use crate::{disk, robot_source, scene_source};
 
 /// A longer line is refused unread.
 const MOST_LINE_BYTES: u64 = 16 << 20;
@@ -37,10 +38,24 @@ impl Refusal {
     }
 }
 
+/// What requests are about.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'a> {
+    pub(super) robot: &'a Robot,
+    /// What is around it, for `simulate`.
+    pub(super) scene: Option<&'a Scene>,
+}
+
 /// Answers requests until the input ends.
 pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
     let loaded = robot_source::load(&args.robot)?;
-    let robot = &loaded.robot;
+    let named = args.scene.as_deref();
+    let scene = named.map(|named| scene_source::load(named, &args.robot.places));
+    let scene = scene.transpose()?.map(|loaded| loaded.scene);
+    let subject = Subject {
+        robot: &loaded.robot,
+        scene: scene.as_ref(),
+    };
     let mut input = BufReader::new(std::io::stdin());
     let mut output = BufWriter::new(std::io::stdout());
     let mut refused = false;
@@ -67,7 +82,7 @@ pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
             );
             with_id(None, Err(refusal))
         } else {
-            answer(robot, &line)
+            answer(subject, &line)
         };
         refused |= answer.contains_key("error");
         let written = serde_json::to_writer(&mut output, &Value::Object(answer))
@@ -113,7 +128,7 @@ fn skip_line(input: &mut impl std::io::BufRead) -> Result<(), Failure> {
     }
 }
 
-fn answer(robot: &Robot, line: &[u8]) -> Map<String, Value> {
+fn answer(subject: Subject<'_>, line: &[u8]) -> Map<String, Value> {
     let request: Value = match serde_json::from_slice(line.trim_ascii_end()) {
         Ok(request) => request,
         Err(error) => return with_id(None, Err(Refusal::new("bad-json", error.to_string()))),
@@ -126,7 +141,7 @@ fn answer(robot: &Robot, line: &[u8]) -> Map<String, Value> {
         return with_id(None, Err(refusal));
     };
     let id = request.remove("id");
-    with_id(id, operation::answer(robot, request))
+    with_id(id, operation::answer(subject, request))
 }
 
 fn with_id(id: Option<Value>, answer: Result<Map<String, Value>, Refusal>) -> Map<String, Value> {

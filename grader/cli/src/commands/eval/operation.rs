@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 
 use super::request::Fields;
 use super::state::{loop_refusal, names_of};
-use super::{Refusal, ik, simulate, trajectory};
+use super::{Refusal, Subject, ik, simulate, trajectory};
 
 const OPERATIONS: [&str; 18] = [
     "info",
@@ -44,7 +44,7 @@ const MOST_SAMPLES: usize = 100_000;
 
 /// Answers one request.
 pub(super) fn answer(
-    robot: &Robot,
+    subject: Subject<'_>,
     mut request: Map<String, Value>,
 ) -> Result<Map<String, Value>, Refusal> {
     let op = match request.remove("op") {
@@ -52,7 +52,7 @@ pub(super) fn answer(
         Some(_) => return Err(Refusal::new("wrong-type", "`op` must be a text")),
         None => return Err(Refusal::new("missing-field", "`op` is missing")),
     };
-    let fields = Fields::new(robot, request);
+    let fields = Fields::new(subject.robot, request);
     let answer = match op.as_str() {
         "info" => info(fields),
         "fk" => fk(fields),
@@ -71,7 +71,7 @@ pub(super) fn answer(
         "aba" => aba(fields),
         "energy" => energy(fields),
         "trajectory" => trajectory::answer(fields),
-        "simulate" => simulate::answer(fields),
+        "simulate" => simulate::answer(subject.scene, fields),
         _ => {
             let known = suggest(&op, "operations", OPERATIONS.into_iter());
             Err(Refusal::new(

@@ -1,11 +1,14 @@
-//! The operation `simulate`: a run under a constant command, sampled.
+//! The operation `simulate`: a run under given commands, sampled, alone or in a scene.
 
-use std::num::NonZeroU32;
-
+use kinemark_grader::event_words::Names;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::kinematics::closure::loop_gap_m;
 use kinemark_sim::run::{self, End, Recorder, Row, Setup};
+use kinemark_sim::scene::Scene;
 use kinemark_sim::ticks::{Periods, whole_ratio};
+use kinemark_sim::trace::pose_numbers;
+use kinemark_sim::watch::{ContactSpan, Watch};
 use serde_json::{Map, Value, json};
 
 use super::Refusal;
@@ -21,29 +24,43 @@ const MOST_NUMBERS: u64 = 2_000_000;
 /// A start counts as closed below this gap; the first step takes up what is left.
 const MOST_GAP_M: f64 = 1e-6;
 
-/// Keeps every `stride`-th row.
-struct Sampler {
+/// Keeps every `stride`-th row, and in a scene what happened.
+struct Sampler<'a> {
     stride: u64,
     periods: Periods,
     t_s: Vec<f64>,
     q: Vec<Vec<f64>>,
     qd: Vec<Vec<f64>>,
     effort: Vec<Vec<f64>>,
+    /// Poses of the scene's bodies, one list per body.
+    bodies: Vec<Vec<Vec<f64>>>,
+    watch: Option<Watch<'a>>,
 }
 
-impl Recorder for Sampler {
+impl Recorder for Sampler<'_> {
     fn row(&mut self, row: Row<'_>) {
+        if let Some(watch) = &mut self.watch {
+            watch.see(&row);
+        }
         if row.tick.is_multiple_of(self.stride) {
             self.t_s.push(self.periods.time_s(row.tick));
             self.q.push(row.q.to_vec());
             self.qd.push(row.qd.to_vec());
             self.effort.push(row.effort.to_vec());
+            for (body, poses) in row
+                .scene
+                .iter()
+                .flat_map(|scene| scene.bodies())
+                .zip(&mut self.bodies)
+            {
+                poses.push(pose_numbers(&body.world_from_body).to_vec());
+            }
         }
     }
 }
 
 /// Answers a `simulate` request.
-pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
+pub(super) fn answer(scene: Option<&Scene>, mut fields: Fields<'_>) -> Result<Value, Refusal> {
     let robot = fields.robot;
     let n = robot.n();
     let q0 = fields.positions("q0")?;
@@ -61,7 +78,7 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     }
     let start_qd = fields.velocities("qd0", &q0)?.as_slice().to_vec();
     let start_q = q0.as_slice().to_vec();
-    let command = fields.efforts("command")?.as_slice().to_vec();
+    let commands = commands(&mut fields)?;
     let duration_s = fields.positive("duration_s")?;
     let servo_s = fields.positive("servo_period_s")?;
     let step_s = match fields.number("physics_step_s")? {
@@ -80,7 +97,11 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
         Value::Object(servo) => servo_of(robot, servo)?,
         _ => return Err(Refusal::new("wrong-type", "`servo` must be an object")),
     };
-    let gravity_m_s2 = fields.gravity_m_s2()?;
+    let gravity_m_s2 = match scene {
+        // a scene says it, and a second word would be one too many
+        Some(scene) => scene.environment.gravity_m_s2,
+        None => fields.gravity_m_s2()?,
+    };
     fields.finish()?;
 
     let divides = |longer: &str, longer_s: f64, shorter: &str, shorter_s: f64| {
@@ -95,9 +116,17 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     let stride = divides("sample_period_s", sample_s, "physics_step_s", step_s)?;
     divides("duration_s", duration_s, "sample_period_s", sample_s)?;
     divides("servo_period_s", servo_s, "physics_step_s", step_s)?;
-    let periods = Periods::new(step_s, servo_s, servo_s)
+    let control_s = match &commands {
+        Commands::Constant(_) => servo_s,
+        Commands::Rows { period_s, .. } => {
+            divides("command_period_s", *period_s, "servo_period_s", servo_s)?;
+            *period_s
+        }
+    };
+    let periods = Periods::new(step_s, servo_s, control_s)
         .map_err(|error| Refusal::new("bad-period", error.to_string()))?;
-    let numbers = (ticks / stride + 1).saturating_mul(3 * n as u64 + 1);
+    let bodies = scene.map_or(0, |scene| scene.bodies.len());
+    let numbers = (ticks / stride + 1).saturating_mul((3 * n + 7 * bodies + 1) as u64);
     if ticks > MOST_STEPS || numbers > MOST_NUMBERS {
         return Err(Refusal::new(
             "too-large",
@@ -106,13 +135,10 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     }
     let setup = Setup {
         robot,
+        scene,
         tcp: robot.tcp(),
         seen_from: &robot.frames()[0],
-        // the command is constant: one call is enough
-        periods: Periods {
-            ticks_per_control: NonZeroU32::MAX,
-            ..periods
-        },
+        periods,
         gravity_m_s2,
         servo,
         start_q,
@@ -126,11 +152,15 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
         q: Vec::new(),
         qd: Vec::new(),
         effort: Vec::new(),
+        bodies: vec![Vec::new(); bodies],
+        watch: scene.map(|_| Watch::new(&setup)),
     };
     let end = run::run(
         &setup,
-        |_, slot| {
-            slot.copy_from_slice(&command);
+        |seen, slot| {
+            slot.copy_from_slice(
+                commands.at(seen.tick / u64::from(periods.ticks_per_control.get())),
+            );
             Ok::<(), Refusal>(())
         },
         &mut sampler,
@@ -139,13 +169,10 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
     match end {
         End::Finished => {}
         End::Stopped { why, .. } => return Err(why),
-        End::Diverged { tick } => {
+        End::Diverged { tick, what } => {
             return Err(Refusal::new(
                 "diverged",
-                format!(
-                    "the state was no longer finite at {} s",
-                    periods.time_s(tick)
-                ),
+                format!("{what} at {} s", periods.time_s(tick)),
             ));
         }
     }
@@ -153,12 +180,125 @@ pub(super) fn answer(mut fields: Fields<'_>) -> Result<Value, Refusal> {
         let rows: Result<Vec<Value>, Refusal> = table.iter().map(|row| finite(row)).collect();
         rows.map(Value::Array)
     };
-    Ok(json!({
+    let mut answer = json!({
         "t_s": finite(&sampler.t_s)?,
         "q": table(&sampler.q)?,
         "qd": table(&sampler.qd)?,
         "effort": table(&sampler.effort)?,
-    }))
+    });
+    if let (Some(scene), Some(watch)) = (scene, sampler.watch) {
+        let names = Names {
+            robot,
+            scene: Some(scene),
+            seen_from: "",
+        };
+        let (events, contacts) = watch.finish();
+        answer["events"] = events
+            .iter()
+            .map(|event| event_json(&names, event, periods.time_s(event.tick)))
+            .collect();
+        answer["contacts"] = contacts
+            .iter()
+            .map(|contact| contact_json(&names, contact, &periods))
+            .collect();
+        let poses = scene.bodies.iter().zip(&sampler.bodies);
+        let poses: Result<Map<String, Value>, Refusal> = poses
+            .map(|(body, poses)| Ok((body.name.clone(), table(poses)?)))
+            .collect();
+        answer["bodies"] = Value::Object(poses?);
+    }
+    Ok(answer)
+}
+
+/// What the servos are told.
+enum Commands {
+    /// One command for the whole run.
+    Constant(Vec<f64>),
+    /// A row for each period, the last one for the rest of the run.
+    Rows { rows: Vec<Vec<f64>>, period_s: f64 },
+}
+
+impl Commands {
+    /// The command of a period, from zero.
+    fn at(&self, period: u64) -> &[f64] {
+        match self {
+            Self::Constant(command) => command,
+            Self::Rows { rows, .. } => {
+                let last = rows.len() - 1;
+                &rows[usize::try_from(period).map_or(last, |period| period.min(last))]
+            }
+        }
+    }
+}
+
+fn commands(fields: &mut Fields<'_>) -> Result<Commands, Refusal> {
+    if !fields.has("commands") {
+        let command = fields.efforts("command")?.as_slice().to_vec();
+        return Ok(Commands::Constant(command));
+    }
+    if fields.has("command") {
+        return Err(Refusal::new(
+            "unknown-field",
+            "either `command` or `commands`, not both",
+        ));
+    }
+    let period_s = fields.positive("command_period_s")?;
+    let n = fields.robot.n();
+    let rows = fields.lists("commands")?;
+    if rows.is_empty() {
+        return Err(Refusal::new("wrong-length", "`commands` has no row"));
+    }
+    if let Some(row) = rows.iter().find(|row| row.len() != n) {
+        return Err(Refusal::new(
+            "wrong-length",
+            format!(
+                "a row of `commands` has {} numbers, expected {n}",
+                row.len()
+            ),
+        ));
+    }
+    Ok(Commands::Rows { rows, period_s })
+}
+
+fn event_json(names: &Names<'_>, event: &Event, t_s: f64) -> Value {
+    let mut told = json!({
+        "t_s": t_s,
+        "event": event.kind.name(),
+        "message": names.event(&event.kind),
+    });
+    if let Some(joint) = event.kind.joint() {
+        told["joint"] = names.joint(joint).into();
+    }
+    if let Some(body) = event.kind.body() {
+        told["body"] = names.body(body).into();
+    }
+    match event.kind {
+        EventKind::Touched { parties } => {
+            told["parties"] = json!(parties.map(|party| names.party(party)));
+        }
+        EventKind::BodyFell {
+            side: Some(side), ..
+        } => {
+            told["side"] = side.seen.name().into();
+            told["outward"] = json!([side.outward.x, side.outward.y, side.outward.z]);
+        }
+        _ => {}
+    }
+    told
+}
+
+fn contact_json(names: &Names<'_>, contact: &ContactSpan, periods: &Periods) -> Value {
+    let p = contact.p_first_in_world;
+    json!({
+        "parties": contact.parties.map(|party| names.party(party)),
+        "from_s": periods.time_s(contact.first_tick),
+        "until_s": periods.time_s(contact.last_tick),
+        "peak_force_n": contact.peak_force_n,
+        "peak_s": periods.time_s(contact.peak_tick),
+        "impulse_n_s": contact.impulse_n_s,
+        "depth_m": contact.depth_m,
+        "first_point_m": [p.x, p.y, p.z],
+    })
 }
 
 fn servo_of(
