@@ -20,7 +20,7 @@ const CAN: Party = Party::Body(1);
 const FOREARM: Party = Party::Link(2);
 
 /// Joint angles that put the tip of the course's arm `up` the ground and `out` from its post, elbow outwards.
-fn reach(up: f64, out: f64) -> [f64; 2] {
+pub(crate) fn reach(up: f64, out: f64) -> [f64; 2] {
     let (x, y) = (up - 2.0, out);
     let q2 = libm::acos((x * x + y * y - 2.0) / 2.0);
     let q1 = libm::atan2(y, x) - libm::atan2(libm::sin(q2), 1.0 + libm::cos(q2));

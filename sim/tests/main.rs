@@ -15,6 +15,7 @@ mod loops;
 mod mesh_files;
 mod mesh_solids;
 mod robot_files;
+mod runs;
 mod scenes;
 mod trajectories;
 mod urdf;

@@ -1,0 +1,271 @@
+//! Whole runs in a scene: what is told of them, that they end where nothing can be told any more, and that a copy goes on alike.
+
+use std::num::NonZeroU32;
+
+use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::engine::Party;
+use kinemark_sim::event::{Event, EventKind, SeenSide};
+use kinemark_sim::robot::Robot;
+use kinemark_sim::run::{self, End, Observation, Run, Setup};
+use kinemark_sim::runaway::BlowUp;
+use kinemark_sim::scene::Scene;
+use kinemark_sim::ticks::Periods;
+use kinemark_sim::trace::{Trace, TraceRecorder};
+
+use crate::arms::rrbot;
+use crate::contact::reach;
+use crate::contact_scenes::{GRAVITY, scene, shelf_and_can};
+
+fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks: u64) -> Setup<'a> {
+    let [kp, kd] = gains;
+    let gains = Gains {
+        kp,
+        ki: 0.0,
+        kd,
+        effort_limit: 100.0,
+        integral_limit: f64::INFINITY,
+    };
+    Setup {
+        robot,
+        scene,
+        tcp: robot.tcp(),
+        seen_from: robot.frame("lab").expect("lab"),
+        periods: Periods {
+            step_s: 1e-3,
+            ticks_per_servo: NonZeroU32::MIN,
+            ticks_per_control: NonZeroU32::new(10).expect("ten"),
+        },
+        gravity_m_s2: GRAVITY,
+        servo: ServoSettings {
+            mode: Mode::Position,
+            derivative: Derivative::Velocity,
+            gains: vec![gains; 2],
+            gravity_compensation: true,
+        },
+        start_q: vec![0.0; 2],
+        start_qd: vec![0.0; 2],
+        ticks,
+    }
+}
+
+/// Commands that lead the tip at 1.25 m above the ground from `from` to `to` metres out, at 0.5 m/s after half a second.
+fn sweep(from: f64, to: f64) -> impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), ()> {
+    move |seen, command| {
+        let gone = (seen.time_s - 0.5).max(0.0) * 0.5;
+        let out = if to > from {
+            (from + gone).min(to)
+        } else {
+            (from - gone).max(to)
+        };
+        command.copy_from_slice(&reach(1.25, out));
+        Ok(())
+    }
+}
+
+fn swept(from: f64, to: f64) -> Trace {
+    let (robot, scene) = (rrbot(), shelf_and_can());
+    let mut setup = setup(&robot, Some(&scene), [1000.0, 30.0], 3000);
+    setup.start_q = reach(1.25, from).to_vec();
+    let mut recorder = TraceRecorder::new(&setup);
+    let end = run::run(&setup, sweep(from, to), &mut recorder).expect("a run");
+    assert_eq!(end, End::Finished);
+    recorder.finish()
+}
+
+fn first(trace: &Trace, name: &str) -> Event {
+    let mut events = trace.events.iter();
+    let found = events.find(|event| event.kind.name() == name);
+    found
+        .cloned()
+        .unwrap_or_else(|| panic!("no {name}: {:?}", trace.events))
+}
+
+const CAN: usize = 1;
+
+#[test]
+fn a_can_that_is_swept_off_is_told_in_order_and_by_its_side() {
+    for (from, to, side) in [(0.75, 1.4, SeenSide::Far), (1.25, 0.6, SeenSide::Near)] {
+        let trace = swept(from, to);
+        assert!(trace.events.is_sorted_by_key(|event| event.tick));
+        let touched = trace
+            .events
+            .iter()
+            .find(|event| matches!(event.kind, EventKind::Touched { parties } if parties == [Party::Link(2), Party::Body(CAN)]))
+            .expect("the arm touches the can");
+        let [moved, left, fell] =
+            ["moved", "left-support", "body-fell"].map(|name| first(&trace, name));
+        assert!(touched.tick <= moved.tick && moved.tick < left.tick && left.tick < fell.tick);
+        let EventKind::BodyFell {
+            body: CAN,
+            side: Some(told),
+        } = fell.kind
+        else {
+            panic!("{fell:?}")
+        };
+        assert_eq!(told.seen, side);
+        // the shelf's sides look along x of the world
+        let sign = if side == SeenSide::Far { 1.0 } else { -1.0 };
+        assert!((told.outward.x - sign).abs() < 1e-12, "{told:?}");
+        // where it is when it is told to have fallen: below the top of the shelf, beyond that side
+        let pose = trace
+            .world_from_body(CAN, fell.tick as usize)
+            .expect("the can moves");
+        assert!(pose.translation.z < 1.15 && sign * (pose.translation.x - 1.0) > 0.1);
+    }
+}
+
+#[test]
+fn contacts_tell_whom_from_when_to_when_and_how_hard() {
+    let trace = swept(0.75, 1.4);
+    let of = |parties: [Party; 2]| {
+        let mut contacts = trace.contacts.iter();
+        contacts
+            .find(|contact| contact.parties == parties)
+            .expect("a contact")
+            .clone()
+    };
+    // the can stands on the shelf from the first step until it leaves it
+    let stands = of([Party::Body(0), Party::Body(CAN)]);
+    let left = first(&trace, "left-support").tick;
+    assert!(
+        stands.first_tick <= 1 && stands.last_tick.abs_diff(left) <= 40,
+        "{stands:?} {left}"
+    );
+    // until the arm comes, its weight times the time is the impulse
+    let pushed = of([Party::Link(2), Party::Body(CAN)]);
+    assert!(pushed.first_tick > 400 && pushed.peak_force_n > 0.4 * 0.39 * 9.81);
+    let weight_n_s = 0.39 * 9.81 * 1e-3 * stands.last_tick as f64;
+    assert!(
+        (stands.impulse_n_s / weight_n_s - 1.0).abs() < 0.05,
+        "{stands:?} {weight_n_s}"
+    );
+    assert!((stands.p_first_in_world.z - 1.2).abs() < 1e-3);
+    // what the trace has of the can at the start is where the scene puts it
+    let start = trace.world_from_body(CAN, 0).expect("the can moves");
+    assert!((start.translation.vector - nalgebra::Vector3::new(1.0, 0.05, 1.25)).norm() < 1e-15);
+    assert_eq!(trace.moving_bodies, [CAN]);
+}
+
+#[test]
+fn without_contact_a_run_in_a_scene_is_smooth_motion_to_the_last_bit() {
+    let robot = rrbot();
+    let (around, nothing) = (shelf_and_can(), scene(Vec::new()));
+    let wave = |seen: &Observation<'_>, command: &mut [f64]| {
+        command.copy_from_slice(&[0.3 * libm::sin(seen.time_s), 0.4]);
+        Ok::<(), ()>(())
+    };
+    let mut bits = Vec::new();
+    for scene in [None, Some(&around), Some(&nothing)] {
+        let setup = setup(&robot, scene, [100.0, 10.0], 2000);
+        let mut recorder = TraceRecorder::new(&setup);
+        assert_eq!(run::run(&setup, wave, &mut recorder), Ok(End::Finished));
+        let digest = recorder.finish().digest();
+        bits.push(
+            digest
+                .seconds
+                .iter()
+                .map(|second| second.signals[..5].to_vec())
+                .collect::<Vec<_>>(),
+        );
+    }
+    assert!(bits[0] == bits[1] && bits[1] == bits[2]);
+}
+
+#[test]
+fn a_snapshot_of_a_run_goes_on_with_the_same_bits() {
+    let (robot, scene) = (rrbot(), shelf_and_can());
+    let mut setup = setup(&robot, Some(&scene), [1000.0, 30.0], 2500);
+    setup.start_q = reach(1.25, 0.75).to_vec();
+    // between two control periods, just before the can is touched, while it is pushed, while it falls
+    for at in [333, 820, 1105, 1777] {
+        let mut run = Run::new(setup.clone()).expect("a run");
+        let mut recorder = TraceRecorder::new(&setup);
+        while run.tick() < at {
+            let end = run
+                .advance(&mut sweep(0.75, 1.4), &mut recorder)
+                .expect("a step");
+            assert_eq!(end, None);
+        }
+        let (saved, recorded) = (run.snapshot(), recorder.clone());
+        let to_end = |run: &mut Run<'_>, mut recorder: TraceRecorder<'_>| {
+            while run
+                .advance(&mut sweep(0.75, 1.4), &mut recorder)
+                .expect("a step")
+                .is_none()
+            {}
+            recorder.finish().digest().all
+        };
+        let straight = to_end(&mut run, recorder);
+        let mut other = Run::new(setup.clone()).expect("a run");
+        other.restore(&saved);
+        assert_eq!(to_end(&mut other, recorded.clone()), straight);
+        // and the one that went to its end goes back
+        run.restore(&saved);
+        assert_eq!(to_end(&mut run, recorded), straight);
+    }
+}
+
+#[test]
+fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_can_be_told() {
+    let (robot, around) = (rrbot(), shelf_and_can());
+    for scene in [None, Some(&around)] {
+        let mut setup = setup(&robot, scene, [100.0, 2000.0], 5000);
+        for gains in &mut setup.servo.gains {
+            gains.effort_limit = f64::INFINITY;
+        }
+        let mut recorder = TraceRecorder::new(&setup);
+        let command = |_: &Observation<'_>, command: &mut [f64]| {
+            command.copy_from_slice(&[0.1, 0.1]);
+            Ok::<(), ()>(())
+        };
+        let end = run::run(&setup, command, &mut recorder).expect("a run");
+        let End::Diverged { tick, what } = end else {
+            panic!("{end:?}")
+        };
+        let BlowUp::Runaway {
+            kinetic_j, bound_j, ..
+        } = what
+        else {
+            panic!("{what:?}")
+        };
+        // a kilogram at 1000 m/s
+        assert!((bound_j - 5e5).abs() < 1e-6 && kinetic_j > bound_j);
+        let trace = recorder.finish();
+        assert_eq!(trace.len() as u64, tick);
+        assert!(trace.len() < 1000);
+        for tick in 0..trace.len() {
+            assert!(trace.q.at(tick).iter().all(|q| q.abs() < 1e6));
+        }
+    }
+}
+
+#[test]
+fn a_straight_arm_is_near_a_singular_position_and_says_so_once() {
+    let robot = rrbot();
+    let setup = setup(&robot, None, [100.0, 10.0], 6000);
+    let mut recorder = TraceRecorder::new(&setup);
+    // straight up at the start, bent, and straight again at 4 s
+    let command = |seen: &Observation<'_>, command: &mut [f64]| {
+        let elbow = if (1.0..4.0).contains(&seen.time_s) {
+            1.0
+        } else {
+            0.0
+        };
+        command.copy_from_slice(&[0.3, elbow]);
+        Ok::<(), ()>(())
+    };
+    assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
+    let trace = recorder.finish();
+    let near = trace
+        .events
+        .iter()
+        .filter(|event| event.kind == EventKind::NearSingular);
+    let near: Vec<u64> = near.map(|event| event.tick).collect();
+    assert_eq!((near.len(), near[0]), (2, 0), "{near:?}");
+    // condition number 50 at an elbow of about a tenth of a radian: |sin q2| = s1 s2, s1² + s2² = 3 + 2 cos q2
+    let elbow = trace.q.at(near[1] as usize)[1];
+    assert!(
+        near[1].is_multiple_of(10) && (0.0..=0.1).contains(&elbow.abs()),
+        "{near:?} {elbow}"
+    );
+}
