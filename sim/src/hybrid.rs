@@ -3,7 +3,8 @@
 //! Every step is first done as if there were no scene. If anything in the scene is awake, or a link may come near anything, the
 //! contact engine steps too, from the same state and under the same efforts. If it then pressed on a link that moves, its state
 //! stands; on all other steps ours does, to the last bit. So free motion keeps fourth order, and motion in contact has the first
-//! order of the engine (semi-implicit Euler in four substeps). Joint limits act as stops in both.
+//! order of the engine (semi-implicit Euler in four substeps). Joint limits act as stops in both. The air of a step is the same for
+//! links and bodies; in the engine its drag on links is that at the start of the step, held.
 
 use nalgebra::Vector3;
 
@@ -73,6 +74,8 @@ pub struct HybridStep {
     start_q: Vec<f64>,
     start_qd: Vec<f64>,
     held: Vec<f64>,
+    /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
+    drag: Vec<f64>,
     report: StepReport,
 }
 
@@ -109,7 +112,8 @@ impl HybridStep {
             falls_m: 2.0 * gravity_m_s2.norm() * dt_s * dt_s,
             start_q: room.clone(),
             start_qd: room.clone(),
-            held: room,
+            held: room.clone(),
+            drag: room,
             report: StepReport {
                 state_from: StateFrom::Smooth,
                 engine_stepped: false,
@@ -138,6 +142,7 @@ impl HybridStep {
         self.report.state_from = StateFrom::Smooth;
         self.report.stops.clear();
         self.report.at_limit.clear();
+        self.smooth.set_air(self.world.air_now());
         self.advance_free(robot, effort, q, qd)?;
 
         let awake = self.world.is_awake();
@@ -180,10 +185,16 @@ impl HybridStep {
         }
         q.copy_from_slice(&self.start_q);
         qd.copy_from_slice(&self.start_qd);
-        self.held.copy_from_slice(effort);
+        self.hold_with_drag(robot, effort);
         let (gravity, dt_s) = (&self.gravity_m_s2, self.dt_s);
         self.stops
             .hold(robot, gravity, dt_s, q, qd, &mut self.held)?;
+        if self.smooth.feels_air() {
+            // the step adds it anew
+            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
+                *held -= drag;
+            }
+        }
         self.smooth.advance(robot, &self.held, q, qd)?;
         self.stops.catch(robot, &self.start_q, q, qd);
         let acted = self.stops.impulses().iter().copied().enumerate();
@@ -191,6 +202,19 @@ impl HybridStep {
             .stops
             .extend(acted.filter(|(_, impulse)| *impulse != 0.0));
         Ok(())
+    }
+
+    /// Sets `held` to `effort` and the drag on links at the start of the step.
+    fn hold_with_drag(&mut self, robot: &Robot, effort: &[f64]) {
+        self.held.copy_from_slice(effort);
+        if self.smooth.feels_air() {
+            let (q, qd) = (&self.start_q, &self.start_qd);
+            self.drag.fill(0.0);
+            self.smooth.add_drag(robot, q, qd, &mut self.drag);
+            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
+                *held += drag;
+            }
+        }
     }
 
     fn advance_in_contact(
@@ -202,11 +226,14 @@ impl HybridStep {
         near: bool,
     ) -> Result<(), StepError> {
         let travel_m = near.then(|| self.clearance.travel_m(robot, &self.start_q, q));
+        if near {
+            self.hold_with_drag(robot, effort);
+        }
         let facts = &mut self.report.contacts;
         self.world
             .step(
                 robot,
-                effort,
+                &self.held,
                 &self.start_q,
                 &self.start_qd,
                 travel_m,

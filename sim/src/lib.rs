@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`source`] | text from outside, and errors that point into it |
 //! | [`robot`] | the immutable robot and its TOML description |
+//! | [`air`] | how air drags on bodies and links |
 //! | [`scene`] | what is around the robot, and its TOML description |
 //! | [`engine`] | contact, and the only place that knows how it is computed |
 //! | [`hybrid`] | the step in a scene: smooth while the robot is free, contact while it touches |
@@ -35,6 +36,7 @@
     )
 )]
 
+pub mod air;
 pub mod control;
 pub mod dynamics;
 pub mod engine;

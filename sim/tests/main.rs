@@ -11,6 +11,7 @@ mod golden_steps;
 mod golden_urdf;
 mod inverse;
 mod laws;
+mod link_drag;
 mod loops;
 mod mesh_files;
 mod mesh_solids;

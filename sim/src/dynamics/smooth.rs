@@ -1,13 +1,17 @@
 //! The smooth step: classical Runge-Kutta of order four over forward dynamics, effort held over the step; then back onto the loops'
 //! conditions, if the robot has loops.
 //!
+//! Air, if there is any, is the same all over a step, and drags on the links as they move within it.
+//!
 //! This is the seam where contact joins: a step takes a state and held efforts and leaves the next state.
 
 use nalgebra::Vector3;
 
 use super::aba::SingularMassMatrix;
+use super::drag::LinkDrag;
 use super::dry_friction::DryFriction;
 use super::forward::ForwardDynamics;
+use crate::air::AirNow;
 use crate::robot::Robot;
 
 /// Integrates one robot with a fixed step; all its room is allocated once.
@@ -17,7 +21,12 @@ pub struct SmoothStep {
     gravity_m_s2: Vector3<f64>,
     dynamics: ForwardDynamics,
     friction: DryFriction,
+    drag: LinkDrag,
+    /// The air of the step, if it drags on any link.
+    air: Option<AirNow>,
     held: Vec<f64>,
+    /// Held effort and drag of one stage.
+    stage_effort: Vec<f64>,
     stage_q: Vec<f64>,
     stage_qd: Vec<f64>,
     /// Velocities and accelerations of the four stages.
@@ -34,11 +43,31 @@ impl SmoothStep {
             gravity_m_s2,
             dynamics: ForwardDynamics::new(robot),
             friction: DryFriction::new(robot),
+            drag: LinkDrag::new(robot),
+            air: None,
             held: room(),
+            stage_effort: room(),
             stage_q: room(),
             stage_qd: room(),
             rates: [room(), room(), room(), room()],
             slopes: [room(), room(), room(), room()],
+        }
+    }
+
+    /// Sets the air of the steps to come; there is none before.
+    pub fn set_air(&mut self, air: Option<AirNow>) {
+        self.air = air.filter(|_| self.drag.is_present());
+    }
+
+    /// Whether air drags on the robot: there is some, and a link that moves has drag.
+    pub fn feels_air(&self) -> bool {
+        self.air.is_some()
+    }
+
+    /// Adds the efforts of the drag at `(q, qd)` to `effort`; all slices have shape `(n)`. Nothing without air.
+    pub fn add_drag(&mut self, robot: &Robot, q: &[f64], qd: &[f64], effort: &mut [f64]) {
+        if let Some(air) = &self.air {
+            self.drag.add_efforts(robot, q, qd, air, effort);
         }
     }
 
@@ -58,8 +87,14 @@ impl SmoothStep {
         self.held[..n].copy_from_slice(&effort[..n]);
         if self.friction.is_present() {
             let slope = &mut self.slopes[0];
+            self.stage_effort[..n].copy_from_slice(&effort[..n]);
+            if let Some(air) = &self.air {
+                let effort = &mut self.stage_effort;
+                self.drag.add_efforts(robot, q, qd, air, effort);
+            }
+            let (gravity, effort) = (&self.gravity_m_s2, &self.stage_effort);
             self.dynamics
-                .acceleration(robot, &self.gravity_m_s2, q, qd, effort, slope)?;
+                .acceleration(robot, gravity, q, qd, effort, slope)?;
             let friction = self
                 .friction
                 .efforts(robot, &mut self.dynamics, dt, q, qd, slope);
@@ -82,12 +117,21 @@ impl SmoothStep {
                 }
             }
             self.rates[stage][..n].copy_from_slice(stage_qd);
+            let effort = match &self.air {
+                None => &self.held,
+                Some(air) => {
+                    let effort = &mut self.stage_effort;
+                    effort.copy_from_slice(&self.held);
+                    self.drag.add_efforts(robot, stage_q, stage_qd, air, effort);
+                    effort
+                }
+            };
             self.dynamics.acceleration(
                 robot,
                 &self.gravity_m_s2,
                 stage_q,
                 stage_qd,
-                &self.held,
+                effort,
                 &mut self.slopes[stage],
             )?;
         }

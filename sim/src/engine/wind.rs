@@ -1,8 +1,9 @@
-//! The air of one run: the mean wind of the scene with its gusts, felt by bodies as drag.
+//! The air of one run: the mean wind of the scene with its gusts, felt by bodies and links as drag.
 
 use nalgebra::Vector3;
 
-use crate::scene::{Drag, GustSequence, Wind};
+use crate::air::AirNow;
+use crate::scene::{GustSequence, Wind};
 
 /// The air of one run, step by step; a copy goes on with the same gusts.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,10 +30,12 @@ impl Air {
         self.gusts.is_some()
     }
 
-    /// The force on something that moves at `v_in_world` \[m/s\], world axes \[N\].
-    pub(super) fn drag_n(&self, drag: &Drag, v_in_world: &Vector3<f64>) -> Vector3<f64> {
-        let past = self.velocity_m_s - v_in_world;
-        drag.force_n(self.wind.air_density_kg_m3, &past)
+    /// The air of the step to come.
+    pub(super) fn now(&self) -> AirNow {
+        AirNow {
+            density_kg_m3: self.wind.air_density_kg_m3,
+            velocity_m_s: self.velocity_m_s,
+        }
     }
 
     /// Moves on by one step.

@@ -14,8 +14,9 @@ use super::error::EngineError;
 use super::settings::{self, COMBINE};
 use super::shape::collider;
 use super::wind::Air;
+use crate::air::{AirNow, Drag};
 use crate::robot::Robot;
-use crate::scene::{BodyKind, Drag, Motion, Scene, SceneBody};
+use crate::scene::{BodyKind, Motion, Scene, SceneBody};
 use crate::spatial::{Pose, Twist};
 
 /// Where a body of the scene is and how it moves.
@@ -230,6 +231,11 @@ impl World {
         }
     }
 
+    /// The air of the step to come, if there is any.
+    pub(crate) fn air_now(&self) -> Option<AirNow> {
+        self.air.as_ref().map(Air::now)
+    }
+
     /// Lets a step pass in which nothing moves but the air.
     pub(crate) fn rest(&mut self) {
         self.tick += 1;
@@ -260,7 +266,7 @@ impl World {
                 arm.write(robot, &mut self.physics, effort, q, qd);
             }
         }
-        if let Some(air) = &self.air {
+        if let Some(air) = self.air_now() {
             for (handle, drag) in &self.blown {
                 let body = &mut self.physics.bodies[*handle];
                 let force = air.drag_n(drag, &from_vector(body.linvel()));

@@ -134,6 +134,7 @@ impl Assembler<'_> {
                 shapes: part.shapes.clone(),
                 inertia: part.inertia,
                 contact: part.contact,
+                drag: part.drag,
                 attachment,
             })
             .collect();

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::file::Dimensions;
 use super::inertia::Inertia;
 use super::model::{Contact, JointKind, Limits, LoopKind, Shape};
+use crate::air::Drag;
 use crate::source::Source;
 use crate::spatial::Pose;
 
@@ -33,6 +34,7 @@ pub(super) struct LinkPart {
     pub(super) shapes: Vec<Shape>,
     pub(super) inertia: Inertia,
     pub(super) contact: Option<Contact>,
+    pub(super) drag: Option<Drag>,
 }
 
 impl LinkPart {
@@ -43,6 +45,7 @@ impl LinkPart {
             shapes: Vec::new(),
             inertia: Inertia::zero(),
             contact: None,
+            drag: None,
         }
     }
 }

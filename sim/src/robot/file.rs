@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::part::tables::{
-    ContactTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
+    ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
 };
 use super::part::{Meshes, PartProblem};
 use super::problem::RobotError;
@@ -214,6 +214,7 @@ pub(super) struct LinkTable {
     pub(super) shapes: Vec<Spanned<ShapeTable>>,
     pub(super) inertia: Option<Spanned<InertiaTable>>,
     pub(super) contact: Option<ContactTable>,
+    pub(super) drag: Option<DragTable>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

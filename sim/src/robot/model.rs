@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::file::Dimensions;
 use super::inertia::{Inertia, Solid};
+use crate::air::Drag;
 use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::spatial::{Pose, Symmetric3};
 
@@ -161,6 +162,8 @@ pub struct Link {
     pub inertia: Inertia,
     /// Its surface, if described.
     pub contact: Option<Contact>,
+    /// What the air does to it; nothing where it is absent.
+    pub drag: Option<Drag>,
     /// Where it is fixed.
     pub attachment: Attachment,
 }

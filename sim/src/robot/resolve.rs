@@ -240,11 +240,14 @@ impl Resolver<'_> {
             };
             let contact = table.contact.as_ref();
             let contact = contact.map(|c| self.values.contact(c)).transpose()?;
+            let drag = table.drag.as_ref();
+            let drag = drag.map(|d| self.values.drag(d)).transpose()?;
             links.push(LinkPart {
                 name: table.name.clone(),
                 shapes,
                 inertia,
                 contact,
+                drag,
             });
         }
         Ok(links)

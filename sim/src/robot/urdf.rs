@@ -181,5 +181,6 @@ fn link(
         inertia: inertial::inertia(reader, &owner, node)?,
         shapes: shape::shapes(reader, meshes, &owner, node)?,
         contact: None,
+        drag: None,
     })
 }

@@ -37,6 +37,13 @@ impl Robot {
                     contact.friction, contact.restitution
                 );
             }
+            if let Some(drag) = &link.drag {
+                let _ = writeln!(
+                    out,
+                    "drag = {{ area_m2 = {:?}, coefficient = {:?} }}",
+                    drag.area_m2, drag.coefficient
+                );
+            }
         }
         for joint in self.joints() {
             self.joint_table(joint, &mut out);

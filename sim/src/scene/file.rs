@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::problem::{SceneError, SceneProblem};
 use crate::robot::file::Dimensions;
 use crate::robot::part::tables::{
-    ContactTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
+    ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
 };
 use crate::robot::part::{Meshes, PartProblem};
 use crate::source::{Source, TomlRefusal};
@@ -150,11 +150,4 @@ pub(super) struct WaypointTable {
     pub(super) t_s: NumberAt,
     pub(super) xyz_m: [NumberAt; 3],
     pub(super) rpy_deg: Option<[NumberAt; 3]>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct DragTable {
-    pub(super) area_m2: NumberAt,
-    pub(super) coefficient: NumberAt,
 }

@@ -18,8 +18,9 @@ mod motion;
 mod problem;
 mod resolve;
 
+pub use crate::air::Drag;
 pub use file::SceneFile;
 pub use gust::{Gust, GustSequence};
-pub use model::{BodyKind, Drag, Environment, Scene, SceneBody, Wind};
+pub use model::{BodyKind, Environment, Scene, SceneBody, Wind};
 pub use motion::{Motion, Waypoint};
 pub use problem::{SceneError, SceneProblem};

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::gust::Gust;
 use super::motion::Motion;
+use crate::air::Drag;
 use crate::robot::inertia::Inertia;
 use crate::robot::model::{Contact, Shape};
 use crate::spatial::{Pose, Twist};
@@ -107,42 +108,9 @@ impl BodyKind {
     }
 }
 
-/// How a body resists the air, the same from every side; the force acts at the centre of mass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drag {
-    /// Area that meets the air \[m²\].
-    pub area_m2: f64,
-    /// Drag coefficient, a ratio of pressures.
-    pub coefficient: f64,
-}
-
-impl Drag {
-    /// The force of air that passes at `air_past_body_m_s`, in the axes of that velocity \[N\]: `½ ρ c A |v| v`.
-    pub fn force_n(
-        &self,
-        air_density_kg_m3: f64,
-        air_past_body_m_s: &Vector3<f64>,
-    ) -> Vector3<f64> {
-        let half_rho_c_a = 0.5 * air_density_kg_m3 * self.coefficient * self.area_m2;
-        air_past_body_m_s * (half_rho_c_a * air_past_body_m_s.norm())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn drag_by_hand() {
-        let drag = Drag {
-            area_m2: 0.5,
-            coefficient: 0.8,
-        };
-        // ½ 1.2 0.8 0.5 = 0.24; |v| = 5
-        let force = drag.force_n(1.2, &Vector3::new(3.0, 0.0, -4.0));
-        assert!((force - Vector3::new(3.6, 0.0, -4.8)).norm() < 1e-15);
-        assert_eq!(drag.force_n(1.2, &Vector3::zeros()), Vector3::zeros());
-    }
 
     #[test]
     fn a_gust_blows_along_the_wind() {

@@ -10,8 +10,9 @@ use toml::Spanned;
 
 use super::file::{BodyTable, BodyType, EnvironmentTable, KIND, SceneFile, WindTable};
 use super::gust::Gust;
-use super::model::{BodyKind, Drag, Environment, Scene, SceneBody, Wind};
+use super::model::{BodyKind, Environment, Scene, SceneBody, Wind};
 use super::problem::{SceneError, SceneProblem};
+use crate::air::Drag;
 use crate::robot::file::Dimension;
 use crate::robot::inertia::{Inertia, Solid, principal_moments};
 use crate::robot::model::{Contact, Shape};
@@ -322,11 +323,15 @@ impl Resolver<'_> {
             };
             return self.err(drag.span(), problem);
         }
-        let drag = drag.get_ref();
-        Ok(Some(Drag {
-            area_m2: self.bounded(&drag.area_m2, "area_m2", Allowed::NotNegative)?,
-            coefficient: self.bounded(&drag.coefficient, "coefficient", Allowed::NotNegative)?,
-        }))
+        let table = drag.get_ref();
+        let drag = self.values.drag(table)?;
+        for (at, what, value) in [
+            (&table.area_m2, "area_m2", drag.area_m2),
+            (&table.coefficient, "coefficient", drag.coefficient),
+        ] {
+            self.within(at.span(), what, &Vector3::repeat(value))?;
+        }
+        Ok(Some(drag))
     }
 
     fn contact(&self, table: &ContactTable) -> Result<Contact, SceneError> {

@@ -1,12 +1,13 @@
-//! What a link or a body is made of: its shapes and surface, and its mass properties given or taken from the shapes.
+//! What a link or a body is made of: its shapes and surface, how it resists the air, and its mass properties given or taken from the shapes.
 
 use std::sync::Arc;
 
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::tables::{ContactTable, InertiaTable, MeshTable, RoundTable, ShapeTable};
+use super::tables::{ContactTable, DragTable, InertiaTable, MeshTable, RoundTable, ShapeTable};
 use super::{Allowed, PartError, PartProblem, Values};
+use crate::air::Drag;
 use crate::robot::inertia::{self, Inertia, MeshSolid, Solid};
 use crate::robot::mesh::MeshProblem;
 use crate::robot::model::{Contact, Shape};
@@ -117,6 +118,17 @@ impl Values<'_> {
                 Allowed::Fraction, // above one, every bounce would add energy
                 0.0,
             )?,
+        })
+    }
+
+    pub(crate) fn drag(&self, table: &DragTable) -> Result<Drag, PartError> {
+        let DragTable {
+            area_m2,
+            coefficient,
+        } = table;
+        Ok(Drag {
+            area_m2: self.number(area_m2, "area_m2", Allowed::NotNegative)?,
+            coefficient: self.number(coefficient, "coefficient", Allowed::NotNegative)?,
         })
     }
 

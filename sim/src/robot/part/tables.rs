@@ -99,6 +99,13 @@ pub(crate) struct ContactTable {
     pub(crate) restitution: Option<NumberAt>,
 }
 
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DragTable {
+    pub(crate) area_m2: NumberAt,
+    pub(crate) coefficient: NumberAt,
+}
+
 /// Position, and at most one way to say the rotation: `rpy_deg`, `axis` with `angle_deg`, or `x_axis` with `y_axis`.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
