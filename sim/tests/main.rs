@@ -17,6 +17,7 @@ mod mesh_files;
 mod mesh_solids;
 mod robot_files;
 mod runs;
+mod sampled_loop;
 mod scenes;
 mod trajectories;
 mod urdf;

@@ -1,5 +1,7 @@
-//! Joint servos: a command in, an effort out.
+//! Joint servos: a command in, an effort out; and the gains and periods at which they are stable.
 
+pub mod sampled_loop;
 pub mod servo;
 
+pub use sampled_loop::{SampledLoop, sampled_loop};
 pub use servo::{Derivative, Gains, Mode, Servo, ServoSettings};
