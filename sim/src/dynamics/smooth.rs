@@ -87,14 +87,15 @@ impl SmoothStep {
         self.held[..n].copy_from_slice(&effort[..n]);
         if self.friction.is_present() {
             let slope = &mut self.slopes[0];
-            self.stage_effort[..n].copy_from_slice(&effort[..n]);
-            if let Some(air) = &self.air {
-                let effort = &mut self.stage_effort;
-                self.drag.add_efforts(robot, q, qd, air, effort);
-            }
-            let (gravity, effort) = (&self.gravity_m_s2, &self.stage_effort);
+            let effort = match &self.air {
+                None => effort,
+                Some(air) => {
+                    let room = &mut self.stage_effort;
+                    with_drag(&mut self.drag, robot, (q, qd), air, effort, room)
+                }
+            };
             self.dynamics
-                .acceleration(robot, gravity, q, qd, effort, slope)?;
+                .acceleration(robot, &self.gravity_m_s2, q, qd, effort, slope)?;
             let friction = self
                 .friction
                 .efforts(robot, &mut self.dynamics, dt, q, qd, slope);
@@ -102,6 +103,30 @@ impl SmoothStep {
                 *held += friction;
             }
         }
+        if self.air.is_some() {
+            self.stages::<true>(robot, q, qd)?;
+        } else {
+            self.stages::<false>(robot, q, qd)?;
+        }
+        let sixth = dt / 6.0;
+        let ([r0, r1, r2, r3], [s0, s1, s2, s3]) = (&self.rates, &self.slopes);
+        for i in 0..n {
+            q[i] += sixth * (r0[i] + 2.0 * (r1[i] + r2[i]) + r3[i]);
+            qd[i] += sixth * (s0[i] + 2.0 * (s1[i] + s2[i]) + s3[i]);
+        }
+        self.dynamics.close_loops(robot, q, qd)
+    }
+
+    /// Velocities and accelerations of the four stages; compiled apart with and without air, so that drag costs nothing where there
+    /// is none.
+    fn stages<const AIR: bool>(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        qd: &[f64],
+    ) -> Result<(), SingularMassMatrix> {
+        let n = q.len();
+        let dt = self.dt_s;
         // stages at 0, dt/2, dt/2, dt
         for stage in 0..4 {
             let (stage_q, stage_qd) = (&mut self.stage_q[..n], &mut self.stage_qd[..n]);
@@ -118,13 +143,11 @@ impl SmoothStep {
             }
             self.rates[stage][..n].copy_from_slice(stage_qd);
             let effort = match &self.air {
-                None => &self.held,
-                Some(air) => {
-                    let effort = &mut self.stage_effort;
-                    effort.copy_from_slice(&self.held);
-                    self.drag.add_efforts(robot, stage_q, stage_qd, air, effort);
-                    effort
+                Some(air) if AIR => {
+                    let (state, room) = ((&*stage_q, &*stage_qd), &mut self.stage_effort);
+                    with_drag(&mut self.drag, robot, state, air, &self.held, room)
                 }
+                _ => &self.held,
             };
             self.dynamics.acceleration(
                 robot,
@@ -135,12 +158,20 @@ impl SmoothStep {
                 &mut self.slopes[stage],
             )?;
         }
-        let sixth = dt / 6.0;
-        let ([r0, r1, r2, r3], [s0, s1, s2, s3]) = (&self.rates, &self.slopes);
-        for i in 0..n {
-            q[i] += sixth * (r0[i] + 2.0 * (r1[i] + r2[i]) + r3[i]);
-            qd[i] += sixth * (s0[i] + 2.0 * (s1[i] + s2[i]) + s3[i]);
-        }
-        self.dynamics.close_loops(robot, q, qd)
+        Ok(())
     }
+}
+
+/// `effort` and the drag at `(q, qd)`, in `room`.
+fn with_drag<'a>(
+    drag: &mut LinkDrag,
+    robot: &Robot,
+    (q, qd): (&[f64], &[f64]),
+    air: &AirNow,
+    effort: &[f64],
+    room: &'a mut [f64],
+) -> &'a [f64] {
+    room.copy_from_slice(&effort[..room.len()]);
+    drag.add_efforts(robot, q, qd, air, room);
+    room
 }
