@@ -294,6 +294,11 @@ impl Grader<'_> {
             ended,
             operations,
         } = motion::run(self.lab, work, &opening, host);
+        let names = Names {
+            robot: &self.lab.robot,
+            scene: work.scene.as_ref().map(|scene| &scene.scene),
+            seen_from: &self.lab.frame,
+        };
         let mut verdict = Verdict::Passed;
         let mut stopped_record = None;
         if let Some((tick, why)) = &ended {
@@ -306,12 +311,10 @@ impl Grader<'_> {
                     verdict = Verdict::InvalidOutput;
                     said(what.clone(), not_finite_help(what))
                 }
-                EarlyEnd::Diverged(_) => {
+                EarlyEnd::Diverged { what, cause } => {
                     verdict = Verdict::Missed;
-                    said(
-                        "the arm's state was no longer finite: the loop is unstable".to_owned(),
-                        Some("command less, or more slowly".to_owned()),
-                    )
+                    let (message, help) = names.blow_up(what, cause.as_ref(), work);
+                    said(message, Some(help))
                 }
             };
             let of_whole_file =
@@ -359,11 +362,6 @@ impl Grader<'_> {
         };
         let checks = without_hints(checks, !diagnoses.is_empty());
         let digest = trace.digest();
-        let names = Names {
-            robot: &self.lab.robot,
-            scene: work.scene.as_ref().map(|scene| &scene.scene),
-            seen_from: &self.lab.frame,
-        };
         let grade = TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),

@@ -10,7 +10,7 @@
 //! | [`cases`], [`motion`] | a function task, a motion task |
 //! | [`check`] | one file per check |
 //! | [`diagnose`] | known mistakes, recognised |
-//! | [`event_words`] | events and contacts in words |
+//! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
 //! | [`graded`] | the record with the runs it rests on |
 
@@ -23,6 +23,7 @@
 )]
 
 pub mod answer;
+pub mod blow_up;
 pub mod cases;
 pub mod check;
 pub mod controller;

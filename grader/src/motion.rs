@@ -2,7 +2,7 @@
 
 use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::run::{self, End, Run, RunSnapshot, Setup};
-use kinemark_sim::runaway::BlowUp;
+use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 
 use crate::answer;
@@ -32,7 +32,12 @@ pub enum EarlyEnd {
     /// `control` returned no command; in words.
     InvalidOutput(String),
     /// The motion was beyond all reason.
-    Diverged(BlowUp),
+    Diverged {
+        /// What was lost.
+        what: BlowUp,
+        /// Why, as far as it can be computed.
+        cause: Option<Cause>,
+    },
 }
 
 /// The robot as a motion task's submission sees it, with the task's effort limits.
@@ -164,7 +169,8 @@ impl<'a> Session<'a> {
                 Ok(Some(End::Finished)) => Some(Ok(())),
                 Ok(Some(End::Stopped { tick, why })) => Some(Err((tick, why))),
                 Ok(Some(End::Diverged { tick, what })) => {
-                    Some(Err((tick, EarlyEnd::Diverged(what))))
+                    let cause = None;
+                    Some(Err((tick, EarlyEnd::Diverged { what, cause })))
                 }
                 Err(error) => {
                     let fault = Stop::GraderFault(error.to_string());
@@ -204,7 +210,11 @@ impl<'a> Session<'a> {
     /// What was recorded up to here.
     pub fn finish(self) -> MotionRun {
         let ended = self.ended.and_then(Result::err);
-        motion_run(self.recorder, self.told, ended)
+        let mut run = motion_run(self.recorder, self.told, ended);
+        if let Some((_, EarlyEnd::Diverged { what, cause })) = &mut run.ended {
+            *cause = likely_cause(self.run.setup(), what, &run.trace);
+        }
+        run
     }
 }
 
@@ -218,7 +228,7 @@ fn motion_run(
     trace.plots = told.plots;
     if let Some((tick, why)) = &ended {
         let kind = match why {
-            EarlyEnd::Diverged(_) => EventKind::Diverged,
+            EarlyEnd::Diverged { .. } => EventKind::Diverged,
             EarlyEnd::Stopped(_) | EarlyEnd::InvalidOutput(_) => EventKind::Stopped,
         };
         trace.events.push(Event { tick: *tick, kind });

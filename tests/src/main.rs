@@ -18,6 +18,7 @@ mod lab_audit;
 mod mesh_labs;
 mod robot_docs;
 mod robot_files;
+mod scene_labs;
 mod submissions;
 mod testbed;
 mod verify;

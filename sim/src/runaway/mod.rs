@@ -3,9 +3,13 @@
 //! A run ends when the kinetic energy of the robot is that of its whole moving mass at [`RUNAWAY_SPEED_M_S`], or a free body of the
 //! scene is that fast. An unstable loop passes it within a fraction of a second, while its numbers can still be told and drawn.
 
+mod cause;
+
 use crate::dynamics::energy::kinetic_energy_j;
 use crate::hybrid::HybridStep;
 use crate::robot::Robot;
+
+pub use cause::{Cause, likely_cause};
 
 /// The speed no moving mass reaches in earnest \[m/s\].
 pub const RUNAWAY_SPEED_M_S: f64 = 1000.0;
