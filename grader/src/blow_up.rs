@@ -19,10 +19,8 @@ impl Names<'_> {
                 "the motion of `{}` grew beyond all numbers",
                 self.joint(*joint)
             ),
-            BlowUp::Runaway {
-                joint, kinetic_j, ..
-            } => format!(
-                "the arm ran away, `{}` first: its kinetic energy passed {kinetic_j:.0e} J",
+            BlowUp::Runaway { joint, bound_j, .. } => format!(
+                "the arm ran away, `{}` first: its kinetic energy passed {bound_j:.0e} J",
                 self.joint(*joint)
             ),
             BlowUp::BodyRunaway { body, speed_m_s } => {

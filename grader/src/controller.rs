@@ -19,7 +19,7 @@ pub trait Controller {
     /// What the submission keeps between calls: with it, another controller of the same opening goes on with the same answers.
     ///
     /// # Errors
-    /// [`Stop::Crashed`] if `this` holds something that cannot be kept, such as a function.
+    /// [`Stop::Crashed`] if `this` holds something that cannot be kept, or whatever stops a worker.
     fn memory(&mut self) -> Result<Memory, Stop>;
 
     /// Goes back, or on, to a memory taken from a controller of the same opening.

@@ -273,25 +273,6 @@ fn a_session_copied_in_the_middle_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn a_function_in_this_cannot_be_kept_and_says_so() {
-    let bed = bed();
-    let lab = lab(&bed);
-    let work = motion_of(&lab);
-    let opening = Opening {
-        file: "mine.rhai".to_owned(),
-        source: "fn f() { 1 }\nfn control(o) { this.f = Fn(\"f\"); [1.2, 2.2] }".to_owned(),
-        task: "knock".to_owned(),
-        robot: motion::facts_of(&lab, work),
-        target: Value::Nothing,
-        budgets: lab.budgets.clone(),
-    };
-    let mut session = Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
-    session.advance_to(20);
-    let stop = session.snapshot().expect_err("a function");
-    assert!(format!("{stop:?}").contains("cannot be kept"), "{stop:?}");
-}
-
-#[test]
 fn a_runaway_is_told_with_its_cause() {
     let bed = bed();
     bed.edit(
