@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use rapier3d_f64::dynamics::RigidBodySet;
 use rapier3d_f64::geometry::{ColliderHandle, ColliderSet, NarrowPhase};
 use rapier3d_f64::math::Vector;
+use rapier3d_f64::utils::OrthonormalBasis;
 
 use super::convert::from_vector;
 
@@ -57,6 +58,11 @@ pub struct ContactFact {
     pub impulse_n_s: f64,
     /// Normal impulses on the second party, as a vector in the world \[N s\].
     pub normal_impulse_n_s: Vector3<f64>,
+    /// Friction impulses on the second party, as a vector in the world \[N s\]; zero where no party is a link that moves, because
+    /// the engine tells none.
+    pub friction_impulse_n_s: Vector3<f64>,
+    /// Moment of all these impulses on the second party about the world's origin \[N m s\].
+    pub moment_impulse_n_m_s: Vector3<f64>,
     /// Mean normal force over the step \[N\].
     pub force_n: f64,
     /// How deep the deepest point lies inside the other at the start of the step, 0 if none does \[m\].
@@ -91,8 +97,13 @@ pub(super) fn read(
             _ => ([first, second], 1.0),
         };
         let (mut impulse, mut vector, mut moment) = (0.0, Vector::ZERO, Vector::ZERO);
+        let (mut friction, mut turning) = (Vector::ZERO, Vector::ZERO);
         let (mut depth_m, mut points) = (0.0_f64, 0);
         for manifold in pair.solver_manifolds() {
+            // the axes of friction, as the engine chooses them; its impulses are those on the first collider
+            let back = -manifold.data.normal;
+            let tangent = back.orthonormal_vector();
+            let tangents = [tangent, back.cross(tangent)].map(|tangent| tangent * -sign);
             for contact in &manifold.data.solver_contacts {
                 let [id] = contact.contact_indices();
                 let Some(point) = manifold.points.get(id as usize) else {
@@ -103,7 +114,12 @@ pub(super) fn read(
                 if pressed > 0.0 {
                     let (a, b) = manifold.data.solver_contact_world_points(contact, bodies);
                     impulse += pressed;
-                    vector += manifold.data.normal * (sign * pressed);
+                    let on_second = manifold.data.normal * (sign * pressed);
+                    let rubbed = point.data.tangent_impulse;
+                    let along_surface = tangents[0] * rubbed.x + tangents[1] * rubbed.y;
+                    vector += on_second;
+                    friction += along_surface;
+                    turning += ((a + b) * 0.5).cross(on_second + along_surface);
                     moment += (a + b) * (0.5 * pressed);
                     depth_m = depth_m.max(-point.dist);
                     points += 1;
@@ -117,6 +133,8 @@ pub(super) fn read(
             parties,
             impulse_n_s: impulse,
             normal_impulse_n_s: from_vector(vector),
+            friction_impulse_n_s: from_vector(friction),
+            moment_impulse_n_m_s: from_vector(turning),
             force_n: impulse / dt_s,
             depth_m,
             points,
@@ -139,6 +157,8 @@ impl ContactFact {
             / impulse;
         self.impulse_n_s = impulse;
         self.normal_impulse_n_s += other.normal_impulse_n_s;
+        self.friction_impulse_n_s += other.friction_impulse_n_s;
+        self.moment_impulse_n_m_s += other.moment_impulse_n_m_s;
         self.force_n += other.force_n;
         self.depth_m = self.depth_m.max(other.depth_m);
         self.points += other.points;
