@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::dynamics::SingularMassMatrix;
 use crate::dynamics::smooth::SmoothStep;
 use crate::dynamics::stops::Stops;
-use crate::engine::{BodyState, Clearance, ContactFact, EngineError, Party, World};
+use crate::engine::{BodyState, Clearance, ContactFact, EngineError, Party, Ray, World};
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -273,6 +273,27 @@ impl HybridStep {
     /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
     pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
         self.world.fastest_body()
+    }
+
+    /// What a ray `from` a point along the unit vector `direction`, both in the world, meets first of the scene's bodies and the
+    /// ground, and how far away \[m\]; nothing beyond `range_m`. The robot is not seen.
+    ///
+    /// 0 from inside a solid or below the ground. Of things at the same distance the first in the order of [`Party`] is told. The
+    /// answer depends only on where the bodies are, not on whether the engine stepped.
+    pub fn cast_ray(
+        &self,
+        from: &Vector3<f64>,
+        direction: &Vector3<f64>,
+        range_m: f64,
+    ) -> Option<(Party, f64)> {
+        let mut ray = Ray::new(from, direction, range_m);
+        self.show(&mut ray);
+        ray.nearest()
+    }
+
+    /// Shows `ray` the bodies of the scene and the ground.
+    pub(crate) fn show(&self, ray: &mut Ray) {
+        self.world.meet(ray);
     }
 
     /// All that the steps to come depend on, save the robot's `(q, qd)`: they continue from it with the same bits.

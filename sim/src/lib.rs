@@ -16,6 +16,7 @@
 //! | [`dynamics`] | RNEA, CRBA, ABA, energy, the smooth step |
 //! | [`control`] | joint servos: command in, effort out |
 //! | [`trajectory`] | time in; position, velocity, acceleration out |
+//! | [`sensor`] | what the robot measures, with noise, quantisation, delay and rate |
 //! | [`ticks`] | time as whole numbers of physics steps |
 //! | [`random`] | numbers drawn from a seed |
 //! | [`run`] | the tick loop: observe, control, servo, step |
@@ -49,6 +50,7 @@ pub mod robot;
 pub mod run;
 pub mod runaway;
 pub mod scene;
+pub mod sensor;
 pub mod source;
 pub mod spatial;
 pub mod ticks;

@@ -84,7 +84,7 @@ impl<P> Located<P> {
     }
 
     /// The same place with the problem said in other words.
-    pub(crate) fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
+    pub fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
         Located {
             problem: words(self.problem),
             inner: self.inner,

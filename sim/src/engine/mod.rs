@@ -1,13 +1,15 @@
 //! Contact: robot and scene as bodies that press on each other. The only place that names rapier; no type of it leaves.
 //!
 //! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `shape` makes
-//! colliders, `contact` reads who pressed on whom, `clearance` says when nobody can, `wind` blows, `settings` are the numbers.
+//! colliders, `contact` reads who pressed on whom, `clearance` says when nobody can, `ray` looks along a line, `wind` blows, `settings` are the
+//! numbers.
 
 mod arm;
 mod clearance;
 pub mod contact;
 mod convert;
 mod error;
+mod ray;
 mod settings;
 mod shape;
 mod wind;
@@ -16,5 +18,6 @@ mod world;
 pub(crate) use clearance::Clearance;
 pub use contact::{ContactFact, Party};
 pub use error::EngineError;
+pub(crate) use ray::{LinkShapes, Ray};
 pub use world::BodyState;
 pub(crate) use world::World;

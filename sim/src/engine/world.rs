@@ -11,6 +11,7 @@ use super::clearance::Obstacle;
 use super::contact::{self, ContactFact, Party};
 use super::convert::{engine_pose, from_engine_pose, from_vector, matrix, vector};
 use super::error::EngineError;
+use super::ray::Ray;
 use super::settings::{self, COMBINE};
 use super::shape::collider;
 use super::wind::Air;
@@ -352,6 +353,19 @@ impl World {
                 angular: from_vector(body.angvel()),
             },
             sleeps: body.is_sleeping(),
+        }
+    }
+
+    /// Shows `ray` the bodies of the scene, in its order, and the ground, where they are now.
+    pub(crate) fn meet(&self, ray: &mut Ray) {
+        for handle in &self.bodies {
+            let body = &self.physics.bodies[*handle];
+            for collider in body.colliders() {
+                ray.meet_collider(body.position(), &self.physics.colliders[*collider]);
+            }
+        }
+        if self.ground {
+            ray.meet_ground();
         }
     }
 

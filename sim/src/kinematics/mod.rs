@@ -12,7 +12,7 @@ pub mod inverse;
 pub mod jacobian;
 pub mod joint_samples;
 pub mod manipulability;
-mod motion;
+pub(crate) mod motion;
 pub mod position_range;
 mod singular_values;
 pub mod workspace;

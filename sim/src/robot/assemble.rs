@@ -157,6 +157,7 @@ impl Assembler<'_> {
             independent: (0..n).collect(),
             home,
             warnings: parts.warnings.clone(),
+            sensors: Vec::new(),
         };
         self.closed(robot)
     }

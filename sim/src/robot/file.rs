@@ -12,6 +12,7 @@ use super::part::tables::{
 };
 use super::part::{Meshes, PartProblem};
 use super::problem::RobotError;
+use crate::sensor::SensorTable;
 use crate::source::{Source, TomlRefusal};
 
 /// What messages call this kind of file.
@@ -204,6 +205,8 @@ pub(super) struct Tables {
     #[serde(default)]
     pub(super) loops: Vec<Spanned<LoopTable>>,
     pub(super) dh: Option<DhTable>,
+    #[serde(default)]
+    pub(super) sensors: Vec<SensorTable>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

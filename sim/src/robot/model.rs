@@ -6,6 +6,7 @@ use super::file::Dimensions;
 use super::inertia::{Inertia, Solid};
 use crate::air::Drag;
 use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::sensor::Sensor;
 use crate::spatial::{Pose, Symmetric3};
 
 /// How a joint moves.
@@ -248,6 +249,7 @@ pub struct Robot {
     pub(super) independent: Vec<usize>,
     pub(super) home: Vec<f64>,
     pub(super) warnings: Vec<String>,
+    pub(super) sensors: Vec<Sensor>,
 }
 
 /// Values for a robot with another number of joints.
@@ -325,6 +327,11 @@ impl Robot {
     /// Positions at which every loop is closed, independent joints at zero; all zeros where there are no loops.
     pub fn home(&self) -> &[f64] {
         &self.home
+    }
+
+    /// What it measures with, in file order.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
     }
 
     /// What a reader of the description should know, though it is no mistake.

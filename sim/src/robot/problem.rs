@@ -1,6 +1,7 @@
 //! Everything that can be wrong with a robot's description.
 
 use super::part::{PartError, PartProblem};
+use crate::sensor::SensorProblem;
 use crate::source::{Located, Problem};
 
 /// A problem in a robot description, with its place.
@@ -9,6 +10,18 @@ pub type RobotError = Located<RobotProblem>;
 impl From<PartError> for RobotError {
     fn from(error: PartError) -> Self {
         error.map(RobotProblem::Part)
+    }
+}
+
+impl From<Located<SensorProblem>> for RobotError {
+    fn from(error: Located<SensorProblem>) -> Self {
+        error.map(|problem| match problem {
+            SensorProblem::Part(part) => RobotProblem::Part(part),
+            SensorProblem::UnknownJoint { name, help } => RobotProblem::UnknownJoint { name, help },
+            SensorProblem::UnknownLink { name, help } => RobotProblem::UnknownLink { name, help },
+            SensorProblem::UnknownFrame { name, help } => RobotProblem::UnknownFrame { name, help },
+            SensorProblem::Unfit { message, help } => RobotProblem::Sensor { message, help },
+        })
     }
 }
 
@@ -24,6 +37,8 @@ pub enum RobotProblem {
     UnknownLink { name: String, help: String },
     #[error("no joint is called `{name}`")]
     UnknownJoint { name: String, help: String },
+    #[error("no frame is called `{name}`")]
+    UnknownFrame { name: String, help: String },
     #[error("link `{link}` is moved by two joints: `{first}` and `{second}`")]
     TwoParents {
         link: String,
@@ -52,6 +67,8 @@ pub enum RobotProblem {
     ConfigString { message: String, help: String },
     #[error("{message}")]
     Limit { message: String, help: String },
+    #[error("{message}")]
+    Sensor { message: String, help: String },
 }
 
 impl Problem for RobotProblem {
@@ -61,6 +78,7 @@ impl Problem for RobotProblem {
             Self::NoLinks => "robot::no_links",
             Self::UnknownLink { .. } => "robot::unknown_link",
             Self::UnknownJoint { .. } => "robot::unknown_joint",
+            Self::UnknownFrame { .. } => "robot::unknown_frame",
             Self::Mimic { .. } => "robot::mimic",
             Self::Loop { .. } => "robot::loop",
             Self::Dh { .. } => "robot::dh",
@@ -71,6 +89,7 @@ impl Problem for RobotProblem {
             Self::Detached { .. } => "robot::detached",
             Self::Cycle { .. } => "robot::cycle",
             Self::Limit { .. } => "robot::limit",
+            Self::Sensor { .. } => "robot::sensor",
         }
     }
 
@@ -80,6 +99,7 @@ impl Problem for RobotProblem {
             Self::NoLinks => "no [[links]]".to_owned(),
             Self::UnknownLink { .. } => "not a link of this robot".to_owned(),
             Self::UnknownJoint { .. } => "not a joint of this robot".to_owned(),
+            Self::UnknownFrame { .. } => "not a frame of this robot".to_owned(),
             Self::Mimic { .. } => "this mimic".to_owned(),
             Self::Loop { .. } => "this loop".to_owned(),
             Self::Dh { .. } => "this table".to_owned(),
@@ -90,6 +110,7 @@ impl Problem for RobotProblem {
             Self::Detached { .. } => "hangs in the air".to_owned(),
             Self::Cycle { .. } => "this joint".to_owned(),
             Self::Limit { .. } => "this limit".to_owned(),
+            Self::Sensor { .. } => "here".to_owned(),
         }
     }
 
@@ -100,11 +121,13 @@ impl Problem for RobotProblem {
             Self::NoLinks => Some("add a [[links]] table: the first link is the root".to_owned()),
             Self::UnknownLink { help, .. }
             | Self::UnknownJoint { help, .. }
+            | Self::UnknownFrame { help, .. }
             | Self::Mimic { help, .. }
             | Self::Loop { help, .. }
             | Self::Dh { help, .. }
             | Self::ConfigString { help, .. }
-            | Self::Limit { help, .. } => Some(help.clone()),
+            | Self::Limit { help, .. }
+            | Self::Sensor { help, .. } => Some(help.clone()),
             Self::TwoParents { .. } => {
                 Some("a link hangs on one joint; remove one of the two".to_owned())
             }

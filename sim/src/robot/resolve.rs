@@ -17,6 +17,7 @@ use super::model::{JointKind, Limits, LoopKind, Robot, Shape};
 use super::part::tables::{NumberAt, ShapeTable};
 use super::part::{Allowed, PartProblem, Values, changed_dimensions};
 use super::problem::{RobotError, RobotProblem};
+use crate::sensor;
 use crate::spatial::pose;
 
 impl RobotFile {
@@ -36,7 +37,9 @@ impl RobotFile {
                 meshes: &self.meshes,
             },
         };
-        resolver.description()?.assemble()
+        let mut robot = resolver.description()?.assemble()?;
+        robot.sensors = sensor::resolve_all(&self.tables.sensors, &self.source, KIND, &robot)?;
+        Ok(robot)
     }
 }
 

@@ -1,5 +1,7 @@
 //! A robot as a robot file, whatever it was read from: every number worked out, in the order of the robot.
 
+mod sensors;
+
 use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
@@ -71,6 +73,9 @@ impl Robot {
             );
             line(&mut out, "frame_on_first", &closing.link_from_end[0]);
             line(&mut out, "frame_on_second", &closing.link_from_end[1]);
+        }
+        for sensor in self.sensors() {
+            self.sensor_table(sensor, &mut out);
         }
         out
     }

@@ -72,6 +72,7 @@ pub enum PartProblem {
 pub(crate) struct Codes {
     pub(crate) robot: &'static str,
     pub(crate) scene: &'static str,
+    pub(crate) sensor: &'static str,
 }
 
 macro_rules! codes {
@@ -79,6 +80,7 @@ macro_rules! codes {
         Codes {
             robot: concat!("robot::", $name),
             scene: concat!("scene::", $name),
+            sensor: concat!("sensor::", $name),
         }
     };
 }

@@ -1,0 +1,145 @@
+//! Rays: how far it is along one to a shape, whatever the engine has stepped or left out.
+
+use nalgebra::Vector3;
+use rapier3d_f64::geometry::{Collider, Ray as EngineRay, Shape as EngineShape, SharedShape};
+use rapier3d_f64::math::Pose as EnginePose;
+
+use super::contact::Party;
+use super::convert::vector;
+use super::error::EngineError;
+use super::settings::SURFACE;
+use super::shape::collider;
+use crate::kinematics::FramePoses;
+use crate::kinematics::forward::Placed;
+use crate::robot::Robot;
+
+/// A ray of limited length and the nearest thing it has met; of things at the same distance, the first it was shown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    from: Vector3<f64>,
+    direction: Vector3<f64>,
+    range_m: f64,
+    nearest: Option<(Party, f64)>,
+}
+
+impl Ray {
+    /// A ray `from` a point along the unit vector `direction`, both in the world.
+    pub(crate) fn new(from: &Vector3<f64>, direction: &Vector3<f64>, range_m: f64) -> Self {
+        let finite = from.iter().chain(direction).all(|x| x.is_finite());
+        Self {
+            from: *from,
+            direction: *direction,
+            // a ray from nowhere meets nothing
+            range_m: if finite { range_m } else { f64::NEG_INFINITY },
+            nearest: None,
+        }
+    }
+
+    /// What it met, and how far away \[m\].
+    pub(crate) fn nearest(&self) -> Option<(Party, f64)> {
+        self.nearest
+    }
+
+    fn met(&mut self, party: Party, distance_m: f64) {
+        let nearer = self.nearest.is_none_or(|(_, known)| distance_m < known);
+        if nearer && distance_m <= self.range_m {
+            self.nearest = Some((party, distance_m));
+        }
+    }
+
+    /// Shows it the ground.
+    pub(super) fn meet_ground(&mut self) {
+        if self.from.z <= 0.0 {
+            self.met(Party::Ground, 0.0);
+        } else if self.direction.z < 0.0 {
+            self.met(Party::Ground, -self.from.z / self.direction.z);
+        }
+    }
+
+    /// Shows it a collider of a body at `world_from_body`.
+    pub(super) fn meet_collider(&mut self, world_from_body: &EnginePose, collider: &Collider) {
+        let party = Party::from_user_data(collider.user_data);
+        let place = match collider.position_wrt_parent() {
+            Some(body_from_collider) => *world_from_body * *body_from_collider,
+            None => *collider.position(),
+        };
+        let (from, direction) = (self.from, self.direction);
+        self.meet(party, collider.shape(), &place, &from, &direction);
+    }
+
+    /// Shows it a shape in a frame in which it starts at `from` along `direction`.
+    fn meet(
+        &mut self,
+        party: Party,
+        shape: &dyn EngineShape,
+        place: &EnginePose,
+        from: &Vector3<f64>,
+        direction: &Vector3<f64>,
+    ) {
+        if self.range_m < 0.0 {
+            return;
+        }
+        let ray = EngineRay::new(vector(from), vector(direction));
+        if let Some(distance_m) = shape.cast_ray(place, &ray, self.range_m, true) {
+            self.met(party, distance_m);
+        }
+    }
+}
+
+/// The shapes of a robot's links, as rays meet them.
+#[derive(Clone)]
+pub(crate) struct LinkShapes(Vec<LinkShape>);
+
+#[derive(Clone)]
+struct LinkShape {
+    link: usize,
+    body: Option<usize>,
+    body_from_shape: EnginePose,
+    shape: SharedShape,
+}
+
+impl LinkShapes {
+    /// The shapes of all links.
+    ///
+    /// # Errors
+    /// A mesh without a hull.
+    pub(crate) fn new(robot: &Robot) -> Result<Self, EngineError> {
+        let mut shapes = Vec::new();
+        for (index, link) in robot.links().iter().enumerate() {
+            for shape in &link.shapes {
+                let place = &link.attachment.body_from_here;
+                let built = collider(&link.name, shape, place, SURFACE)?;
+                shapes.push(LinkShape {
+                    link: index,
+                    body: link.attachment.body,
+                    body_from_shape: built.position,
+                    shape: built.shape,
+                });
+            }
+        }
+        Ok(Self(shapes))
+    }
+
+    /// Shows `ray` all links but those fixed to `own`, the moving body or the world.
+    pub(crate) fn meet(&self, poses: &FramePoses, own: Option<usize>, ray: &mut Ray) {
+        for LinkShape {
+            link,
+            body,
+            body_from_shape,
+            shape,
+        } in self.0.iter().filter(|shape| shape.body != own)
+        {
+            let placed = body.map_or(Placed::WORLD, |body| poses.placed[body]);
+            let body_from_world = placed.world_from_body.transpose();
+            let from = body_from_world * (ray.from - placed.position);
+            let direction = body_from_world * ray.direction;
+            ray.meet(
+                Party::Link(*link),
+                &**shape,
+                body_from_shape,
+                &from,
+                &direction,
+            );
+        }
+    }
+}
