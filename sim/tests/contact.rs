@@ -450,7 +450,7 @@ fn a_coupled_gripper_lifts_a_can_and_holds_it() {
 }
 
 /// A cube of edge 1 m as a mesh, centred, scaled along its axes.
-fn mesh(scale: [f64; 3], convex: bool) -> Solid {
+pub(crate) fn mesh(scale: [f64; 3], convex: bool) -> Solid {
     let mut text = String::new();
     for i in 0..8 {
         let side = |bit: i32| if i & bit == 0 { -0.5 } else { 0.5 };

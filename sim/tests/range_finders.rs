@@ -8,6 +8,7 @@ use kinemark_sim::spatial::{pose, rotation_from_rpy_deg};
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, robot};
+use crate::contact::mesh;
 use crate::contact_scenes::{GRAVITY, at, boxed, part, scene};
 use crate::sensor_rig::{DT, Rig, sensors, still};
 
@@ -127,8 +128,10 @@ fn rays_meet_turned_solids_where_bisection_finds_their_surface() {
         (Solid::Sphere { radius_m }, 1e-13),
         (Solid::Capsule { radius_m, length_m }, 1e-13),
         (boxed(0.3, 0.5, 0.9), 1e-13),
+        (mesh([0.3, 0.5, 0.9], false), 1e-13),
         // the engine iterates until 1e-8
         (Solid::Cylinder { radius_m, length_m }, 2e-8),
+        (mesh([0.3, 0.5, 0.9], true), 2e-8),
     ] {
         let inside = |p: Vector3<f64>| match &solid {
             Solid::Sphere { radius_m } => p.norm() < *radius_m,
@@ -140,7 +143,8 @@ fn rays_meet_turned_solids_where_bisection_finds_their_surface() {
                 (p - Vector3::z() * axis).norm() < *radius_m
             }
             Solid::Box { size_m } => (0..3).all(|i| p[i].abs() < 0.5 * size_m[i]),
-            Solid::Mesh(_) => false,
+            // the cube of edge 1, scaled
+            Solid::Mesh(solid) => (0..3).all(|i| p[i].abs() < 0.5 * solid.scale[i]),
         };
         for _ in 0..500 {
             let v = r.vector(3, 180.0);

@@ -58,8 +58,8 @@ pub struct ContactFact {
     pub impulse_n_s: f64,
     /// Normal impulses on the second party, as a vector in the world \[N s\].
     pub normal_impulse_n_s: Vector3<f64>,
-    /// Friction impulses on the second party, as a vector in the world \[N s\]; zero where no party is a link that moves, because
-    /// the engine tells none.
+    /// Friction impulses on the second party, as a vector in the world \[N s\]; zero where no party is a link that
+    /// moves, because the engine tells none.
     pub friction_impulse_n_s: Vector3<f64>,
     /// Moment of all these impulses on the second party about the world's origin \[N m s\].
     pub moment_impulse_n_m_s: Vector3<f64>,

@@ -1,8 +1,9 @@
 //! The device of one sensor: what it does to a value between the world and the reader.
 //!
-//! A value is taken at the sensor's rate, gets its noise, is quantised, travels for the delay, and is held until the next one
-//! arrives. Noise comes before quantisation because an encoder's counter sees the true position and its jitter together; the delay
-//! comes last because it is the transport of the finished number. To hold first and to travel then is the same.
+//! A value is taken at the sensor's rate, gets its noise, is quantised, travels for the delay, and is held until the
+//! next one arrives. Noise comes before quantisation because an encoder's counter sees the true position and its jitter
+//! together; the delay comes last because it is the transport of the finished number. To hold first and to travel then
+//! is the same.
 
 use std::collections::VecDeque;
 

@@ -51,8 +51,8 @@ pub enum SensorKind {
         /// Its index among [`crate::robot::Robot::links`].
         link: usize,
     },
-    /// Force and moment of the parent on the child through a joint, `[force; moment]` in the child's frame about its origin, their
-    /// mean over the last step \[N, N m\].
+    /// Force and moment of the parent on the child through a joint, `[force; moment]` in the child's frame about its
+    /// origin, their mean over the last step \[N, N m\].
     Wrench {
         /// Its index among [`crate::robot::Robot::joints`].
         joint: usize,

@@ -21,11 +21,12 @@ use crate::source::{Located, Source, suggest};
 /// A robot or a lab has at most this many sensors: far more than any real one, and few enough to read at every step.
 const MOST_SENSORS: usize = 200;
 
-/// No noise, quantisation, range, delay or rate is beyond this, in SI units: far beyond any lab, and every value stays finite.
+/// No noise, quantisation, range, delay or rate is beyond this, in SI units: far beyond any lab, and every value stays
+/// finite.
 const MOST: f64 = 1e6;
 
-/// How far from a joint's limit a switch at that limit is already pressed \[rad or m\]: contact may hold a joint a tenth of this
-/// away from its stop.
+/// How far from a joint's limit a switch at that limit is already pressed \[rad or m\]: contact may hold a joint a
+/// tenth of this away from its stop.
 const SWITCH_TRAVEL: f64 = 1e-6;
 
 /// Makes the sensor that `table` of `source` describes on `robot`; `kind` is the word for the file in messages.
@@ -33,7 +34,8 @@ const SWITCH_TRAVEL: f64 = 1e-6;
 /// Numbers may be expressions over the robot's dimensions.
 ///
 /// # Errors
-/// A joint, link or frame that is not there or cannot be measured, a key that the type does not have or lacks, a number out of range.
+/// A joint, link or frame that is not there or cannot be measured, a key that the type does not have or lacks, a number
+/// out of range.
 pub fn resolve(
     table: &SensorTable,
     source: &Source,

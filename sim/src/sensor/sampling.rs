@@ -24,7 +24,8 @@ pub struct Seen<'a> {
     pub qd: &'a [f64],
     /// Efforts applied in the last step; zeros before the first \[N m or N\].
     pub effort: &'a [f64],
-    /// Mean accelerations over the last step: the change of `qd` in it by its length; zeros before the first \[rad/s² or m/s²\].
+    /// Mean accelerations over the last step: the change of `qd` in it by its length; zeros before the first \[rad/s²
+    /// or m/s²\].
     pub qdd: &'a [f64],
     /// Gravity in the world \[m/s²\].
     pub gravity_m_s2: &'a Vector3<f64>,
@@ -263,8 +264,8 @@ impl Sensors {
         }
     }
 
-    /// Takes from `effort`, shape `(n)`, what pushes a joint towards a limit switch that is pressed and opens its motor. Noise,
-    /// rate and delay do not matter to the circuit: what counts is the position of the last sample.
+    /// Takes from `effort`, shape `(n)`, what pushes a joint towards a limit switch that is pressed and opens its
+    /// motor. Noise, rate and delay do not matter to the circuit: what counts is the position of the last sample.
     ///
     /// # Panics
     /// If `effort` does not have the shape of the robot.

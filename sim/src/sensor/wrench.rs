@@ -1,9 +1,9 @@
-//! The wrench through a joint, by Newton and Euler: what the joint carries needs a force and a moment for its motion; what contact
-//! and gravity do not give, the joint does.
+//! The wrench through a joint, by Newton and Euler: what the joint carries needs a force and a moment for its motion;
+//! what contact and gravity do not give, the joint does.
 //!
-//! Everything is the mean over the last step. Accelerations are: the change of velocity over the step. The state they go with is that
-//! of the middle of the step, followed back from its end, so that the error is of second order in the step where motion is smooth. In
-//! contact it is of first order, as the motion itself is.
+//! Everything is the mean over the last step. Accelerations are: the change of velocity over the step. The state they
+//! go with is that of the middle of the step, followed back from its end, so that the error is of second order in the
+//! step where motion is smooth. In contact it is of first order, as the motion itself is.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -147,8 +147,8 @@ impl MeanMotion {
         }
     }
 
-    /// Takes the motion of the step that ended in `seen`; before the first step there is none, and the state stands as it is,
-    /// without acceleration.
+    /// Takes the motion of the step that ended in `seen`; before the first step there is none, and the state stands as
+    /// it is, without acceleration.
     pub(super) fn update(&mut self, seen: &Seen<'_>, step_s: f64) {
         let back_s = if seen.tick == 0 { 0.0 } else { 0.5 * step_s };
         for i in 0..self.q.len() {
