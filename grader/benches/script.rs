@@ -71,6 +71,7 @@ fn opening(source: &str) -> Opening {
             effort: vec![30.0, 15.0],
         },
         target: Value::List([2.0, 1.4, 0.0].map(Value::Number).to_vec()),
+        sensors: Vec::new(),
         budgets: Budgets {
             // a benchmark goes on for longer than a task
             operations_per_task: u64::MAX,
@@ -89,6 +90,7 @@ fn benches(criterion: &mut Criterion) {
         qd: vec![0.5, 0.25],
         effort: vec![1.0, 2.0],
         tcp_m: [4.0, 0.1, 0.0],
+        sensors: Vec::new(),
     };
     let mut group = criterion.benchmark_group("script");
     for (name, source) in [

@@ -5,6 +5,7 @@ use kinemark_sim::runaway::{BlowUp, Cause};
 
 use crate::event_words::Names;
 use crate::lab::model::MotionTask;
+use crate::quantity::trimmed;
 
 impl Names<'_> {
     /// What ended a run of `task`, and the next step.
@@ -44,8 +45,8 @@ impl Names<'_> {
                     self.joint(*joint)
                 ),
                 format!(
-                    "your feedback is too strong for a period of {:.4} ms: a correction is held that long before you see what it did. Lower its gains",
-                    task.periods.control_s() * 1e3
+                    "your feedback is too strong for a period of {} ms: a correction is held that long before you see what it did. Lower its gains",
+                    trimmed(task.periods.control_s() * 1e3, 4)
                 ),
             ),
             None => (
@@ -66,11 +67,11 @@ impl Names<'_> {
     /// Why the servo itself is the cause, with the limits that were computed.
     fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String {
         let mut text = format!(
-            "sampled every {:.4} ms, its servo makes each error {:.3} times as large from sample to sample",
-            task.periods.servo_s() * 1e3,
-            servo.spectral_radius
+            "sampled every {} ms, its servo makes each error {} times as large from sample to sample",
+            trimmed(task.periods.servo_s() * 1e3, 4),
+            trimmed(servo.spectral_radius, 3)
         );
-        let percent = |share: f64| format!("{:.3} %", 100.0 * share);
+        let percent = |share: f64| format!("{} %", trimmed(100.0 * share, 2));
         let mut ways = Vec::new();
         if let Some(share) = servo.stable_share.filter(|share| *share < 1.0) {
             let joint = self.joint(servo.worst_joint);
@@ -79,7 +80,7 @@ impl Names<'_> {
             ways.push(format!("{} of all its gains", percent(share)));
         }
         if let Some(period_s) = servo.stable_period_s.filter(|period| period.is_finite()) {
-            ways.push(format!("a period of {:.4} ms", 1e3 * period_s));
+            ways.push(format!("a period of {} ms", trimmed(1e3 * period_s, 3)));
         }
         if !ways.is_empty() {
             text += &format!("; it holds with at most {}", ways.join(", or "));

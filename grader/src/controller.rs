@@ -101,6 +101,8 @@ pub struct Opening {
     pub robot: RobotFacts,
     /// What `observation.target` holds.
     pub target: Value,
+    /// The sensors, in the order of their readings.
+    pub sensors: Vec<SensorFacts>,
     /// What the code may use up.
     pub budgets: Budgets,
 }
@@ -164,7 +166,7 @@ pub enum Call {
     Control(Observation),
 }
 
-/// What `control` sees; task, target and sensors are those of the [`Opening`].
+/// What `control` sees; task and target are those of the [`Opening`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// The tick.
@@ -181,6 +183,28 @@ pub struct Observation {
     pub effort: Vec<f64>,
     /// Position of the TCP in the lab's frame \[m\].
     pub tcp_m: [f64; 3],
+    /// What the sensors read, all their numbers in order.
+    pub sensors: Vec<f64>,
+}
+
+/// A sensor as a submission knows it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SensorFacts {
+    /// Its name in `observation.sensors`.
+    pub name: String,
+    /// What it reads.
+    pub reads: Reads,
+}
+
+/// What a sensor reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Reads {
+    /// True or false, from one number that is not zero or is.
+    Truth,
+    /// A number.
+    Number,
+    /// A vector of so many numbers.
+    Vector(usize),
 }
 
 /// What came of a call.

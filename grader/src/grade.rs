@@ -328,6 +328,9 @@ pub struct SecondDigests {
     /// Poses of the scene's bodies, where any can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bodies: Option<String>,
+    /// Readings of the sensors, where there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensors: Option<String>,
 }
 
 #[cfg(test)]

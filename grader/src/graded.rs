@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::robot::Robot;
+use kinemark_sim::sensor::Sensor;
 use kinemark_sim::trace::Trace;
 
 use crate::event_words::Names;
@@ -28,6 +29,8 @@ pub struct TaskRun {
     pub robot: Robot,
     /// What was around it, where anything was.
     pub scene: Option<Arc<LabScene>>,
+    /// What the robot measured, in the order of the trace's readings.
+    pub sensors: Vec<Sensor>,
     /// The frame in which the TCP, the goals and the paths are told.
     pub seen_from: String,
     /// The servo's mode: what the command means.

@@ -142,11 +142,16 @@ struct Grader<'a> {
 
 impl Grader<'_> {
     fn opening(&self, task: &Task, submission: &Source) -> Opening {
-        let (robot, target) = match &task.work {
-            TaskWork::Function(_) => (cases::robot_facts(&self.lab.robot, None), Value::Nothing),
+        let (robot, target, sensors) = match &task.work {
+            TaskWork::Function(_) => (
+                cases::robot_facts(&self.lab.robot, None),
+                Value::Nothing,
+                Vec::new(),
+            ),
             TaskWork::Motion(motion) => (
                 motion::facts_of(self.lab, motion),
                 motion::target_of(motion),
+                motion::sensors_of(motion),
             ),
         };
         Opening {
@@ -155,6 +160,7 @@ impl Grader<'_> {
             task: task.name.clone(),
             robot,
             target,
+            sensors,
             budgets: self.lab.budgets.clone(),
         }
     }
@@ -400,6 +406,7 @@ impl Grader<'_> {
                             effort: signal(3),
                             tcp: signal(4),
                             bodies: (trace.bodies.width() > 0).then(|| signal(5)),
+                            sensors: (trace.sensors.width() > 0).then(|| signal(6)),
                         }
                     })
                     .collect(),
@@ -418,6 +425,7 @@ impl Grader<'_> {
             task: task.name.clone(),
             robot: self.lab.robot.clone(),
             scene: work.scene.clone(),
+            sensors: work.sensors.clone(),
             seen_from: self.lab.frame.clone(),
             mode: work.servo.mode,
             effort_limits: work.servo.gains.iter().map(|g| g.effort_limit).collect(),

@@ -3,12 +3,14 @@
 use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::run::{self, End, Run, RunSnapshot, Setup};
 use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
+use kinemark_sim::sensor::{Sensor, SensorKind};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 
 use crate::answer;
 use crate::cases::robot_facts;
 use crate::controller::{
-    Answer, Call, Controller, Memory, Observation, Opening, RobotFacts, Said, Stop, Value,
+    Answer, Call, Controller, Memory, Observation, Opening, Reads, RobotFacts, Said, SensorFacts,
+    Stop, Value,
 };
 use crate::grading::Host;
 use crate::lab::model::{Lab, MotionTask};
@@ -44,6 +46,19 @@ pub enum EarlyEnd {
 pub fn facts_of(lab: &Lab, motion: &MotionTask) -> RobotFacts {
     let limits = motion.servo.gains.iter().map(|g| g.effort_limit).collect();
     robot_facts(&lab.robot, Some(limits))
+}
+
+/// The sensors as a motion task's submission knows them.
+pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
+    let facts = |sensor: &Sensor| SensorFacts {
+        name: sensor.name.clone(),
+        reads: match (&sensor.kind, sensor.kind.channels()) {
+            (SensorKind::LimitSwitch(_), _) => Reads::Truth,
+            (_, 1) => Reads::Number,
+            (_, channels) => Reads::Vector(channels),
+        },
+    };
+    motion.sensors.iter().map(facts).collect()
 }
 
 /// What `observation.target` holds: the goals' positions, or the task's numbers.
@@ -113,6 +128,7 @@ impl<'a> Session<'a> {
             periods: motion.periods,
             gravity_m_s2: motion.gravity_m_s2,
             servo: motion.servo.clone(),
+            sensors: motion.sensors.clone(),
             start_q: motion.start_q.clone(),
             start_qd: vec![0.0; robot.n()],
             ticks: motion.ticks,
@@ -156,6 +172,7 @@ impl<'a> Session<'a> {
                     qd: seen.qd.to_vec(),
                     effort: seen.effort.to_vec(),
                     tcp_m: seen.tcp.translation.vector.into(),
+                    sensors: seen.sensors.to_vec(),
                 });
                 let value = ask(self.controller.as_mut(), &call, seen.tick, &mut self.told)
                     .map_err(EarlyEnd::Stopped)?;

@@ -42,6 +42,7 @@ fn setup(robot: &Robot, gravity_compensation: bool) -> Setup<'_> {
             gains: vec![gains; 2],
             gravity_compensation,
         },
+        sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
         ticks: TICKS,

@@ -15,6 +15,7 @@ use crate::kinematics::FramePoses;
 use crate::robot::{Frame, Robot};
 use crate::runaway::{BlowUp, RunawayGuard};
 use crate::scene::Scene;
+use crate::sensor::{Seen, Sensor, SensorError, Sensors};
 use crate::spatial::Pose;
 use crate::ticks::Periods;
 use stepper::{Moved, Stepper};
@@ -36,6 +37,8 @@ pub struct Setup<'a> {
     pub gravity_m_s2: Vector3<f64>,
     /// The joint servos.
     pub servo: ServoSettings,
+    /// What the robot measures; [`Robot::sensors`], or others in their place.
+    pub sensors: Vec<Sensor>,
     /// Positions at tick 0, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
     /// Velocities at tick 0, shape `(n)` \[rad/s or m/s\].
@@ -61,6 +64,8 @@ pub struct Observation<'a> {
     pub effort: &'a [f64],
     /// The TCP in the frame it is told in.
     pub tcp: &'a Pose,
+    /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
+    pub sensors: &'a [f64],
 }
 
 /// One tick: the state, and the command and effort held from it on.
@@ -74,8 +79,10 @@ pub struct Row<'a> {
     pub qd: &'a [f64],
     /// The command in the servo's mode.
     pub command: &'a [f64],
-    /// Joint efforts \[N m or N\].
+    /// Joint efforts, after limit switches opened their motors \[N m or N\].
     pub effort: &'a [f64],
+    /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
+    pub sensors: &'a [f64],
     /// The scene at the tick, with what happened in the step that ended there.
     pub scene: Option<&'a HybridStep>,
 }
@@ -119,6 +126,9 @@ pub enum RunError {
     /// Robot or scene cannot have contact.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A sensor does not fit the physics step.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
 }
 
 /// A run between two ticks.
@@ -143,6 +153,11 @@ struct State {
     effort: Vec<f64>,
     servo: Servo,
     stepper: Stepper,
+    sensors: Sensors,
+    /// Velocities a step ago, for sensors.
+    qd_before: Vec<f64>,
+    /// Mean accelerations over the last step, for sensors.
+    qdd: Vec<f64>,
     guard: RunawayGuard,
     poses: FramePoses,
 }
@@ -176,6 +191,9 @@ impl<'a> Run<'a> {
             effort: vec![0.0; n],
             servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
             stepper: Stepper::new(&setup)?,
+            sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
+            qd_before: setup.start_qd.clone(),
+            qdd: vec![0.0; n],
             guard: RunawayGuard::new(robot),
             poses: FramePoses::new(robot),
         };
@@ -216,6 +234,7 @@ impl<'a> Run<'a> {
         if tick > self.setup.ticks {
             return Ok(Some(End::Finished));
         }
+        state.measure(&self.setup);
         let begins = |ticks: std::num::NonZeroU32| tick.is_multiple_of(u64::from(ticks.get()));
         if begins(periods.ticks_per_control) && (tick < self.setup.ticks || tick == 0) {
             state.poses.update(robot, &state.q);
@@ -229,6 +248,7 @@ impl<'a> Run<'a> {
                 qd: &state.qd,
                 effort: &state.effort,
                 tcp: &tcp,
+                sensors: state.sensors.values(),
             };
             if let Err(why) = control(&observation, &mut state.command) {
                 return Ok(Some(End::Stopped { tick, why }));
@@ -243,12 +263,14 @@ impl<'a> Run<'a> {
                 &mut state.effort,
             );
         }
+        state.sensors.open_motors(&mut state.effort);
         recorder.row(Row {
             tick,
             q: &state.q,
             qd: &state.qd,
             command: &state.command,
             effort: &state.effort,
+            sensors: state.sensors.values(),
             scene: state.stepper.scene(),
         });
         state.tick += 1;
@@ -279,6 +301,34 @@ impl<'a> Run<'a> {
     /// Goes back, or on, to `snapshot`, which must be of a run of the same setup.
     pub fn restore(&mut self, snapshot: &RunSnapshot) {
         self.state = snapshot.0.clone();
+    }
+}
+
+impl State {
+    /// Shows the sensors the tick that has come.
+    fn measure(&mut self, setup: &Setup<'_>) {
+        if self.sensors.is_empty() {
+            return;
+        }
+        if self.tick > 0 {
+            let step_s = setup.periods.step_s;
+            for (i, qdd) in self.qdd.iter_mut().enumerate() {
+                *qdd = (self.qd[i] - self.qd_before[i]) / step_s;
+            }
+        }
+        self.qd_before.copy_from_slice(&self.qd);
+        let scene = self.stepper.scene();
+        self.sensors.sample(&Seen {
+            tick: self.tick,
+            robot: setup.robot,
+            q: &self.q,
+            qd: &self.qd,
+            effort: &self.effort,
+            qdd: &self.qdd,
+            gravity_m_s2: &setup.gravity_m_s2,
+            contacts: scene.map_or(&[], |scene| &scene.report().contacts),
+            scene,
+        });
     }
 }
 

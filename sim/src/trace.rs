@@ -87,6 +87,8 @@ pub struct Trace {
     pub bodies: Signal,
     /// Indices in the scene of the bodies in `bodies`.
     pub moving_bodies: Vec<usize>,
+    /// What the sensors read, channel by channel.
+    pub sensors: Signal,
     /// Who pressed on whom, from when to when, in the order the contacts began.
     pub contacts: Vec<ContactSpan>,
     /// What happened, in tick order.
@@ -126,8 +128,8 @@ impl Trace {
         self.len() == 0
     }
 
-    /// All signals; without a scene that of the bodies is empty.
-    pub fn signals(&self) -> [&Signal; 6] {
+    /// All signals; without a scene that of the bodies is empty, without sensors theirs.
+    pub fn signals(&self) -> [&Signal; 7] {
         [
             &self.q,
             &self.qd,
@@ -135,6 +137,7 @@ impl Trace {
             &self.effort,
             &self.tcp,
             &self.bodies,
+            &self.sensors,
         ]
     }
 
@@ -181,7 +184,7 @@ impl Trace {
         for start in (0..ticks).step_by(per_second) {
             let end = (start + per_second).min(ticks);
             let mut second = blake3::Hasher::new();
-            let mut signals = Vec::with_capacity(6);
+            let mut signals = Vec::with_capacity(7);
             for signal in self.signals() {
                 let values = &signal.values[start * signal.width..end * signal.width];
                 let hash = hash_bits(values);
@@ -262,6 +265,8 @@ impl<'a> TraceRecorder<'a> {
         let bodies = setup.scene.map_or(&[][..], |scene| &scene.bodies);
         let moving = bodies.iter().enumerate();
         let moving = moving.filter(|(_, body)| !matches!(body.kind, BodyKind::Fixed));
+        let width = setup.sensors.iter().map(|sensor| sensor.kind.channels());
+        let width = width.sum();
         let moving_bodies: Vec<usize> = moving.map(|(index, _)| index).collect();
         Self {
             robot,
@@ -278,6 +283,7 @@ impl<'a> TraceRecorder<'a> {
                 tcp: Signal::new("tcp", 7, setup.ticks),
                 bodies: Signal::new("bodies", 7 * moving_bodies.len(), setup.ticks),
                 moving_bodies,
+                sensors: Signal::new("sensors", width, setup.ticks),
                 contacts: Vec::new(),
                 events: Vec::new(),
                 log: Vec::new(),
@@ -302,6 +308,7 @@ impl Recorder for TraceRecorder<'_> {
         trace.qd.values.extend_from_slice(row.qd);
         trace.command.values.extend_from_slice(row.command);
         trace.effort.values.extend_from_slice(row.effort);
+        trace.sensors.values.extend_from_slice(row.sensors);
         self.poses.update(self.robot, row.q);
         let tcp = self
             .poses

@@ -46,6 +46,7 @@ fn simulate(scenario: &Value, mode: Mode, step_s: f64, duration_s: f64) -> Trace
             gains: vec![gains; 2],
             gravity_compensation: false,
         },
+        sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
         ticks,

@@ -42,6 +42,7 @@ fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks:
             gains: vec![gains; 2],
             gravity_compensation: true,
         },
+        sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
         ticks,

@@ -19,6 +19,7 @@ mod mesh_labs;
 mod robot_docs;
 mod robot_files;
 mod scene_labs;
+mod sensor_labs;
 mod submissions;
 mod testbed;
 mod verify;

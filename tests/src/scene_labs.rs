@@ -248,6 +248,7 @@ fn a_session_copied_in_the_middle_goes_on_with_the_same_bits() {
         task: "knock".to_owned(),
         robot: motion::facts_of(&lab, work),
         target: Value::Nothing,
+        sensors: Vec::new(),
         budgets: lab.budgets.clone(),
     };
     let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");

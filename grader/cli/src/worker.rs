@@ -333,6 +333,7 @@ mod tests {
                 effort: vec![1.0],
             },
             target: Value::Nothing,
+            sensors: Vec::new(),
             budgets: Budgets::default(),
         };
         let mut input = Vec::new();
@@ -355,6 +356,7 @@ mod tests {
             qd: vec![0.0],
             effort: vec![0.0],
             tcp_m: [0.0; 3],
+            sensors: Vec::new(),
         })
     }
 
@@ -378,7 +380,7 @@ mod tests {
         assert_eq!(
             memory.this,
             Kept::Map(vec![
-                ("n".to_owned(), Kept::Number(2.0)),
+                ("n".to_owned(), Kept::Whole(2)),
                 ("v".to_owned(), Kept::Vector(vec![2.0, 0.5])),
             ])
         );

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -82,6 +83,8 @@ pub(super) struct MotionTable {
     #[serde(default)]
     pub(super) goals: Vec<GoalTable>,
     pub(super) servo: Option<Spanned<ServoTable>>,
+    #[serde(default)]
+    pub(super) sensors: Vec<SensorTable>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

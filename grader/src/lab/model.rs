@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
 use kinemark_sim::robot::{Dimension, Robot, RobotFile};
+use kinemark_sim::sensor::Sensor;
 use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
@@ -148,6 +149,8 @@ pub struct MotionTask {
     pub scene: Option<Arc<LabScene>>,
     /// Gravity in the world: the scene's, or the usual one \[m/s²\].
     pub gravity_m_s2: Vector3<f64>,
+    /// What the robot measures: its own sensors, with the task's in their place or after them.
+    pub sensors: Vec<Sensor>,
     /// Joint positions at the start, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
     /// What `observation.target` holds where there are no goals.

@@ -58,6 +58,18 @@ pub struct LabProblem {
     pub help: Option<String>,
 }
 
+impl LabProblem {
+    /// A problem that another reader found in a lab's file.
+    pub(super) fn of(problem: impl Problem) -> Self {
+        Self {
+            code: problem.code(),
+            label: problem.label(),
+            help: problem.help(),
+            message: problem.to_string(),
+        }
+    }
+}
+
 impl Problem for LabProblem {
     fn code(&self) -> &'static str {
         self.code

@@ -36,7 +36,7 @@ pub enum LogError {
 /// Writes the log of `run`, with the digests of `grade` as metadata and `attachments` beside the messages.
 ///
 /// Topics: `/tf`, `/tcp` and `/joint_states` at 60 Hz, first and last tick included; `/scene` and `/reference/scene` once;
-/// `/signals` and `/errors` at 100 Hz; `/plots` what the submission drew; `/checks/...` what checks judged; `/log` events and
+/// `/signals`, `/sensors` and `/errors` at 100 Hz; `/plots` what the submission drew; `/checks/...` what checks judged; `/log` events and
 /// printed lines. Messages are JSON; poses are rounded to nanometres, all else is as it was computed. The same run gives the same bytes.
 ///
 /// # Errors

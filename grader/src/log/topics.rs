@@ -53,6 +53,7 @@ impl<'a> Messages<'a> {
         log.scenes()?;
         log.motion()?;
         log.signals()?;
+        log.sensors()?;
         log.errors()?;
         log.plots()?;
         log.checks()?;
@@ -241,6 +242,44 @@ impl<'a> Messages<'a> {
                 .zip(values.copied());
             let message = Flat {
                 values: values.collect(),
+            };
+            self.message(topic, self.ns(tick as u64), &message)?;
+        }
+        Ok(())
+    }
+
+    /// Every number of every sensor under a name of its own.
+    fn sensors(&mut self) -> Result<(), LogError> {
+        let run = self.run;
+        if run.sensors.is_empty() {
+            return Ok(());
+        }
+        let channels = run.sensors.iter().flat_map(|sensor| {
+            let wrench = ["fx", "fy", "fz", "mx", "my", "mz"];
+            let parts = match sensor.kind.channels() {
+                1 => vec![sensor.name.clone()],
+                // a wrench is the only sensor of more than one number
+                _ => wrench
+                    .map(|part| format!("{} {part}", sensor.name))
+                    .to_vec(),
+            };
+            parts.into_iter().map(|name| (name, sensor.kind.name()))
+        });
+        let (spoken, kinds): (Vec<String>, Vec<&str>) = channels.unzip();
+        let names = fields(spoken.iter().map(String::as_str));
+        let kinds = kinds
+            .iter()
+            .map(|kind| format!("a reading of a {kind} sensor"));
+        let described: Vec<_> = names.iter().cloned().zip(kinds).collect();
+        let topic = self.topic(
+            "/sensors",
+            "kinemark.Sensors",
+            schema::flat("kinemark.Sensors", &described),
+        );
+        for tick in self.ticks(SIGNAL_RATE_HZ) {
+            let values = run.trace.sensors.at(tick).iter().copied();
+            let message = Flat {
+                values: names.iter().map(String::as_str).zip(values).collect(),
             };
             self.message(topic, self.ns(tick as u64), &message)?;
         }

@@ -66,6 +66,7 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
             gains: gains.to_vec(),
             gravity_compensation: true,
         },
+        sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
         ticks,
@@ -152,6 +153,7 @@ pub(crate) fn task_run() -> TaskRun {
         task: "move".to_owned(),
         robot,
         scene: None,
+        sensors: Vec::new(),
         seen_from: "lab".to_owned(),
         mode: Mode::Position,
         effort_limits: vec![30.0, 15.0],
@@ -213,6 +215,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
             gains: vec![gains; n],
             gravity_compensation: false,
         },
+        sensors: Vec::new(),
         start_q: vec![0.0; n],
         start_qd: vec![0.0; n],
         ticks,
@@ -226,6 +229,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
             qd: &row,
             command: &row,
             effort: &row,
+            sensors: &[],
             scene: None,
         });
     }
@@ -233,6 +237,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
     TaskRun {
         task: "wander".to_owned(),
         scene: None,
+        sensors: Vec::new(),
         seen_from: "l0".to_owned(),
         mode: Mode::Velocity,
         effort_limits: vec![f64::INFINITY; n],
@@ -319,6 +324,7 @@ fn task(
                     effort: String::new(),
                     tcp: String::new(),
                     bodies: None,
+                    sensors: None,
                 };
                 8
             ],

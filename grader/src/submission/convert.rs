@@ -6,7 +6,7 @@ use super::budget::Meter;
 use super::mistake::Problem;
 use super::vector::{Matrix, Vector};
 use super::words::kind;
-use crate::controller::{Budget, Observation, Opening, RobotFacts, Value};
+use crate::controller::{Budget, Observation, Opening, Reads, RobotFacts, SensorFacts, Value};
 
 /// What a function returned; at most a list's budget of values in all.
 pub(super) fn to_value(meter: &Meter, value: &Dynamic) -> Result<Value, Problem> {
@@ -139,7 +139,11 @@ pub(super) fn observation_template(opening: &Opening) -> Map {
 }
 
 /// The map `observation`.
-pub(super) fn observation(template: &Map, observation: &Observation) -> Dynamic {
+pub(super) fn observation(
+    template: &Map,
+    sensors: &[SensorFacts],
+    observation: &Observation,
+) -> Dynamic {
     let mut map = template.clone();
     let vector = |elements: &[f64]| Dynamic::from(Vector::new(elements.to_vec()));
     for (key, value) in &mut map {
@@ -151,8 +155,32 @@ pub(super) fn observation(template: &Map, observation: &Observation) -> Dynamic 
             "qd" => vector(&observation.qd),
             "effort" => vector(&observation.effort),
             "tcp" => vector(&observation.tcp_m),
+            "sensors" => readings(sensors, &observation.sensors),
             _ => continue,
         };
+    }
+    Dynamic::from_map(map)
+}
+
+/// The map `observation.sensors`.
+fn readings(sensors: &[SensorFacts], values: &[f64]) -> Dynamic {
+    let mut rest = values;
+    let mut map = Map::new();
+    for sensor in sensors {
+        let channels = match sensor.reads {
+            Reads::Truth | Reads::Number => 1,
+            Reads::Vector(channels) => channels,
+        };
+        let Some((read, after)) = rest.split_at_checked(channels) else {
+            break;
+        };
+        rest = after;
+        let value = match sensor.reads {
+            Reads::Truth => (read[0] != 0.0).into(),
+            Reads::Number => read[0].into(),
+            Reads::Vector(_) => Dynamic::from(Vector::new(read.to_vec())),
+        };
+        map.insert(sensor.name.as_str().into(), value);
     }
     Dynamic::from_map(map)
 }

@@ -16,7 +16,8 @@ use super::list;
 use super::memory;
 use super::mistake::{Context, Problem, raise};
 use crate::controller::{
-    Answer, Budget, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said, Stop, Value,
+    Answer, Budget, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said, SensorFacts,
+    Stop, Value,
 };
 
 /// The stack a thread needs on which scripts run.
@@ -37,6 +38,7 @@ pub struct ScriptController {
     task: String,
     robot: CachedRobot,
     observation: Map,
+    sensors: Vec<SensorFacts>,
     /// One statement for each function that may be called: `memory.control(argument)`.
     ///
     /// A method call, because that is how the engine gives a function its `this`.
@@ -139,6 +141,7 @@ impl ScriptController {
             task: opening.task.clone(),
             robot,
             observation,
+            sensors: opening.sensors.clone(),
             statements,
         };
         script.run_top_level()?;
@@ -287,7 +290,8 @@ impl Controller for ScriptController {
                 self.call_function(name, [robot, task])
             }
             Call::Control(observation) => {
-                let observation = convert::observation(&self.observation, observation);
+                let observation =
+                    convert::observation(&self.observation, &self.sensors, observation);
                 self.call_function(name, [observation])
             }
         };

@@ -286,3 +286,12 @@ fn normal_force_n(contacts: &[ContactFact], link: usize) -> f64 {
         .map(|fact| fact.force_n)
         .sum()
 }
+
+impl std::fmt::Debug for Sensors {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Sensors")
+            .field("specs", &self.specs)
+            .field("values", &self.values)
+            .finish_non_exhaustive()
+    }
+}

@@ -271,6 +271,8 @@ mod tests {
             force_n: 1.0,
             depth_m: 0.0,
             points: 1,
+            friction_impulse_n_s: Vector3::zeros(),
+            moment_impulse_n_m_s: Vector3::zeros(),
             p_centre_in_world: Vector3::new(0.0, 0.0, height_m),
         };
         let up = Vector3::z();

@@ -135,6 +135,8 @@ mod tests {
             force_n,
             depth_m: force_n * 1e-6,
             points: 1,
+            friction_impulse_n_s: Vector3::zeros(),
+            moment_impulse_n_m_s: Vector3::zeros(),
             p_centre_in_world: Vector3::new(force_n, 0.0, 0.0),
         };
         StepReport {

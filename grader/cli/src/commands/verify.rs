@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use kinemark_grader::grade::{Grade, GradeMode, SecondDigests, TaskGrade, TaskKind};
+use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::grading;
 use kinemark_grader::lab::{Lab, Staff};
 use serde::Serialize;
@@ -201,15 +201,16 @@ fn task_difference(before: &TaskGrade, after: &TaskGrade) -> Option<Difference> 
     };
     let seconds = before.digests.seconds.iter().zip(&after.digests.seconds);
     for (second, (old, new)) in seconds.enumerate() {
-        let none = String::new();
-        let bodies = |of: &SecondDigests| of.bodies.clone().unwrap_or_else(|| none.clone());
+        // a signal that is not there has no digest
+        let some = |digest: &Option<String>| digest.clone().unwrap_or_default();
         let signals = [
             ("q", &old.q, &new.q),
             ("qd", &old.qd, &new.qd),
             ("command", &old.command, &new.command),
             ("effort", &old.effort, &new.effort),
             ("tcp", &old.tcp, &new.tcp),
-            ("bodies", &bodies(old), &bodies(new)),
+            ("bodies", &some(&old.bodies), &some(&new.bodies)),
+            ("sensors", &some(&old.sensors), &some(&new.sensors)),
         ];
         if let Some((signal, old, new)) = signals.into_iter().find(|(_, old, new)| old != new) {
             difference.second = Some(second);

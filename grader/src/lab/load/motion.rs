@@ -7,6 +7,7 @@ use kinemark_sim::control::servo::Servo;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::hybrid::HybridStep;
+use kinemark_sim::sensor::{Sensors, replaced, resolve_all};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
@@ -14,7 +15,7 @@ use toml::Spanned;
 use super::Reader;
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::lab::model::{MotionGoal, MotionTask};
-use crate::lab::problem::LabError;
+use crate::lab::problem::{LabError, LabProblem};
 
 impl Reader<'_> {
     pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
@@ -121,12 +122,26 @@ impl Reader<'_> {
                 None,
             );
         }
+        let changes = resolve_all(&motion.sensors, self.report.source, "lab", self.robot)
+            .map_err(|error| error.map(LabProblem::of))?;
+        let sensors = replaced(self.robot.sensors(), changes);
+        if let Err(error) = Sensors::new(self.robot, sensors.clone(), step_s) {
+            // the sensor at fault may be the robot's own, so the task is what does not fit
+            return self.report.err(
+                table.span(),
+                "lab::sensor",
+                error.to_string(),
+                "in this task",
+                None,
+            );
+        }
         Ok(MotionTask {
             periods,
             ticks,
             servo,
             scene: scene.map(|(scene, _)| Arc::clone(scene)),
             gravity_m_s2,
+            sensors,
             start_q,
             target: motion.target.clone().unwrap_or_default(),
             goals,

@@ -32,6 +32,7 @@ fn opening(source: &str) -> Opening {
         task: "move".into(),
         robot: robot(),
         target: numbers([2.0, 1.4, 0.0]),
+        sensors: Vec::new(),
         budgets: Budgets::default(),
     }
 }
@@ -45,6 +46,7 @@ fn observation() -> Observation {
         qd: vec![1.0, 2.0],
         effort: vec![0.5, -0.5],
         tcp_m: [4.0, 0.0, 0.0],
+        sensors: Vec::new(),
     }
 }
 

@@ -35,6 +35,8 @@ struct Sampler<'a> {
     /// Poses of the scene's bodies, one list per body.
     bodies: Vec<Vec<Vec<f64>>>,
     watch: Option<Watch<'a>>,
+    /// Readings of the sensors, channel by channel.
+    sensors: Vec<Vec<f64>>,
 }
 
 impl Recorder for Sampler<'_> {
@@ -47,6 +49,7 @@ impl Recorder for Sampler<'_> {
             self.q.push(row.q.to_vec());
             self.qd.push(row.qd.to_vec());
             self.effort.push(row.effort.to_vec());
+            self.sensors.push(row.sensors.to_vec());
             for (body, poses) in row
                 .scene
                 .iter()
@@ -125,8 +128,10 @@ pub(super) fn answer(scene: Option<&Scene>, mut fields: Fields<'_>) -> Result<Va
     };
     let periods = Periods::new(step_s, servo_s, control_s)
         .map_err(|error| Refusal::new("bad-period", error.to_string()))?;
+    let channels = robot.sensors().iter().map(|sensor| sensor.kind.channels());
+    let channels: usize = channels.sum();
     let bodies = scene.map_or(0, |scene| scene.bodies.len());
-    let numbers = (ticks / stride + 1).saturating_mul((3 * n + 7 * bodies + 1) as u64);
+    let numbers = (ticks / stride + 1).saturating_mul((3 * n + 7 * bodies + channels + 1) as u64);
     if ticks > MOST_STEPS || numbers > MOST_NUMBERS {
         return Err(Refusal::new(
             "too-large",
@@ -141,6 +146,7 @@ pub(super) fn answer(scene: Option<&Scene>, mut fields: Fields<'_>) -> Result<Va
         periods,
         gravity_m_s2,
         servo,
+        sensors: robot.sensors().to_vec(),
         start_q,
         start_qd,
         ticks,
@@ -154,6 +160,7 @@ pub(super) fn answer(scene: Option<&Scene>, mut fields: Fields<'_>) -> Result<Va
         effort: Vec::new(),
         bodies: vec![Vec::new(); bodies],
         watch: scene.map(|_| Watch::new(&setup)),
+        sensors: Vec::new(),
     };
     let end = run::run(
         &setup,
@@ -186,6 +193,23 @@ pub(super) fn answer(scene: Option<&Scene>, mut fields: Fields<'_>) -> Result<Va
         "qd": table(&sampler.qd)?,
         "effort": table(&sampler.effort)?,
     });
+    if !robot.sensors().is_empty() {
+        let mut start = 0;
+        let mut readings = Map::new();
+        for sensor in robot.sensors() {
+            let channels = start..start + sensor.kind.channels();
+            start = channels.end;
+            let rows = sampler.sensors.iter();
+            let values: Result<Vec<Value>, Refusal> = if channels.len() == 1 {
+                rows.map(|row| Ok(finite(&row[channels.clone()])?[0].take()))
+                    .collect()
+            } else {
+                rows.map(|row| finite(&row[channels.clone()])).collect()
+            };
+            readings.insert(sensor.name.clone(), Value::Array(values?));
+        }
+        answer["sensors"] = Value::Object(readings);
+    }
     if let (Some(scene), Some(watch)) = (scene, sampler.watch) {
         let names = Names {
             robot,
