@@ -1,4 +1,4 @@
-//! Scenes that the tests share: the shelf and the can of the labs, and loose parts.
+//! Scenes that the tests share: the shelf and the can of the labs, loose parts, and where the arm reaches them.
 
 use kinemark_sim::robot::inertia::Solid;
 use kinemark_sim::robot::model::{Contact, Shape};
@@ -93,4 +93,12 @@ pub(crate) fn can(x: f64, z_bottom: f64) -> SceneBody {
 /// Shelf (body 0) and can on it (body 1).
 pub(crate) fn shelf_and_can() -> Scene {
     scene(vec![shelf(), can(1.0, 1.2)])
+}
+
+/// Joint angles that put the tip of the course's arm `up` the ground and `out` from its post, elbow outwards.
+pub(crate) fn reach(up: f64, out: f64) -> [f64; 2] {
+    let (x, y) = (up - 2.0, out);
+    let q2 = libm::acos((x * x + y * y - 2.0) / 2.0);
+    let q1 = libm::atan2(y, x) - libm::atan2(libm::sin(q2), 1.0 + libm::cos(q2));
+    [q1, q2]
 }

@@ -1,14 +1,15 @@
 //! Contact: robot and scene as bodies that press on each other. The only place that names rapier; no type of it leaves.
 //!
 //! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `shape` makes
-//! colliders, `contact` reads who pressed on whom, `clearance` says when nobody can, `ray` looks along a line, `wind` blows, `settings` are the
-//! numbers.
+//! colliders, `fresh` has contact points found anew, `contact` reads who pressed on whom, `clearance` says when nobody can, `ray` looks
+//! along a line, `wind` blows, `settings` are the numbers.
 
 mod arm;
 mod clearance;
 pub mod contact;
 mod convert;
 mod error;
+mod fresh;
 mod ray;
 mod settings;
 mod shape;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
-use rapier3d_f64::geometry::{ColliderBuilder, ColliderHandle, SharedShape};
+use rapier3d_f64::geometry::{ColliderBuilder, ColliderHandle, NarrowPhase, SharedShape};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::{PhysicsPipeline, PhysicsWorld};
 
@@ -11,6 +11,7 @@ use super::clearance::Obstacle;
 use super::contact::{self, ContactFact, Party};
 use super::convert::{engine_pose, from_engine_pose, from_vector, matrix, vector};
 use super::error::EngineError;
+use super::fresh;
 use super::ray::Ray;
 use super::settings::{self, COMBINE};
 use super::shape::collider;
@@ -103,6 +104,7 @@ impl World {
         let mut physics = PhysicsWorld {
             gravity: vector(gravity_m_s2),
             integration_parameters: settings::parameters(dt_s),
+            narrow_phase: NarrowPhase::with_query_dispatcher(fresh::queries()),
             ..PhysicsWorld::default()
         };
         let root = insert_base(robot, &mut physics)?;
