@@ -3,8 +3,10 @@
 mod algorithms;
 mod arms;
 mod contact;
+mod contact_order;
 mod contact_scenes;
 mod differential;
+mod golden_contact;
 mod golden_robots;
 mod golden_rrbot;
 mod golden_steps;
