@@ -2,7 +2,7 @@
 //!
 //! Every shape of a moving link is covered by balls strung along its longest side; what stands around is covered by boxes along the
 //! world's axes. The least distance between the two is a budget: as long as no ball can have travelled that far, by the sum of
-//! the joints' motions times their levers, nothing needs to be looked at again.
+//! the joints' motions times their levers, nothing needs to be looked at again. What is near is near until it has moved away.
 
 use nalgebra::Vector3;
 
@@ -42,7 +42,10 @@ pub(crate) struct Clearance {
     poses: FramePoses,
     /// How far a ball can go per unit of each body's joint.
     levers: Vec<f64>,
+    /// Travel that is left before a link can be near.
     left_m: f64,
+    /// Travel that is left before a link that is near can be clear.
+    stays_near_m: f64,
     obstacles: Vec<Obstacle>,
 }
 
@@ -63,6 +66,7 @@ impl Clearance {
             poses: FramePoses::new(robot),
             levers: vec![0.0; robot.bodies().len()],
             left_m: 0.0,
+            stays_near_m: -1.0,
             obstacles: Vec::new(),
         };
         clearance.measure_levers(robot, &vec![0.0; robot.n()]);
@@ -74,9 +78,10 @@ impl Clearance {
         !self.balls.is_empty()
     }
 
-    /// Drops the budget: something else moved.
+    /// Drops the budgets: something else moved.
     pub(crate) fn forget(&mut self) {
         self.left_m = 0.0;
+        self.stays_near_m = -1.0;
     }
 
     /// Whether a link may touch an obstacle on the way from `q` to `next_q`, while no obstacle moves farther than `others_m`; true
@@ -92,15 +97,21 @@ impl Clearance {
         if self.balls.is_empty() {
             return false;
         }
-        self.left_m -= self.travel_m(robot, q, next_q) + others_m;
+        let used_m = self.travel_m(robot, q, next_q) + others_m;
+        self.left_m -= used_m;
         if self.left_m > NEAR_M {
             return false;
+        }
+        self.stays_near_m -= used_m;
+        if self.stays_near_m >= 0.0 {
+            return true;
         }
         self.poses.update(robot, next_q);
         self.obstacles.clear();
         list_obstacles(&mut self.obstacles);
         let distance_m = self.distance_m();
         self.left_m = (distance_m - others_m).min(BUDGET_M);
+        self.stays_near_m = NEAR_M - distance_m;
         self.measure_levers(robot, next_q);
         // a ball may have come from as far away as it travelled
         let is_clear = distance_m > NEAR_M + self.travel_m(robot, q, next_q) + others_m;
@@ -255,6 +266,33 @@ mod tests {
         let from = near_from.unwrap();
         assert!((0.75..0.9).contains(&from), "{from}");
         assert!(looks < 300, "{looks}");
+    }
+
+    #[test]
+    fn what_is_near_is_not_looked_at_again_until_it_has_moved_away() {
+        let robot = lift();
+        let mut clearance = Clearance::new(&robot);
+        let mut looks = 0;
+        let mut near_at = |clearance: &mut Clearance, from: f64, to: f64| {
+            clearance.is_near(&robot, &[from], &[to], 0.0, |list| {
+                looks += 1;
+                list.push(wall(1.0));
+            })
+        };
+        // pressed on the wall it trembles for a thousand steps, then backs off
+        for step in 0..1000 {
+            let tremble = f64::from(step % 2) * 1e-9;
+            assert!(near_at(&mut clearance, 0.9 + tremble, 0.9 + 1e-9 - tremble));
+        }
+        for step in 0..500 {
+            let x = 0.9 - f64::from(step) * 1e-3;
+            assert_eq!(near_at(&mut clearance, x, x - 1e-3), {
+                // the car as far away as a fresh look finds it
+                let mut fresh = Clearance::new(&robot);
+                fresh.is_near(&robot, &[x], &[x - 1e-3], 0.0, |list| list.push(wall(1.0)))
+            });
+        }
+        assert!(looks < 50, "{looks}");
     }
 
     #[test]
