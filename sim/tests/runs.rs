@@ -13,8 +13,7 @@ use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
 
 use crate::arms::rrbot;
-use crate::contact::reach;
-use crate::contact_scenes::{GRAVITY, scene, shelf_and_can};
+use crate::contact_scenes::{GRAVITY, reach, scene, shelf_and_can};
 
 fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks: u64) -> Setup<'a> {
     let [kp, kd] = gains;
