@@ -33,6 +33,7 @@ pub mod grade;
 pub mod graded;
 pub mod grading;
 pub mod lab;
+#[cfg(not(target_family = "wasm"))]
 pub mod log;
 pub mod motion;
 pub mod quantity;

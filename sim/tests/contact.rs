@@ -12,11 +12,11 @@ use kinemark_sim::spatial::Twist;
 use nalgebra::Vector3;
 
 use crate::arms::{robot, rrbot};
+use crate::contact_run::{self, DT, eventful, pull, put_state, weight};
 use crate::contact_scenes::{
     GRAVITY, STILL, at, boxed, can, part, reach, scene, shelf, shelf_and_can,
 };
 
-const DT: f64 = 1e-3;
 const SHELF: Party = Party::Body(0);
 const CAN: Party = Party::Body(1);
 const FOREARM: Party = Party::Link(2);
@@ -26,21 +26,6 @@ fn tip(q: &[f64]) -> Vector3<f64> {
     let (q1, q12) = (q[0], q[0] + q[1]);
     let out = libm::sin(q1) + libm::sin(q12);
     Vector3::new(out, 0.0, 2.0 + libm::cos(q1) + libm::cos(q12))
-}
-
-/// What holds the course's arm against gravity.
-fn weight(q: &[f64]) -> [f64; 2] {
-    let forearm = -0.25 * 9.81 * libm::sin(q[0] + q[1]);
-    [forearm - 0.75 * 9.81 * libm::sin(q[0]), forearm]
-}
-
-/// Pulls the arm to `goal` with at most `limit_n_m`, gravity aside.
-fn pull(q: &[f64], qd: &[f64], goal: [f64; 2], gains: [f64; 2], limit_n_m: f64) -> [f64; 2] {
-    let held = weight(q);
-    [0, 1].map(|i| {
-        let wanted = gains[0] * (goal[i] - q[i]) - gains[1] * qd[i];
-        wanted.max(-limit_n_m).min(limit_n_m) + held[i]
-    })
 }
 
 fn step(robot: &Robot, scene: &Scene) -> HybridStep {
@@ -632,58 +617,25 @@ fn a_driven_body_goes_its_way_and_takes_others_along() {
     );
 }
 
-/// A run with everything in it: sweep, fall, shelf; stops after each step that `visit` wants.
-fn eventful(mut visit: impl FnMut(usize, &mut HybridStep, &mut [f64; 2], &mut [f64; 2])) {
-    let robot = rrbot();
-    let mut hybrid = step(&robot, &shelf_and_can());
-    let (mut q, mut qd) = (reach(1.25, 1.2), [0.0; 2]);
-    for i in 0..1200 {
-        let (up, out) = if i < 600 {
-            (1.25, 1.2 - i as f64 * DT)
-        } else {
-            (1.0, 1.1)
-        };
-        let effort = pull(&q, &qd, reach(up, out), [1000.0, 30.0], 100.0);
-        hybrid
-            .advance(&robot, &effort, &mut q, &mut qd)
-            .expect("a step");
-        visit(i, &mut hybrid, &mut q, &mut qd);
-    }
-}
-
-/// Digest of the robot's state and of all bodies.
-fn digest(hasher: &mut blake3::Hasher, hybrid: &HybridStep, q: &[f64], qd: &[f64]) {
-    let mut put = |x: f64| {
-        hasher.update(&x.to_bits().to_le_bytes());
-    };
-    q.iter().chain(qd).copied().for_each(&mut put);
-    for body in hybrid.bodies() {
-        let pose = body.world_from_body;
-        pose.translation.vector.iter().copied().for_each(&mut put);
-        pose.rotation.matrix().iter().copied().for_each(&mut put);
-        body.twist.to_vector().iter().copied().for_each(&mut put);
-    }
-}
-
 #[test]
 fn a_snapshot_continues_with_the_same_bits() {
     // taken in free motion, in contact with the can, and after it
     for at_step in [50, 230, 900] {
         let mut straight = blake3::Hasher::new();
         let mut saved = None;
-        eventful(|i, hybrid, q, qd| {
-            digest(&mut straight, hybrid, q, qd);
+        eventful(&rrbot(), |i, hybrid, q, qd| {
+            put_state(&mut straight, hybrid, q, qd);
             if i == at_step {
                 saved = Some((hybrid.snapshot(), *q, *qd, straight.clone()));
             }
         });
         let (snapshot, saved_q, saved_qd, mut resumed) = saved.expect("taken");
-        eventful(|i, hybrid, q, qd| {
+        eventful(&rrbot(), |i, hybrid, q, qd| {
             if i == at_step {
                 hybrid.restore(&snapshot);
                 (*q, *qd) = (saved_q, saved_qd);
             } else if i > at_step {
-                digest(&mut resumed, hybrid, q, qd);
+                put_state(&mut resumed, hybrid, q, qd);
             } else {
                 // something else has happened meanwhile
                 q[0] += 1e-6;
@@ -695,16 +647,11 @@ fn a_snapshot_continues_with_the_same_bits() {
 
 #[test]
 fn a_run_in_contact_has_the_same_bits_everywhere() {
-    let mut hasher = blake3::Hasher::new();
     let (mut pressed, mut fell) = (0, false);
-    eventful(|_, hybrid, q, qd| {
-        digest(&mut hasher, hybrid, q, qd);
+    let digest = contact_run::digest(&rrbot(), |hybrid| {
         pressed += usize::from(hybrid.report().state_from == StateFrom::Contact);
         fell |= hybrid.body(1).world_from_body.translation.vector.z < 1.0;
     });
     assert!(pressed > 50 && fell, "{pressed} {fell}");
-    assert_eq!(
-        hasher.finalize().to_hex().as_str(),
-        "70c5b646c97ca814811142c6f066ac49c5147b19395c550cf689cea8d7ba3609"
-    );
+    assert_eq!(digest, contact_run::DIGEST);
 }

@@ -4,6 +4,7 @@ mod algorithms;
 mod arms;
 mod contact;
 mod contact_order;
+mod contact_run;
 mod contact_scenes;
 mod differential;
 mod golden_contact;

@@ -19,7 +19,7 @@ fn crates_depend_on_each_other_as_drawn() {
     let mut arrows = BTreeSet::new();
     for package in &metadata.packages {
         // tests may see everything
-        if *package.name == "kinemark-tests" {
+        if package.name.starts_with("kinemark-tests") {
             continue;
         }
         for dependency in &package.dependencies {

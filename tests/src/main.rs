@@ -23,6 +23,7 @@ mod sensor_labs;
 mod submissions;
 mod testbed;
 mod verify;
+mod wasm;
 
 /// A file that no `mod` names would be a test that never runs.
 #[test]

@@ -14,22 +14,13 @@ pub(crate) fn root() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// Builds the binary in `profile` (as `--profile` names it) and returns its path.
-pub(crate) fn build(profile: &str) -> PathBuf {
+/// A call of cargo in the checkout, and the target folder in which it builds: this test's own.
+pub(crate) fn cargo() -> (Command, PathBuf) {
     // target/<folder>/deps/system-<hash>: the build of another profile lies beside this one's
     let here = std::env::current_exe().expect("this test's path");
     let target = here.ancestors().nth(3).expect("the target folder");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args([
-        "build",
-        "--quiet",
-        "--locked",
-        "--package",
-        "kinemark",
-        "--profile",
-        profile,
-    ]);
-    cargo.arg("--target-dir").arg(target);
+    cargo.current_dir(root());
     // what cargo tells a test about its own package must not reach the build of another
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
@@ -38,6 +29,15 @@ pub(crate) fn build(profile: &str) -> PathBuf {
             cargo.env_remove(name.as_ref());
         }
     }
+    (cargo, target.to_owned())
+}
+
+/// Builds the binary in `profile` (as `--profile` names it) and returns its path.
+pub(crate) fn build(profile: &str) -> PathBuf {
+    let (mut cargo, target) = cargo();
+    cargo.args(["build", "--quiet", "--locked", "--package", "kinemark"]);
+    cargo.args(["--profile", profile]);
+    cargo.arg("--target-dir").arg(&target);
     assert!(
         cargo.status().expect("cargo runs").success(),
         "the binary builds"

@@ -2,7 +2,7 @@
 
 use kinemark_sim::robot::{Frame, Robot};
 
-use crate::report::shortened;
+use crate::report::visible::shortened;
 
 /// The fixed root of every log.
 pub(super) const WORLD: &str = "world";

@@ -16,7 +16,8 @@ use super::names::{fields, frame_id_of};
 use super::tree::Tree;
 use super::{scene, schema};
 use crate::graded::TaskRun;
-use crate::report::{current_goal, visible};
+use crate::report::goal::current_goal;
+use crate::report::visible::visible;
 
 /// Poses and joint states a second.
 const POSE_RATE_HZ: f64 = 60.0;

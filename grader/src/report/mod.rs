@@ -1,6 +1,6 @@
 //! The grade, shown: text for a terminal, plots as SVG, and a page that holds everything.
 
-mod goal;
+pub(crate) mod goal;
 pub mod html;
 mod number;
 pub mod plot;
@@ -8,7 +8,4 @@ pub mod plot;
 pub(crate) mod sample;
 pub mod text;
 mod theme;
-mod visible;
-
-pub(crate) use goal::current_goal;
-pub(crate) use visible::{shortened, visible};
+pub(crate) mod visible;
