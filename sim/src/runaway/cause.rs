@@ -7,8 +7,9 @@ use crate::trace::Trace;
 
 /// Joint rates below this are those of an arm that is still under control \[rad/s or m/s\].
 const CALM_RATE: f64 = 10.0;
-/// So many calls in a row must turn the command round, each further than the one before, to blame the feedback.
-const TURNS: usize = 6;
+/// So many calls in a row must turn the command round, each further than the one before, to blame the feedback; a strong one has run
+/// away after a few.
+const TURNS: usize = 3;
 
 /// Why a run ran away, as far as it can be computed.
 #[derive(Debug, Clone, PartialEq)]
