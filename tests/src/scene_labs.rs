@@ -313,7 +313,7 @@ fn a_runaway_is_told_with_its_cause() {
     );
     bed.write(
         "mine.rhai",
-        "fn control(o) { [-300.0 * o.qd[0] - 100.0 * (o.q[0] - 1.0), -300.0 * o.qd[1] - 100.0 * (o.q[1] - 2.0)] }",
+        "fn control(o) { [-60.0 * o.qd[0] - 100.0 * (o.q[0] - 1.0), -60.0 * o.qd[1] - 100.0 * (o.q[1] - 2.0)] }",
     );
     assert_eq!(bed.run(&GRADE).code, Some(1));
     let record = self::record(&bed);

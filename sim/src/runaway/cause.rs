@@ -9,7 +9,7 @@ use crate::trace::Trace;
 const CALM_RATE: f64 = 10.0;
 /// So many calls in a row must turn the command round, each further than the one before, to blame the feedback; a strong one has run
 /// away after a few.
-const TURNS: usize = 3;
+const TURNS: usize = 2;
 
 /// Why a run ran away, as far as it can be computed.
 #[derive(Debug, Clone, PartialEq)]
