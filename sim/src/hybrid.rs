@@ -8,6 +8,7 @@
 
 use nalgebra::Vector3;
 
+use crate::air::AirNow;
 use crate::dynamics::SingularMassMatrix;
 use crate::dynamics::smooth::SmoothStep;
 use crate::dynamics::stops::Stops;
@@ -74,6 +75,8 @@ pub struct HybridStep {
     start_q: Vec<f64>,
     start_qd: Vec<f64>,
     held: Vec<f64>,
+    /// The air of the last step.
+    air: Option<AirNow>,
     /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
     drag: Vec<f64>,
     report: StepReport,
@@ -114,6 +117,7 @@ impl HybridStep {
             start_qd: room.clone(),
             held: room.clone(),
             drag: room,
+            air: None,
             report: StepReport {
                 state_from: StateFrom::Smooth,
                 engine_stepped: false,
@@ -142,7 +146,8 @@ impl HybridStep {
         self.report.state_from = StateFrom::Smooth;
         self.report.stops.clear();
         self.report.at_limit.clear();
-        self.smooth.set_air(self.world.air_now());
+        self.air = self.world.air_now();
+        self.smooth.set_air(self.air);
         self.advance_free(robot, effort, q, qd)?;
 
         let awake = self.world.is_awake();
@@ -268,6 +273,11 @@ impl HybridStep {
     /// If the scene has no such body.
     pub fn body(&self, index: usize) -> BodyState {
         self.world.body(index)
+    }
+
+    /// The air of the last step; none before the first, or without air.
+    pub(crate) fn air_of_last_step(&self) -> Option<&AirNow> {
+        self.air.as_ref()
     }
 
     /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.

@@ -1,6 +1,7 @@
 //! Contact and wrench sensors: forces by hand, and joints against the efforts that move them.
 
 use kinemark_sim::engine::Party;
+use kinemark_sim::scene::Wind;
 use kinemark_sim::sensor::{Seen, Sensor, SensorKind, Sensors};
 use nalgebra::Vector3;
 
@@ -273,4 +274,54 @@ fn an_arm_that_pushes_a_shelf_feels_the_reaction_in_its_joints() {
         rig.contacts,
         rig.effort
     );
+}
+
+/// A lift that carries a mast, on which the wind presses.
+const MAST: &str = "
+format = 1
+name = 'mast'
+[[links]]
+name = 'base'
+[[links]]
+name = 'lift'
+inertia = { mass_kg = 2.0, tensor_kg_m2 = [1, 1, 1, 0, 0, 0] }
+[[links]]
+name = 'sail'
+inertia = { mass_kg = 1.0, com_m = [0, 0, 0.3], tensor_kg_m2 = [1, 1, 1, 0, 0, 0] }
+drag = { area_m2 = 0.5, coefficient = 0.8 }
+[[joints]]
+name = 'up'
+type = 'prismatic'
+parent = 'base'
+child = 'lift'
+axis = [0, 0, 1]
+[[joints]]
+name = 'foot'
+type = 'fixed'
+parent = 'lift'
+child = 'sail'
+origin = { xyz_m = [0, 0, 1] }
+[[sensors]]
+name = 'foot'
+type = 'wrench'
+joint = 'foot'
+";
+
+#[test]
+fn a_mast_in_the_wind_leans_on_its_foot() {
+    let mut windy = scene(Vec::new());
+    windy.environment.wind = Some(Wind {
+        velocity_m_s: Vector3::new(5.0, 0.0, 0.0),
+        air_density_kg_m3: 1.2,
+        gust: None,
+    });
+    let mut rig = Rig::new(robot(MAST), &windy, &[0.0], DT);
+    for _ in 0..10 {
+        rig.advance(&[3.0 * 9.81]);
+    }
+    // 0.5 1.2 0.8 0.5 5² = 6 N, 0.3 m above the foot
+    let expected = [-6.0, 0.0, 9.81, 0.0, -1.8, 0.0];
+    for (read, expected) in rig.reading("foot").iter().zip(expected) {
+        assert!((read - expected).abs() < 1e-9, "{:?}", rig.reading("foot"));
+    }
 }

@@ -5,6 +5,7 @@ mod canvas;
 mod joints;
 mod path;
 mod plane;
+mod scenery;
 mod signals;
 mod thin;
 mod timeline;

@@ -254,7 +254,8 @@ impl Sensors {
                             is_moved = true;
                         }
                         let (gravity, contacts) = (seen.gravity_m_s2, seen.contacts);
-                        raw = gauge.wrench(motion, gravity, contacts, self.step_s);
+                        let air = seen.scene.and_then(HybridStep::air_of_last_step);
+                        raw = gauge.wrench(motion, gravity, contacts, air, self.step_s);
                     }
                     unit.device.disturb(&mut raw);
                 }

@@ -8,6 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::sampling::Seen;
+use crate::air::{AirNow, Drag};
 use crate::engine::{ContactFact, Party};
 use crate::kinematics::motion::{BodyMotions, Motion};
 use crate::robot::Robot;
@@ -38,6 +39,15 @@ pub(super) struct Gauge {
     /// Whether each link is carried.
     carried: Vec<bool>,
     parts: Vec<Part>,
+    sails: Vec<Sail>,
+}
+
+/// A carried link that the air drags on.
+#[derive(Debug, Clone)]
+struct Sail {
+    body: Option<usize>,
+    p_com_in_body: Vector3<f64>,
+    drag: Drag,
 }
 
 /// All that is carried on one body, in the body's frame.
@@ -72,7 +82,24 @@ impl Gauge {
             first_moment: sum.com_m * sum.mass_kg,
             inertia: sum.about_origin_kg_m2(),
         });
+        let links = robot.links().iter().zip(&carried);
+        let sails = links
+            .filter(|(_, carried)| **carried)
+            .filter_map(|(link, _)| {
+                let Attachment {
+                    body,
+                    body_from_here,
+                } = &link.attachment;
+                Some(Sail {
+                    body: *body,
+                    p_com_in_body: body_from_here
+                        .transform_point(&link.inertia.com_m.into())
+                        .coords,
+                    drag: link.drag?,
+                })
+            });
         Self {
+            sails: sails.collect(),
             child: robot.links()[robot.joints()[joint].child]
                 .attachment
                 .clone(),
@@ -87,6 +114,7 @@ impl Gauge {
         motion: &MeanMotion,
         gravity_m_s2: &Vector3<f64>,
         contacts: &[ContactFact],
+        air: Option<&AirNow>,
         step_s: f64,
     ) -> [f64; 6] {
         let placed = motion.of(self.child.body).placed;
@@ -105,6 +133,13 @@ impl Gauge {
             let n = inertia.times(&dw) + w.cross(&inertia.times(&w)) + h.cross(&a);
             force += f;
             moment += n + (placed.position - p_here).cross(&f);
+        }
+        for (sail, air) in self.sails.iter().filter_map(|sail| Some((sail, air?))) {
+            let motion = motion.of(sail.body);
+            let com = motion.at(&(motion.placed.world_from_body * sail.p_com_in_body));
+            let pushed = air.drag_n(&sail.drag, &com.velocity);
+            force -= pushed;
+            moment -= (com.position - p_here).cross(&pushed);
         }
         for fact in contacts {
             let [first, second] = fact

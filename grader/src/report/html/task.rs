@@ -6,8 +6,8 @@ use super::band::{gauge, outcome, told};
 use super::head::{anchor, earned, meaning, verdict};
 use super::{foreign, prose};
 use crate::grade::{
-    CaseGrade, CheckGrade, Diagnosis, Evidence, HiddenClass, LogEntry, Outcome, Stopped, TaskGrade,
-    TaskKind,
+    CaseGrade, CheckGrade, ContactRecord, Diagnosis, EventRecord, Evidence, HiddenClass, LogEntry,
+    Outcome, Stopped, TaskGrade, TaskKind,
 };
 use crate::graded::TaskRun;
 use crate::quantity::seconds;
@@ -49,6 +49,8 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                     }
                 }
             }
+            @if !task.events.is_empty() { (events(&task.events)) }
+            @if !task.contacts.is_empty() { (contacts(&task.contacts, run.map(|(run, _)| run))) }
             @if !task.log.is_empty() { (log(task, run.map(|(run, _)| run))) }
         }
     }
@@ -201,6 +203,64 @@ fn hidden(classes: &[HiddenClass]) -> Markup {
                             th scope="row" { (foreign(&class.class)) }
                             td class="number" { (class.good) }
                             td class="number" { (class.total) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn events(events: &[EventRecord]) -> Markup {
+    html! {
+        details class="log" {
+            summary { "What happened: " (events.len()) @if events.len() == 1 { " event" } @else { " events" } }
+            div class="wide" tabindex="0" role="region" aria-label="Events" {
+                table {
+                    thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Event" } th scope="col" { "What" } } }
+                    tbody {
+                        @for event in events {
+                            tr {
+                                td class="number" { (format!("{:.3} s", event.time_s)) }
+                                td { (visible(&event.event)) }
+                                td { (prose(&event.message)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn contacts(contacts: &[ContactRecord], run: Option<&TaskRun>) -> Markup {
+    let at = |tick: u64| match run {
+        Some(run) => format!("{:.3} s", tick as f64 * run.trace.step_s),
+        None => format!("tick {tick}"),
+    };
+    html! {
+        details class="log" {
+            summary { "Contact: " (contacts.len()) @if contacts.len() == 1 { " time" } @else { " times" } }
+            div class="wide" tabindex="0" role="region" aria-label="Contacts" {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "Between" }
+                            th scope="col" class="number" { "From" }
+                            th scope="col" class="number" { "Until" }
+                            th scope="col" class="number" { "Peak force" }
+                            th scope="col" class="number" { "Impulse" }
+                        }
+                    }
+                    tbody {
+                        @for contact in contacts {
+                            tr {
+                                th scope="row" { (foreign(&contact.parties[0])) " and " (foreign(&contact.parties[1])) }
+                                td class="number" { (at(contact.first_tick)) }
+                                td class="number" { (at(contact.last_tick)) }
+                                td class="number" { (format!("{:.3} N", contact.peak_force_n)) }
+                                td class="number" { (format!("{:.4} N s", contact.impulse_n_s)) }
+                            }
                         }
                     }
                 }

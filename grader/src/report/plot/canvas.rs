@@ -132,6 +132,16 @@ impl Canvas<'_> {
         self.stroke(&points, colour, width);
     }
 
+    /// A filled convex area with an outline through points in pixels; nothing with fewer than three.
+    pub(super) fn polygon(&mut self, points: &[(f64, f64)], colour: Colour, alpha: f64) {
+        if points.len() < 3 || alpha == 0.0 {
+            return;
+        }
+        let style = rgb(colour).mix(alpha).filled();
+        let points = points.iter().copied().map(units);
+        self.backend.fill_polygon(points, &style).ok();
+    }
+
     /// A filled disc.
     pub(super) fn disc(&mut self, centre: (f64, f64), radius: f64, colour: Colour, alpha: f64) {
         let style = rgb(colour).mix(alpha).filled();

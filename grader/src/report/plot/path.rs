@@ -1,11 +1,13 @@
 //! The TCP's path in the plane it moves in, to scale on both axes, with a close look at every goal.
 
 use kinemark_sim::kinematics::FramePoses;
+use kinemark_sim::spatial::Pose;
 use nalgebra::Vector3;
 
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
 use super::plane::Plane;
+use super::scenery::{Scenery, clipped};
 use super::signals::stopped_s;
 use super::thin::in_plane;
 use super::view::{LEFT, RIGHT, View};
@@ -13,11 +15,15 @@ use crate::graded::{Goal, TaskRun};
 use crate::quantity::seconds;
 use crate::report::goal::distances_m;
 use crate::report::number::with_unit;
-use crate::report::theme::{BLUE, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION};
+use crate::report::theme::{
+    BLUE, Colour, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
+};
 use crate::report::visible::shortened;
 
 /// A goal's circle smaller than this needs a close look \[px\].
 const TOO_SMALL: f64 = 14.0;
+/// A body of the scene that ends farther from its start may lie outside the picture \[m\].
+const FAR_M: f64 = 1.5;
 /// Goals that get one.
 const MOST_CLOSE_LOOKS: usize = 6;
 /// Goals that are drawn.
@@ -52,19 +58,24 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
         goals,
         tcp: flat(&tcp),
         reference: flat(reference),
+        scenery: Scenery::of(run, &frame_from_world(run), &plane),
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
     let title = format!("TCP path in the frame `{}`", shortened(&run.seen_from, 40));
     Some((drawn.draw(&title), title))
 }
 
+/// The frame the path is told in, as it stands at home.
+fn frame_from_world(run: &TaskRun) -> Pose {
+    let frame = run.robot.frame(&run.seen_from);
+    frame.map_or_else(Pose::identity, |frame| {
+        FramePoses::new(&run.robot).world_from(frame).inverse()
+    })
+}
+
 /// How far each axis of the frame points up in the world.
 fn upward(run: &TaskRun) -> [f64; 3] {
-    let Some(frame) = run.robot.frame(&run.seen_from) else {
-        return [0.0, 0.0, 1.0];
-    };
-    let world_from_frame = FramePoses::new(&run.robot).world_from(frame);
-    let up = world_from_frame.rotation.inverse() * Vector3::z();
+    let up = frame_from_world(run).transform_vector(&Vector3::z());
     [up.x, up.y, up.z]
 }
 
@@ -112,6 +123,7 @@ struct Drawn<'a> {
     tcp: Vec<(f64, f64)>,
     reference: Vec<(f64, f64)>,
     arms: [Vec<(f64, f64)>; 2],
+    scenery: Scenery,
 }
 
 impl Drawn<'_> {
@@ -183,6 +195,15 @@ impl Drawn<'_> {
             legend.push(Entry::new(Swatch::Line(MUTED_DASHED), "arm at the start"));
             legend.push(Entry::new(Swatch::Line(MUTED), "at the end"));
         }
+        if !self.scenery.is_empty() {
+            legend.push(Entry::new(Swatch::Area(MUTED), "what stands there"));
+        }
+        if !self.scenery.at_end.is_empty() {
+            legend.push(Entry::new(
+                Swatch::Area(VERMILLION),
+                "what can move, at the end",
+            ));
+        }
         if !self.goals.is_empty() {
             legend.push(Entry::new(Swatch::Ring(GREEN), "full points"));
             legend.push(Entry::new(Swatch::Ring(VERMILLION), "none outside"));
@@ -195,6 +216,16 @@ impl Drawn<'_> {
         let mut points: Vec<(f64, f64)> = self.tcp.clone();
         points.extend(&self.reference);
         points.extend(self.arms.iter().flatten());
+        // where the scene's bodies start is part of the picture, where they end only if that is not far off
+        for (start, end) in self.scenery.at_start.iter().zip(&self.scenery.at_end) {
+            points.extend(start);
+            let near = |p: &&(f64, f64)| {
+                start
+                    .iter()
+                    .any(|s| (s.0 - p.0).abs().max((s.1 - p.1).abs()) < FAR_M)
+            };
+            points.extend(end.iter().filter(near));
+        }
         for goal in self.goals {
             let (x, y) = self.plane.flat(&goal.position_m);
             let r = if goal.zero_m.is_finite() {
@@ -209,6 +240,7 @@ impl Drawn<'_> {
 
     fn main(&self, canvas: &mut Canvas<'_>, view: &View) {
         view.ground(canvas, (0.0, 0.0), 1.0, &self.plane);
+        self.around(canvas, view);
         view.frame(canvas);
         for (arm, colour, width) in [
             (&self.arms[0], MUTED_DASHED, 2.0),
@@ -244,6 +276,23 @@ impl Drawn<'_> {
                 None => canvas.disc(view.at(*end), 4.5, BLUE, 1.0),
             }
         }
+    }
+
+    /// The bodies of the scene, as far as they lie in the view.
+    fn around(&self, canvas: &mut Canvas<'_>, view: &View) {
+        let (low, high) = ((view.x.min, view.y.min), (view.x.max, view.y.max));
+        let mut draw = |outlines: &[Vec<(f64, f64)>], colour: Colour, alpha: f64| {
+            for outline in outlines {
+                let inside = clipped(outline, low, high);
+                let mut points: Vec<_> = inside.iter().map(|p| view.at(*p)).collect();
+                canvas.polygon(&points, colour, alpha);
+                points.extend(points.first().copied());
+                canvas.line(&points, colour, 1.2);
+            }
+        };
+        draw(&self.scenery.standing, MUTED, 0.2);
+        draw(&self.scenery.at_start, MUTED, 0.0);
+        draw(&self.scenery.at_end, VERMILLION, 0.25);
     }
 
     /// Numbers of the goals, those of nearly the same place together.
