@@ -145,6 +145,12 @@ fn text(robot: &Robot) -> String {
             ),
         );
     }
+    for sensor in robot.sensors() {
+        fact(
+            "sensor",
+            &format!("{} ({})", sensor.name, sensor.kind.name()),
+        );
+    }
     for warning in robot.warnings() {
         let indent = " ".repeat(10);
         let options = textwrap::Options::new(table::WIDEST)
@@ -219,6 +225,7 @@ fn record(robot: &Robot) -> Value {
         "q": robot.moving_joints().map(|joint| joint.name.as_str()).collect::<Vec<&str>>(),
         "independent": names(robot, robot.independent()),
         "dependent": names(robot, robot.dependent()),
+        "sensors": robot.sensors().iter().map(|sensor| json!({ "name": sensor.name, "type": sensor.kind.name() })).collect::<Vec<Value>>(),
         "home": robot.home(),
         "mass_kg": robot.mass_kg(),
         "com_at_home_m": com_at_home_m(robot),
