@@ -8,6 +8,7 @@
 //! | [`robot`] | the immutable robot and its TOML description |
 //! | [`air`] | how air drags on bodies and links |
 //! | [`scene`] | what is around the robot, and its TOML description |
+//! | [`scene_check`] | what is wrong with a scene before anything runs in it |
 //! | [`engine`] | contact, and the only place that knows how it is computed |
 //! | [`hybrid`] | the step in a scene: smooth while the robot is free, contact while it touches |
 //! | [`joint`] | vectors over the joints that move |
@@ -50,6 +51,7 @@ pub mod robot;
 pub mod run;
 pub mod runaway;
 pub mod scene;
+pub mod scene_check;
 pub mod sensor;
 pub mod source;
 pub mod spatial;

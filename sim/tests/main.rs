@@ -22,6 +22,7 @@ mod range_finders;
 mod robot_files;
 mod runs;
 mod sampled_loop;
+mod scene_check;
 mod scenes;
 mod sensor_files;
 mod sensor_rig;

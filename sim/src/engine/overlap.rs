@@ -1,0 +1,307 @@
+//! Overlap: which bodies, links and ground are in each other where they stand, what lies below a point, what a way leads into.
+//!
+//! The shapes are those of a run, and nothing is stepped. A surface of triangles has no inside: only what crosses it overlaps.
+
+use std::cmp::Ordering;
+
+use nalgebra::Vector3;
+use rapier3d_f64::geometry::SharedShape;
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume as _};
+use rapier3d_f64::parry::query::{Ray, RayCast as _, contact, intersection_test};
+
+use super::contact::Party;
+use super::convert::{engine_pose, from_vector, vector};
+use super::error::EngineError;
+use super::settings::SURFACE;
+use super::shape::collider;
+use crate::kinematics::FramePoses;
+use crate::robot::Robot;
+use crate::robot::model::{Contact, Shape};
+use crate::scene::{BodyKind, Scene};
+use crate::spatial::Pose;
+
+/// Where centres coincide, the search for the way out has no direction to begin with; this far aside it has one \[m\].
+const ASIDE_M: f64 = 1e-7;
+
+/// Farther than anything can be \[m\]: no number of a scene is beyond a millionth of it.
+const ANYWHERE_M: f64 = 1e12;
+
+/// Two parties that are in each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// The two, the lesser first.
+    pub parties: [Party; 2],
+    /// How far one of them has to go until they only touch \[m\].
+    pub depth_m: f64,
+    /// A point of the deepest place, in the world \[m\].
+    pub p_in_world: Vector3<f64>,
+    /// Whether they push each other apart in a run: not where each stands or goes its given way.
+    pub pushes: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mobility {
+    /// Fixed to the world.
+    Stands,
+    /// Goes a given way.
+    Driven,
+    /// A free body, or a link that joints move.
+    Moves,
+}
+
+#[derive(Debug, Clone)]
+struct Solid {
+    shape: SharedShape,
+    owner_from_shape: EnginePose,
+    world_from_shape: EnginePose,
+    bounds: Aabb,
+    /// Its centre of volume, inside every convex shape \[m\].
+    p_centre_in_shape: Vector,
+}
+
+#[derive(Debug, Clone)]
+struct Part {
+    party: Party,
+    mobility: Mobility,
+    solids: Vec<Solid>,
+}
+
+/// Where every shape of a scene, and of a robot in it, stands.
+#[derive(Debug, Clone)]
+pub struct Layout {
+    /// The bodies in their order, then the ground, then the links in theirs.
+    parts: Vec<Part>,
+}
+
+impl Layout {
+    /// The bodies of `scene` where they start, and `robot` at `q = 0` until it is placed.
+    ///
+    /// # Errors
+    /// Meshes the engine cannot use.
+    pub fn new(scene: &Scene, robot: Option<&Robot>) -> Result<Self, EngineError> {
+        let mut parts = Vec::new();
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let mobility = match body.kind {
+                BodyKind::Fixed => Mobility::Stands,
+                BodyKind::Kinematic(_) => Mobility::Driven,
+                BodyKind::Free => Mobility::Moves,
+            };
+            let solids = solids(&body.name, &body.shapes, body.contact)?;
+            let mut part = Part {
+                party: Party::Body(index),
+                mobility,
+                solids,
+            };
+            part.place(&body.world_from_body);
+            parts.push(part);
+        }
+        if scene.environment.ground.is_some() {
+            parts.push(Part {
+                party: Party::Ground,
+                mobility: Mobility::Stands,
+                solids: vec![Solid::new(
+                    SharedShape::halfspace(Vector::Z),
+                    EnginePose::IDENTITY,
+                )],
+            });
+        }
+        for (index, link) in robot.into_iter().flat_map(Robot::links).enumerate() {
+            parts.push(Part {
+                party: Party::Link(index),
+                mobility: match link.attachment.body {
+                    Some(_) => Mobility::Moves,
+                    None => Mobility::Stands,
+                },
+                solids: solids(&link.name, &link.shapes, link.contact.unwrap_or(SURFACE))?,
+            });
+        }
+        let mut layout = Self { parts };
+        if let Some(robot) = robot {
+            layout.place_robot(robot, &FramePoses::new(robot));
+        }
+        Ok(layout)
+    }
+
+    /// Moves the links of `robot`, which must be the one the layout was made with.
+    pub fn place_robot(&mut self, robot: &Robot, poses: &FramePoses) {
+        for part in &mut self.parts {
+            if let Party::Link(index) = part.party {
+                // every link is the frame of its index
+                part.place(&poses.world_from(&robot.frames()[index]));
+            }
+        }
+    }
+
+    /// Moves body `index` of the scene.
+    pub fn place_body(&mut self, index: usize, world_from_body: &Pose) {
+        self.parts[index].place(world_from_body);
+    }
+
+    /// Bodies and ground that are in each other by more than `least_m`, in their order; of two that are fixed to the world
+    /// nothing is said.
+    pub fn among_bodies(&self, least_m: f64) -> Vec<Overlap> {
+        let is_link = |part: &Part| matches!(part.party, Party::Link(_));
+        let parts: Vec<&Part> = self.parts.iter().filter(|part| !is_link(part)).collect();
+        let mut found = Vec::new();
+        for (index, first) in parts.iter().enumerate() {
+            for second in &parts[index + 1..] {
+                found.extend(overlap(first, second, least_m));
+            }
+        }
+        found.sort_by_key(|overlap| overlap.parties);
+        found
+    }
+
+    /// Links that are in a body or in the ground by more than `least_m`, in their order; of a link and a body that are both fixed
+    /// to the world nothing is said, nor of two links.
+    pub fn of_links(&self, least_m: f64) -> Vec<Overlap> {
+        let is_link = |part: &&Part| matches!(part.party, Party::Link(_));
+        let mut found = Vec::new();
+        for link in self.parts.iter().filter(is_link) {
+            for other in self.parts.iter().filter(|part| !is_link(part)) {
+                found.extend(overlap(link, other, least_m));
+            }
+        }
+        found.sort_by_key(|overlap| overlap.parties);
+        found
+    }
+
+    /// Centres of the shapes of body `index`, in the world \[m\].
+    pub fn centres_of(&self, index: usize) -> impl Iterator<Item = Vector3<f64>> {
+        let solids = self.parts[index].solids.iter();
+        solids.map(|solid| from_vector(solid.world_from_shape * solid.p_centre_in_shape))
+    }
+
+    /// What the straight way `from` one point `to` another leads into first, body `index` aside. What `from` lies in already is
+    /// not entered; links that joints move are not looked at.
+    pub fn entered(&self, index: usize, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<Party> {
+        let ray = Ray::new(vector(from), vector(&(to - from)));
+        let hit = self.first_hit(index, &ray, 1.0, |fraction| fraction > 0.0);
+        hit.map(|(party, _)| party)
+    }
+
+    /// What is met first on the way from `p_in_world` in the direction `down`, body `index` aside, and where.
+    pub fn below(
+        &self,
+        index: usize,
+        p_in_world: &Vector3<f64>,
+        down: &Vector3<f64>,
+    ) -> Option<(Party, Vector3<f64>)> {
+        let ray = Ray::new(vector(p_in_world), vector(down));
+        let (party, distance_m) = self.first_hit(index, &ray, ANYWHERE_M, |_| true)?;
+        Some((party, p_in_world + down * distance_m))
+    }
+
+    fn first_hit(
+        &self,
+        index: usize,
+        ray: &Ray,
+        most: f64,
+        counts: impl Fn(f64) -> bool,
+    ) -> Option<(Party, f64)> {
+        let mut first: Option<(Party, f64)> = None;
+        for part in &self.parts {
+            let arm = part.mobility == Mobility::Moves && matches!(part.party, Party::Link(_));
+            if arm || part.party == Party::Body(index) {
+                continue;
+            }
+            for solid in &part.solids {
+                let near = first.map_or(most, |(_, near)| near);
+                // the box of the ground has no bounds to be met
+                let boxed = solid.shape.as_halfspace().is_none();
+                if boxed && !solid.bounds.intersects_local_ray(ray, near) {
+                    continue;
+                }
+                let hit = solid
+                    .shape
+                    .cast_ray(&solid.world_from_shape, ray, near, true);
+                if let Some(hit) = hit.filter(|hit| counts(*hit))
+                    && first.is_none_or(|(_, near)| hit < near)
+                {
+                    first = Some((part.party, hit));
+                }
+            }
+        }
+        first
+    }
+}
+
+fn solids(owner: &str, shapes: &[Shape], contact: Contact) -> Result<Vec<Solid>, EngineError> {
+    let solid = |shape| {
+        let built = collider(owner, shape, &Pose::identity(), contact)?;
+        Ok(Solid::new(built.shape, built.position))
+    };
+    shapes.iter().map(solid).collect()
+}
+
+impl Solid {
+    fn new(shape: SharedShape, owner_from_shape: EnginePose) -> Self {
+        let p_centre_in_shape = shape.mass_properties(1.0).local_com;
+        Self {
+            bounds: shape.compute_aabb(&owner_from_shape),
+            world_from_shape: owner_from_shape,
+            owner_from_shape,
+            p_centre_in_shape,
+            shape,
+        }
+    }
+
+    /// How deep it is in `other`, and where; none where they are apart.
+    fn depth_in(&self, other: &Self) -> Option<(f64, Vector)> {
+        // the engine takes a half space that comes second where it is not
+        if other.shape.as_halfspace().is_some() && self.shape.as_halfspace().is_none() {
+            return other.depth_in(self);
+        }
+        if !self.bounds.intersects(&other.bounds) {
+            return None;
+        }
+        let (mut here, there) = (self.world_from_shape, &other.world_from_shape);
+        let shapes = (self.shape.as_ref(), other.shape.as_ref());
+        let mut found = contact(&here, shapes.0, there, shapes.1, 0.0);
+        if matches!(found, Ok(None))
+            && intersection_test(&here, shapes.0, there, shapes.1).is_ok_and(|met| met.intersecting)
+        {
+            here.translation += Vector::new(ASIDE_M, 2.0 * ASIDE_M, 3.0 * ASIDE_M);
+            found = contact(&here, shapes.0, there, shapes.1, 0.0);
+        }
+        let found = found.ok().flatten()?;
+        Some((-found.dist, (found.point1 + found.point2) * 0.5))
+    }
+}
+
+impl Part {
+    fn place(&mut self, world_from_owner: &Pose) {
+        let world_from_owner = engine_pose(world_from_owner);
+        for solid in &mut self.solids {
+            solid.world_from_shape = world_from_owner * solid.owner_from_shape;
+            solid.bounds = solid.shape.compute_aabb(&solid.world_from_shape);
+        }
+    }
+}
+
+fn overlap(first: &Part, second: &Part, least_m: f64) -> Option<Overlap> {
+    if first.mobility == Mobility::Stands && second.mobility == Mobility::Stands {
+        return None;
+    }
+    let mut deepest: Option<(f64, Vector)> = None;
+    for a in &first.solids {
+        for b in &second.solids {
+            if let Some((depth_m, p)) = a.depth_in(b)
+                && depth_m > deepest.map_or(least_m, |(most, _)| most)
+            {
+                deepest = Some((depth_m, p));
+            }
+        }
+    }
+    let (depth_m, p) = deepest?;
+    Some(Overlap {
+        parties: match first.party.cmp(&second.party) {
+            Ordering::Greater => [second.party, first.party],
+            _ => [first.party, second.party],
+        },
+        depth_m,
+        p_in_world: from_vector(p),
+        pushes: first.mobility == Mobility::Moves || second.mobility == Mobility::Moves,
+    })
+}

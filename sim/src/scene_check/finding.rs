@@ -1,0 +1,202 @@
+//! What a check of a scene has to tell, as data.
+
+use nalgebra::Vector3;
+
+use crate::engine::{Overlap, Party};
+
+/// How bad a finding is, the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The scene does not do what it says.
+    Error,
+    /// It may not be what was meant.
+    Warning,
+    /// Good to know.
+    Note,
+}
+
+impl Severity {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Note => "note",
+        }
+    }
+}
+
+/// One thing found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What can be found. Bodies, links and joints are told by index; via points count from 0.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// Two are in each other at the start.
+    Overlap(Overlap),
+    /// A joint starts beyond its limits.
+    StartBeyondLimit {
+        /// Its index in `q`.
+        joint: usize,
+        /// Where it starts \[rad or m\].
+        position: f64,
+        /// The nearest position it may have \[rad or m\].
+        limit: f64,
+    },
+    /// A body's own middle went into something.
+    FallsThrough {
+        /// The body.
+        body: usize,
+        /// What it went into.
+        through: Party,
+        /// When \[s\].
+        time_s: f64,
+    },
+    /// A body ends lower than what it stood on.
+    FallsOff {
+        /// The body.
+        body: usize,
+        /// What was beneath it at the start.
+        support: Party,
+        /// How much lower its centre of mass ends than the place beneath it was \[m\].
+        below_m: f64,
+    },
+    /// A body falls on at the end, and nothing is beneath it.
+    FallsForever {
+        /// The body.
+        body: usize,
+    },
+    /// A body's motion is no longer finite.
+    FliesApart {
+        /// The body, if it is known.
+        body: Option<usize>,
+        /// When \[s\].
+        time_s: f64,
+    },
+    /// A body does not stay where it is put.
+    Moves {
+        /// The body.
+        body: usize,
+        /// How far its centre of mass ends from where it starts \[m\].
+        distance_m: f64,
+        /// By how much it ends tilted \[rad\].
+        tilt_rad: f64,
+    },
+    /// A body still moves at the end.
+    NeverRests {
+        /// The body.
+        body: usize,
+        /// How fast its origin is then \[m/s\].
+        speed_m_s: f64,
+        /// How fast it turns then \[rad/s\].
+        turning_rad_s: f64,
+    },
+    /// The TCP does not get to a via point.
+    ViaUnreachable {
+        /// The point.
+        point: usize,
+        /// What is left at the nearest position found \[m\].
+        residual_m: f64,
+    },
+    /// A link is in something that does not give way, with the TCP at a via point.
+    ViaCollides {
+        /// The point.
+        point: usize,
+        /// Branches that reach it.
+        branches: usize,
+        /// How many of them collide.
+        colliding: usize,
+        /// The shallowest of their overlaps: what keeps the best of them away.
+        overlap: Overlap,
+    },
+    /// A link touches a free body, with the TCP at a via point.
+    ViaTouches {
+        /// The point.
+        point: usize,
+        /// Branches that reach it without a collision.
+        branches: usize,
+        /// How many of them touch.
+        touching: usize,
+        /// The bodies.
+        bodies: Vec<usize>,
+    },
+    /// The straight line from one via point to the next cannot be followed.
+    LineBlocked {
+        /// The point it comes from; it leads to the next.
+        from: usize,
+        /// Branches it was followed from.
+        branches: usize,
+        /// How many of them do not get along.
+        blocked: usize,
+        /// Where the one that gets farthest of these stops.
+        stop: LineStop,
+    },
+    /// The straight line leads the robot into free bodies.
+    LineTouches {
+        /// The point it comes from; it leads to the next.
+        from: usize,
+        /// Branches that get along.
+        branches: usize,
+        /// How many of them touch.
+        touching: usize,
+        /// The bodies.
+        bodies: Vec<usize>,
+    },
+}
+
+impl Kind {
+    /// Its stable name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Overlap(_) => "overlap",
+            Self::StartBeyondLimit { .. } => "start-beyond-limit",
+            Self::FallsThrough { .. } => "falls-through",
+            Self::FallsOff { .. } => "falls-off",
+            Self::FallsForever { .. } => "falls-forever",
+            Self::FliesApart { .. } => "flies-apart",
+            Self::Moves { .. } => "moves",
+            Self::NeverRests { .. } => "never-rests",
+            Self::ViaUnreachable { .. } => "via-unreachable",
+            Self::ViaCollides { .. } => "via-collides",
+            Self::ViaTouches { .. } => "via-touches",
+            Self::LineBlocked { .. } => "line-blocked",
+            Self::LineTouches { .. } => "line-touches",
+        }
+    }
+}
+
+/// Where a robot cannot follow a line any more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineStop {
+    /// How far along the line \[m\].
+    pub along_m: f64,
+    /// The place, in the world \[m\].
+    pub p_in_world: Vector3<f64>,
+    /// Why.
+    pub cause: LineStopCause,
+}
+
+/// Why a line cannot be followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LineStopCause {
+    /// No position within the joint limits is near the one before.
+    OutOfReach {
+        /// What is left at the nearest position found \[m\].
+        residual_m: f64,
+    },
+    /// The next position is far from the one before: the robot would have to change its branch.
+    Jumps {
+        /// The joint that would go farthest, by its index in `q`.
+        joint: usize,
+        /// How far it would go within a step of the line \[rad or m\].
+        by: f64,
+    },
+    /// A link is in something that does not give way.
+    Collides(Overlap),
+}

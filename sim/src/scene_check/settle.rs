@@ -1,0 +1,254 @@
+//! Ten seconds of the scene alone, the robot's fixed links in it: what falls, tips over or never comes to rest.
+
+use nalgebra::Vector3;
+
+use super::finding::{Finding, Kind, Severity};
+use crate::engine::{BodyState, ContactFact, EngineError, Layout, Party, World};
+use crate::robot::{Robot, RobotFile};
+use crate::scene::{BodyKind, Scene, SceneBody};
+use crate::source::Source;
+use crate::spatial::{Pose, direction};
+
+/// The physics step of labs \[s\].
+const STEP_S: f64 = 1e-3;
+/// Ten seconds of them.
+const TICKS: u64 = 10_000;
+/// What a body may move before it counts: more than contact gives way, less than one sees \[m\].
+const MOVED_M: f64 = 5e-3;
+/// And tilt: a tenth of a quarter turn, and less, is a matter of rounding \[rad\].
+const TILTED_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Slower than this a body is at rest \[m/s\], \[rad/s\].
+const REST: (f64, f64) = (1e-3, 1e-2);
+/// Faster than this, with nothing beneath, a body falls \[m/s\].
+const FALLING_M_S: f64 = 0.1;
+/// The way of a body's middle is looked at in pieces of at least this \[m\]: shorter than any shape is thick.
+const PIECE_M: f64 = 5e-4;
+
+/// A free body on its way.
+struct Falling {
+    body: usize,
+    start_com: Vector3<f64>,
+    up_in_body: Vector3<f64>,
+    /// What was beneath it at the start, and the place there in that one's own frame.
+    support: Option<(Party, Vector3<f64>)>,
+    /// The middles of its shapes where they were last looked at.
+    centres: Vec<Vector3<f64>>,
+    lost: bool,
+}
+
+/// Lets the scene be for ten seconds. `layout` becomes that of its end.
+///
+/// # Errors
+/// Shapes or masses the engine cannot use.
+pub(super) fn check(
+    scene: &Scene,
+    robot: Option<&Robot>,
+    layout: &mut Layout,
+    findings: &mut Vec<Finding>,
+) -> Result<(), EngineError> {
+    let alone = nobody();
+    let Some(robot) = robot.or(alone.as_ref()) else {
+        return Ok(());
+    };
+    let gravity = scene.environment.gravity_m_s2;
+    let down = direction(gravity);
+    let mut world = World::new(robot, scene, &gravity, STEP_S, false)?;
+    let mut falling: Vec<Falling> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, body)| matches!(body.kind, BodyKind::Free))
+        .map(|(index, body)| Falling::new(index, body, scene, layout, down))
+        .collect();
+    let mut facts: Vec<ContactFact> = Vec::new();
+    // by the scene's own will, or by what moves so
+    let mut moved: Vec<bool> = scene.bodies.iter().map(|b| is_moved(scene, b)).collect();
+    for tick in 1..=TICKS {
+        if !world.is_awake() {
+            break;
+        }
+        let time_s = tick as f64 * STEP_S;
+        if let Err(body) = world.step(robot, &[], &[], &[], None, &mut facts) {
+            findings.push(Finding {
+                severity: Severity::Error,
+                kind: Kind::FliesApart { body, time_s },
+            });
+            // where the others are by now says nothing
+            return Ok(());
+        }
+        for (index, body) in scene.bodies.iter().enumerate() {
+            if !matches!(body.kind, BodyKind::Fixed) {
+                layout.place_body(index, &world.body(index).world_from_body);
+            }
+        }
+        for fact in &facts {
+            if let [Party::Body(first), Party::Body(second)] = fact.parties {
+                let either = moved[first] || moved[second];
+                for body in [first, second] {
+                    moved[body] |= either && matches!(scene.bodies[body].kind, BodyKind::Free);
+                }
+            }
+        }
+        for one in &mut falling {
+            if !one.lost
+                && let Some(through) = one.entered(layout)
+            {
+                one.lost = true;
+                findings.push(Finding {
+                    severity: Severity::Error,
+                    kind: Kind::FallsThrough {
+                        body: one.body,
+                        through,
+                        time_s,
+                    },
+                });
+            }
+        }
+    }
+    for one in falling.iter().filter(|one| !one.lost) {
+        let state = world.body(one.body);
+        let severities = if moved[one.body] {
+            [Severity::Note; 2]
+        } else {
+            [Severity::Error, Severity::Warning]
+        };
+        one.judge(scene, &world, layout, &state, severities, findings);
+    }
+    Ok(())
+}
+
+/// A robot that is nowhere: the engine's world always has one.
+fn nobody() -> Option<Robot> {
+    let text = "format = 1\nname = 'nobody'\nlinks = [{ name = 'nobody' }]";
+    let file = RobotFile::parse(Source::new("nobody", text));
+    file.and_then(|file| file.build(&[])).ok()
+}
+
+fn com(body: &SceneBody, world_from_body: &Pose) -> Vector3<f64> {
+    world_from_body
+        .transform_point(&body.inertia.com_m.into())
+        .coords
+}
+
+impl Falling {
+    fn new(
+        index: usize,
+        body: &SceneBody,
+        scene: &Scene,
+        layout: &Layout,
+        down: Option<Vector3<f64>>,
+    ) -> Self {
+        let start_com = com(body, &body.world_from_body);
+        let up = down.map_or_else(Vector3::z, |down| -down);
+        let below = down.and_then(|down| layout.below(index, &start_com, &down));
+        // in something already: an overlap, or a ring around a peg
+        let below = below.filter(|(_, p_in_world)| *p_in_world != start_com);
+        Self {
+            body: index,
+            start_com,
+            up_in_body: body.world_from_body.inverse_transform_vector(&up),
+            support: below.map(|(party, p_in_world)| {
+                let p = match party {
+                    Party::Body(index) => {
+                        scene.bodies[index]
+                            .world_from_body
+                            .inverse_transform_point(&p_in_world.into())
+                            .coords
+                    }
+                    Party::Ground | Party::Link(_) => p_in_world,
+                };
+                (party, p)
+            }),
+            centres: layout.centres_of(index).collect(),
+            lost: false,
+        }
+    }
+
+    /// What the middle of a shape of it went into since it was last looked at.
+    fn entered(&mut self, layout: &Layout) -> Option<Party> {
+        let mut entered = None;
+        for (last, now) in self.centres.iter_mut().zip(layout.centres_of(self.body)) {
+            if (now - *last).norm() >= PIECE_M {
+                entered = entered.or_else(|| layout.entered(self.body, last, &now));
+                *last = now;
+            }
+        }
+        entered
+    }
+
+    fn judge(
+        &self,
+        scene: &Scene,
+        world: &World,
+        layout: &Layout,
+        state: &BodyState,
+        [bad, doubtful]: [Severity; 2],
+        findings: &mut Vec<Finding>,
+    ) {
+        let down = direction(scene.environment.gravity_m_s2);
+        let body = self.body;
+        let described = &scene.bodies[body];
+        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        let now = com(described, &state.world_from_body);
+        let (speed_m_s, turning_rad_s) = (state.twist.linear.norm(), state.twist.angular.norm());
+        if let Some(down) = down {
+            let falls = !state.sleeps && state.twist.linear.dot(&down) > FALLING_M_S;
+            if falls && layout.below(body, &now, &down).is_none() {
+                return tell(Severity::Error, Kind::FallsForever { body });
+            }
+            if let Some((support, p)) = self.support
+                && support != Party::Ground
+            {
+                let place = match support {
+                    Party::Body(index) => {
+                        let world_from_support = world.body(index).world_from_body;
+                        world_from_support.transform_point(&p.into()).coords
+                    }
+                    Party::Ground | Party::Link(_) => p,
+                };
+                let below_m = (now - place).dot(&down);
+                if below_m > 0.0 {
+                    let kind = Kind::FallsOff {
+                        body,
+                        support,
+                        below_m,
+                    };
+                    return tell(bad, kind);
+                }
+            }
+        }
+        let rests = state.sleeps || (speed_m_s <= REST.0 && turning_rad_s <= REST.1);
+        if !rests {
+            tell(
+                doubtful,
+                Kind::NeverRests {
+                    body,
+                    speed_m_s,
+                    turning_rad_s,
+                },
+            );
+        }
+        let distance_m = (now - self.start_com).norm();
+        let up = down.map_or_else(Vector3::z, |down| -down);
+        let up_now = state.world_from_body.transform_vector(&self.up_in_body);
+        let tilt_rad = libm::atan2(up.cross(&up_now).norm(), up.dot(&up_now));
+        if !(distance_m <= MOVED_M && tilt_rad <= TILTED_RAD) {
+            tell(
+                doubtful,
+                Kind::Moves {
+                    body,
+                    distance_m,
+                    tilt_rad,
+                },
+            );
+        }
+    }
+}
+
+/// Whether the scene itself says that this body moves: by its law, by its own start, or by the wind.
+fn is_moved(scene: &Scene, body: &SceneBody) -> bool {
+    let still = Vector3::zeros();
+    let thrown = body.twist.linear != still || body.twist.angular != still;
+    let blown = body.drag.is_some() && scene.environment.wind.is_some();
+    matches!(body.kind, BodyKind::Kinematic(_)) || thrown || blown
+}

@@ -1,0 +1,295 @@
+//! Via points: is each reached, does a link stand in something there, and can the TCP go straight from one to the next?
+
+use nalgebra::Vector3;
+
+use super::branch::{BranchFinder, Reach};
+use super::finding::{Finding, Kind, LineStop, LineStopCause, Severity};
+use super::{TOUCH_M, Work};
+use crate::engine::{Layout, Overlap, Party};
+use crate::kinematics::{FramePoses, IkError};
+use crate::robot::Robot;
+use crate::scene::{BodyKind, Scene};
+
+/// How far apart a line is looked at \[m\] ...
+const SAMPLE_M: f64 = 0.01;
+/// ... unless that were more places than this.
+const MOST_SAMPLES: f64 = 10_000.0;
+/// Past a singular position joints go far: there a piece is halved this often before a branch counts as changed.
+const HALVINGS: u32 = 6;
+/// A joint that goes farther than this between two of them has changed its branch \[rad\], \[m\].
+const JUMP: (f64, f64) = (0.5, 0.1);
+
+/// Looks at all via points of `work`, and then at the lines between those that can be stood at.
+pub(super) fn check(
+    scene: &Scene,
+    work: &Work<'_>,
+    layout: &mut Layout,
+    findings: &mut Vec<Finding>,
+) -> Result<(), IkError> {
+    if work.via_in_world.is_empty() {
+        return Ok(());
+    }
+    let mut follower = Follower {
+        scene,
+        robot: work.robot,
+        finder: BranchFinder::new(work.robot, &work.start_q)?,
+        poses: FramePoses::new(work.robot),
+        layout,
+    };
+    let mut usable: Vec<Option<Vec<Vec<f64>>>> = Vec::new();
+    for (point, p_in_world) in work.via_in_world.iter().enumerate() {
+        usable.push(follower.point(point, p_in_world, findings)?);
+    }
+    for (from, pair) in work.via_in_world.windows(2).enumerate() {
+        if let [Some(branches), Some(_)] = &usable[from..from + 2] {
+            let blocked = if work.in_straight_lines {
+                Severity::Error
+            } else {
+                Severity::Warning
+            };
+            follower.line(from, &pair[0], &pair[1], branches, blocked, findings)?;
+        }
+    }
+    Ok(())
+}
+
+/// What a position of the robot meets.
+struct Met {
+    /// The deepest overlap with what does not give way.
+    collision: Option<Overlap>,
+    /// Free bodies that are touched.
+    touched: Vec<usize>,
+}
+
+struct Follower<'a> {
+    scene: &'a Scene,
+    robot: &'a Robot,
+    finder: BranchFinder<'a>,
+    poses: FramePoses,
+    layout: &'a mut Layout,
+}
+
+impl Follower<'_> {
+    fn meet(&mut self, q: &[f64]) -> Met {
+        self.poses.update(self.robot, q);
+        self.layout.place_robot(self.robot, &self.poses);
+        let mut met = Met {
+            collision: None,
+            touched: Vec::new(),
+        };
+        for overlap in self.layout.of_links(TOUCH_M) {
+            let [Party::Link(link), other] = overlap.parties else {
+                continue;
+            };
+            // what no joint moves was told at the start
+            if self.robot.links()[link].attachment.body.is_none() {
+                continue;
+            }
+            match other {
+                Party::Body(index) if matches!(self.scene.bodies[index].kind, BodyKind::Free) => {
+                    met.touched.push(index);
+                }
+                _ => {
+                    let deepest = met.collision.is_none_or(|c| overlap.depth_m > c.depth_m);
+                    if deepest {
+                        met.collision = Some(overlap);
+                    }
+                }
+            }
+        }
+        met
+    }
+
+    /// The branches of a via point, unless it is out of reach or all of them collide.
+    fn point(
+        &mut self,
+        point: usize,
+        p_in_world: &Vector3<f64>,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Option<Vec<Vec<f64>>>, IkError> {
+        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        let found = match self.finder.reach(p_in_world)? {
+            Reach::In(found) => found,
+            Reach::Not { residual_m } => {
+                let kind = Kind::ViaUnreachable { point, residual_m };
+                tell(Severity::Error, kind);
+                return Ok(None);
+            }
+        };
+        let branches = found.len();
+        let mut shallowest: Option<Overlap> = None;
+        let (mut colliding, mut touching) = (0, 0);
+        let mut bodies = Vec::new();
+        for q in &found {
+            let met = self.meet(q);
+            if let Some(overlap) = met.collision {
+                colliding += 1;
+                if shallowest.is_none_or(|s| overlap.depth_m < s.depth_m) {
+                    shallowest = Some(overlap);
+                }
+            } else if !met.touched.is_empty() {
+                touching += 1;
+                bodies.extend(met.touched);
+            }
+        }
+        let all = colliding == branches;
+        if let Some(overlap) = shallowest {
+            let severity = if all { Severity::Error } else { Severity::Note };
+            let kind = Kind::ViaCollides {
+                point,
+                branches,
+                colliding,
+                overlap,
+            };
+            tell(severity, kind);
+        }
+        if touching > 0 {
+            let kind = Kind::ViaTouches {
+                point,
+                branches: branches - colliding,
+                touching,
+                bodies: each_once(bodies),
+            };
+            tell(Severity::Note, kind);
+        }
+        Ok((!all).then_some(found))
+    }
+
+    /// Follows the straight line from every branch of its first point.
+    fn line(
+        &mut self,
+        from: usize,
+        p_from: &Vector3<f64>,
+        p_to: &Vector3<f64>,
+        branches: &[Vec<f64>],
+        all_blocked: Severity,
+        findings: &mut Vec<Finding>,
+    ) -> Result<(), IkError> {
+        let mut farthest: Option<LineStop> = None;
+        let (mut blocked, mut touching) = (0, 0);
+        let mut bodies = Vec::new();
+        for q in branches {
+            let (stop, touched) = self.follow(q, p_from, p_to)?;
+            if let Some(stop) = stop {
+                blocked += 1;
+                if farthest.is_none_or(|f| stop.along_m > f.along_m) {
+                    farthest = Some(stop);
+                }
+            } else if !touched.is_empty() {
+                touching += 1;
+                bodies.extend(touched);
+            }
+        }
+        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        if let Some(stop) = farthest {
+            let severity = if blocked == branches.len() {
+                all_blocked
+            } else {
+                Severity::Note
+            };
+            let kind = Kind::LineBlocked {
+                from,
+                branches: branches.len(),
+                blocked,
+                stop,
+            };
+            tell(severity, kind);
+        }
+        if touching > 0 {
+            let kind = Kind::LineTouches {
+                from,
+                branches: branches.len() - blocked,
+                touching,
+                bodies: each_once(bodies),
+            };
+            tell(Severity::Note, kind);
+        }
+        Ok(())
+    }
+
+    /// Where the robot stops that follows the line from `q`, if it does, and the free bodies it touches until there.
+    fn follow(
+        &mut self,
+        q: &[f64],
+        p_from: &Vector3<f64>,
+        p_to: &Vector3<f64>,
+    ) -> Result<(Option<LineStop>, Vec<usize>), IkError> {
+        let length_m = (p_to - p_from).norm();
+        let pieces = (length_m / SAMPLE_M).ceil().clamp(1.0, MOST_SAMPLES);
+        let at = |part: f64| p_from + (p_to - p_from) * part;
+        let mut q = q.to_vec();
+        let mut touched = Vec::new();
+        for sample in 0..=pieces as usize {
+            let part = sample as f64 / pieces;
+            let before = (part - 1.0 / pieces).max(0.0);
+            let mut cause = self.go(&mut q, &at(before), &at(part), HALVINGS)?;
+            if cause.is_none() {
+                let met = self.meet(&q);
+                cause = met.collision.map(LineStopCause::Collides);
+                touched.extend(met.touched);
+                touched = each_once(touched);
+            }
+            if let Some(cause) = cause {
+                let stop = LineStop {
+                    along_m: part * length_m,
+                    p_in_world: at(part),
+                    cause,
+                };
+                return Ok((Some(stop), touched));
+            }
+        }
+        Ok((None, touched))
+    }
+
+    /// Moves `q`, where the TCP is at `p_from`, to where it is at `p_to`; in smaller pieces, `halvings` times halved, where joints
+    /// go far. What keeps it from there, if anything does.
+    fn go(
+        &mut self,
+        q: &mut Vec<f64>,
+        p_from: &Vector3<f64>,
+        p_to: &Vector3<f64>,
+        halvings: u32,
+    ) -> Result<Option<LineStopCause>, IkError> {
+        let next = match self.finder.follow(q, p_to)? {
+            Ok(next) => next,
+            Err(residual_m) => return Ok(Some(LineStopCause::OutOfReach { residual_m })),
+        };
+        let jump = self.jump(q, &next);
+        if jump.is_none() {
+            *q = next;
+            return Ok(None);
+        }
+        if halvings == 0 {
+            return Ok(jump);
+        }
+        let middle = (p_from + p_to) * 0.5;
+        match self.go(q, p_from, &middle, halvings - 1)? {
+            None => self.go(q, &middle, p_to, halvings - 1),
+            stopped => Ok(stopped),
+        }
+    }
+
+    fn jump(&self, q: &[f64], next: &[f64]) -> Option<LineStopCause> {
+        let mut farthest = None;
+        let mut most_times = 1.0;
+        for (joint, (q, next)) in q.iter().zip(next).enumerate() {
+            let by = (next - q).abs();
+            let allowed = if self.finder.turns(joint) {
+                JUMP.0
+            } else {
+                JUMP.1
+            };
+            if by / allowed > most_times {
+                most_times = by / allowed;
+                farthest = Some(LineStopCause::Jumps { joint, by });
+            }
+        }
+        farthest
+    }
+}
+
+fn each_once(mut bodies: Vec<usize>) -> Vec<usize> {
+    bodies.sort_unstable();
+    bodies.dedup();
+    bodies
+}
