@@ -18,6 +18,7 @@ mod lab_audit;
 mod mesh_labs;
 mod robot_docs;
 mod robot_files;
+mod scene_check;
 mod scene_labs;
 mod sensor_labs;
 mod submissions;

@@ -15,10 +15,10 @@ use crate::places;
 /// Above this a file is no scene.
 const MOST_BYTES: u64 = 16 << 20;
 
-/// A scene with the text it was read from.
+/// A scene with the file it was read from.
 #[derive(Debug)]
 pub(crate) struct Loaded {
-    pub(crate) source: Source,
+    pub(crate) file: SceneFile,
     pub(crate) scene: Scene,
 }
 
@@ -38,10 +38,7 @@ pub(crate) fn load(named: &Path, places: &PlaceArgs) -> Result<Loaded, Failure> 
     let name = named.to_string_lossy();
     let (files, _) = places::labs(places)?;
     if let Some(LabScene { file, scene, .. }) = LabScene::load(files.as_ref(), &name)? {
-        return Ok(Loaded {
-            source: file.source().clone(),
-            scene,
-        });
+        return Ok(Loaded { file, scene });
     }
     let known = scene_names(files.as_ref());
     Err(Failure::usage(
@@ -61,8 +58,5 @@ pub(crate) fn from_file(source: Source, path: &Path) -> Result<Loaded, Failure> 
         .and_then(|file| file.with_meshes(|name| bytes_of(&folder.join(name), MOST_MESH_BYTES)))
         .map_err(broken)?;
     let scene = file.build(&[]).map_err(broken)?;
-    Ok(Loaded {
-        source: file.source().clone(),
-        scene,
-    })
+    Ok(Loaded { file, scene })
 }

@@ -60,6 +60,11 @@ impl SceneFile {
         &self.source
     }
 
+    /// Where in the text the name of body `index` stands; none where there is no such body.
+    pub fn place_of_body(&self, index: usize) -> Option<std::ops::Range<usize>> {
+        self.tables.bodies.get(index).map(|body| body.name.span())
+    }
+
     /// The dimensions as the file states them.
     pub fn dimensions(&self) -> &Dimensions {
         &self.tables.dimensions

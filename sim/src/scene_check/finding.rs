@@ -119,9 +119,9 @@ pub enum Kind {
     ViaTouches {
         /// The point.
         point: usize,
-        /// Branches that reach it without a collision.
+        /// Branches that reach it.
         branches: usize,
-        /// How many of them touch.
+        /// How many of them touch, and collide with nothing.
         touching: usize,
         /// The bodies.
         bodies: Vec<usize>,
@@ -141,9 +141,9 @@ pub enum Kind {
     LineTouches {
         /// The point it comes from; it leads to the next.
         from: usize,
-        /// Branches that get along.
+        /// Branches it was followed from.
         branches: usize,
-        /// How many of them touch.
+        /// How many of them get along and touch.
         touching: usize,
         /// The bodies.
         bodies: Vec<usize>,

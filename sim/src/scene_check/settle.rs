@@ -46,10 +46,8 @@ pub(super) fn check(
     layout: &mut Layout,
     findings: &mut Vec<Finding>,
 ) -> Result<(), EngineError> {
-    let alone = nobody();
-    let Some(robot) = robot.or(alone.as_ref()) else {
-        return Ok(());
-    };
+    let nobody = nobody();
+    let robot = robot.unwrap_or(&nobody);
     let gravity = scene.environment.gravity_m_s2;
     let down = direction(gravity);
     let mut world = World::new(robot, scene, &gravity, STEP_S, false)?;
@@ -78,7 +76,10 @@ pub(super) fn check(
         }
         for (index, body) in scene.bodies.iter().enumerate() {
             if !matches!(body.kind, BodyKind::Fixed) {
-                layout.place_body(index, &world.body(index).world_from_body);
+                let state = world.body(index);
+                if !state.sleeps {
+                    layout.place_body(index, &state.world_from_body);
+                }
             }
         }
         for fact in &facts {
@@ -118,10 +119,11 @@ pub(super) fn check(
 }
 
 /// A robot that is nowhere: the engine's world always has one.
-fn nobody() -> Option<Robot> {
+fn nobody() -> Robot {
     let text = "format = 1\nname = 'nobody'\nlinks = [{ name = 'nobody' }]";
     let file = RobotFile::parse(Source::new("nobody", text));
-    file.and_then(|file| file.build(&[])).ok()
+    file.and_then(|file| file.build(&[]))
+        .expect("one link is a robot")
 }
 
 fn com(body: &SceneBody, world_from_body: &Pose) -> Vector3<f64> {

@@ -146,7 +146,7 @@ impl Follower<'_> {
         if touching > 0 {
             let kind = Kind::ViaTouches {
                 point,
-                branches: branches - colliding,
+                branches,
                 touching,
                 bodies: each_once(bodies),
             };
@@ -198,7 +198,7 @@ impl Follower<'_> {
         if touching > 0 {
             let kind = Kind::LineTouches {
                 from,
-                branches: branches.len() - blocked,
+                branches: branches.len(),
                 touching,
                 bodies: each_once(bodies),
             };

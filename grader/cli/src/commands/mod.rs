@@ -6,12 +6,13 @@ mod eval;
 mod grade;
 mod labs;
 mod new;
+mod scene_check;
 mod show;
 mod verify;
 
 use std::process::ExitCode;
 
-use crate::args::{Args, Command, RobotCommand};
+use crate::args::{Args, Command, RobotCommand, SceneCommand};
 use crate::failure::Failure;
 use crate::worker;
 
@@ -25,6 +26,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Robot(RobotCommand::Show(args)) => show::run(&args),
         Command::Robot(RobotCommand::Convert(args)) => convert::run(&args),
         Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),
+        Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Worker => Ok(worker::serve()),
     }

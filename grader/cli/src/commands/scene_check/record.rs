@@ -1,0 +1,173 @@
+//! Findings for machines: the numbers behind each sentence, in SI units.
+
+use kinemark_sim::engine::{Overlap, Party};
+use kinemark_sim::scene_check::{Finding, Kind, LineStopCause};
+use serde_json::{Map, Value, json};
+
+use super::subject::Subject;
+use super::words::{line, message};
+
+/// All findings of a subject.
+pub(super) fn record(subject: &Subject, findings: &[Finding]) -> Value {
+    let mut record = Map::new();
+    if let Some(task) = &subject.task {
+        record.insert("task".to_owned(), json!(task));
+    }
+    record.insert("scene".to_owned(), json!(subject.scene.name));
+    if let Some(arm) = &subject.arm {
+        record.insert("robot".to_owned(), json!(arm.robot.name()));
+        record.insert("frame".to_owned(), json!(arm.frame));
+    }
+    let findings = findings.iter().map(|finding| of_finding(subject, finding));
+    record.insert("findings".to_owned(), findings.collect());
+    Value::Object(record)
+}
+
+fn of_finding(subject: &Subject, finding: &Finding) -> Value {
+    let mut record = Map::new();
+    let mut put = |key: &str, value: Value| {
+        record.insert(key.to_owned(), value);
+    };
+    put("severity", json!(finding.severity.name()));
+    put("kind", json!(finding.kind.name()));
+    put("message", json!(message(subject, finding)));
+    if let Some(line) = line(subject, finding) {
+        put("line", json!(line));
+    }
+    let numbers = numbers(subject, &finding.kind);
+    if let Value::Object(numbers) = numbers {
+        record.extend(numbers);
+    }
+    Value::Object(record)
+}
+
+fn numbers(subject: &Subject, kind: &Kind) -> Value {
+    let body = |index: &usize| subject.scene.bodies[*index].name.as_str();
+    let bodies = |indices: &[usize]| indices.iter().map(body).collect::<Vec<&str>>();
+    match kind {
+        Kind::Overlap(overlap) => of_overlap(subject, overlap),
+        Kind::StartBeyondLimit {
+            joint,
+            position,
+            limit,
+        } => json!({ "joint": joint_name(subject, *joint), "position": position, "limit": limit }),
+        Kind::FallsThrough {
+            body: index,
+            through,
+            time_s,
+        } => json!({ "body": body(index), "through": party(subject, *through), "time_s": time_s }),
+        Kind::FallsOff {
+            body: index,
+            support,
+            below_m,
+        } => {
+            json!({ "body": body(index), "support": party(subject, *support), "below_m": below_m })
+        }
+        Kind::FallsForever { body: index } => json!({ "body": body(index) }),
+        Kind::FliesApart {
+            body: index,
+            time_s,
+        } => json!({ "body": index.as_ref().map(body), "time_s": time_s }),
+        Kind::Moves {
+            body: index,
+            distance_m,
+            tilt_rad,
+        } => json!({ "body": body(index), "distance_m": distance_m, "tilt_rad": tilt_rad }),
+        Kind::NeverRests {
+            body: index,
+            speed_m_s,
+            turning_rad_s,
+        } => json!({ "body": body(index), "speed_m_s": speed_m_s, "turning_rad_s": turning_rad_s }),
+        Kind::ViaUnreachable { point, residual_m } => {
+            json!({ "point": point + 1, "residual_m": residual_m })
+        }
+        Kind::ViaCollides {
+            point,
+            branches,
+            colliding,
+            overlap,
+        } => {
+            let ways = json!({ "point": point + 1, "branches": branches, "colliding": colliding });
+            joined(ways, of_overlap(subject, overlap))
+        }
+        Kind::ViaTouches {
+            point,
+            branches,
+            touching,
+            bodies: touched,
+        } => {
+            json!({ "point": point + 1, "branches": branches, "touching": touching, "bodies": bodies(touched) })
+        }
+        Kind::LineBlocked {
+            from,
+            branches,
+            blocked,
+            stop,
+        } => {
+            let place = subject.arm.as_ref().map(|arm| arm.seen(&stop.p_in_world));
+            let line = json!({
+                "points": [from + 1, from + 2],
+                "branches": branches,
+                "blocked": blocked,
+                "along_m": stop.along_m,
+                "position_m": place,
+            });
+            let cause = match stop.cause {
+                LineStopCause::OutOfReach { residual_m } => {
+                    json!({ "cause": "out-of-reach", "residual_m": residual_m })
+                }
+                LineStopCause::Jumps { joint, by } => {
+                    json!({ "cause": "jumps", "joint": joint_name(subject, joint), "by": by })
+                }
+                LineStopCause::Collides(overlap) => joined(
+                    json!({ "cause": "collides" }),
+                    of_overlap(subject, &overlap),
+                ),
+            };
+            joined(line, cause)
+        }
+        Kind::LineTouches {
+            from,
+            branches,
+            touching,
+            bodies: touched,
+        } => json!({
+            "points": [from + 1, from + 2],
+            "branches": branches,
+            "touching": touching,
+            "bodies": bodies(touched),
+        }),
+    }
+}
+
+fn of_overlap(subject: &Subject, overlap: &Overlap) -> Value {
+    json!({
+        "parties": overlap.parties.map(|one| party(subject, one)),
+        "depth_m": overlap.depth_m,
+        "p_in_world_m": overlap.p_in_world.as_slice(),
+    })
+}
+
+fn joined(mut first: Value, second: Value) -> Value {
+    if let (Value::Object(first), Value::Object(second)) = (&mut first, second) {
+        first.extend(second);
+    }
+    first
+}
+
+fn party(subject: &Subject, one: Party) -> &str {
+    match one {
+        Party::Link(index) => subject
+            .arm
+            .as_ref()
+            .map_or("?", |arm| &arm.robot.links()[index].name),
+        Party::Body(index) => &subject.scene.bodies[index].name,
+        Party::Ground => "ground",
+    }
+}
+
+fn joint_name(subject: &Subject, entry: usize) -> &str {
+    let arm = subject.arm.as_ref();
+    let joint = arm.and_then(|arm| arm.robot.moving_joints().nth(entry));
+    joint.map_or("?", |joint| joint.name.as_str())
+}

@@ -1,0 +1,286 @@
+//! What is checked: a scene by itself, a scene with a robot, or every scene of a lab with the lab's robot, starts and goals.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::lab::load::lab_names;
+use kinemark_grader::lab::scene::scene_names;
+use kinemark_grader::lab::{Lab, TaskWork};
+use kinemark_sim::kinematics::FramePoses;
+use kinemark_sim::kinematics::closure::closed_positions;
+use kinemark_sim::robot::Robot;
+use kinemark_sim::scene::{Scene, SceneFile};
+use kinemark_sim::scene_check::Work;
+use kinemark_sim::source::suggest;
+use kinemark_sim::spatial::Pose;
+use nalgebra::Vector3;
+
+use super::typed;
+use crate::args::{RobotArgs, SceneCheckArgs};
+use crate::disk::Folder;
+use crate::failure::Failure;
+use crate::{places, robot_source, scene_source};
+
+/// A scene to check.
+pub(super) struct Subject {
+    /// The task of the lab it is in.
+    pub(super) task: Option<String>,
+    pub(super) file: SceneFile,
+    pub(super) scene: Scene,
+    pub(super) arm: Option<Arm>,
+}
+
+/// A robot in the scene.
+pub(super) struct Arm {
+    pub(super) robot: Robot,
+    start_q: Vec<f64>,
+    /// The frame that places are told in.
+    pub(super) frame: String,
+    world_from_frame: Pose,
+    /// Places of the TCP in that frame \[m\].
+    pub(super) via: Vec<[f64; 3]>,
+    /// What a place is called.
+    pub(super) place_name: &'static str,
+    in_straight_lines: bool,
+}
+
+/// What was asked for.
+pub(super) struct Request {
+    /// The name of the lab, if it is one.
+    pub(super) lab: Option<String>,
+    pub(super) subjects: Vec<Subject>,
+}
+
+impl Subject {
+    /// The robot's part, as the check takes it.
+    pub(super) fn work(&self) -> Option<Work<'_>> {
+        self.arm.as_ref().map(|arm| Work {
+            robot: &arm.robot,
+            start_q: arm.start_q.clone(),
+            via_in_world: arm
+                .via
+                .iter()
+                .map(|&p| (arm.world_from_frame * nalgebra::Point3::from(p)).coords)
+                .collect(),
+            in_straight_lines: arm.in_straight_lines,
+        })
+    }
+}
+
+impl Arm {
+    fn new(robot: Robot, start_q: Vec<f64>, frame: &str) -> Option<Self> {
+        let mut poses = FramePoses::new(&robot);
+        poses.update(&robot, &start_q);
+        let world_from_frame = poses.world_from(robot.frame(frame)?);
+        Some(Self {
+            robot,
+            start_q,
+            frame: frame.to_owned(),
+            world_from_frame,
+            via: Vec::new(),
+            place_name: "via point",
+            in_straight_lines: true,
+        })
+    }
+
+    /// A place of the world in the frame that places are told in \[m\].
+    pub(super) fn seen(&self, p_in_world: &Vector3<f64>) -> [f64; 3] {
+        let p = self
+            .world_from_frame
+            .inverse_transform_point(&(*p_in_world).into());
+        p.coords.into()
+    }
+}
+
+/// Loads what was named.
+///
+/// # Errors
+/// Exit code 2 for what was typed, 3 for a file that is not what it should be.
+pub(super) fn load(args: &SceneCheckArgs) -> Result<Request, Failure> {
+    if let Some(lab) = lab(args)? {
+        if args.robot.is_some() {
+            return Err(Failure::usage(
+                format!("`{}` is a lab, which brings its own robot", lab.name),
+                "leave --robot and what belongs to it out, or name one of the lab's scenes instead",
+            ));
+        }
+        return of_lab(lab);
+    }
+    let loaded = scene_source::load(&args.scene, &args.places)?;
+    let arm = arm(args)?;
+    Ok(Request {
+        lab: None,
+        subjects: vec![Subject {
+            task: None,
+            file: loaded.file,
+            scene: loaded.scene,
+            arm,
+        }],
+    })
+}
+
+/// The lab that was named, if it was one.
+fn lab(args: &SceneCheckArgs) -> Result<Option<Lab>, Failure> {
+    let named = &args.scene;
+    if scene_source::is_file(named) {
+        let folder = if named.file_name().is_some_and(|name| name == "lab.toml") {
+            named.parent().unwrap_or(Path::new("")).to_owned()
+        } else {
+            named.clone()
+        };
+        if !folder.join("lab.toml").is_file() {
+            return Ok(None);
+        }
+        let (labs, name) = place_of_lab(&folder);
+        return Ok(Some(Lab::load(&Folder::new(labs), &name)?));
+    }
+    let (files, _) = places::labs(&args.places)?;
+    let (scenes, labs) = (scene_names(files.as_ref()), lab_names(files.as_ref()));
+    let name = named.to_string_lossy();
+    if scenes.iter().any(|scene| *scene == name) {
+        return Ok(None);
+    }
+    if labs.iter().any(|lab| *lab == name) {
+        return Ok(Some(Lab::load(files.as_ref(), &name)?));
+    }
+    let known = scenes.iter().chain(&labs).map(String::as_str);
+    Err(Failure::usage(
+        format!("there is no scene file, scene or lab `{name}`"),
+        &suggest(&name, "scenes and labs", known),
+    ))
+}
+
+/// The folder of labs that `folder` lies in, and its name there.
+fn place_of_lab(folder: &Path) -> (PathBuf, String) {
+    let plain = |folder: &Path| {
+        let name = folder.file_name()?.to_string_lossy().into_owned();
+        let labs = match folder.parent() {
+            Some(labs) if !labs.as_os_str().is_empty() => labs.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        Some((labs, name))
+    };
+    // `.` and `..` have no name of their own
+    let found = plain(folder).or_else(|| {
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        plain(&folder.canonicalize().ok()?)
+    });
+    found.unwrap_or_else(|| (PathBuf::from("."), folder.display().to_string()))
+}
+
+fn of_lab(lab: Lab) -> Result<Request, Failure> {
+    let mut subjects = Vec::new();
+    for task in &lab.tasks {
+        let TaskWork::Motion(motion) = &task.work else {
+            continue;
+        };
+        let Some(scene) = &motion.scene else {
+            continue;
+        };
+        let mut arm = Arm::new(lab.robot.clone(), motion.start_q.clone(), &lab.frame);
+        if let Some(arm) = &mut arm {
+            arm.via = motion
+                .goals
+                .iter()
+                .map(|goal| goal.position_m.into())
+                .collect();
+            arm.place_name = "goal";
+            // a lab says where to stand, not which way to go
+            arm.in_straight_lines = false;
+        }
+        subjects.push(Subject {
+            task: Some(task.name.clone()),
+            file: scene.file.clone(),
+            scene: scene.scene.clone(),
+            arm,
+        });
+    }
+    if subjects.is_empty() {
+        return Err(Failure::usage(
+            format!("no motion task of lab `{}` has a scene", lab.name),
+            "name a scene, or give a motion task of the lab `scene = \"NAME\"`",
+        ));
+    }
+    Ok(Request {
+        lab: Some(lab.name),
+        subjects,
+    })
+}
+
+fn arm(args: &SceneCheckArgs) -> Result<Option<Arm>, Failure> {
+    let Some(named) = &args.robot else {
+        return Ok(None);
+    };
+    let robot = robot_source::load(&RobotArgs {
+        robot: named.clone(),
+        base: None,
+        links: None,
+        packages: args.packages.clone(),
+        ignore_mimic: false,
+        places: args.places.clone(),
+    })?
+    .robot;
+    let start_q = match &args.start {
+        None => robot.home().to_vec(),
+        Some(text) => start(&robot, text)?,
+    };
+    let frame = match &args.frame {
+        Some(frame) => frame.clone(),
+        None if robot.frame("lab").is_some() => "lab".to_owned(),
+        None => robot.links()[0].name.clone(),
+    };
+    let via = args.via.as_deref().map(typed::places).transpose()?;
+    let known: Vec<String> = robot
+        .frames()
+        .iter()
+        .map(|frame| frame.name.clone())
+        .collect();
+    let name = robot.name().to_owned();
+    let Some(mut arm) = Arm::new(robot, start_q, &frame) else {
+        return Err(Failure::usage(
+            format!("robot `{name}` has no frame `{frame}`"),
+            &suggest(&frame, "frames", known.iter().map(String::as_str)),
+        ));
+    };
+    arm.via = via.unwrap_or_default();
+    Ok(Some(arm))
+}
+
+/// The start as typed: one number per joint that moves or, for a robot with loops, per independent one.
+fn start(robot: &Robot, text: &str) -> Result<Vec<f64>, Failure> {
+    let names: Vec<&str> = robot
+        .moving_joints()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    let example = vec!["0"; robot.n().max(1)].join(",");
+    let found = typed::numbers(text, "--start", &example)?;
+    if found.len() == robot.n() {
+        return Ok(found);
+    }
+    let independent = robot.independent();
+    if found.len() == independent.len() {
+        return closed_positions(robot, &found).map_err(|error| {
+            Failure::usage(
+                format!("--start does not close the robot's loops: {error}"),
+                "give positions that the mechanism can stand at",
+            )
+        });
+    }
+    let mut help = format!("give one number per joint that moves: {}", names.join(", "));
+    if independent.len() < robot.n() {
+        let free: Vec<&str> = independent.iter().map(|&entry| names[entry]).collect();
+        help += &format!("; or per independent one: {}", free.join(", "));
+    }
+    Err(Failure::usage(
+        format!(
+            "--start has {} numbers, and robot `{}` has {} joints that move",
+            found.len(),
+            robot.name(),
+            robot.n()
+        ),
+        &help,
+    ))
+}
