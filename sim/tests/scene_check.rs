@@ -10,8 +10,8 @@ use kinemark_sim::spatial::{Twist, pose, rotation_from_rpy};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::arms::{Numbers, lab_robot, robot, rrbot};
-use crate::contact::{mesh, reach};
-use crate::contact_scenes::{STILL, at, boxed, can, part, scene, shelf, shelf_and_can};
+use crate::contact::mesh;
+use crate::contact_scenes::{STILL, at, boxed, can, part, reach, scene, shelf, shelf_and_can};
 
 /// Where the tip of the course's arm moves: y in the world.
 const PLANE: f64 = 0.05;
