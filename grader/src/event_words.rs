@@ -55,6 +55,9 @@ impl<'a> Names<'a> {
             EventKind::LimitHit { joint } => {
                 format!("`{}` reached a position limit", self.joint(*joint))
             }
+            EventKind::SpeedLimitHit { joint } => {
+                format!("`{}` reached its speed limit", self.joint(*joint))
+            }
             EventKind::NearSingular => {
                 "the arm is near a position in which the TCP cannot move in some direction"
                     .to_owned()

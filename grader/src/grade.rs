@@ -119,7 +119,7 @@ pub struct EventRecord {
     pub tick: u64,
     /// Its time \[s\].
     pub time_s: f64,
-    /// Its kind: `saturated`, `limit-hit`, `near-singular`, `touched`, `moved`, `toppled`, `left-support`, `body-fell`, `diverged` or `stopped`.
+    /// Its kind: `saturated`, `limit-hit`, `speed-limit-hit`, `near-singular`, `touched`, `moved`, `toppled`, `left-support`, `body-fell`, `diverged` or `stopped`.
     pub event: String,
     /// In words.
     pub message: String,

@@ -26,6 +26,11 @@ pub enum EventKind {
         /// Index of the joint in `q`.
         joint: usize,
     },
+    /// In a scene, a joint reached its speed limit: its motor drives it no faster.
+    SpeedLimitHit {
+        /// Index of the joint in `q`.
+        joint: usize,
+    },
     /// The TCP can hardly move in some direction: see [`crate::watch`] for the bound.
     NearSingular,
     /// Two parties pressed on each other for the first time.
@@ -101,6 +106,7 @@ impl EventKind {
         match self {
             Self::Saturated { .. } => "saturated",
             Self::LimitHit { .. } => "limit-hit",
+            Self::SpeedLimitHit { .. } => "speed-limit-hit",
             Self::NearSingular => "near-singular",
             Self::Touched { .. } => "touched",
             Self::Moved { .. } => "moved",
@@ -115,7 +121,9 @@ impl EventKind {
     /// The joint it happened to, if to one.
     pub fn joint(&self) -> Option<usize> {
         match self {
-            Self::Saturated { joint } | Self::LimitHit { joint } => Some(*joint),
+            Self::Saturated { joint }
+            | Self::LimitHit { joint }
+            | Self::SpeedLimitHit { joint } => Some(*joint),
             _ => None,
         }
     }
@@ -140,7 +148,9 @@ impl EventKind {
             hasher.update(&value.to_le_bytes());
         };
         match self {
-            Self::Saturated { joint } | Self::LimitHit { joint } => number(*joint as u64),
+            Self::Saturated { joint }
+            | Self::LimitHit { joint }
+            | Self::SpeedLimitHit { joint } => number(*joint as u64),
             Self::Touched { parties } => {
                 for party in parties {
                     let (kind, index) = party.numbers();

@@ -8,6 +8,7 @@ mod stepper;
 use nalgebra::Vector3;
 
 use crate::control::servo::{Servo, ServoError, ServoSettings};
+use crate::control::speed_limit::SpeedLimits;
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::EngineError;
 use crate::hybrid::HybridStep;
@@ -25,7 +26,7 @@ use stepper::{Moved, Stepper};
 pub struct Setup<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// What is around it; without a scene nothing is, and joint limits stop nothing.
+    /// What is around it; without a scene nothing is, and limits of joint position and speed do not act.
     pub scene: Option<&'a Scene>,
     /// The frame commands and checks refer to.
     pub tcp: &'a Frame,
@@ -79,7 +80,7 @@ pub struct Row<'a> {
     pub qd: &'a [f64],
     /// The command in the servo's mode.
     pub command: &'a [f64],
-    /// Joint efforts, after limit switches opened their motors \[N m or N\].
+    /// Joint efforts, after limit switches opened their motors and speed limits were kept \[N m or N\].
     pub effort: &'a [f64],
     /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
     pub sensors: &'a [f64],
@@ -153,6 +154,7 @@ struct State {
     effort: Vec<f64>,
     servo: Servo,
     stepper: Stepper,
+    speed_limits: SpeedLimits,
     sensors: Sensors,
     /// Velocities a step ago, for sensors.
     qd_before: Vec<f64>,
@@ -191,6 +193,7 @@ impl<'a> Run<'a> {
             effort: vec![0.0; n],
             servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
             stepper: Stepper::new(&setup)?,
+            speed_limits: SpeedLimits::new(robot),
             sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
             qd_before: setup.start_qd.clone(),
             qdd: vec![0.0; n],
@@ -264,6 +267,10 @@ impl<'a> Run<'a> {
             );
         }
         state.sensors.open_motors(&mut state.effort);
+        // where there is a scene, limits act: positions as stops, speeds in the drives
+        if self.setup.scene.is_some() {
+            state.speed_limits.hold(&state.qd, &mut state.effort);
+        }
         recorder.row(Row {
             tick,
             q: &state.q,

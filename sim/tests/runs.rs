@@ -269,3 +269,30 @@ fn a_straight_arm_is_near_a_singular_position_and_says_so_once() {
         "{near:?} {elbow}"
     );
 }
+
+#[test]
+fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
+    let (robot, nothing) = (rrbot(), scene(Vec::new()));
+    let fastest = |scene: Option<&Scene>| {
+        let mut setup = setup(&robot, scene, [0.0, 0.0], 500);
+        setup.servo.mode = Mode::Effort;
+        setup.gravity_m_s2 = nalgebra::Vector3::zeros();
+        let mut recorder = TraceRecorder::new(&setup);
+        let command = |_: &Observation<'_>, command: &mut [f64]| {
+            command.copy_from_slice(&[-100.0, 0.0]);
+            Ok::<(), ()>(())
+        };
+        assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
+        let trace = recorder.finish();
+        let rates = trace.qd.component(0).map(f64::abs);
+        (rates.fold(0.0, f64::max), trace)
+    };
+    let (free, _) = fastest(None);
+    assert!(free > 25.0, "{free}");
+    // 20 rad/s, and what 100 N m do to 1.33 kg m² or less in a millisecond
+    let (held, trace) = fastest(Some(&nothing));
+    assert!((20.0..20.5).contains(&held), "{held}");
+    let told = first(&trace, "speed-limit-hit");
+    assert!(trace.qd.at(told.tick as usize)[0] <= -20.0);
+    assert_eq!(trace.effort.at(told.tick as usize)[0], 0.0);
+}

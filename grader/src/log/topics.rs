@@ -402,7 +402,9 @@ impl<'a> Messages<'a> {
         for event in &run.trace.events {
             let level = match event.kind {
                 EventKind::Diverged | EventKind::Stopped => Level::Error,
-                EventKind::Saturated { .. } | EventKind::LimitHit { .. } => Level::Warning,
+                EventKind::Saturated { .. }
+                | EventKind::LimitHit { .. }
+                | EventKind::SpeedLimitHit { .. } => Level::Warning,
                 _ => Level::Info,
             };
             let message = names.event(&event.kind);

@@ -1,7 +1,8 @@
-//! Joint servos: a command in, an effort out; and the gains and periods at which they are stable.
+//! Joint servos: a command in, an effort out; the gains and periods at which they are stable; and how drives keep speed limits.
 
 pub mod sampled_loop;
 pub mod servo;
+pub mod speed_limit;
 
 pub use sampled_loop::{SampledLoop, sampled_loop};
 pub use servo::{Derivative, Gains, Mode, Servo, ServoSettings};

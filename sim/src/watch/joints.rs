@@ -1,5 +1,6 @@
-//! Joints at their limits: of effort and of position.
+//! Joints at their limits: of effort, of position and of speed.
 
+use crate::control::speed_limit::SpeedLimits;
 use crate::event::EventKind;
 use crate::run::{Row, Setup};
 
@@ -9,6 +10,8 @@ pub(super) struct JointWatch {
     ranges: Vec<(f64, f64)>,
     saturated: Vec<bool>,
     at_limit: Vec<bool>,
+    speed_limits: SpeedLimits,
+    fast: Vec<bool>,
 }
 
 impl JointWatch {
@@ -25,6 +28,8 @@ impl JointWatch {
             ranges: setup.robot.moving_joints().map(range).collect(),
             saturated: vec![false; n],
             at_limit: vec![false; n],
+            speed_limits: SpeedLimits::new(setup.robot),
+            fast: vec![false; n],
         }
     }
 
@@ -43,6 +48,11 @@ impl JointWatch {
                 tell(row.tick, EventKind::LimitHit { joint });
             }
             self.at_limit[joint] = at_limit;
+            let fast = row.scene.is_some() && self.speed_limits.is_reached(joint, row.qd[joint]);
+            if fast && !self.fast[joint] {
+                tell(row.tick, EventKind::SpeedLimitHit { joint });
+            }
+            self.fast[joint] = fast;
         }
     }
 }

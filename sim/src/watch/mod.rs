@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `saturated` | a joint's effort stands at the servo's limit, and did not a tick before |
 //! | `limit-hit` | a joint stands on a position limit or beyond, and did not a tick before |
+//! | `speed-limit-hit` | in a scene, a joint is as fast as its limit, and was not a tick before |
 //! | `near-singular` | at a control period the TCP's Jacobian has a condition number of 50 or more, after it was below 40 |
 //! | `touched` | two parties press on each other for the first time in the run |
 //! | `moved` | the centre of mass of a free body is 5 mm or more from its start |
