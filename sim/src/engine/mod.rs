@@ -2,7 +2,7 @@
 //!
 //! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `shape` makes
 //! colliders, `fresh` has contact points found anew, `contact` reads who pressed on whom, `clearance` says when nobody can, `overlap`
-//! who is in whom at rest, `ray` looks along a line, `wind` blows, `settings` are the numbers.
+//! who is in whom where they stand, `ray` looks along a line, `wind` blows, `settings` are the numbers.
 
 mod arm;
 mod clearance;

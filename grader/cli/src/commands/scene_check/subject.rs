@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::scene::scene_names;
 use kinemark_grader::lab::{Lab, TaskWork};
+use kinemark_grader::quantity::metres;
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::kinematics::closure::closed_positions;
+use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::robot::Robot;
 use kinemark_sim::scene::{Scene, SceneFile};
 use kinemark_sim::scene_check::Work;
@@ -19,6 +20,9 @@ use crate::args::{RobotArgs, SceneCheckArgs};
 use crate::disk::Folder;
 use crate::failure::Failure;
 use crate::{places, robot_source, scene_source};
+
+/// People round the positions they type: loops may be open by this much \[m\].
+const MOST_GAP_M: f64 = 1e-3;
 
 /// A scene to check.
 pub(super) struct Subject {
@@ -258,7 +262,14 @@ fn start(robot: &Robot, text: &str) -> Result<Vec<f64>, Failure> {
     let example = vec!["0"; robot.n().max(1)].join(",");
     let found = typed::numbers(text, "--start", &example)?;
     if found.len() == robot.n() {
-        return Ok(found);
+        let gap_m = loop_gap_m(robot, &found);
+        if gap_m <= MOST_GAP_M {
+            return Ok(found);
+        }
+        return Err(Failure::usage(
+            format!("--start leaves the robot's loops open by {}", metres(gap_m)),
+            "give the independent joints only, from which the others follow",
+        ));
     }
     let independent = robot.independent();
     if found.len() == independent.len() {

@@ -10,6 +10,9 @@ use owo_colors::OwoColorize as _;
 
 use super::subject::Subject;
 
+/// Nobody reads more lines than this.
+const MOST_LINES: usize = 100;
+
 /// All findings of a subject as text.
 pub(super) fn text(subject: &Subject, findings: &[Finding]) -> String {
     let mut out = String::new();
@@ -21,7 +24,7 @@ pub(super) fn text(subject: &Subject, findings: &[Finding]) -> String {
         let _ = write!(out, " with robot {}", arm.robot.name().bold());
     }
     out += "\n\n";
-    for finding in findings {
+    for finding in findings.iter().take(MOST_LINES) {
         let word = format!("{:<9}", finding.severity.name());
         let word = match finding.severity {
             Severity::Error => word.red().bold().to_string(),
@@ -33,6 +36,10 @@ pub(super) fn text(subject: &Subject, findings: &[Finding]) -> String {
             None => String::new(),
         };
         let _ = writeln!(out, "{word}{}{}", message(subject, finding), place.dimmed());
+    }
+    if findings.len() > MOST_LINES {
+        let more = findings.len() - MOST_LINES;
+        let _ = writeln!(out, "and {more} more, which --json lists");
     }
     if !findings.is_empty() {
         out.push('\n');
