@@ -8,7 +8,7 @@ use crate::runaway::BlowUp;
 
 #[derive(Debug, Clone)]
 pub(super) enum Stepper {
-    Free(SmoothStep),
+    Free(Box<SmoothStep>),
     InScene(Box<HybridStep>),
 }
 
@@ -22,7 +22,7 @@ impl Stepper {
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, RunError> {
         let (robot, gravity, step_s) = (setup.robot, setup.gravity_m_s2, setup.periods.step_s);
         Ok(match setup.scene {
-            None => Self::Free(SmoothStep::new(robot, gravity, step_s)),
+            None => Self::Free(Box::new(SmoothStep::new(robot, gravity, step_s))),
             Some(scene) => Self::InScene(Box::new(HybridStep::new(robot, scene, gravity, step_s)?)),
         })
     }

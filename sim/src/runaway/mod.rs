@@ -90,7 +90,8 @@ impl RunawayGuard {
         if fastest.1 > CALM_RATE {
             let kinetic_j = kinetic_energy_j(robot, q, qd);
             // an energy that is no number is beyond any bound
-            if !(kinetic_j <= self.bound_j) {
+            let bounded = kinetic_j <= self.bound_j;
+            if !bounded {
                 return Some(BlowUp::Runaway {
                     joint: fastest.0,
                     kinetic_j,

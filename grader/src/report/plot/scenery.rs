@@ -146,14 +146,14 @@ pub(super) fn clipped(
     high: (f64, f64),
 ) -> Vec<(f64, f64)> {
     let mut kept = outline.to_vec();
-    // how far inside each side a point is
-    let sides: [&dyn Fn(&(f64, f64)) -> f64; 4] = [
-        &|p| p.0 - low.0,
-        &|p| high.0 - p.0,
-        &|p| p.1 - low.1,
-        &|p| high.1 - p.1,
-    ];
-    for inside in sides {
+    for side in 0..4 {
+        // how far inside this side a point is
+        let inside = |p: &(f64, f64)| match side {
+            0 => p.0 - low.0,
+            1 => high.0 - p.0,
+            2 => p.1 - low.1,
+            _ => high.1 - p.1,
+        };
         let before = std::mem::take(&mut kept);
         for (i, to) in before.iter().enumerate() {
             let from = before[(i + before.len() - 1) % before.len()];
