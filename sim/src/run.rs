@@ -151,6 +151,9 @@ struct State {
     q: Vec<f64>,
     qd: Vec<f64>,
     command: Vec<f64>,
+    /// What the servos ask for, held between their samples.
+    driven: Vec<f64>,
+    /// What the motors give of it.
     effort: Vec<f64>,
     servo: Servo,
     stepper: Stepper,
@@ -190,6 +193,7 @@ impl<'a> Run<'a> {
             q: setup.start_q.clone(),
             qd: setup.start_qd.clone(),
             command: vec![0.0; n],
+            driven: vec![0.0; n],
             effort: vec![0.0; n],
             servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
             stepper: Stepper::new(&setup)?,
@@ -263,9 +267,10 @@ impl<'a> Run<'a> {
                 &state.command,
                 &state.q,
                 &state.qd,
-                &mut state.effort,
+                &mut state.driven,
             );
         }
+        state.effort.copy_from_slice(&state.driven);
         state.sensors.open_motors(&mut state.effort);
         // where there is a scene, limits act: positions as stops, speeds in the drives
         if self.setup.scene.is_some() {
