@@ -240,15 +240,23 @@ fn motion_of(lab: &Lab) -> &MotionTask {
 #[test]
 fn a_session_copied_in_the_middle_goes_on_with_the_same_bits() {
     let bed = bed();
+    // noise, values under way, and readings that are held between samples
+    let noisy = "[[tasks.motion.sensors]]\nname = \"encoder\"\ntype = \"joint-position\"\njoint = \"elbow\"\nnoise = 0.01\ndelay_s = 0.013\nrate_hz = 50\n\n[[tasks.checks]]";
+    bed.edit("labs/90-knock/lab.toml", "[[tasks.checks]]", noisy);
+    let source = SWEEP.replace(
+        "plot(\"out\", observation.tcp[1]);",
+        "plot(\"out\", observation.tcp[1] + observation.sensors.encoder);",
+    );
+    assert_ne!(source, SWEEP);
     let lab = lab(&bed);
     let work = motion_of(&lab);
     let opening = Opening {
         file: "mine.rhai".to_owned(),
-        source: SWEEP.to_owned(),
+        source,
         task: "knock".to_owned(),
         robot: motion::facts_of(&lab, work),
         target: Value::Nothing,
-        sensors: Vec::new(),
+        sensors: motion::sensors_of(work),
         budgets: lab.budgets.clone(),
     };
     let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
