@@ -7,6 +7,9 @@ use crate::event_words::Names;
 use crate::lab::model::MotionTask;
 use crate::quantity::trimmed;
 
+/// What a student can do about a servo.
+const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
+
 impl Names<'_> {
     /// What ended a run of `task`, and the next step.
     pub fn blow_up(
@@ -37,7 +40,15 @@ impl Names<'_> {
         match cause {
             Some(Cause::ServoGains(servo)) => (
                 format!("{lost}; {}", self.servo(servo, task)),
-                "this is the task's own servo, not your code: tell your instructor".to_owned(),
+                SERVO_HELP.to_owned(),
+            ),
+            Some(Cause::ServoIntegral(servo)) => (
+                format!(
+                    "{lost}; sampled every {} ms, its servo makes each error {} times as large from sample to sample, and without its integral gains it would not",
+                    trimmed(task.periods.servo_s() * 1e3, 4),
+                    trimmed(servo.spectral_radius, 4)
+                ),
+                SERVO_HELP.to_owned(),
             ),
             Some(Cause::Feedback { joint, calls }) => (
                 format!(

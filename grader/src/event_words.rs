@@ -10,8 +10,10 @@ use nalgebra::Vector3;
 
 use crate::grade::{ContactRecord, EventRecord};
 
-/// Events, and contacts, that a record keeps.
+/// Contacts, and events of bodies, that a record keeps.
 const MOST_RECORDS: usize = 200;
+/// Events of joints and singular positions that a record keeps beside them: a loop that buzzes makes thousands.
+const MOST_OF_JOINTS: usize = 100;
 
 /// The names of a run.
 #[derive(Debug, Clone, Copy)]
@@ -106,15 +108,25 @@ impl<'a> Names<'a> {
 
     /// The events of a run, as far as a record keeps them.
     pub fn events(&self, trace: &Trace, periods: &Periods) -> Vec<EventRecord> {
-        let events = trace.events.iter().take(MOST_RECORDS);
-        events
-            .map(|event| EventRecord {
-                tick: event.tick,
-                time_s: periods.time_s(event.tick),
-                event: event.kind.name().to_owned(),
-                message: self.event(&event.kind),
-            })
-            .collect()
+        let (mut of_joints, mut others) = (0, 0);
+        let kept = trace.events.iter().filter(|event| {
+            let joints = event.kind.joint().is_some() || event.kind == EventKind::NearSingular;
+            let (count, most) = if joints {
+                (&mut of_joints, MOST_OF_JOINTS)
+            } else {
+                (&mut others, MOST_RECORDS)
+            };
+            *count += 1;
+            // how a run ended is never left out
+            *count <= most || matches!(event.kind, EventKind::Diverged | EventKind::Stopped)
+        });
+        kept.map(|event| EventRecord {
+            tick: event.tick,
+            time_s: periods.time_s(event.tick),
+            event: event.kind.name().to_owned(),
+            message: self.event(&event.kind),
+        })
+        .collect()
     }
 
     /// The contacts of a run, as far as a record keeps them.

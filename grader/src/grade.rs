@@ -97,7 +97,7 @@ pub struct TaskGrade {
     pub cases: Vec<CaseGrade>,
     /// Hidden cases of a function task, counted by class.
     pub hidden: Vec<HiddenClass>,
-    /// What happened in the run of a motion task (the first 200 events).
+    /// What happened in the run of a motion task (the first 100 events of joints and the first 200 others).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventRecord>,
     /// Who pressed on whom in a scene (the first 200 contacts).

@@ -298,3 +298,67 @@ fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
     assert!(trace.qd.at(tick)[0] <= -20.0);
     assert!(trace.effort.at(tick)[0].abs() < f64::MIN_POSITIVE);
 }
+
+#[test]
+fn a_joint_that_is_pressed_on_its_stop_is_told_once() {
+    let (robot, nothing) = (rrbot(), scene(Vec::new()));
+    let setup = setup(&robot, Some(&nothing), [100.0, 10.0], 4000);
+    let mut recorder = TraceRecorder::new(&setup);
+    // beyond the stop at 6.3 rad
+    let command = |_: &Observation<'_>, command: &mut [f64]| {
+        command.copy_from_slice(&[6.5, 1.0]);
+        Ok::<(), ()>(())
+    };
+    assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
+    let trace = recorder.finish();
+    let told = |name: &str| {
+        trace
+            .events
+            .iter()
+            .filter(|event| event.kind.name() == name)
+            .count()
+    };
+    assert!((1..=4).contains(&told("limit-hit")), "{:?}", trace.events);
+    assert!(told("saturated") <= 4, "{:?}", trace.events);
+}
+
+/// What is told of a box of 1 kg on a plate that goes down 0.4 m in a second, with the plate tilted by `slope_deg`.
+fn lowered(slope_deg: f64) -> Trace {
+    let (s, c) = libm::sincos(slope_deg.to_radians());
+    let (x, z) = (3.0 + 0.1 * s, 1.0 + 0.1 * c);
+    let text = format!(
+        "format = 1\nname = 'lift'\n[[bodies]]\nname = 'plate'\ntype = 'kinematic'\nshapes = [{{ box = {{ size_m = [2.0, 1.0, 0.1] }} }}]\ncontact = {{ friction = 0.2 }}\nmotion = {{ waypoints = [{{ t_s = 0.5, xyz_m = [3, 0, 1], rpy_deg = [0, {slope_deg}, 0] }}, {{ t_s = 1.5, xyz_m = [3, 0, 0.6], rpy_deg = [0, {slope_deg}, 0] }}] }}\n[[bodies]]\nname = 'box'\ntype = 'free'\norigin = {{ xyz_m = [{x}, 0, {z}], rpy_deg = [0, {slope_deg}, 0] }}\nshapes = [{{ box = {{ size_m = [0.1, 0.1, 0.1] }} }}]\ninertia = {{ mass_kg = 1.0 }}\ncontact = {{ friction = 0.2 }}\n"
+    );
+    let file =
+        kinemark_sim::scene::SceneFile::parse(kinemark_sim::source::Source::new("lift.toml", text));
+    let around = file.and_then(|file| file.build(&[])).expect("a scene");
+    let robot = rrbot();
+    let setup = setup(&robot, Some(&around), [100.0, 10.0], 2000);
+    let mut recorder = TraceRecorder::new(&setup);
+    let still = |_: &Observation<'_>, command: &mut [f64]| {
+        command.fill(0.0);
+        Ok::<(), ()>(())
+    };
+    assert_eq!(run::run(&setup, still, &mut recorder), Ok(End::Finished));
+    recorder.finish()
+}
+
+#[test]
+fn what_rides_down_does_not_fall() {
+    let trace = lowered(0.0);
+    let last = trace.world_from_body(1, 2000).expect("the box");
+    assert!((last.translation.z - 0.7).abs() < 1e-3);
+    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    // the plate is faster than gravity at first
+    assert!(
+        told.contains(&"left-support") && !told.contains(&"body-fell"),
+        "{told:?}"
+    );
+    // down a ramp that slides under it, and still on it
+    let trace = lowered(12.0);
+    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    assert!(
+        told.contains(&"moved") && !told.contains(&"body-fell"),
+        "{told:?}"
+    );
+}

@@ -247,7 +247,7 @@ fn a_body_without_anything_beneath_falls_forever() {
     // over the edge of a shelf: onto the ground, or on and on
     let mut edge = scene(vec![shelf(), can(1.12, 1.2)]);
     let found = of(&edge);
-    assert_eq!(named(&found), [(Severity::Warning, "moves")]);
+    assert_eq!(named(&found), [(Severity::Error, "falls-off")]);
     edge.environment.ground = None;
     assert_eq!(named(&of(&edge)), [(Severity::Error, "falls-forever")]);
     // where nothing falls, nothing falls on

@@ -272,7 +272,11 @@ impl World {
         if let Some(air) = self.air_now() {
             for (handle, drag) in &self.blown {
                 let body = &mut self.physics.bodies[*handle];
+                let past = air.velocity_m_s - from_vector(body.linvel());
                 let force = air.drag_n(drag, &from_vector(body.linvel()));
+                // air that stops a body against itself within a step would throw it back
+                let most_n = body.mass() * past.norm() / self.dt_s;
+                let force = force * (most_n / force.norm().max(most_n).max(f64::MIN_POSITIVE));
                 body.reset_forces(false);
                 body.add_force(vector(&force), false);
             }

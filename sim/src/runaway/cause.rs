@@ -16,6 +16,8 @@ const TURNS: usize = 2;
 pub enum Cause {
     /// The servo's gains are more than its period can hold.
     ServoGains(SampledLoop),
+    /// The servo's integral gains: without them the loop would be stable.
+    ServoIntegral(SampledLoop),
     /// The controller's own feedback turns its command round at every call, further each time.
     Feedback {
         /// Index of the joint in `q` whose command does it most.
@@ -46,6 +48,18 @@ pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<C
             &setup.gravity_m_s2,
             q,
         );
+        if let Some(found) = &looked_at
+            && !found.is_stable()
+            && found.stable_share_of_all.is_none()
+        {
+            let mut settings = setup.servo.clone();
+            settings.gains.iter_mut().for_each(|gains| gains.ki = 0.0);
+            let servo_s = setup.periods.servo_s();
+            let without = sampled_loop(setup.robot, &settings, servo_s, &setup.gravity_m_s2, q);
+            if without.is_some_and(|without| without.is_stable()) {
+                return Some(Cause::ServoIntegral(found.clone()));
+            }
+        }
         // gains too weak to hold an upright arm make it grow too, and no share of them helps
         if let Some(found) = looked_at
             && !found.is_stable()

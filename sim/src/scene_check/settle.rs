@@ -13,6 +13,8 @@ use crate::spatial::{Pose, direction};
 const STEP_S: f64 = 1e-3;
 /// Ten seconds of them.
 const TICKS: u64 = 10_000;
+/// What pushes a body up within these ticks is what it stood on at the start.
+const STANDS_TICKS: u64 = 20;
 /// What a body may move before it counts: more than contact gives way, less than one sees \[m\].
 const MOVED_M: f64 = 5e-3;
 /// And tilt: a tenth of a quarter turn, and less, is a matter of rounding \[rad\].
@@ -31,6 +33,8 @@ struct Falling {
     up_in_body: Vector3<f64>,
     /// What was beneath it at the start, and the place there in that one's own frame.
     support: Option<(Party, Vector3<f64>)>,
+    /// Whether that is what pushed it up first.
+    stands: bool,
     /// The middles of its shapes where they were last looked at.
     centres: Vec<Vector3<f64>>,
     lost: bool,
@@ -88,6 +92,11 @@ pub(super) fn check(
                 for body in [first, second] {
                     moved[body] |= either && matches!(scene.bodies[body].kind, BodyKind::Free);
                 }
+            }
+        }
+        if let Some(down) = down.filter(|_| tick <= STANDS_TICKS) {
+            for one in &mut falling {
+                one.stand(&facts, &world, &down);
             }
         }
         for one in &mut falling {
@@ -161,8 +170,38 @@ impl Falling {
                 };
                 (party, p)
             }),
+            stands: false,
             centres: layout.centres_of(index).collect(),
             lost: false,
+        }
+    }
+
+    /// Takes what pushes it up as what was beneath it, even where its middle is beyond the edge.
+    fn stand(&mut self, facts: &[ContactFact], world: &World, down: &Vector3<f64>) {
+        let me = Party::Body(self.body);
+        for fact in facts {
+            let [first, second] = fact.parties;
+            let lift = -fact.normal_impulse_n_s.dot(down);
+            let other = match (first == me, second == me) {
+                (false, true) if lift > 0.0 => first,
+                (true, false) if lift < 0.0 => second,
+                _ => continue,
+            };
+            if self.stands || other == Party::Ground {
+                continue;
+            }
+            let p_in_world = fact.p_centre_in_world;
+            let p = match other {
+                Party::Body(index) => {
+                    let world_from_other = world.body(index).world_from_body;
+                    world_from_other
+                        .inverse_transform_point(&p_in_world.into())
+                        .coords
+                }
+                Party::Ground | Party::Link(_) => p_in_world,
+            };
+            self.support = Some((other, p));
+            self.stands = true;
         }
     }
 

@@ -11,6 +11,8 @@ use crate::run::Setup;
 use crate::scene::{BodyKind, Scene};
 use crate::spatial::{Pose, direction};
 
+/// What pushes a body up by less than this part of its weight does not carry it.
+const LEAST_LIFT: f64 = 0.1;
 /// How far the centre of mass is from its start when a body has moved \[m\].
 const MOVED_M: f64 = 0.005;
 /// Cosine of the tilt at which a body has toppled: 45 degrees.
@@ -31,6 +33,12 @@ pub(super) struct BodyWatch<'a> {
 #[derive(Debug, Clone)]
 struct FreeBody {
     index: usize,
+    /// Upward impulse in a step from which something carries it: a tenth of its weight's \[N s\].
+    least_lift_n_s: f64,
+    /// Since when it has been clear of everything.
+    clear_since: Option<u64>,
+    /// Whether it was clear of everything for long enough since it last touched what it stood on.
+    flew: bool,
     p_com_in_body: Vector3<f64>,
     start_com: Vector3<f64>,
     /// What pointed up at the start, in the body.
@@ -68,6 +76,12 @@ impl<'a> BodyWatch<'a> {
             free: free
                 .map(|(index, body)| FreeBody {
                     index,
+                    least_lift_n_s: LEAST_LIFT
+                        * body.inertia.mass_kg
+                        * setup.gravity_m_s2.norm()
+                        * setup.periods.step_s,
+                    clear_since: None,
+                    flew: false,
                     p_com_in_body: body.inertia.com_m,
                     start_com: com(&body.world_from_body, &body.inertia.com_m),
                     up_in_body: body.world_from_body.inverse_transform_vector(&up),
@@ -112,7 +126,20 @@ impl<'a> BodyWatch<'a> {
                 free.toppled = true;
                 tell(tick, EventKind::Toppled { body });
             }
-            let carrier = carrier(body, &step.report().contacts, &self.up);
+            let contacts = &step.report().contacts;
+            let of_body = |fact: &&ContactFact| fact.parties.contains(&Party::Body(body));
+            let mut touching = contacts.iter().filter(of_body).peekable();
+            if touching.peek().is_some() {
+                free.clear_since = None;
+                // back on what it stood on, wherever that is by now
+                let home = free.support.map(|support| support.party);
+                free.flew &=
+                    !touching.any(|fact| home.is_some_and(|home| fact.parties.contains(&home)));
+            } else {
+                let since = *free.clear_since.get_or_insert(tick);
+                free.flew |= free.support.is_some() && tick - since >= self.apart_ticks;
+            }
+            let carrier = carrier(body, contacts, &self.up, free.least_lift_n_s);
             match (carrier, &free.support) {
                 (Some(found), None) => free.support = Some(found),
                 (Some(_), Some(_)) => free.adrift_since = None,
@@ -129,7 +156,7 @@ impl<'a> BodyWatch<'a> {
                 continue;
             };
             let bar = support.height_m.min(free.start_com.dot(&self.up)) - FELL_M;
-            if !free.fell && now.dot(&self.up) <= bar {
+            if !free.fell && free.flew && now.dot(&self.up) <= bar {
                 free.fell = true;
                 let side = self
                     .scene
@@ -162,9 +189,14 @@ fn com(world_from_body: &Pose, p_com_in_body: &Vector3<f64>) -> Vector3<f64> {
         .coords
 }
 
-/// What carries `body` most, if anything pushes it up.
-fn carrier(body: usize, contacts: &[ContactFact], up: &Vector3<f64>) -> Option<Support> {
-    let mut most = 0.0;
+/// What carries `body` most, if anything pushes it up by more than `least_n_s`.
+fn carrier(
+    body: usize,
+    contacts: &[ContactFact],
+    up: &Vector3<f64>,
+    least_n_s: f64,
+) -> Option<Support> {
+    let mut most = least_n_s;
     let mut carrier = None;
     for fact in contacts {
         let [first, second] = fact.parties;
@@ -283,10 +315,13 @@ mod tests {
             fact([Party::Body(4), Party::Body(6)], 0.9, 0.8),
             fact([Party::Body(4), Party::Ground], -0.1, 0.0),
         ];
-        let found = carrier(4, &contacts, &up).map(|support| (support.party, support.height_m));
+        let found =
+            carrier(4, &contacts, &up, 0.0).map(|support| (support.party, support.height_m));
         assert_eq!(found, Some((Party::Body(1), 0.4)));
-        let found = carrier(6, &contacts, &up).map(|support| support.party);
+        let found = carrier(6, &contacts, &up, 0.0).map(|support| support.party);
         assert_eq!(found, Some(Party::Body(4)));
-        assert!(carrier(1, &contacts, &up).is_none());
+        assert!(carrier(1, &contacts, &up, 0.0).is_none());
+        // a push that is too weak
+        assert!(carrier(4, &contacts, &up, 0.2).is_none());
     }
 }

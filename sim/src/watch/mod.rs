@@ -2,15 +2,15 @@
 //!
 //! | event | when |
 //! |---|---|
-//! | `saturated` | a joint's effort stands at the servo's limit, and did not a tick before |
-//! | `limit-hit` | a joint stands on a position limit or beyond, and did not a tick before |
-//! | `speed-limit-hit` | in a scene, a joint is as fast as its limit, and was not a tick before |
+//! | `saturated` | a joint's effort stands at the servo's limit, and did not for 0.1 s before |
+//! | `limit-hit` | a joint stands on a position limit or beyond, and did not for 0.1 s before |
+//! | `speed-limit-hit` | in a scene, a joint is as fast as its limit, and was not for 0.1 s before |
 //! | `near-singular` | at a control period the TCP's Jacobian has a condition number of 50 or more, after it was below 40 |
 //! | `touched` | two parties press on each other for the first time in the run |
 //! | `moved` | the centre of mass of a free body is 5 mm or more from its start |
 //! | `toppled` | what pointed up at a free body at the start points 45 degrees or more away from it |
-//! | `left-support` | nothing has carried the body for 20 ms; the tick is the first of them |
-//! | `body-fell` | its centre of mass is 50 mm below where it stood, and below its start |
+//! | `left-support` | for 20 ms nothing has pushed the body up with a tenth of its weight or more; the tick is the first of them |
+//! | `body-fell` | its centre of mass is 50 mm below where it stood, and below its start, and it was clear of everything for 20 ms since it last touched that |
 //!
 //! Of `moved`, `toppled`, `left-support` and `body-fell` the first of each body is told.
 
