@@ -7,13 +7,13 @@ use kinemark_sim::engine::Party;
 use kinemark_sim::event::{Event, EventKind, SeenSide};
 use kinemark_sim::robot::Robot;
 use kinemark_sim::run::{self, End, Observation, Run, Setup};
-use kinemark_sim::runaway::BlowUp;
-use kinemark_sim::scene::Scene;
+use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
+use kinemark_sim::scene::{BodyKind, Drag, Scene, Wind};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
 
 use crate::arms::rrbot;
-use crate::contact_scenes::{GRAVITY, reach, scene, shelf_and_can};
+use crate::contact_scenes::{GRAVITY, at, part, reach, scene, shelf_and_can};
 
 fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks: u64) -> Setup<'a> {
     let [kp, kd] = gains;
@@ -361,4 +361,86 @@ fn what_rides_down_does_not_fall() {
         told.contains(&"moved") && !told.contains(&"body-fell"),
         "{told:?}"
     );
+}
+
+/// A ball that starts with `speed_m_s` along x, in air that drags on `area_m2` of it and blows with 10 m/s.
+fn flying(speed_m_s: f64, mass_kg: f64, area_m2: f64) -> Scene {
+    let solid = kinemark_sim::robot::inertia::Solid::Sphere { radius_m: 0.05 };
+    let mut ball = part("ball", BodyKind::Free, solid, mass_kg, at(5.0, 0.0, 5.0));
+    ball.twist.linear.x = speed_m_s;
+    ball.drag = Some(Drag {
+        area_m2,
+        coefficient: 1.0,
+    });
+    let mut around = scene(vec![ball]);
+    around.environment.gravity_m_s2 = nalgebra::Vector3::zeros();
+    around.environment.wind = Some(Wind {
+        velocity_m_s: nalgebra::Vector3::new(10.0, 0.0, 0.0),
+        air_density_kg_m3: 1.2,
+        gust: None,
+    });
+    around
+}
+
+#[test]
+fn bodies_are_as_fast_as_they_are_until_they_fly_off() {
+    let robot = rrbot();
+    let still = |_: &Observation<'_>, command: &mut [f64]| {
+        command.fill(0.0);
+        Ok::<(), ()>(())
+    };
+    let ended = |around: &Scene| {
+        let setup = setup(&robot, Some(around), [100.0, 10.0], 500);
+        let mut recorder = TraceRecorder::new(&setup);
+        let end = run::run(&setup, still, &mut recorder).expect("a run");
+        (end, recorder.finish())
+    };
+    let (end, trace) = ended(&flying(900.0, 1.0, 0.0));
+    assert_eq!(end, End::Finished);
+    let x = trace
+        .world_from_body(0, 500)
+        .expect("the ball")
+        .translation
+        .x;
+    assert!((x - 455.0).abs() < 1e-6, "{x}");
+    let (end, _) = ended(&flying(1100.0, 1.0, 0.0));
+    assert!(matches!(
+        end,
+        End::Diverged {
+            tick: 1,
+            what: BlowUp::BodyRunaway { body: 0, .. }
+        }
+    ));
+    // a feather of a gram with a square metre goes with the wind at once
+    let (end, trace) = ended(&flying(0.0, 1e-3, 1.0));
+    assert_eq!(end, End::Finished);
+    let x = |tick| {
+        trace
+            .world_from_body(0, tick)
+            .expect("the ball")
+            .translation
+            .x
+    };
+    assert!((x(500) - x(400) - 1.0).abs() < 0.05, "{}", x(500) - x(400));
+}
+
+#[test]
+fn an_integral_gain_beyond_its_limit_is_blamed() {
+    let robot = rrbot();
+    let mut setup = setup(&robot, None, [100.0, 10.0], 60_000);
+    for gains in &mut setup.servo.gains {
+        gains.ki = 20_000.0;
+        gains.effort_limit = f64::INFINITY;
+    }
+    let mut recorder = TraceRecorder::new(&setup);
+    let command = |_: &Observation<'_>, command: &mut [f64]| {
+        command.fill(0.1);
+        Ok::<(), ()>(())
+    };
+    let end = run::run(&setup, command, &mut recorder).expect("a run");
+    let End::Diverged { what, .. } = end else {
+        panic!("{end:?}")
+    };
+    let cause = likely_cause(&setup, &what, &recorder.finish());
+    assert!(matches!(cause, Some(Cause::ServoIntegral(_))), "{cause:?}");
 }
