@@ -29,7 +29,7 @@ pub enum Cause {
 
 /// The likely cause of `what` in a run of `setup` recorded as `trace`; none where nothing computed here explains it.
 ///
-/// The servo is looked at where the run started and where the arm was last calm, by [`sampled_loop`].
+/// The servo is looked at where the run started and where the arm was last calm, by [`sampled_loop()`].
 pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<Cause> {
     if matches!(what, BlowUp::BodyRunaway { .. } | BlowUp::InContact { .. }) {
         return None;

@@ -29,6 +29,8 @@ const MOST: f64 = 1e6;
 /// Density of dry air at 15 °C at sea level \[kg/m³\]; source: ISO 2533:1975.
 const AIR_DENSITY_KG_M3: f64 = 1.225;
 
+/// Beyond this, forces are lost in rounding \[kg\].
+const MOST_MASS_KG: f64 = 1e9;
 /// The least part of its greatest principal moment that a body has about each axis: below, it is a line without thickness.
 const LEAST_MOMENT: f64 = 1e-9;
 
@@ -296,6 +298,12 @@ impl Resolver<'_> {
             return refuse(
                 format!("free body `{name}` needs a positive mass, got {mass:?} kg"),
                 "a body without mass cannot be moved by forces; make it `fixed` or `kinematic`",
+            );
+        }
+        if mass > MOST_MASS_KG {
+            return refuse(
+                format!("free body `{name}` has a mass of {mass:e} kg, at most {MOST_MASS_KG:e}"),
+                "what is heavier than all else stands still anyway; make it `fixed`",
             );
         }
         let [least, _, greatest] = principal_moments(&inertia.about_com_kg_m2);

@@ -179,9 +179,13 @@ impl Values<'_> {
                     tensor_at.span(),
                     PartProblem::Inertia {
                         message: format!("{owner}: {why}"),
-                        help: "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
-                               numbers that are so anyway pass with `accept_unphysical = true`"
-                            .to_owned(),
+                        help: match self.kind {
+                            // contact would not hold such a body
+                            "scene" => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass",
+                            _ => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
+                                  numbers that are so anyway pass with `accept_unphysical = true`",
+                        }
+                        .to_owned(),
                     },
                 );
             }
