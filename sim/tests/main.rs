@@ -2,6 +2,7 @@
 
 mod algorithms;
 mod arms;
+mod bounces;
 mod contact;
 mod contact_order;
 mod contact_run;

@@ -1,10 +1,11 @@
 //! Contact: robot and scene as bodies that press on each other. The only place that names rapier; no type of it leaves.
 //!
 //! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `shape` makes
-//! colliders, `fresh` has contact points found anew, `contact` reads who pressed on whom, `clearance` says when nobody can, `overlap`
+//! colliders, `fresh` has contact points found anew, `bounce` lets things bounce, `contact` reads who pressed on whom, `clearance` says when nobody can, `overlap`
 //! who is in whom where they stand, `ray` looks along a line, `wind` blows, `settings` are the numbers.
 
 mod arm;
+mod bounce;
 mod clearance;
 pub mod contact;
 mod convert;

@@ -53,9 +53,7 @@ pub(super) fn collider(
         // masses are those of the description
         .density(0.0)
         .friction(contact.friction)
-        .friction_combine_rule(COMBINE)
-        .restitution(contact.restitution)
-        .restitution_combine_rule(COMBINE))
+        .friction_combine_rule(COMBINE))
 }
 
 fn points(mesh: &Mesh) -> Vec<Vector> {

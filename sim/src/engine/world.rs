@@ -7,6 +7,7 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::{PhysicsPipeline, PhysicsWorld};
 
 use super::arm::{Arm, insert_base};
+use super::bounce::{ArmAfter, Bounce};
 use super::clearance::Obstacle;
 use super::contact::{self, ContactFact, Party};
 use super::convert::{engine_pose, from_engine_pose, from_vector, matrix, vector};
@@ -53,6 +54,10 @@ pub(crate) struct World {
     obstacles: Vec<ColliderHandle>,
     ground: bool,
     air: Option<Air>,
+    /// Where anything bounces.
+    bounce: Option<Bounce>,
+    /// Joint rates after a bounce, where the arm took part in the step.
+    bounced_qd: Option<Vec<f64>>,
     dt_s: f64,
     tick: u64,
 }
@@ -83,6 +88,8 @@ impl Clone for World {
             obstacles: self.obstacles.clone(),
             ground: self.ground,
             air: self.air.clone(),
+            bounce: self.bounce.clone(),
+            bounced_qd: self.bounced_qd.clone(),
             dt_s: self.dt_s,
             tick: self.tick,
         }
@@ -128,6 +135,8 @@ impl World {
             obstacles: Vec::new(),
             ground: scene.environment.ground.is_some(),
             air,
+            bounce: Bounce::new(robot, scene),
+            bounced_qd: None,
             dt_s,
             tick: 0,
         };
@@ -135,8 +144,6 @@ impl World {
             let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
                 .friction(surface.friction)
                 .friction_combine_rule(COMBINE)
-                .restitution(surface.restitution)
-                .restitution_combine_rule(COMBINE)
                 .user_data(Party::Ground.to_user_data());
             world.physics.insert_collider(ground, None);
         }
@@ -287,6 +294,9 @@ impl World {
             let pose = engine_pose(&pose);
             self.physics.bodies[*handle].set_next_kinematic_position(pose);
         }
+        if let Some(bounce) = &mut self.bounce {
+            bounce.remember(robot, q, qd, &self.physics.bodies, &self.bodies);
+        }
         self.physics.step();
         self.rest();
         if let Some(lost) = self.physics.quarantine().bodies().first() {
@@ -299,7 +309,32 @@ impl World {
             self.dt_s,
             facts,
         );
+        self.let_bounce(robot, travel_m.is_some(), facts);
         Ok(())
+    }
+
+    fn let_bounce(&mut self, robot: &Robot, with_arm: bool, facts: &mut [ContactFact]) {
+        let Some(bounce) = &mut self.bounce else {
+            return;
+        };
+        let mut after = None;
+        if let Some(arm) = self.arm.as_ref().filter(|_| with_arm) {
+            let (mut q, mut qd) = (vec![0.0; robot.n()], vec![0.0; robot.n()]);
+            arm.read(&self.physics, &mut q, &mut qd);
+            after = Some((q, qd));
+        }
+        let physics = &mut self.physics;
+        bounce.apply(
+            robot,
+            after.as_mut().map(|(q, qd)| ArmAfter { q, qd }),
+            &physics.narrow_phase,
+            &physics.colliders,
+            &mut physics.bodies,
+            &self.bodies,
+            self.dt_s,
+            facts,
+        );
+        self.bounced_qd = after.map(|(_, qd)| qd);
     }
 
     /// Lets contacts be foreseen as far as the fastest body goes in a step.
@@ -346,6 +381,9 @@ impl World {
     pub(crate) fn read_arm(&self, q: &mut [f64], qd: &mut [f64]) {
         if let Some(arm) = &self.arm {
             arm.read(&self.physics, q, qd);
+        }
+        if let Some(bounced) = &self.bounced_qd {
+            qd.copy_from_slice(bounced);
         }
     }
 

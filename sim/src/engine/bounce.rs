@@ -1,0 +1,412 @@
+//! Bounces: what comes in fast leaves by its coefficient of restitution, at all points of a contact together.
+//!
+//! The engine itself goes through the points of a contact once and bounces each by itself; of the corners of a face the first takes
+//! most, so that a face leaves too fast, and turning. Here the engine presses without any bounce, and the velocities after its step
+//! are then raised until every point that came in faster than [`SLOWEST_M_S`] leaves with its share of that speed, and none that
+//! pressed comes in faster than before (Newton's hypothesis, by projected Gauss-Seidel over all points).
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use rapier3d_f64::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier3d_f64::geometry::{ColliderHandle, ColliderSet, NarrowPhase};
+
+use super::contact::{ContactFact, Party};
+use super::convert::{from_engine_pose, from_vector, vector};
+use super::settings::SURFACE;
+use crate::dynamics::crba::Crba;
+use crate::kinematics::motion::BodyMotions;
+use crate::robot::Robot;
+use crate::scene::{BodyKind, Scene};
+
+/// Slower than this nothing bounces: twice what gravity adds in a step of a millisecond, so that rest is rest \[m/s\].
+const SLOWEST_M_S: f64 = 0.02;
+/// Passes over all points: corners of a face agree to 1e-6 by then.
+const PASSES: usize = 200;
+/// A pass that changes no velocity by more than this is the last \[m/s\].
+const SETTLED_M_S: f64 = 1e-12;
+
+/// The restitutions of one world, and how everything moved before its step.
+#[derive(Clone)]
+pub(super) struct Bounce {
+    of_links: Vec<f64>,
+    of_bodies: Vec<f64>,
+    of_ground: f64,
+    /// Of free bodies the inverse mass \[1/kg\] and the inverse tensor about the centre of mass, in the body's axes \[1/(kg m²)\].
+    inverse: Vec<Option<(f64, Matrix3<f64>)>>,
+    /// Of free bodies the velocity of the centre of mass and the angular velocity before the step, world axes.
+    before: Vec<(Vector3<f64>, Vector3<f64>)>,
+    arm_before: BodyMotions,
+    arm_after: BodyMotions,
+}
+
+/// What a point presses on, on one side.
+enum End {
+    /// Something that the bounce does not move, with its velocity along the normal \[m/s\].
+    Driven(f64),
+    /// A free body by its index, and the way from its centre of mass to the point.
+    Free(usize, Vector3<f64>),
+    /// A link: its point's velocity along the normal is `row · qd`, and an impulse there changes `qd` by `solved`.
+    Arm { row: Vec<f64>, solved: DVector<f64> },
+}
+
+struct Point {
+    parties: [Party; 2],
+    p: Vector3<f64>,
+    /// From the first to the second.
+    normal: Vector3<f64>,
+    ends: [End; 2],
+    /// Change of the speed along the normal by an impulse of one \[1/kg\].
+    softness: f64,
+    /// The least speed along the normal after the bounce \[m/s\].
+    least_m_s: f64,
+    impulse_n_s: f64,
+}
+
+/// Velocities of free bodies and joints while they are looked for.
+struct Velocities {
+    free: Vec<(Vector3<f64>, Vector3<f64>)>,
+    /// Inverse mass and inverse tensor in the world.
+    inverse: Vec<Option<(f64, Matrix3<f64>)>>,
+    qd: Vec<f64>,
+}
+
+impl Velocities {
+    fn along(&self, end: &End, normal: &Vector3<f64>) -> f64 {
+        match end {
+            End::Driven(speed) => *speed,
+            End::Free(index, r) => {
+                let (v, w) = &self.free[*index];
+                normal.dot(&(v + w.cross(r)))
+            }
+            End::Arm { row, .. } => row.iter().zip(&self.qd).map(|(g, qd)| g * qd).sum(),
+        }
+    }
+
+    fn softness(&self, end: &End, normal: &Vector3<f64>) -> f64 {
+        match end {
+            End::Driven(_) => 0.0,
+            End::Free(index, r) => self.inverse[*index].map_or(0.0, |(inverse_mass, inverse)| {
+                let lever = r.cross(normal);
+                inverse_mass + lever.dot(&(inverse * lever))
+            }),
+            End::Arm { row, solved } => row.iter().zip(solved.iter()).map(|(g, s)| g * s).sum(),
+        }
+    }
+
+    fn push(&mut self, end: &End, impulse: &Vector3<f64>, along: f64) {
+        match end {
+            End::Driven(_) => {}
+            End::Free(index, r) => {
+                if let Some((inverse_mass, inverse)) = self.inverse[*index] {
+                    let (v, w) = &mut self.free[*index];
+                    *v += impulse * inverse_mass;
+                    *w += inverse * r.cross(impulse);
+                }
+            }
+            End::Arm { solved, .. } => {
+                for (qd, solved) in self.qd.iter_mut().zip(solved.iter()) {
+                    *qd += solved * along;
+                }
+            }
+        }
+    }
+}
+
+/// The arm after the engine's step, where it is in the world and can be moved.
+pub(super) struct ArmAfter<'a> {
+    pub(super) q: &'a [f64],
+    pub(super) qd: &'a mut [f64],
+}
+
+impl Bounce {
+    /// The bounces of `robot` in `scene`; none where nothing bounces.
+    pub(super) fn new(robot: &Robot, scene: &Scene) -> Option<Self> {
+        let of_links: Vec<f64> = robot
+            .links()
+            .iter()
+            .map(|link| link.contact.unwrap_or(SURFACE).restitution)
+            .collect();
+        let of_bodies: Vec<f64> = scene.bodies.iter().map(|b| b.contact.restitution).collect();
+        let of_ground = scene
+            .environment
+            .ground
+            .map_or(0.0, |ground| ground.restitution);
+        let bounces = {
+            let mut all = of_links.iter().chain(&of_bodies).chain([&of_ground]);
+            all.any(|restitution| *restitution > 0.0)
+        };
+        bounces.then(|| Self {
+            inverse: scene
+                .bodies
+                .iter()
+                .map(|body| {
+                    let inverse = body.inertia.about_com_kg_m2.to_matrix().try_inverse()?;
+                    let free = matches!(body.kind, BodyKind::Free);
+                    free.then_some((1.0 / body.inertia.mass_kg, inverse))
+                })
+                .collect(),
+            before: vec![(Vector3::zeros(), Vector3::zeros()); of_bodies.len()],
+            arm_before: BodyMotions::new(robot),
+            arm_after: BodyMotions::new(robot),
+            of_links,
+            of_bodies,
+            of_ground,
+        })
+    }
+
+    /// Notes how everything moves before a step.
+    pub(super) fn remember(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        qd: &[f64],
+        bodies: &RigidBodySet,
+        handles: &[RigidBodyHandle],
+    ) {
+        // a world may be stepped without its arm
+        if q.len() == robot.n() {
+            self.arm_before.update(robot, q, qd);
+        }
+        for (before, handle) in self.before.iter_mut().zip(handles) {
+            let body = &bodies[*handle];
+            *before = (from_vector(body.linvel()), from_vector(body.angvel()));
+        }
+    }
+
+    fn of(&self, party: Party) -> f64 {
+        match party {
+            Party::Link(index) => self.of_links[index],
+            Party::Body(index) => self.of_bodies[index],
+            Party::Ground => self.of_ground,
+        }
+    }
+
+    /// Lets everything bounce that came in fast enough: changes velocities of bodies and of `arm`, and adds to `facts`.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what one step of the engine leaves"
+    )]
+    pub(super) fn apply(
+        &mut self,
+        robot: &Robot,
+        mut arm: Option<ArmAfter<'_>>,
+        narrow_phase: &NarrowPhase,
+        colliders: &ColliderSet,
+        bodies: &mut RigidBodySet,
+        handles: &[RigidBodyHandle],
+        dt_s: f64,
+        facts: &mut [ContactFact],
+    ) {
+        let contacts = pressed(narrow_phase, colliders, bodies);
+        let coms: Vec<Vector3<f64>> = handles
+            .iter()
+            .map(|handle| from_vector(bodies[*handle].center_of_mass()))
+            .collect();
+        let speed_before = |party: Party, p: &Vector3<f64>| match party {
+            Party::Ground => Vector3::zeros(),
+            Party::Link(index) => {
+                let motion = self.arm_before.of(&robot.links()[index].attachment);
+                motion.at(&(p - motion.placed.position)).velocity
+            }
+            Party::Body(index) if self.inverse[index].is_some() => {
+                let (v, w) = &self.before[index];
+                v + w.cross(&(p - coms[index]))
+            }
+            Party::Body(index) => from_vector(bodies[handles[index]].velocity_at_point(vector(p))),
+        };
+        let came_in: Vec<f64> = contacts
+            .iter()
+            .map(|(parties, p, normal)| {
+                let [first, second] = parties.map(|party| speed_before(party, p));
+                normal.dot(&(second - first))
+            })
+            .collect();
+        // how fast each point that came in fast enough is to leave
+        let leaves: Vec<Option<f64>> = contacts
+            .iter()
+            .zip(came_in)
+            .map(|((parties, ..), came_in)| {
+                let [first, second] = parties.map(|party| self.of(party));
+                (came_in < -SLOWEST_M_S).then(|| -came_in * first.max(second))
+            })
+            .collect();
+        if !leaves.iter().flatten().any(|out| *out > 0.0) {
+            return;
+        }
+        let mut velocities = Velocities {
+            free: handles
+                .iter()
+                .map(|handle| {
+                    let body = &bodies[*handle];
+                    (from_vector(body.linvel()), from_vector(body.angvel()))
+                })
+                .collect(),
+            inverse: self
+                .inverse
+                .iter()
+                .zip(handles)
+                .map(|(inverse, handle)| {
+                    let turn = from_engine_pose(bodies[*handle].position()).rotation;
+                    let turn = *turn.matrix();
+                    inverse.map(|(mass, tensor)| (mass, turn * tensor * turn.transpose()))
+                })
+                .collect(),
+            qd: arm.as_ref().map_or_else(Vec::new, |arm| arm.qd.to_vec()),
+        };
+        let mut solve = None;
+        if let Some(arm) = arm.as_ref().filter(|_| robot.loops().is_empty()) {
+            self.arm_after.update(robot, arm.q, arm.qd);
+            let mut mass = DMatrix::zeros(robot.n(), robot.n());
+            Crba::new(robot).fill(robot, arm.q, &mut mass);
+            solve = mass.cholesky();
+        }
+        let end_of = |party: Party, p: &Vector3<f64>, normal: &Vector3<f64>| {
+            let driven = |velocity: Vector3<f64>| End::Driven(normal.dot(&velocity));
+            match (party, &solve) {
+                (Party::Ground, _) => End::Driven(0.0),
+                (Party::Body(index), _) if self.inverse[index].is_some() => {
+                    End::Free(index, p - coms[index])
+                }
+                (Party::Body(index), _) => driven(from_vector(
+                    bodies[handles[index]].velocity_at_point(vector(p)),
+                )),
+                (Party::Link(index), Some(solve)) => match robot.links()[index].attachment.body {
+                    None => End::Driven(0.0),
+                    Some(body) => {
+                        let row = self.row(robot, body, p, normal);
+                        let mut solved = DVector::from_column_slice(&row);
+                        solve.solve_mut(&mut solved);
+                        End::Arm { row, solved }
+                    }
+                },
+                (Party::Link(index), None) => {
+                    let motion = self.arm_before.of(&robot.links()[index].attachment);
+                    driven(motion.at(&(p - motion.placed.position)).velocity)
+                }
+            }
+        };
+        let mut points: Vec<Point> = Vec::new();
+        for (i, (parties, p, normal)) in contacts.iter().enumerate() {
+            let ends = parties.map(|party| end_of(party, p, normal));
+            let softness: f64 = ends
+                .iter()
+                .map(|end| velocities.softness(end, normal))
+                .sum();
+            let now = velocities.along(&ends[1], normal) - velocities.along(&ends[0], normal);
+            if softness > 0.0 {
+                points.push(Point {
+                    parties: *parties,
+                    p: *p,
+                    normal: *normal,
+                    least_m_s: leaves[i].unwrap_or(now.min(0.0)),
+                    ends,
+                    softness,
+                    impulse_n_s: 0.0,
+                });
+            }
+        }
+        for _ in 0..PASSES {
+            let mut changed_m_s = 0.0_f64;
+            for point in &mut points {
+                let [first, second] = &point.ends;
+                let now = velocities.along(second, &point.normal)
+                    - velocities.along(first, &point.normal);
+                let wanted = point.impulse_n_s + (point.least_m_s - now) / point.softness;
+                let change = wanted.max(0.0) - point.impulse_n_s;
+                point.impulse_n_s += change;
+                changed_m_s = changed_m_s.max((change * point.softness).abs());
+                let impulse = point.normal * change;
+                velocities.push(second, &impulse, change);
+                velocities.push(first, &-impulse, -change);
+            }
+            if changed_m_s <= SETTLED_M_S {
+                break;
+            }
+        }
+        for (index, handle) in handles.iter().enumerate() {
+            if self.inverse[index].is_some() {
+                let (v, w) = velocities.free[index];
+                let body = &mut bodies[*handle];
+                let moved = from_vector(body.linvel()) != v || from_vector(body.angvel()) != w;
+                if moved {
+                    body.set_linvel(vector(&v), true);
+                    body.set_angvel(vector(&w), true);
+                }
+            }
+        }
+        if let Some(arm) = &mut arm {
+            arm.qd.copy_from_slice(&velocities.qd);
+        }
+        for point in points.iter().filter(|point| point.impulse_n_s > 0.0) {
+            tell(point, dt_s, facts);
+        }
+    }
+
+    /// `row · qd` is the speed along `normal` of the point `p` of body `body`.
+    fn row(&self, robot: &Robot, body: usize, p: &Vector3<f64>, normal: &Vector3<f64>) -> Vec<f64> {
+        let mut row = vec![0.0; robot.n()];
+        let mut next = Some(body);
+        while let Some(index) = next {
+            let body = &robot.bodies()[index];
+            let placed = &self.arm_after.body(index).placed;
+            let axis = placed.axis();
+            let velocity = if body.turns {
+                axis.cross(&(p - placed.position))
+            } else {
+                axis
+            };
+            row[body.q_index] += body.gear * normal.dot(&velocity);
+            next = body.parent;
+        }
+        row
+    }
+}
+
+/// Every point that presses: the parties in the engine's order, where, and the normal from the first to the second.
+fn pressed(
+    narrow_phase: &NarrowPhase,
+    colliders: &ColliderSet,
+    bodies: &RigidBodySet,
+) -> Vec<([Party; 2], Vector3<f64>, Vector3<f64>)> {
+    let party = |handle: ColliderHandle| {
+        let collider = colliders.get(handle)?;
+        Some(Party::from_user_data(collider.user_data))
+    };
+    let mut points = Vec::new();
+    for pair in narrow_phase.contact_pairs() {
+        let (Some(first), Some(second)) = (party(pair.collider1), party(pair.collider2)) else {
+            continue;
+        };
+        for manifold in pair.solver_manifolds() {
+            let normal = from_vector(manifold.data.normal);
+            for contact in &manifold.data.solver_contacts {
+                let [id] = contact.contact_indices();
+                let presses = manifold
+                    .points
+                    .get(id as usize)
+                    .is_some_and(|point| point.data.impulse > 0.0);
+                if presses {
+                    let (a, b) = manifold.data.solver_contact_world_points(contact, bodies);
+                    points.push(([first, second], from_vector((a + b) * 0.5), normal));
+                }
+            }
+        }
+    }
+    points
+}
+
+/// Adds a bounce to what its pair did in the step.
+fn tell(point: &Point, dt_s: f64, facts: &mut [ContactFact]) {
+    let [first, second] = point.parties;
+    let (parties, sign) = if first > second {
+        ([second, first], -1.0)
+    } else {
+        ([first, second], 1.0)
+    };
+    if let Some(fact) = facts.iter_mut().find(|fact| fact.parties == parties) {
+        let on_second = point.normal * (sign * point.impulse_n_s);
+        fact.impulse_n_s += point.impulse_n_s;
+        fact.normal_impulse_n_s += on_second;
+        fact.moment_impulse_n_m_s += point.p.cross(&on_second);
+        fact.force_n += point.impulse_n_s / dt_s;
+    }
+}
