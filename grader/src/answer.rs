@@ -58,6 +58,40 @@ pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, S
     Ok(branches)
 }
 
+/// A matrix of `rows` rows of `columns` finite numbers each, row by row; a single row may be bare.
+///
+/// # Errors
+/// What was returned instead, in words.
+pub fn matrix(value: &Value, rows: usize, columns: usize) -> Result<Vec<Vec<f64>>, String> {
+    let found: Option<Vec<Vec<f64>>> = match (value, numbers(value)) {
+        (_, Some(bare)) if rows == 1 => Some(vec![bare]),
+        (Value::List(items), _) => items.iter().map(numbers).collect(),
+        _ => None,
+    };
+    let fits =
+        |found: &[Vec<f64>]| found.len() == rows && found.iter().all(|row| row.len() == columns);
+    match found {
+        Some(found) if fits(&found) => {
+            for row in &found {
+                finite(value, row)?;
+            }
+            Ok(found)
+        }
+        found => {
+            let shape = found.as_deref().and_then(|found| {
+                let first = found.first()?.len();
+                let even = found.iter().all(|row| row.len() == first);
+                even.then(|| format!("{} x {first} numbers ", found.len()))
+            });
+            Err(format!(
+                "{}{}, expected {rows} x {columns} numbers (rows x columns)",
+                shape.unwrap_or_default(),
+                describe(value)
+            ))
+        }
+    }
+}
+
 /// A command: `n` finite numbers; one bare number where `n` is 1.
 ///
 /// # Errors
@@ -189,6 +223,28 @@ mod tests {
         assert!(branches(&both, 2, 1).is_err());
         assert!(branches(&list(&[1.0, 2.0, 3.0]), 2, 2).is_err());
         assert!(branches(&Value::Number(1.0), 2, 2).is_err());
+    }
+
+    #[test]
+    fn a_matrix_has_its_rows_and_columns() {
+        let both = Value::List(vec![list(&[1.0, 2.0, 3.0]), list(&[4.0, 5.0, 6.0])]);
+        let rows = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
+        assert_eq!(matrix(&both, 2, 3), Ok(rows));
+        assert_eq!(
+            matrix(&both, 3, 2).unwrap_err(),
+            "2 x 3 numbers [[1, 2, 3], [4, 5, 6]], expected 3 x 2 numbers (rows x columns)"
+        );
+        let uneven = Value::List(vec![list(&[1.0, 2.0]), list(&[4.0])]);
+        assert!(
+            matrix(&uneven, 2, 2)
+                .unwrap_err()
+                .starts_with("[[1, 2], [4]], expected")
+        );
+        assert_eq!(matrix(&list(&[1.0, 2.0]), 1, 2), Ok(vec![vec![1.0, 2.0]]));
+        assert!(matrix(&list(&[1.0, 2.0]), 2, 1).is_err());
+        assert!(matrix(&Value::Nothing, 1, 1).is_err());
+        let nan = Value::List(vec![list(&[1.0, f64::NAN])]);
+        assert!(matrix(&nan, 1, 2).unwrap_err().contains("finite"));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::check::{Answered, CaseError, CaseFacts};
 use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop, Value};
 use crate::grade::LogEntry;
 use crate::grading::Host;
+use crate::jacobian;
 use crate::lab::model::{Case, Function, Given, Lab};
 
 /// After so many calls that used up their budget the submission is not asked again: the reason is known, and each costs time.
@@ -58,7 +59,7 @@ pub fn run<'a>(
         let mut answered = None;
         let mut said = Said::default();
         if exhausted < MOST_EXHAUSTED {
-            match ask(&mut controller, &robot, case, opening, host) {
+            match ask(&mut controller, function, &robot, case, opening, host) {
                 Ok(answer) => {
                     // a loop as long as a hidden number would count it out
                     if case.hidden_class.is_none() {
@@ -109,6 +110,7 @@ pub fn run<'a>(
 
 fn ask(
     controller: &mut Option<Box<dyn Controller>>,
+    function: Function,
     robot: &Robot,
     case: &Case,
     opening: &Opening,
@@ -120,6 +122,10 @@ fn ask(
     };
     let robot = robot_facts(robot, None);
     open.call(&match &case.given {
+        Given::Q(q) if matches!(function, Function::Jacobian(_)) => Call::Jacobian {
+            robot,
+            q: q.clone(),
+        },
         Given::Q(q) => Call::ForwardKinematics {
             robot,
             q: q.clone(),
@@ -138,14 +144,27 @@ fn measure<'a>(
     robot: Robot,
     value: Option<&Value>,
 ) -> CaseFacts<'a> {
-    let (answer, error) = match &case.given {
-        Given::Q(q) => {
+    let invalid = |what: String| Answered::Invalid(format!("{} returned {what}", function.name()));
+    let (answer, error) = match (&case.given, function) {
+        (Given::Q(q), Function::Jacobian(rows)) => {
+            // a case's positions were counted when the lab was loaded
+            let truth = jacobian::jacobian_in(&robot, &lab.frame, q, rows).unwrap_or_default();
+            let answer = match value.map(|value| answer::matrix(value, truth.len(), robot.n())) {
+                None => Answered::Stopped,
+                Some(Ok(matrix)) => Answered::Matrix(matrix),
+                Some(Err(what)) => invalid(what),
+            };
+            let relative = match &answer {
+                Answered::Matrix(matrix) => jacobian::relative_distance(matrix, &truth),
+                _ => f64::INFINITY,
+            };
+            (answer, CaseError::Jacobian { relative, truth })
+        }
+        (Given::Q(q), _) => {
             let answer = match value.map(answer::position) {
                 None => Answered::Stopped,
                 Some(Ok(position)) => Answered::Position(position),
-                Some(Err(what)) => {
-                    Answered::Invalid(format!("{} returned {what}", function.name()))
-                }
+                Some(Err(what)) => invalid(what),
             };
             let error_m = match (&answer, tcp_in_lab(lab, &robot, q)) {
                 (Answered::Position(position), Some(truth)) => (position - truth).norm(),
@@ -153,17 +172,18 @@ fn measure<'a>(
             };
             (answer, CaseError::Position(error_m))
         }
-        Given::Position {
-            position_m,
-            branches,
-        } => {
+        (
+            Given::Position {
+                position_m,
+                branches,
+            },
+            _,
+        ) => {
             let most = (*branches).max(2) as usize;
             let answer = match value.map(|value| distinct_branches(value, &robot, most)) {
                 None => Answered::Stopped,
                 Some(Ok(branches)) => Answered::Branches(branches),
-                Some(Err(what)) => {
-                    Answered::Invalid(format!("{} returned {what}", function.name()))
-                }
+                Some(Err(what)) => invalid(what),
             };
             let error = if *branches == 0 {
                 CaseError::Unreachable {

@@ -160,6 +160,13 @@ pub enum Call {
         /// Position of the TCP in the lab's frame \[m\].
         position_m: [f64; 3],
     },
+    /// `jacobian(robot, q)`.
+    Jacobian {
+        /// The robot of the case.
+        robot: RobotFacts,
+        /// Joint positions \[rad or m\].
+        q: Vec<f64>,
+    },
     /// `init(robot, task)`, once before the first `Control`; a submission without `init` answers nothing.
     Init,
     /// `control(observation)`.

@@ -7,6 +7,7 @@ use crate::check::ik_branches::same_branch;
 use crate::check::stay::{Stay, best_stays};
 use crate::check::{Answered, CaseError, CaseFacts};
 use crate::grade::Diagnosis;
+use crate::jacobian;
 use crate::lab::model::{Band, MotionTask};
 use crate::lab::staff::Mutant;
 use kinemark_sim::trace::Trace;
@@ -14,7 +15,7 @@ use nalgebra::Vector3;
 
 /// Fewer answers that would show a mistake could agree by chance.
 const LEAST_TELLING: usize = 3;
-/// Positions of one formula written in two ways differ by rounding only \[m\].
+/// Positions, and Jacobians, of one formula written in two ways differ by rounding only \[m\].
 const SAME_POSITION_M: f64 = 1e-6;
 
 /// What one mutant says about the answers.
@@ -82,6 +83,7 @@ fn is_wrong(facts: &CaseFacts<'_>, band: Band) -> bool {
             branches_m.is_empty() || branches_m.iter().any(|error_m| band.score(*error_m) <= 0.0)
         }
         CaseError::Unreachable { said_so } => !said_so,
+        CaseError::Jacobian { relative, .. } => band.score(*relative) <= 0.0,
     }
 }
 
@@ -94,6 +96,9 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
         (Answered::Branches(a), Answered::Branches(b)) => {
             let found = |q: &Vec<f64>| b.iter().any(|other| close(student, q, other));
             a.is_empty() == b.is_empty() && a.iter().all(found)
+        }
+        (Answered::Matrix(a), Answered::Matrix(b)) => {
+            jacobian::distance(a, b) <= SAME_POSITION_M * (1.0 + jacobian::norm(b))
         }
         // "not a number" where the mistake gives none either
         (Answered::Invalid(_), Answered::Invalid(_)) => true,

@@ -275,6 +275,9 @@ pub struct CaseGrade {
     pub expected: Option<String>,
     /// Error of the answer \[m\]; absent where there is none or it is not finite.
     pub error_m: Option<f64>,
+    /// Of a Jacobian: distance from the true one as a fraction of its norm; absent where it is not finite.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative_error: Option<f64>,
     /// Whether the answer is within the band's `full`.
     pub good: bool,
 }

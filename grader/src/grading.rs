@@ -17,7 +17,7 @@ use crate::lab::model::{
 };
 use crate::lab::{LabRobot, Staff, staff::Mutant};
 use crate::motion::{self, EarlyEnd, MotionRun};
-use crate::quantity::list;
+use crate::quantity::{list, lists};
 use crate::stopped;
 use crate::submission::ScriptController;
 use crate::verdict::Verdict;
@@ -212,7 +212,10 @@ impl Grader<'_> {
                 facts.told(),
                 "an answer of the wrong shape, or not finite, in a hidden case".to_owned(),
             )),
-            Answered::Position(_) | Answered::Branches(_) | Answered::Stopped => None,
+            Answered::Position(_)
+            | Answered::Branches(_)
+            | Answered::Matrix(_)
+            | Answered::Stopped => None,
         });
         let invalid = invalid.map(|(case, what)| (case.to_owned(), what));
         if let (Some((case, what)), None) = (invalid, &stopped_record) {
@@ -533,10 +536,12 @@ fn judged(
     grades
 }
 
-/// The band of distances by which a function task's single answers are called good or wrong.
+/// The band of distances, or of relative ones, by which a function task's single answers are called good or wrong.
 fn good_bands(checks: &[Check]) -> Band {
     let found = checks.iter().find_map(|check| match &check.kind {
-        CheckKind::FkError(band) | CheckKind::IkReach(band) => Some(*band),
+        CheckKind::FkError(band) | CheckKind::IkReach(band) | CheckKind::JacobianMatch(band) => {
+            Some(*band)
+        }
         _ => None,
     });
     found.unwrap_or(Band {
@@ -564,17 +569,19 @@ fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
             .first()
             .is_some_and(|error_m| *error_m <= band.full),
         CaseError::Unreachable { said_so } => *said_so,
+        CaseError::Jacobian { relative, .. } => *relative <= band.full,
     }
 }
 
 fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
     let (given, expected) = match &facts.case.given {
         Given::Q(q) => {
-            let truth = cases::tcp_in_lab(lab, &facts.robot, q);
-            (
-                format!("q = {} rad", list(q)),
-                truth.map(|p| format!("{} m", list(p.as_slice()))),
-            )
+            let truth = match &facts.error {
+                CaseError::Jacobian { truth, .. } => Some(lists(truth)),
+                _ => cases::tcp_in_lab(lab, &facts.robot, q)
+                    .map(|p| format!("{} m", list(p.as_slice()))),
+            };
+            (format!("q = {} rad", list(q)), truth)
         }
         Given::Position {
             position_m,
@@ -595,22 +602,24 @@ fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
     let error_m = match &facts.error {
         CaseError::Position(error_m) => Some(*error_m),
         CaseError::Reach { branches_m, .. } => branches_m.first().copied(),
-        CaseError::Unreachable { .. } => None,
+        CaseError::Unreachable { .. } | CaseError::Jacobian { .. } => None,
+    };
+    let relative_error = match &facts.error {
+        CaseError::Jacobian { relative, .. } => Some(*relative),
+        _ => None,
     };
     CaseGrade {
         name: facts.case.name.clone(),
         given: given + changed.collect::<String>().as_str(),
         answer: match &facts.answer {
             Answered::Position(p) => format!("{} m", list(p.as_slice())),
-            Answered::Branches(branches) => {
-                let texts: Vec<String> = branches.iter().map(|q| list(q)).collect();
-                format!("[{}]", texts.join(", "))
-            }
+            Answered::Branches(rows) | Answered::Matrix(rows) => lists(rows),
             Answered::Invalid(what) => what.clone(),
             Answered::Stopped => "no answer".to_owned(),
         },
         expected,
         error_m: error_m.filter(|error_m| error_m.is_finite()),
+        relative_error: relative_error.filter(|relative| relative.is_finite()),
         good: is_good(facts, band),
     }
 }

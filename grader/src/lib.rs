@@ -8,6 +8,7 @@
 //! | [`submission`] | the script host |
 //! | [`grading`] | the way from lab and submission to a graded run |
 //! | [`cases`], [`motion`] | a function task, a motion task |
+//! | [`jacobian`] | the Jacobian that answers are held against |
 //! | [`check`] | one file per check |
 //! | [`diagnose`] | known mistakes, recognised |
 //! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
@@ -32,6 +33,7 @@ pub mod event_words;
 pub mod grade;
 pub mod graded;
 pub mod grading;
+pub mod jacobian;
 pub mod lab;
 #[cfg(not(target_family = "wasm"))]
 pub mod log;

@@ -29,6 +29,8 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         "m" => metres(value),
         "s" => seconds(value),
+        "" if value != 0.0 && value.abs() < 1e-6 => "under 0.0001 %".to_owned(),
+        "" if value.abs() < 1e-3 => format!("{} %", significant(value * 100.0, 2)),
         "" => format!("{} %", trimmed(value * 100.0, 1)),
         unit if value != 0.0 && value.abs() < 5e-5 => format!("under 0.0001 {unit}"),
         unit => format!("{} {unit}", trimmed(value, 4)),
@@ -72,6 +74,12 @@ pub fn list(values: &[f64]) -> String {
     format!("[{}]", texts.join(", "))
 }
 
+/// A list of lists, as [`list`] writes each.
+pub fn lists(rows: &[Vec<f64>]) -> String {
+    let texts: Vec<String> = rows.iter().map(|row| list(row)).collect();
+    format!("[{}]", texts.join(", "))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,6 +98,9 @@ mod tests {
         }
         assert_eq!(seconds(2.35), "2.35 s");
         assert_eq!(with_unit(0.25, ""), "25 %");
+        assert_eq!(with_unit(1e-4, ""), "0.01 %");
+        assert_eq!(with_unit(3e-16, ""), "under 0.0001 %");
+        assert_eq!(with_unit(0.0, ""), "0 %");
         assert_eq!(with_unit(4.3e-5, "rad"), "under 0.0001 rad");
         assert_eq!(points(3.0), "3");
         assert_eq!(trimmed(-0.00001, 3), "0");

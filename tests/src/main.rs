@@ -14,6 +14,7 @@ mod eval_golden;
 mod eval_operations;
 mod grade;
 mod hostile;
+mod jacobian_task;
 mod lab_audit;
 mod mesh_labs;
 mod robot_docs;

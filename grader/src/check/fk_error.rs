@@ -10,7 +10,9 @@ use crate::quantity::metres;
 pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
     let error = |facts: &CaseFacts<'_>| match facts.error {
         CaseError::Position(error_m) => error_m,
-        CaseError::Reach { .. } | CaseError::Unreachable { .. } => f64::INFINITY,
+        CaseError::Reach { .. } | CaseError::Unreachable { .. } | CaseError::Jacobian { .. } => {
+            f64::INFINITY
+        }
     };
     let mean = cases.iter().map(error).sum::<f64>() / cases.len() as f64;
     let score = band.score(mean);
@@ -22,7 +24,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
                 let message = match &facts.answer {
                     Answered::Invalid(what) => format!("{}: {what}", facts.told()),
                     Answered::Stopped => format!("{}: no answer", facts.told()),
-                    Answered::Position(_) | Answered::Branches(_) => {
+                    Answered::Position(_) | Answered::Branches(_) | Answered::Matrix(_) => {
                         format!(
                             "{}: {} from the true position",
                             facts.told(),

@@ -28,7 +28,10 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
         judged.push(facts);
         let distinct = match &facts.answer {
             Answered::Branches(branches) => count_distinct(&facts.robot, branches),
-            Answered::Position(_) | Answered::Invalid(_) | Answered::Stopped => 0,
+            Answered::Position(_)
+            | Answered::Matrix(_)
+            | Answered::Invalid(_)
+            | Answered::Stopped => 0,
         };
         let complete = distinct >= *expected as usize;
         let worst = if complete {

@@ -27,7 +27,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
                 Answered::Branches(branches) if branches.is_empty() => {
                     format!("{}: said to be out of reach, but it is not", facts.told())
                 }
-                Answered::Branches(_) | Answered::Position(_) => format!(
+                Answered::Branches(_) | Answered::Position(_) | Answered::Matrix(_) => format!(
                     "{}: the arm ends {} from the target",
                     facts.told(),
                     metres(nearest)

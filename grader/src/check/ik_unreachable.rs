@@ -21,7 +21,7 @@ pub fn judge(cases: &[CaseFacts<'_>], function: Function) -> Finding {
         let message = match &facts.answer {
             Answered::Invalid(what) => format!("{}: {what}", facts.told()),
             Answered::Stopped => format!("{}: no answer", facts.told()),
-            Answered::Branches(_) | Answered::Position(_) => {
+            Answered::Branches(_) | Answered::Position(_) | Answered::Matrix(_) => {
                 format!(
                     "{}: angles for a target no arm of these lengths reaches",
                     facts.told()

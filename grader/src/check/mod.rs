@@ -6,6 +6,7 @@ pub mod fk_error;
 pub mod ik_branches;
 pub mod ik_reach;
 pub mod ik_unreachable;
+pub mod jacobian_match;
 pub mod joint_limits;
 pub mod joint_reached;
 pub mod overshoot;
@@ -113,6 +114,8 @@ pub enum Answered {
     Position(Vector3<f64>),
     /// Joint positions of every branch \[rad or m\].
     Branches(Vec<Vec<f64>>),
+    /// A matrix, row by row.
+    Matrix(Vec<Vec<f64>>),
     /// Something of the wrong shape or not finite; in words.
     Invalid(String),
     /// Nothing: the submission was stopped in this case, or before.
@@ -135,6 +138,14 @@ pub enum CaseError {
     Unreachable {
         /// It answered with an empty list.
         said_so: bool,
+    },
+    /// Of a Jacobian.
+    Jacobian {
+        /// Frobenius norm of its difference from the true one, as a fraction of that one's norm; infinite where there is no
+        /// valid answer.
+        relative: f64,
+        /// The true one, row by row.
+        truth: Vec<Vec<f64>>,
     },
 }
 
@@ -160,7 +171,8 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
-        | CheckKind::IkUnreachable => foreign(),
+        | CheckKind::IkUnreachable
+        | CheckKind::JacobianMatch(_) => foreign(),
     }
 }
 
@@ -171,6 +183,7 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         CheckKind::IkReach(band) => ik_reach::judge(cases, *band, function),
         CheckKind::IkBranches(band) => ik_branches::judge(cases, *band, function),
         CheckKind::IkUnreachable => ik_unreachable::judge(cases, function),
+        CheckKind::JacobianMatch(band) => jacobian_match::judge(cases, *band, function),
         CheckKind::JointReached { .. }
         | CheckKind::PoseReached(_)
         | CheckKind::FinishTime(_)

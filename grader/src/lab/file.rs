@@ -47,6 +47,7 @@ pub(super) struct TaskTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct FunctionTable {
     pub(super) call: Spanned<FunctionName>,
+    pub(super) rows: Option<Spanned<Vec<String>>>,
     #[serde(default)]
     pub(super) cases: Vec<Spanned<CaseTable>>,
 }
@@ -56,6 +57,7 @@ pub(super) struct FunctionTable {
 pub(super) enum FunctionName {
     ForwardKinematics,
     InverseKinematics,
+    Jacobian,
 }
 
 #[derive(Debug, Deserialize)]
@@ -159,6 +161,8 @@ pub(super) struct CheckTable {
     pub(super) ik_branches: Option<Spanned<BandM>>,
     #[serde(rename = "ik-unreachable")]
     pub(super) ik_unreachable: Option<Nothing>,
+    #[serde(rename = "jacobian-match")]
+    pub(super) jacobian_match: Option<Spanned<BandRatio>>,
     #[serde(rename = "pose-reached")]
     pub(super) pose_reached: Option<Spanned<BandM>>,
     #[serde(rename = "finish-time")]

@@ -18,7 +18,7 @@ use super::file::{
 };
 use super::files::Files;
 use super::model::{
-    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Task, TaskWork,
+    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task, TaskWork,
 };
 use super::problem::{LabError, LabProblem, LoadError};
 use super::robot::{LabRobot, robot_names};
@@ -443,7 +443,19 @@ impl Reader<'_> {
         let function = match table.call.get_ref() {
             FunctionName::ForwardKinematics => Function::ForwardKinematics,
             FunctionName::InverseKinematics => Function::InverseKinematics,
+            FunctionName::Jacobian => Function::Jacobian(self.rows(table.rows.as_ref())?),
         };
+        if let (Some(rows), FunctionName::ForwardKinematics | FunctionName::InverseKinematics) =
+            (&table.rows, table.call.get_ref())
+        {
+            return self.report.err(
+                rows.span(),
+                "lab::rows",
+                format!("`{}` has no `rows`", function.name()),
+                "rows of what?",
+                Some("`rows` are those of `jacobian`: remove them here".to_owned()),
+            );
+        }
         if table.cases.is_empty() {
             return self.report.err(
                 table.call.span(),
@@ -462,6 +474,26 @@ impl Reader<'_> {
             function,
             cases: cases?,
         })
+    }
+
+    /// The rows of a Jacobian: the linear ones where none are named.
+    fn rows(&self, typed: Option<&Spanned<Vec<String>>>) -> Result<Rows, LabError> {
+        let Some(typed) = typed else {
+            return Ok(Rows::LINEAR);
+        };
+        match Rows::named(typed.get_ref().iter().map(String::as_str)) {
+            Some(rows) => Ok(rows),
+            None => self.report.err(
+                typed.span(),
+                "lab::rows",
+                format!(
+                    "`rows` names some of {}, each once and in this order",
+                    Rows::NAMES.join(", ")
+                ),
+                "not such rows",
+                Some("write `rows = [\"x\", \"y\"]` for motion in a plane".to_owned()),
+            ),
+        }
     }
 
     fn case(&self, function: Function, table: &Spanned<CaseTable>) -> Result<Case, LabError> {
@@ -486,7 +518,7 @@ impl Reader<'_> {
             );
         }
         let given = match (function, &case.q_rad, case.position_m) {
-            (Function::ForwardKinematics, Some(q), None) => {
+            (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => {
                 self.counted(q, "q_rad")?;
                 Given::Q(q.get_ref().clone())
             }
@@ -498,7 +530,7 @@ impl Reader<'_> {
             },
             _ => {
                 let wanted = match function {
-                    Function::ForwardKinematics => "`q_rad`",
+                    Function::ForwardKinematics | Function::Jacobian(_) => "`q_rad`",
                     Function::InverseKinematics => "`position_m`",
                 };
                 return self.report.err(

@@ -88,6 +88,8 @@ pub enum Function {
     ForwardKinematics,
     /// `inverse_kinematics(robot, position)`.
     InverseKinematics,
+    /// `jacobian(robot, q)`, a matrix of these rows and one column per joint that moves.
+    Jacobian(Rows),
 }
 
 impl Function {
@@ -96,7 +98,41 @@ impl Function {
         match self {
             Self::ForwardKinematics => "forward_kinematics",
             Self::InverseKinematics => "inverse_kinematics",
+            Self::Jacobian(_) => "jacobian",
         }
+    }
+}
+
+/// The rows of a Jacobian that a lab asks for, always in the order of [`Rows::NAMES`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rows([bool; 6]);
+
+impl Rows {
+    /// The rows there are: velocity of the TCP along the lab's axes \[m/s\], then its angular velocity about them \[rad/s\].
+    pub const NAMES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+    /// The velocity of the TCP's origin alone.
+    pub const LINEAR: Self = Self([true, true, true, false, false, false]);
+
+    /// The rows of these names; `None` unless each is a row, named once, in order.
+    pub fn named<'n>(names: impl IntoIterator<Item = &'n str>) -> Option<Self> {
+        let mut rows = [false; 6];
+        let mut next = 0;
+        for name in names {
+            let row = next + Self::NAMES[next..].iter().position(|row| *row == name)?;
+            rows[row] = true;
+            next = row + 1;
+        }
+        (next > 0).then_some(Self(rows))
+    }
+
+    /// Their indices among the six.
+    pub fn indices(self) -> impl Iterator<Item = usize> {
+        (0..6).filter(move |&row| self.0[row])
+    }
+
+    /// Their names.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        self.indices().map(|row| Self::NAMES[row])
     }
 }
 
@@ -229,6 +265,8 @@ pub enum CheckKind {
     IkBranches(Band),
     /// `[]` where no branch reaches.
     IkUnreachable,
+    /// Mean relative distance of the answered Jacobian.
+    JacobianMatch(Band),
     /// Distance from each goal during its dwell \[m\].
     PoseReached(Band),
     /// The end of the last dwell \[s\].
@@ -259,6 +297,7 @@ impl CheckKind {
             Self::IkReach(_) => "ik-reach",
             Self::IkBranches(_) => "ik-branches",
             Self::IkUnreachable => "ik-unreachable",
+            Self::JacobianMatch(_) => "jacobian-match",
             Self::PoseReached(_) => "pose-reached",
             Self::FinishTime(_) => "finish-time",
             Self::Overshoot(_) => "overshoot",
@@ -278,7 +317,7 @@ impl CheckKind {
             | Self::PoseReached(band)
             | Self::TrajectoryMatch { band, .. } => Some((*band, "m")),
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
-            Self::Overshoot(band) => Some((*band, "")),
+            Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
             Self::IkUnreachable => None,
         }
     }
@@ -309,6 +348,18 @@ mod tests {
         assert_eq!(band.score(f64::NAN), 0.0);
         assert_eq!(band.score(f64::INFINITY), 0.0);
         assert_eq!(band.score(f64::NEG_INFINITY), 1.0);
+    }
+
+    #[test]
+    fn rows_are_named_once_and_in_order() {
+        let named = |names: &[&str]| Rows::named(names.iter().copied());
+        let rows = named(&["x", "y", "rz"]).unwrap();
+        assert_eq!(rows.indices().collect::<Vec<_>>(), [0, 1, 5]);
+        assert_eq!(rows.names().collect::<Vec<_>>(), ["x", "y", "rz"]);
+        assert_eq!(named(&["x", "y", "z"]), Some(Rows::LINEAR));
+        for wrong in [&[][..], &["y", "x"], &["x", "x"], &["w"], &["rz", "rz"]] {
+            assert_eq!(named(wrong), None, "{wrong:?}");
+        }
     }
 
     #[test]

@@ -197,7 +197,7 @@ fn checked(
         None => None,
     };
     let what = match (task.function, q_ranges, table.position_m) {
-        (Function::ForwardKinematics, Some(q), None) => Drawn::Q(q),
+        (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => Drawn::Q(q),
         (Function::InverseKinematics, Some(q), None) => {
             Drawn::PositionOf(q, table.branches.unwrap_or(2))
         }

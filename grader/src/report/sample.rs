@@ -398,6 +398,7 @@ fn fk() -> TaskGrade {
         answer: answer.to_owned(),
         expected: expected.map(str::to_owned),
         error_m,
+        relative_error: None,
         good,
     };
     fk.cases = vec![

@@ -34,6 +34,7 @@ const GRANTED: [&str; 4] = ["fk", "jacobian", "gravity", "mass_matrix"];
 pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
     ("forward_kinematics", &["robot", "q"]),
     ("inverse_kinematics", &["robot", "position"]),
+    ("jacobian", &["robot", "q"]),
     ("init", &["robot", "task"]),
     ("control", &["observation"]),
 ];

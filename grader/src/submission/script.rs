@@ -264,6 +264,7 @@ impl Controller for ScriptController {
         let name = match call {
             Call::ForwardKinematics { .. } => "forward_kinematics",
             Call::InverseKinematics { .. } => "inverse_kinematics",
+            Call::Jacobian { .. } => "jacobian",
             Call::Init => "init",
             Call::Control(_) => "control",
         };
@@ -275,7 +276,7 @@ impl Controller for ScriptController {
         let vector =
             |elements: &[f64]| Dynamic::from(super::vector::Vector::new(elements.to_vec()));
         let value = match call {
-            Call::ForwardKinematics { robot, q } => {
+            Call::ForwardKinematics { robot, q } | Call::Jacobian { robot, q } => {
                 let robot = self.robot.of(robot);
                 self.call_function(name, [robot, vector(q)])
             }
@@ -418,7 +419,7 @@ fn collect_names(ast: &AST, names: &mut Names) {
             ("control", Some(first)) => {
                 names.observation_parameters.insert(first.clone());
             }
-            ("forward_kinematics" | "inverse_kinematics" | "init", Some(first)) => {
+            ("forward_kinematics" | "inverse_kinematics" | "jacobian" | "init", Some(first)) => {
                 names.robot_parameters.insert(first.clone());
             }
             _ => {}

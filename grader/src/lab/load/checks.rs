@@ -172,6 +172,14 @@ impl Reader<'_> {
         if table.ik_unreachable.is_some() {
             kinds.push(CheckKind::IkUnreachable);
         }
+        if let Some(band) = &table.jacobian_match {
+            let ratio = band.get_ref();
+            kinds.push(CheckKind::JacobianMatch(self.band(
+                ratio.full,
+                ratio.zero,
+                band.span(),
+            )?));
+        }
         if let Some(band) = &table.pose_reached {
             kinds.push(CheckKind::PoseReached(metres(band)?));
         }
@@ -259,6 +267,11 @@ impl Reader<'_> {
                 CheckKind::IkReach(_) | CheckKind::IkBranches(_) | CheckKind::IkUnreachable,
                 TaskWork::Function(task),
             ) if task.function == Function::InverseKinematics => return Ok(()),
+            (CheckKind::JacobianMatch(_), TaskWork::Function(task))
+                if matches!(task.function, Function::Jacobian(_)) =>
+            {
+                return Ok(());
+            }
             (
                 CheckKind::PoseReached(_)
                 | CheckKind::FinishTime(_)
@@ -281,6 +294,7 @@ impl Reader<'_> {
             (CheckKind::IkReach(_) | CheckKind::IkBranches(_) | CheckKind::IkUnreachable, _) => {
                 "a function task of `inverse_kinematics`"
             }
+            (CheckKind::JacobianMatch(_), _) => "a function task of `jacobian`",
             (_, TaskWork::Function(_)) => "a motion task",
         };
         self.report.err(

@@ -180,7 +180,7 @@ fn cases(cases: &[CaseGrade]) -> Markup {
                             td { code { (foreign(&shortened(&case.given, 300))) } }
                             td { code { (foreign(&shortened(&case.answer, 300))) } }
                             @if tells { td { @if let Some(expected) = &case.expected { code { (foreign(&shortened(expected, 300))) } } } }
-                            td class="number" { @match case.error_m { Some(error_m) => (with_unit(error_m, "m")), None => "–" } }
+                            td class="number" { @match (case.error_m, case.relative_error) { (Some(error_m), _) => (with_unit(error_m, "m")), (_, Some(relative)) => (with_unit(relative, "")), _ => "–" } }
                             td { @if case.good { span class="pill full" { "yes" } } @else { span class="pill none" { "no" } } }
                         }
                     }
