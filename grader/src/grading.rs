@@ -338,6 +338,7 @@ impl Grader<'_> {
         let reference = self.reference_path(&task.name);
         let facts = MotionFacts {
             robot: &self.lab.robot,
+            names,
             motion: work,
             trace: &trace,
             stays: stay::best_stays(&trace, &work.goals, band),

@@ -1,5 +1,6 @@
 //! The checks, one file each: what is measured, the band it is held against, and the evidence where points are lost.
 
+pub mod body_falls;
 pub mod effort_saturation;
 pub mod finish_time;
 pub mod fk_error;
@@ -18,6 +19,7 @@ use kinemark_sim::robot::Robot;
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 
+use crate::event_words::Names;
 use crate::grade::{Evidence, Measure};
 use crate::graded::{Curve, TcpPath};
 use crate::lab::model::{Band, Case, Check, CheckKind, Function, MotionTask};
@@ -43,6 +45,8 @@ pub struct Finding {
 pub struct MotionFacts<'a> {
     /// The robot that moved.
     pub robot: &'a Robot,
+    /// Its names, and those of what was around it.
+    pub names: Names<'a>,
     /// What was asked for.
     pub motion: &'a MotionTask,
     /// What was recorded.
@@ -168,6 +172,7 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             max_shift_ticks,
             band,
         } => trajectory_match::judge(facts, *span, *max_shift_ticks, *band),
+        CheckKind::BodyFalls(fall) => body_falls::judge(facts, fall),
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -190,7 +195,8 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::Overshoot(_)
         | CheckKind::EffortSaturation(_)
         | CheckKind::JointLimits(_)
-        | CheckKind::TrajectoryMatch { .. } => foreign(),
+        | CheckKind::TrajectoryMatch { .. }
+        | CheckKind::BodyFalls(_) => foreign(),
     }
 }
 

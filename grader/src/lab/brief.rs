@@ -34,6 +34,17 @@ fn table(lab: &Lab) -> String {
                     format!("every target within {}", with_unit(band.full, "m")),
                     format!("every target {} off", with_unit(band.zero, "m")),
                 ),
+                (CheckKind::BodyFalls(fall), _) => (
+                    fall.side.map_or_else(
+                        || "it falls".to_owned(),
+                        |side| format!("it falls over the {} side", side.name()),
+                    ),
+                    format!(
+                        "it stays ({} if it topples, {} if it moves)",
+                        with_unit(fall.toppled, ""),
+                        with_unit(fall.moved, "")
+                    ),
+                ),
                 (_, Some((band, unit))) => (
                     format!("up to {}", with_unit(band.full, unit)),
                     format!("from {}", with_unit(band.zero, unit)),

@@ -174,6 +174,8 @@ pub(super) struct CheckTable {
     pub(super) joint_limits: Option<Spanned<BandRad>>,
     #[serde(rename = "trajectory-match")]
     pub(super) trajectory_match: Option<Spanned<TrajectoryMatchTable>>,
+    #[serde(rename = "body-falls")]
+    pub(super) body_falls: Option<Spanned<BodyFallsTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -233,6 +235,25 @@ pub(super) struct TrajectoryMatchTable {
 pub(super) enum SpanName {
     Dwells,
     Run,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BodyFallsTable {
+    pub(super) body: Spanned<String>,
+    pub(super) side: Option<SideName>,
+    pub(super) toppled: Option<f64>,
+    pub(super) moved: Option<f64>,
+}
+
+/// A side of what a body stands on, seen from the robot's base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SideName {
+    Far,
+    Near,
+    Left,
+    Right,
 }
 
 /// `hidden.toml` in the staff's folder.

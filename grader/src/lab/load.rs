@@ -3,6 +3,7 @@
 
 mod checks;
 mod motion;
+mod run_checks;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

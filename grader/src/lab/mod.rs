@@ -12,6 +12,7 @@ pub mod problem;
 pub mod robot;
 pub mod scene;
 pub mod staff;
+pub mod watched;
 
 pub use files::Files;
 pub use mesh_file::MeshFile;

@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
+use super::watched::Fall;
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -286,6 +287,8 @@ pub enum CheckKind {
         /// Root mean square distance \[m\].
         band: Band,
     },
+    /// A body falls off what it stood on.
+    BodyFalls(Fall),
 }
 
 impl CheckKind {
@@ -304,6 +307,7 @@ impl CheckKind {
             Self::EffortSaturation(_) => "effort-saturation",
             Self::JointLimits(_) => "joint-limits",
             Self::TrajectoryMatch { .. } => "trajectory-match",
+            Self::BodyFalls(_) => "body-falls",
         }
     }
 
@@ -318,7 +322,7 @@ impl CheckKind {
             | Self::TrajectoryMatch { band, .. } => Some((*band, "m")),
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
             Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
-            Self::IkUnreachable => None,
+            Self::IkUnreachable | Self::BodyFalls(_) => None,
         }
     }
 }

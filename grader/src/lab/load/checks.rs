@@ -247,6 +247,9 @@ impl Reader<'_> {
                 band: self.band(t.full_m, t.zero_m, table.span())?,
             });
         }
+        if let Some(table) = &table.body_falls {
+            kinds.push(self.body_falls(table, work)?);
+        }
         Ok(kinds)
     }
 
@@ -287,7 +290,8 @@ impl Reader<'_> {
             (
                 CheckKind::JointReached { .. }
                 | CheckKind::EffortSaturation(_)
-                | CheckKind::JointLimits(_),
+                | CheckKind::JointLimits(_)
+                | CheckKind::BodyFalls(_),
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

@@ -1,0 +1,59 @@
+//! What checks of a run in a scene look at: a body's fall, two that touch.
+
+use kinemark_sim::engine::Party;
+use kinemark_sim::event::SeenSide;
+
+use crate::event_words::Names;
+
+/// How a free body is to fall, and what less than that is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fall {
+    /// Index of the body in the scene.
+    pub body: usize,
+    /// The side it is to fall over; any where there is none.
+    pub side: Option<SeenSide>,
+    /// Share of the points where it toppled, or fell otherwise.
+    pub toppled: f64,
+    /// Share of the points where it only moved.
+    pub moved: f64,
+}
+
+/// One of two that touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TouchingParty {
+    /// Any link of the robot.
+    Arm,
+    /// A link, by its index among the robot's.
+    Link(usize),
+    /// A body, by its index in the scene.
+    Body(usize),
+    /// The ground.
+    Ground,
+}
+
+impl TouchingParty {
+    fn is(self, party: Party) -> bool {
+        match (self, party) {
+            (Self::Arm, Party::Link(_)) | (Self::Ground, Party::Ground) => true,
+            (Self::Link(wanted), Party::Link(index)) | (Self::Body(wanted), Party::Body(index)) => {
+                wanted == index
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether these two are the parties of a contact, in either order.
+    pub fn meets(self, other: Self, [first, second]: [Party; 2]) -> bool {
+        (self.is(first) && other.is(second)) || (self.is(second) && other.is(first))
+    }
+
+    /// Its name, as it stands in a sentence.
+    pub fn told(self, names: &Names<'_>) -> String {
+        match self {
+            Self::Arm => "the arm".to_owned(),
+            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
+            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
+            Self::Ground => "the ground".to_owned(),
+        }
+    }
+}
