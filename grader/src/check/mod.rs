@@ -1,6 +1,7 @@
 //! The checks, one file each: what is measured, the band it is held against, and the evidence where points are lost.
 
 pub mod body_falls;
+pub mod contact_impulse;
 pub mod effort_saturation;
 pub mod finish_time;
 pub mod fk_error;
@@ -173,6 +174,9 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             band,
         } => trajectory_match::judge(facts, *span, *max_shift_ticks, *band),
         CheckKind::BodyFalls(fall) => body_falls::judge(facts, fall),
+        CheckKind::ContactImpulse { between, band } => {
+            contact_impulse::judge(facts, *between, *band, &check.name)
+        }
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -196,7 +200,8 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::EffortSaturation(_)
         | CheckKind::JointLimits(_)
         | CheckKind::TrajectoryMatch { .. }
-        | CheckKind::BodyFalls(_) => foreign(),
+        | CheckKind::BodyFalls(_)
+        | CheckKind::ContactImpulse { .. } => foreign(),
     }
 }
 

@@ -176,6 +176,8 @@ pub(super) struct CheckTable {
     pub(super) trajectory_match: Option<Spanned<TrajectoryMatchTable>>,
     #[serde(rename = "body-falls")]
     pub(super) body_falls: Option<Spanned<BodyFallsTable>>,
+    #[serde(rename = "contact-impulse")]
+    pub(super) contact_impulse: Option<Spanned<ContactImpulseTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -254,6 +256,14 @@ pub(super) enum SideName {
     Near,
     Left,
     Right,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ContactImpulseTable {
+    pub(super) between: [Spanned<String>; 2],
+    pub(super) full_n_s: f64,
+    pub(super) zero_n_s: f64,
 }
 
 /// `hidden.toml` in the staff's folder.

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
-use super::watched::Fall;
+use super::watched::{Fall, TouchingParty};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -289,6 +289,13 @@ pub enum CheckKind {
     },
     /// A body falls off what it stood on.
     BodyFalls(Fall),
+    /// How hard and how long two press on each other.
+    ContactImpulse {
+        /// The two.
+        between: [TouchingParty; 2],
+        /// Impulse \[N s\].
+        band: Band,
+    },
 }
 
 impl CheckKind {
@@ -308,6 +315,7 @@ impl CheckKind {
             Self::JointLimits(_) => "joint-limits",
             Self::TrajectoryMatch { .. } => "trajectory-match",
             Self::BodyFalls(_) => "body-falls",
+            Self::ContactImpulse { .. } => "contact-impulse",
         }
     }
 
@@ -322,6 +330,7 @@ impl CheckKind {
             | Self::TrajectoryMatch { band, .. } => Some((*band, "m")),
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
             Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
+            Self::ContactImpulse { band, .. } => Some((*band, "N s")),
             Self::IkUnreachable | Self::BodyFalls(_) => None,
         }
     }

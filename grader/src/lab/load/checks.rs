@@ -12,7 +12,7 @@ use crate::lab::model::{Band, Check, CheckKind, Function, MatchSpan, TaskWork};
 use crate::lab::problem::LabError;
 
 impl Reader<'_> {
-    fn band(&self, full: f64, zero: f64, at: Range<usize>) -> Result<Band, LabError> {
+    pub(super) fn band(&self, full: f64, zero: f64, at: Range<usize>) -> Result<Band, LabError> {
         if full.is_finite() && zero.is_finite() && full <= zero {
             return Ok(Band { full, zero });
         }
@@ -250,6 +250,9 @@ impl Reader<'_> {
         if let Some(table) = &table.body_falls {
             kinds.push(self.body_falls(table, work)?);
         }
+        if let Some(table) = &table.contact_impulse {
+            kinds.push(self.contact_impulse(table, work)?);
+        }
         Ok(kinds)
     }
 
@@ -291,7 +294,8 @@ impl Reader<'_> {
                 CheckKind::JointReached { .. }
                 | CheckKind::EffortSaturation(_)
                 | CheckKind::JointLimits(_)
-                | CheckKind::BodyFalls(_),
+                | CheckKind::BodyFalls(_)
+                | CheckKind::ContactImpulse { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

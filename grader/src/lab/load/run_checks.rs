@@ -9,11 +9,11 @@ use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{BodyFallsTable, SideName};
+use crate::lab::file::{BodyFallsTable, ContactImpulseTable, SideName};
 use crate::lab::model::{CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::scene::LabScene;
-use crate::lab::watched::Fall;
+use crate::lab::watched::{Fall, TouchingParty};
 
 impl Reader<'_> {
     fn scene_of<'w>(
@@ -102,5 +102,89 @@ impl Reader<'_> {
             toppled,
             moved,
         }))
+    }
+
+    pub(super) fn contact_impulse(
+        &self,
+        table: &Spanned<ContactImpulseTable>,
+        work: &TaskWork,
+    ) -> Result<CheckKind, LabError> {
+        let scene = self.scene_of(work, "contact-impulse", table.span())?;
+        let at = table.span();
+        let table = table.get_ref();
+        let [first, second] = &table.between;
+        let between = [self.party(scene, first)?, self.party(scene, second)?];
+        let gives_way = |party: TouchingParty| match party {
+            TouchingParty::Arm | TouchingParty::Link(_) => true,
+            TouchingParty::Body(index) => {
+                matches!(scene.scene.bodies[index].kind, BodyKind::Free)
+            }
+            TouchingParty::Ground => false,
+        };
+        let are_links =
+            |party: &TouchingParty| matches!(party, TouchingParty::Arm | TouchingParty::Link(_));
+        let why = if between.iter().all(are_links) {
+            "links of one robot do not touch each other"
+        } else if between[0] == between[1] {
+            "nothing touches itself"
+        } else if !between.into_iter().any(gives_way) {
+            "neither of them gives way, so they never press on each other"
+        } else {
+            return Ok(CheckKind::ContactImpulse {
+                between,
+                band: self.band(table.full_n_s, table.zero_n_s, at)?,
+            });
+        };
+        self.report.err(
+            second.span(),
+            "lab::contact_impulse",
+            format!(
+                "no contact of `{}` and `{}` can be: {why}",
+                first.get_ref(),
+                second.get_ref()
+            ),
+            "this one with the other",
+            Some("name the arm and a body, or a free body and another".to_owned()),
+        )
+    }
+
+    /// `arm`, `ground`, a link of the robot, or a body of the scene.
+    fn party(&self, scene: &LabScene, name: &Spanned<String>) -> Result<TouchingParty, LabError> {
+        let wanted = name.get_ref().as_str();
+        let links = self.robot.links().iter().map(|link| link.name.as_str());
+        let bodies = scene.scene.bodies.iter().map(|body| body.name.as_str());
+        if wanted == "arm" {
+            return Ok(TouchingParty::Arm);
+        }
+        if wanted == "ground" {
+            if scene.scene.environment.ground.is_some() {
+                return Ok(TouchingParty::Ground);
+            }
+            return self.report.err(
+                name.span(),
+                "lab::unknown_party",
+                format!("scene `{}` has no ground", scene.name),
+                "not in this scene",
+                Some("give the scene a `ground` in [environment]".to_owned()),
+            );
+        }
+        if let Some(index) = links.clone().position(|link| link == wanted) {
+            return Ok(TouchingParty::Link(index));
+        }
+        if let Some(index) = bodies.clone().position(|body| body == wanted) {
+            return Ok(TouchingParty::Body(index));
+        }
+        let known = ["arm", "ground"].into_iter().chain(links).chain(bodies);
+        self.report.err(
+            name.span(),
+            "lab::unknown_party",
+            format!(
+                "`{wanted}` is neither a link of robot `{}` nor a body of scene `{}`",
+                self.robot.name(),
+                scene.name
+            ),
+            "nothing that could touch",
+            Some(suggest(wanted, "links and bodies", known)),
+        )
     }
 }
