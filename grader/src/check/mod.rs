@@ -14,6 +14,7 @@ pub mod joint_reached;
 pub mod overshoot;
 pub mod pose_reached;
 pub mod stay;
+pub mod tcp_speed;
 pub mod trajectory_match;
 
 use kinemark_sim::robot::Robot;
@@ -177,6 +178,7 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
         CheckKind::ContactImpulse { between, band } => {
             contact_impulse::judge(facts, *between, *band, &check.name)
         }
+        CheckKind::TcpSpeed { at, band } => tcp_speed::judge(facts, *at, *band, &check.name),
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -201,7 +203,8 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::JointLimits(_)
         | CheckKind::TrajectoryMatch { .. }
         | CheckKind::BodyFalls(_)
-        | CheckKind::ContactImpulse { .. } => foreign(),
+        | CheckKind::ContactImpulse { .. }
+        | CheckKind::TcpSpeed { .. } => foreign(),
     }
 }
 

@@ -178,6 +178,8 @@ pub(super) struct CheckTable {
     pub(super) body_falls: Option<Spanned<BodyFallsTable>>,
     #[serde(rename = "contact-impulse")]
     pub(super) contact_impulse: Option<Spanned<ContactImpulseTable>>,
+    #[serde(rename = "tcp-speed")]
+    pub(super) tcp_speed: Option<Spanned<TcpSpeedTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -264,6 +266,23 @@ pub(super) struct ContactImpulseTable {
     pub(super) between: [Spanned<String>; 2],
     pub(super) full_n_s: f64,
     pub(super) zero_n_s: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TcpSpeedTable {
+    pub(super) at: SpeedAtName,
+    pub(super) body: Option<Spanned<String>>,
+    pub(super) full_m_s: f64,
+    pub(super) zero_m_s: f64,
+}
+
+/// The moment whose speed counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SpeedAtName {
+    Touch,
+    Run,
 }
 
 /// `hidden.toml` in the staff's folder.

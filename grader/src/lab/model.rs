@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
-use super::watched::{Fall, TouchingParty};
+use super::watched::{Fall, SpeedAt, TouchingParty};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -296,6 +296,13 @@ pub enum CheckKind {
         /// Impulse \[N s\].
         band: Band,
     },
+    /// How fast the TCP is.
+    TcpSpeed {
+        /// When.
+        at: SpeedAt,
+        /// Speed \[m/s\].
+        band: Band,
+    },
 }
 
 impl CheckKind {
@@ -316,6 +323,7 @@ impl CheckKind {
             Self::TrajectoryMatch { .. } => "trajectory-match",
             Self::BodyFalls(_) => "body-falls",
             Self::ContactImpulse { .. } => "contact-impulse",
+            Self::TcpSpeed { .. } => "tcp-speed",
         }
     }
 
@@ -331,6 +339,7 @@ impl CheckKind {
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
             Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
             Self::ContactImpulse { band, .. } => Some((*band, "N s")),
+            Self::TcpSpeed { band, .. } => Some((*band, "m/s")),
             Self::IkUnreachable | Self::BodyFalls(_) => None,
         }
     }

@@ -1,4 +1,4 @@
-//! What checks of a run in a scene look at: a body's fall, two that touch.
+//! What checks of a run in a scene look at: a body's fall, two that touch, the moment of a speed.
 
 use kinemark_sim::engine::Party;
 use kinemark_sim::event::SeenSide;
@@ -56,4 +56,13 @@ impl TouchingParty {
             Self::Ground => "the ground".to_owned(),
         }
     }
+}
+
+/// The moment whose speed counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpeedAt {
+    /// When the arm first touches the body of this index in the scene.
+    Touch(usize),
+    /// Whenever it is greatest.
+    Run,
 }

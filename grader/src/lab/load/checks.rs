@@ -253,6 +253,9 @@ impl Reader<'_> {
         if let Some(table) = &table.contact_impulse {
             kinds.push(self.contact_impulse(table, work)?);
         }
+        if let Some(table) = &table.tcp_speed {
+            kinds.push(self.tcp_speed(table, work)?);
+        }
         Ok(kinds)
     }
 
@@ -295,7 +298,8 @@ impl Reader<'_> {
                 | CheckKind::EffortSaturation(_)
                 | CheckKind::JointLimits(_)
                 | CheckKind::BodyFalls(_)
-                | CheckKind::ContactImpulse { .. },
+                | CheckKind::ContactImpulse { .. }
+                | CheckKind::TcpSpeed { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

@@ -9,11 +9,11 @@ use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{BodyFallsTable, ContactImpulseTable, SideName};
+use crate::lab::file::{BodyFallsTable, ContactImpulseTable, SideName, SpeedAtName, TcpSpeedTable};
 use crate::lab::model::{CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::scene::LabScene;
-use crate::lab::watched::{Fall, TouchingParty};
+use crate::lab::watched::{Fall, SpeedAt, TouchingParty};
 
 impl Reader<'_> {
     fn scene_of<'w>(
@@ -186,5 +186,43 @@ impl Reader<'_> {
             "nothing that could touch",
             Some(suggest(wanted, "links and bodies", known)),
         )
+    }
+
+    pub(super) fn tcp_speed(
+        &self,
+        table: &Spanned<TcpSpeedTable>,
+        work: &TaskWork,
+    ) -> Result<CheckKind, LabError> {
+        let span = table.span();
+        let table = table.get_ref();
+        let at = match (table.at, &table.body) {
+            (SpeedAtName::Run, None) => SpeedAt::Run,
+            (SpeedAtName::Run, Some(body)) => {
+                return self.report.err(
+                    body.span(),
+                    "lab::tcp_speed",
+                    "`body` has no meaning over the whole run".to_owned(),
+                    "not looked at",
+                    Some("remove it, or write `at = \"touch\"`".to_owned()),
+                );
+            }
+            (SpeedAtName::Touch, Some(body)) => {
+                let scene = self.scene_of(work, "tcp-speed", span.clone())?;
+                SpeedAt::Touch(self.body(scene, body)?)
+            }
+            (SpeedAtName::Touch, None) => {
+                return self.report.err(
+                    span,
+                    "lab::tcp_speed",
+                    "a speed at a touch needs the `body` that is touched".to_owned(),
+                    "`body` is missing",
+                    Some("add it, such as `body = \"can\"`".to_owned()),
+                );
+            }
+        };
+        Ok(CheckKind::TcpSpeed {
+            at,
+            band: self.band(table.full_m_s, table.zero_m_s, span)?,
+        })
     }
 }
