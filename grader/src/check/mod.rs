@@ -12,7 +12,9 @@ pub mod jacobian_match;
 pub mod joint_limits;
 pub mod joint_reached;
 pub mod overshoot;
+pub mod path_deviation;
 pub mod pose_reached;
+pub mod road;
 pub mod stay;
 pub mod tcp_speed;
 pub mod trajectory_match;
@@ -179,6 +181,9 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             contact_impulse::judge(facts, *between, *band, &check.name)
         }
         CheckKind::TcpSpeed { at, band } => tcp_speed::judge(facts, *at, *band, &check.name),
+        CheckKind::PathDeviation { path, band } => {
+            path_deviation::judge(facts, path, *band, &check.name)
+        }
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -204,7 +209,8 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::TrajectoryMatch { .. }
         | CheckKind::BodyFalls(_)
         | CheckKind::ContactImpulse { .. }
-        | CheckKind::TcpSpeed { .. } => foreign(),
+        | CheckKind::TcpSpeed { .. }
+        | CheckKind::PathDeviation { .. } => foreign(),
     }
 }
 

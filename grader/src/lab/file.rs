@@ -180,6 +180,8 @@ pub(super) struct CheckTable {
     pub(super) contact_impulse: Option<Spanned<ContactImpulseTable>>,
     #[serde(rename = "tcp-speed")]
     pub(super) tcp_speed: Option<Spanned<TcpSpeedTable>>,
+    #[serde(rename = "path-deviation")]
+    pub(super) path_deviation: Option<Spanned<PathDeviationTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -283,6 +285,15 @@ pub(super) struct TcpSpeedTable {
 pub(super) enum SpeedAtName {
     Touch,
     Run,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PathDeviationTable {
+    pub(super) points_m: Spanned<Vec<[f64; 3]>>,
+    pub(super) trim_m: NumberAt,
+    pub(super) full_m: f64,
+    pub(super) zero_m: f64,
 }
 
 /// `hidden.toml` in the staff's folder.

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
-use super::watched::{Fall, SpeedAt, TouchingParty};
+use super::watched::{Fall, PathToFollow, SpeedAt, TouchingParty};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -303,6 +303,13 @@ pub enum CheckKind {
         /// Speed \[m/s\].
         band: Band,
     },
+    /// Distance of the TCP from a path, in the worst of its segments.
+    PathDeviation {
+        /// The path.
+        path: PathToFollow,
+        /// Root mean square distance \[m\].
+        band: Band,
+    },
 }
 
 impl CheckKind {
@@ -324,6 +331,7 @@ impl CheckKind {
             Self::BodyFalls(_) => "body-falls",
             Self::ContactImpulse { .. } => "contact-impulse",
             Self::TcpSpeed { .. } => "tcp-speed",
+            Self::PathDeviation { .. } => "path-deviation",
         }
     }
 
@@ -335,7 +343,8 @@ impl CheckKind {
             | Self::IkReach(band)
             | Self::IkBranches(band)
             | Self::PoseReached(band)
-            | Self::TrajectoryMatch { band, .. } => Some((*band, "m")),
+            | Self::TrajectoryMatch { band, .. }
+            | Self::PathDeviation { band, .. } => Some((*band, "m")),
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
             Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
             Self::ContactImpulse { band, .. } => Some((*band, "N s")),

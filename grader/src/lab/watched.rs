@@ -1,7 +1,8 @@
-//! What checks of a run in a scene look at: a body's fall, two that touch, the moment of a speed.
+//! What checks of a run in a scene look at: a body's fall, two that touch, the moment of a speed, a path to be followed.
 
 use kinemark_sim::engine::Party;
 use kinemark_sim::event::SeenSide;
+use nalgebra::Vector3;
 
 use crate::event_words::Names;
 
@@ -65,4 +66,13 @@ pub enum SpeedAt {
     Touch(usize),
     /// Whenever it is greatest.
     Run,
+}
+
+/// A path of straight segments for the TCP.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathToFollow {
+    /// Its points in the lab's frame, at least two \[m\].
+    pub points_m: Vec<Vector3<f64>>,
+    /// What is cut off each end of each segment; positive, and under half of the shortest \[m\].
+    pub trim_m: f64,
 }

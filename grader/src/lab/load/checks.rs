@@ -256,6 +256,9 @@ impl Reader<'_> {
         if let Some(table) = &table.tcp_speed {
             kinds.push(self.tcp_speed(table, work)?);
         }
+        if let Some(table) = &table.path_deviation {
+            kinds.push(self.path_deviation(table)?);
+        }
         Ok(kinds)
     }
 
@@ -299,7 +302,8 @@ impl Reader<'_> {
                 | CheckKind::JointLimits(_)
                 | CheckKind::BodyFalls(_)
                 | CheckKind::ContactImpulse { .. }
-                | CheckKind::TcpSpeed { .. },
+                | CheckKind::TcpSpeed { .. }
+                | CheckKind::PathDeviation { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

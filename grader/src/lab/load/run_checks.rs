@@ -1,4 +1,4 @@
-//! Checks of what a run did in a scene: names become indices.
+//! Checks of what a run did in a scene, and of paths: names become indices, paths are long enough for what is cut off them.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,14 +6,21 @@ use std::sync::Arc;
 use kinemark_sim::event::SeenSide;
 use kinemark_sim::scene::BodyKind;
 use kinemark_sim::source::suggest;
+use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{BodyFallsTable, ContactImpulseTable, SideName, SpeedAtName, TcpSpeedTable};
+use crate::lab::file::{
+    BodyFallsTable, ContactImpulseTable, NumberAt, PathDeviationTable, SideName, SpeedAtName,
+    TcpSpeedTable,
+};
 use crate::lab::model::{CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::scene::LabScene;
-use crate::lab::watched::{Fall, SpeedAt, TouchingParty};
+use crate::lab::watched::{Fall, PathToFollow, SpeedAt, TouchingParty};
+
+/// More points than any path of a lab has: each costs memory for every tick.
+const MOST_POINTS: usize = 100;
 
 impl Reader<'_> {
     fn scene_of<'w>(
@@ -224,5 +231,61 @@ impl Reader<'_> {
             at,
             band: self.band(table.full_m_s, table.zero_m_s, span)?,
         })
+    }
+
+    pub(super) fn path_deviation(
+        &self,
+        table: &Spanned<PathDeviationTable>,
+    ) -> Result<CheckKind, LabError> {
+        let at = table.span();
+        let table = table.get_ref();
+        Ok(CheckKind::PathDeviation {
+            path: self.path(&table.points_m, &table.trim_m)?,
+            band: self.band(table.full_m, table.zero_m, at)?,
+        })
+    }
+
+    fn path(
+        &self,
+        points: &Spanned<Vec<[f64; 3]>>,
+        trim: &NumberAt,
+    ) -> Result<PathToFollow, LabError> {
+        let points_m: Vec<Vector3<f64>> = points.get_ref().iter().map(|p| (*p).into()).collect();
+        let refuse = |message: String| {
+            self.report.err(
+                points.span(),
+                "lab::path",
+                message,
+                "this path",
+                Some("give points in the lab's frame [m], as [x, y, z]".to_owned()),
+            )
+        };
+        if !(2..=MOST_POINTS).contains(&points_m.len()) {
+            let count = points_m.len();
+            return refuse(format!("a path has 2 to {MOST_POINTS} points, got {count}"));
+        }
+        if let Some(at) = points_m
+            .iter()
+            .position(|p| !p.iter().all(|x| x.abs() <= 1e6))
+        {
+            return refuse(format!("point {} of the path is not within 1e6 m", at + 1));
+        }
+        let trim_m = self.positive(trim, "`trim_m`")?;
+        let lengths = points_m.windows(2).map(|ends| (ends[1] - ends[0]).norm());
+        for (i, length_m) in lengths.enumerate() {
+            if 2.0 * trim_m >= length_m {
+                return self.report.err(
+                    trim.span(),
+                    "lab::path",
+                    format!(
+                        "segment {} of the path is {length_m} m long: nothing is left of it with {trim_m} m cut off each end",
+                        i + 1
+                    ),
+                    "too much is cut off",
+                    Some("cut off less, or leave out one of two points that are as near".to_owned()),
+                );
+            }
+        }
+        Ok(PathToFollow { points_m, trim_m })
     }
 }
