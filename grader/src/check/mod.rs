@@ -12,6 +12,7 @@ pub mod jacobian_match;
 pub mod joint_limits;
 pub mod joint_reached;
 pub mod overshoot;
+pub mod path_coverage;
 pub mod path_deviation;
 pub mod pose_reached;
 pub mod road;
@@ -184,6 +185,11 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
         CheckKind::PathDeviation { path, band } => {
             path_deviation::judge(facts, path, *band, &check.name)
         }
+        CheckKind::PathCoverage {
+            path,
+            within_m,
+            shares,
+        } => path_coverage::judge(facts, path, *within_m, *shares),
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -210,7 +216,8 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::BodyFalls(_)
         | CheckKind::ContactImpulse { .. }
         | CheckKind::TcpSpeed { .. }
-        | CheckKind::PathDeviation { .. } => foreign(),
+        | CheckKind::PathDeviation { .. }
+        | CheckKind::PathCoverage { .. } => foreign(),
     }
 }
 

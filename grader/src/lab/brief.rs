@@ -45,6 +45,10 @@ fn table(lab: &Lab) -> String {
                         with_unit(fall.moved, "")
                     ),
                 ),
+                (CheckKind::PathCoverage { shares, .. }, _) => (
+                    format!("from {}", with_unit(shares.full, "")),
+                    format!("up to {}", with_unit(shares.zero, "")),
+                ),
                 (_, Some((band, unit))) => (
                     format!("up to {}", with_unit(band.full, unit)),
                     format!("from {}", with_unit(band.zero, unit)),

@@ -182,6 +182,8 @@ pub(super) struct CheckTable {
     pub(super) tcp_speed: Option<Spanned<TcpSpeedTable>>,
     #[serde(rename = "path-deviation")]
     pub(super) path_deviation: Option<Spanned<PathDeviationTable>>,
+    #[serde(rename = "path-coverage")]
+    pub(super) path_coverage: Option<Spanned<PathCoverageTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -294,6 +296,16 @@ pub(super) struct PathDeviationTable {
     pub(super) trim_m: NumberAt,
     pub(super) full_m: f64,
     pub(super) zero_m: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PathCoverageTable {
+    pub(super) points_m: Spanned<Vec<[f64; 3]>>,
+    pub(super) trim_m: NumberAt,
+    pub(super) within_m: NumberAt,
+    pub(super) full: f64,
+    pub(super) zero: f64,
 }
 
 /// `hidden.toml` in the staff's folder.

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
-use super::watched::{Fall, PathToFollow, SpeedAt, TouchingParty};
+use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -310,6 +310,15 @@ pub enum CheckKind {
         /// Root mean square distance \[m\].
         band: Band,
     },
+    /// The share of a path that the TCP passes.
+    PathCoverage {
+        /// The path.
+        path: PathToFollow,
+        /// How near it passes \[m\].
+        within_m: f64,
+        /// The share.
+        shares: Shares,
+    },
 }
 
 impl CheckKind {
@@ -332,6 +341,7 @@ impl CheckKind {
             Self::ContactImpulse { .. } => "contact-impulse",
             Self::TcpSpeed { .. } => "tcp-speed",
             Self::PathDeviation { .. } => "path-deviation",
+            Self::PathCoverage { .. } => "path-coverage",
         }
     }
 
@@ -349,7 +359,7 @@ impl CheckKind {
             Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
             Self::ContactImpulse { band, .. } => Some((*band, "N s")),
             Self::TcpSpeed { band, .. } => Some((*band, "m/s")),
-            Self::IkUnreachable | Self::BodyFalls(_) => None,
+            Self::IkUnreachable | Self::BodyFalls(_) | Self::PathCoverage { .. } => None,
         }
     }
 }

@@ -76,3 +76,47 @@ pub struct PathToFollow {
     /// What is cut off each end of each segment; positive, and under half of the shortest \[m\].
     pub trim_m: f64,
 }
+
+/// A band of shares: more is better.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shares {
+    /// The share that earns all points.
+    pub full: f64,
+    /// The share that earns none; at or below `full`.
+    pub zero: f64,
+}
+
+impl Shares {
+    /// The share of points that `value` earns, in `[0, 1]`; NaN earns nothing.
+    pub fn score(&self, value: f64) -> f64 {
+        if value >= self.full {
+            1.0
+        } else if value > self.zero {
+            (value - self.zero) / (self.full - self.zero)
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_rise_linearly_and_nan_earns_nothing() {
+        let shares = Shares {
+            full: 1.0,
+            zero: 0.5,
+        };
+        for (value, score) in [(1.0, 1.0), (0.75, 0.5), (0.5, 0.0), (0.0, 0.0)] {
+            assert_eq!(shares.score(value), score);
+        }
+        assert_eq!(shares.score(f64::NAN), 0.0);
+        let threshold = Shares {
+            full: 0.5,
+            zero: 0.5,
+        };
+        assert_eq!((threshold.score(0.5), threshold.score(0.49)), (1.0, 0.0));
+    }
+}

@@ -259,6 +259,9 @@ impl Reader<'_> {
         if let Some(table) = &table.path_deviation {
             kinds.push(self.path_deviation(table)?);
         }
+        if let Some(table) = &table.path_coverage {
+            kinds.push(self.path_coverage(table)?);
+        }
         Ok(kinds)
     }
 
@@ -303,7 +306,8 @@ impl Reader<'_> {
                 | CheckKind::BodyFalls(_)
                 | CheckKind::ContactImpulse { .. }
                 | CheckKind::TcpSpeed { .. }
-                | CheckKind::PathDeviation { .. },
+                | CheckKind::PathDeviation { .. }
+                | CheckKind::PathCoverage { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

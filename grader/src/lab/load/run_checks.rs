@@ -11,13 +11,13 @@ use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{
-    BodyFallsTable, ContactImpulseTable, NumberAt, PathDeviationTable, SideName, SpeedAtName,
-    TcpSpeedTable,
+    BodyFallsTable, ContactImpulseTable, NumberAt, PathCoverageTable, PathDeviationTable, SideName,
+    SpeedAtName, TcpSpeedTable,
 };
 use crate::lab::model::{CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::scene::LabScene;
-use crate::lab::watched::{Fall, PathToFollow, SpeedAt, TouchingParty};
+use crate::lab::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
 
 /// More points than any path of a lab has: each costs memory for every tick.
 const MOST_POINTS: usize = 100;
@@ -242,6 +242,30 @@ impl Reader<'_> {
         Ok(CheckKind::PathDeviation {
             path: self.path(&table.points_m, &table.trim_m)?,
             band: self.band(table.full_m, table.zero_m, at)?,
+        })
+    }
+
+    pub(super) fn path_coverage(
+        &self,
+        table: &Spanned<PathCoverageTable>,
+    ) -> Result<CheckKind, LabError> {
+        let at = table.span();
+        let table = table.get_ref();
+        let (full, zero) = (table.full, table.zero);
+        // here more is better, unlike in other bands
+        if !(0.0 <= zero && zero <= full && full <= 1.0 && full > 0.0) {
+            return self.report.err(
+                at,
+                "lab::band",
+                format!("a coverage needs 0 <= zero <= full <= 1 and `full` above 0, got full = {full} and zero = {zero}"),
+                "this band",
+                Some("such as `full = 0.98, zero = 0.5`".to_owned()),
+            );
+        }
+        Ok(CheckKind::PathCoverage {
+            path: self.path(&table.points_m, &table.trim_m)?,
+            within_m: self.positive(&table.within_m, "`within_m`")?,
+            shares: Shares { full, zero },
         })
     }
 
