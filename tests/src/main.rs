@@ -20,6 +20,7 @@ mod mesh_labs;
 mod robot_docs;
 mod robot_files;
 mod scene_check;
+mod scene_checks;
 mod scene_labs;
 mod sensor_labs;
 mod submissions;

@@ -1,0 +1,278 @@
+//! Checks of what a run did in a scene, and along a path: a right submission has full marks, wrong ones lose for the right reason, and
+//! a lab that asks for what cannot be is refused at the place.
+
+use serde_json::Value as Json;
+
+use crate::testbed::TestBed;
+
+const LAB: &str = r#"
+format = 1
+name = "90-knock"
+title = "Knock"
+robot = "rrbot"
+frame = "lab"
+
+[[tasks]]
+name = "knock"
+title = "Off the shelf"
+
+[tasks.motion]
+mode = "position"
+scene = "shelf-and-can"
+duration_s = 3.0
+start_rad = [1.3444, 2.0236]
+servo = { kp = 1000.0, kd = 30.0, derivative = "velocity", gravity_compensation = true, effort_limit = 100.0 }
+
+[[tasks.checks]]
+name = "knocked"
+title = "The can falls over the far side"
+points = 4.0
+body-falls = { body = "can", side = "far" }
+
+[[tasks.checks]]
+name = "shelf"
+title = "The shelf is left alone"
+points = 2.0
+needs = ["knocked"]
+contact-impulse = { between = ["arm", "shelf"], full_n_s = 0.0, zero_n_s = 0.5 }
+
+[[tasks.checks]]
+name = "gentle"
+title = "No fling"
+points = 2.0
+tcp-speed = { at = "touch", body = "can", full_m_s = 0.8, zero_m_s = 3.0 }
+
+[[tasks.checks]]
+name = "calm"
+title = "Never fast"
+points = 1.0
+needs = ["knocked"]
+tcp-speed = { at = "run", full_m_s = 1.5, zero_m_s = 4.0 }
+
+[[tasks.checks]]
+name = "line"
+title = "Along the line"
+points = 2.0
+path-deviation = { points_m = [[1.25, 0.75, 0.05], [1.25, 1.3, 0.05]], trim_m = 0.05, full_m = 0.008, zero_m = 0.03 }
+
+[[tasks.checks]]
+name = "whole"
+title = "All of the line"
+points = 1.0
+path-coverage = { points_m = [[1.25, 0.75, 0.05], [1.25, 1.3, 0.05]], trim_m = 0.05, within_m = 0.03, full = 0.98, zero = 0.5 }
+"#;
+
+/// A submission whose tip is at `place`, `[up, out]` in the lab's frame, an expression of the time `t`.
+fn tip(place: &str) -> String {
+    format!(
+        "fn init(robot, task) {{ this.height = robot.base_height; }}
+fn control(observation) {{
+    let t = observation.time;
+    let place = {place};
+    let u = place[0] - this.height;
+    let out = place[1];
+    let q2 = acos((u * u + out * out - 2.0) / 2.0);
+    [atan2(out, u) - atan2(sin(q2), 1.0 + cos(q2)), q2]
+}}
+"
+    )
+}
+
+fn bed() -> TestBed {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    bed.write("labs/90-knock/lab.toml", LAB);
+    bed
+}
+
+const GRADE: [&str; 4] = ["grade", "90-knock", "mine.rhai", "--practice"];
+
+/// Grades a submission; its task as the record has it, after the report was verified.
+fn graded(bed: &TestBed, submission: &str, code: i32) -> Json {
+    bed.write("mine.rhai", submission);
+    let ran = bed.run(&GRADE);
+    assert_eq!(ran.code, Some(code), "{ran:?}");
+    let verified = bed.run(&["verify", "out"]);
+    assert_eq!(verified.code, Some(0), "{verified:?}");
+    let text = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
+    let record: Json = serde_json::from_str(&text).expect("JSON");
+    record["tasks"][0].clone()
+}
+
+fn check<'a>(task: &'a Json, name: &str) -> &'a Json {
+    let checks = task["checks"].as_array().expect("checks");
+    let found = checks.iter().find(|check| check["name"] == name);
+    found.unwrap_or_else(|| panic!("no check {name}"))
+}
+
+fn message(check: &Json) -> &str {
+    let message = check["evidence"][0]["message"].as_str();
+    message.unwrap_or_else(|| panic!("no evidence: {check}"))
+}
+
+#[test]
+fn a_steady_push_has_full_marks() {
+    let task = graded(
+        &bed(),
+        &tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)]"),
+        0,
+    );
+    assert_eq!(task["verdict"], "passed", "{task}");
+    assert_eq!(task["points"], 12.0, "{task}");
+    // the tip follows at half a metre a second, and the can is 0.18 m from where it starts
+    let speed = check(&task, "gentle")["measure"]["value"].as_f64();
+    assert!((speed.expect("a speed") - 0.5).abs() < 0.05, "{speed:?}");
+}
+
+#[test]
+fn an_arm_that_stays_earns_nothing() {
+    let task = graded(&bed(), &tip("[1.25, 0.75]"), 1);
+    assert_eq!(task["points"], 0.0, "{task}");
+    assert_eq!(
+        message(check(&task, "knocked")),
+        "`can` stayed where it was: the arm never touched it"
+    );
+    assert_eq!(
+        message(check(&task, "gentle")),
+        "the arm never touched `can`"
+    );
+    for name in ["shelf", "calm"] {
+        assert_eq!(check(&task, name)["outcome"], "not-judged");
+    }
+    let told = message(check(&task, "line")).to_owned();
+    assert!(told.contains("never passed"), "{told}");
+    assert_eq!(check(&task, "whole")["measure"]["value"], 0.0);
+}
+
+#[test]
+fn half_a_push_earns_its_share() {
+    let task = graded(
+        &bed(),
+        &tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.0)]"),
+        1,
+    );
+    let knocked = check(&task, "knocked");
+    let told = message(knocked);
+    assert!(
+        told.starts_with("`can` moved at 0.9") && told.ends_with("but did not fall"),
+        "{told}"
+    );
+    let share = if told.contains("toppled") { 0.6 } else { 0.3 };
+    assert_eq!(knocked["points"], 4.0 * share);
+    // half of the line is driven, and driven well
+    let covered = check(&task, "whole")["measure"]["value"].as_f64();
+    let covered = covered.expect("a share");
+    assert!((0.35..0.55).contains(&covered), "{covered}");
+    assert_eq!(check(&task, "line")["outcome"], "none");
+}
+
+#[test]
+fn a_fling_that_ends_on_the_shelf_loses_for_both() {
+    let task = graded(
+        &bed(),
+        &tip("if t < 1.5 { [1.25, min(0.75 + 4.0 * max(t - 0.5, 0.0), 1.3)] } else { [1.1, 1.0] }"),
+        1,
+    );
+    let shelf = check(&task, "shelf");
+    let told = message(shelf);
+    assert!(
+        told.starts_with("`forearm` first touched `shelf` at 1.")
+            && told.contains(" N at its peak"),
+        "{told}"
+    );
+    assert_eq!(shelf["outcome"], "none");
+    assert_eq!(shelf["evidence"][0]["signal"], "contacts");
+    let tick = shelf["evidence"][0]["tick"].as_u64();
+    assert!((1500..1800).contains(&tick.expect("a tick")), "{tick:?}");
+    let gentle = check(&task, "gentle");
+    assert!(
+        message(gentle).ends_with("when the arm first touches `can`"),
+        "{gentle}"
+    );
+    assert!(gentle["measure"]["value"].as_f64() > Some(1.0), "{gentle}");
+}
+
+#[test]
+fn a_check_of_what_cannot_be_is_refused_at_its_place() {
+    let cases = [
+        (
+            "body = \"can\", side",
+            "body = \"cam\", side",
+            "lab::unknown_body",
+            "did you mean `can`?",
+        ),
+        (
+            "body = \"can\", side",
+            "body = \"shelf\", side",
+            "lab::body_falls",
+            "is not free",
+        ),
+        ("side = \"far\"", "side = \"top\"", "lab::toml", "far"),
+        (
+            "side = \"far\"",
+            "moved = 0.7",
+            "lab::body_falls",
+            "0.7 and 0.6",
+        ),
+        (
+            "[\"arm\", \"shelf\"]",
+            "[\"forarm\", \"shelf\"]",
+            "lab::unknown_party",
+            "did you mean `forearm`?",
+        ),
+        (
+            "[\"arm\", \"shelf\"]",
+            "[\"arm\", \"upper\"]",
+            "lab::contact_impulse",
+            "links of one robot",
+        ),
+        (
+            "[\"arm\", \"shelf\"]",
+            "[\"ground\", \"shelf\"]",
+            "lab::contact_impulse",
+            "neither of them",
+        ),
+        (
+            "at = \"run\"",
+            "at = \"run\", body = \"can\"",
+            "lab::tcp_speed",
+            "no meaning",
+        ),
+        (
+            "at = \"touch\", body = \"can\"",
+            "at = \"touch\"",
+            "lab::tcp_speed",
+            "`body` is missing",
+        ),
+        (
+            "trim_m = 0.05, full_m",
+            "trim_m = 0.3, full_m",
+            "lab::path",
+            "segment 1",
+        ),
+        (
+            "full = 0.98, zero = 0.5",
+            "full = 0.5, zero = 0.98",
+            "lab::band",
+            "coverage",
+        ),
+        (
+            "scene = \"shelf-and-can\"",
+            "",
+            "lab::check_kind",
+            "needs `scene`",
+        ),
+    ];
+    for (from, to, code, words) in cases {
+        let bed = bed();
+        bed.write("mine.rhai", tip("[1.25, 0.75]"));
+        bed.edit("labs/90-knock/lab.toml", from, to);
+        let ran = bed.run(&GRADE);
+        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
+        // the report may break a line between words
+        let plain = ran.stderr.replace("\n  │", "").replace('\n', " ");
+        for word in [code, words, "lab.toml:"] {
+            assert!(plain.contains(word), "{to}: no {word:?} in\n{}", ran.stderr);
+        }
+    }
+}
