@@ -178,30 +178,15 @@ impl Clearance {
 
 /// Covers a solid with balls along the longest side of its box.
 fn cover(solid: &Solid, body: usize, body_from_shape: &Pose, balls: &mut Vec<Ball>) {
-    let (centre, half) = match solid {
-        Solid::Box { size_m: [x, y, z] } => (Vector3::zeros(), Vector3::new(*x, *y, *z) * 0.5),
-        Solid::Cylinder { radius_m, length_m } => (
-            Vector3::zeros(),
-            Vector3::new(*radius_m, *radius_m, 0.5 * length_m),
-        ),
-        Solid::Capsule { radius_m, length_m } => (
-            Vector3::zeros(),
-            Vector3::new(*radius_m, *radius_m, 0.5 * length_m + radius_m),
-        ),
-        Solid::Sphere { radius_m } => {
-            balls.push(Ball {
-                body,
-                p_in_body: body_from_shape.translation.vector,
-                radius_m: *radius_m,
-            });
-            return;
-        }
-        Solid::Mesh(solid) => {
-            let (low, high) = solid.mesh.bounds();
-            let (low, high) = (Vector3::from(low), Vector3::from(high));
-            ((low + high) * 0.5, (high - low) * 0.5)
-        }
-    };
+    if let Solid::Sphere { radius_m } = solid {
+        balls.push(Ball {
+            body,
+            p_in_body: body_from_shape.translation.vector,
+            radius_m: *radius_m,
+        });
+        return;
+    }
+    let (centre, half) = solid.extent_m();
     let along = half.imax();
     let across = (0..3)
         .filter(|i| *i != along)
