@@ -6,6 +6,7 @@
 )]
 
 mod architecture;
+mod brief_pictures;
 mod commands;
 mod determinism;
 mod errors;

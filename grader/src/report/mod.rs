@@ -1,5 +1,6 @@
 //! The grade, shown: text for a terminal, plots as SVG, and a page that holds everything.
 
+pub mod brief_page;
 pub(crate) mod goal;
 pub mod html;
 mod number;

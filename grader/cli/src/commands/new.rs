@@ -1,9 +1,10 @@
-//! `kinemark new`: a folder with a lab's starter and brief, and nothing of it overwritten.
+//! `kinemark new`: a folder with a lab's starter and brief (as text and as a page), and nothing of it overwritten.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_grader::lab::{Lab, brief::with_grading};
+use kinemark_grader::report::brief_page::brief_page;
 use serde::Serialize;
 
 use crate::args::NewArgs;
@@ -33,9 +34,12 @@ pub(crate) fn run(args: &NewArgs) -> Result<ExitCode, Failure> {
             "save it as UTF-8 text",
         )),
     };
+    let brief = with_grading(&read("brief.md")?, &lab);
+    let page = brief_page(&lab.title, &brief);
     let mut written = vec![
         (dir.join("submission.rhai"), read("starter.rhai")?),
-        (dir.join("brief.md"), with_grading(&read("brief.md")?, &lab)),
+        (dir.join("brief.html"), page),
+        (dir.join("brief.md"), brief),
     ];
     for name in files.list(&lab.name) {
         if name.ends_with(".svg") {
