@@ -61,11 +61,11 @@ pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
     motion.sensors.iter().map(facts).collect()
 }
 
-/// What `observation.target` holds: the goals' positions, or the task's numbers.
+/// What `observation.target` holds: the goals' positions, or the task's value.
 pub fn target_of(motion: &MotionTask) -> Value {
     let list = |numbers: &[f64]| Value::List(numbers.iter().copied().map(Value::Number).collect());
     if motion.goals.is_empty() {
-        list(&motion.target)
+        motion.target.clone()
     } else {
         let positions = motion
             .goals

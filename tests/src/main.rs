@@ -8,6 +8,7 @@
 mod architecture;
 mod brief_pictures;
 mod commands;
+mod course;
 mod determinism;
 mod errors;
 mod eval;
@@ -25,6 +26,7 @@ mod scene_checks;
 mod scene_labs;
 mod sensor_labs;
 mod submissions;
+mod targets;
 mod testbed;
 mod verify;
 mod wasm;

@@ -81,7 +81,7 @@ pub(super) struct MotionTable {
     pub(super) servo_period_ms: Option<NumberAt>,
     pub(super) control_period_ms: Option<NumberAt>,
     pub(super) start_rad: Option<Spanned<Vec<f64>>>,
-    pub(super) target: Option<Vec<f64>>,
+    pub(super) target: Option<Spanned<toml::Value>>,
     #[serde(default)]
     pub(super) goals: Vec<GoalTable>,
     pub(super) servo: Option<Spanned<ServoTable>>,

@@ -4,6 +4,7 @@
 mod checks;
 mod motion;
 mod run_checks;
+mod target;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

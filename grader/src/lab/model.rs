@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
 use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
-use crate::controller::Budgets;
+use crate::controller::{Budgets, Value};
 use crate::graded::TcpPath;
 
 /// A lab: ordered tasks on one robot.
@@ -191,7 +191,7 @@ pub struct MotionTask {
     /// Joint positions at the start, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
     /// What `observation.target` holds where there are no goals.
-    pub target: Vec<f64>,
+    pub target: Value,
     /// Where the TCP is to go, in order.
     pub goals: Vec<MotionGoal>,
 }

@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::Reader;
+use crate::controller::Value;
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::lab::model::{MotionGoal, MotionTask};
 use crate::lab::problem::{LabError, LabProblem};
@@ -143,7 +144,10 @@ impl Reader<'_> {
             gravity_m_s2,
             sensors,
             start_q,
-            target: motion.target.clone().unwrap_or_default(),
+            target: match &motion.target {
+                Some(target) => self.target(target)?,
+                None => Value::List(Vec::new()),
+            },
             goals,
         })
     }
