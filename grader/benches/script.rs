@@ -78,6 +78,7 @@ fn opening(source: &str) -> Opening {
             plot_samples: u64::MAX,
             ..Budgets::default()
         },
+        granted: None,
     }
 }
 

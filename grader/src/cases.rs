@@ -234,9 +234,14 @@ fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Ve
 
 /// Position of the TCP in the lab's frame \[m\]; `None` if `q` does not fit the robot.
 pub fn tcp_in_lab(lab: &Lab, robot: &Robot, q: &[f64]) -> Option<Vector3<f64>> {
+    tcp_in(robot, &lab.frame, q)
+}
+
+/// Position of the TCP in the frame `frame` \[m\]; `None` if `q` does not fit the robot, or there is no such frame.
+pub fn tcp_in(robot: &Robot, frame: &str, q: &[f64]) -> Option<Vector3<f64>> {
     let q = robot.positions(q).ok()?;
     let poses = forward_kinematics(robot, &q);
-    let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
+    let world_from_lab = poses.world_from(robot.frame(frame)?);
     let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
     Some(lab_from_tcp.translation.vector)
 }

@@ -105,6 +105,53 @@ pub struct Opening {
     pub sensors: Vec<SensorFacts>,
     /// What the code may use up.
     pub budgets: Budgets,
+    /// What it may ask of the robot's model, where the task grants anything.
+    pub granted: Option<Granted>,
+}
+
+/// A function of `robot` that a task may grant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Grant {
+    /// `robot.fk(q)`: position of the TCP in the lab's frame, shape `(3)` \[m\].
+    Fk,
+    /// `robot.jacobian(q)`: derivative of that by `q`, shape `(3, n)` \[m/rad or m/m\].
+    Jacobian,
+    /// `robot.gravity(q)`: efforts that hold the arm still at `q`, shape `(n)` \[N m or N\].
+    Gravity,
+    /// `robot.mass_matrix(q)`: the joint-space inertia, shape `(n, n)` \[kg m², kg m or kg\].
+    MassMatrix,
+}
+
+impl Grant {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Fk, Self::Jacobian, Self::Gravity, Self::MassMatrix];
+
+    /// Its name in labs and submissions.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fk => "fk",
+            Self::Jacobian => "jacobian",
+            Self::Gravity => "gravity",
+            Self::MassMatrix => "mass_matrix",
+        }
+    }
+}
+
+/// What a task grants, and what the robot's model is made from; its dimensions are those of [`RobotFacts`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Granted {
+    /// The functions.
+    pub functions: Vec<Grant>,
+    /// Path of the robot file, for messages.
+    pub robot_path: String,
+    /// The robot file's text.
+    pub robot_text: String,
+    /// Bytes of the meshes it names, by the names it gives them.
+    pub meshes: Vec<(String, Vec<u8>)>,
+    /// The lab's frame.
+    pub frame: String,
+    /// Gravity in the world \[m/s²\].
+    pub gravity_m_s2: [f64; 3],
 }
 
 /// A value as it crosses the boundary.
@@ -171,6 +218,18 @@ pub enum Call {
     Init,
     /// `control(observation)`.
     Control(Observation),
+}
+
+impl Call {
+    /// The robot of the case it is for; none in a motion task, whose robot is that of the [`Opening`].
+    pub fn robot(&self) -> Option<&RobotFacts> {
+        match self {
+            Self::ForwardKinematics { robot, .. }
+            | Self::InverseKinematics { robot, .. }
+            | Self::Jacobian { robot, .. } => Some(robot),
+            Self::Init | Self::Control(_) => None,
+        }
+    }
 }
 
 /// What `control` sees; task and target are those of the [`Opening`].

@@ -1,10 +1,11 @@
 //! From a lab and a submission to a graded run: every task in order, its checks, its diagnoses, the record.
 
+use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::source::Source;
 
 use crate::cases::{self, CasesRun};
 use crate::check::{self, Answered, CaseError, CaseFacts, Finding, MotionFacts, stay};
-use crate::controller::{Controller, Opening, Stop, Value};
+use crate::controller::{Controller, Granted, Opening, Stop, Value};
 use crate::diagnose;
 use crate::event_words::Names;
 use crate::grade::{
@@ -15,7 +16,7 @@ use crate::graded::{Goal, GradedRun, TaskRun, TcpPath};
 use crate::lab::model::{
     Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
 };
-use crate::lab::{LabRobot, Staff, staff::Mutant};
+use crate::lab::{LabRobot, MeshFile, Staff, staff::Mutant};
 use crate::motion::{self, EarlyEnd, MotionRun};
 use crate::quantity::{list, lists};
 use crate::stopped;
@@ -134,6 +135,27 @@ pub fn engine() -> String {
     format!("kinemark {}", env!("CARGO_PKG_VERSION"))
 }
 
+/// What a task grants, with what the robot's model is made from; none where it grants nothing.
+pub fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
+    let (functions, gravity_m_s2) = match work {
+        TaskWork::Function(function) => (&function.grants, GRAVITY_M_S2),
+        TaskWork::Motion(motion) => (&motion.grants, motion.gravity_m_s2),
+    };
+    let source = lab.robot_file.source();
+    let mesh = |mesh: &MeshFile| {
+        let name = mesh.path.strip_prefix("robots/").unwrap_or(&mesh.path);
+        (name.to_owned(), mesh.bytes.clone())
+    };
+    (!functions.is_empty()).then(|| Granted {
+        functions: functions.clone(),
+        robot_path: source.name().to_owned(),
+        robot_text: source.text().to_owned(),
+        meshes: lab.robot_meshes.iter().map(mesh).collect(),
+        frame: lab.frame.clone(),
+        gravity_m_s2: gravity_m_s2.into(),
+    })
+}
+
 struct Grader<'a> {
     lab: &'a Lab,
     staff: Option<&'a Staff>,
@@ -162,6 +184,7 @@ impl Grader<'_> {
             target,
             sensors,
             budgets: self.lab.budgets.clone(),
+            granted: granted(self.lab, &task.work),
         }
     }
 

@@ -15,6 +15,7 @@ mod eval;
 mod eval_golden;
 mod eval_operations;
 mod grade;
+mod grants;
 mod hostile;
 mod jacobian_task;
 mod lab_audit;

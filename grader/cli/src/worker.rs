@@ -335,6 +335,7 @@ mod tests {
             target: Value::Nothing,
             sensors: Vec::new(),
             budgets: Budgets::default(),
+            granted: None,
         };
         let mut input = Vec::new();
         send(&mut input, &opening).expect("written");

@@ -49,6 +49,8 @@ pub(super) struct FunctionTable {
     pub(super) call: Spanned<FunctionName>,
     pub(super) rows: Option<Spanned<Vec<String>>>,
     #[serde(default)]
+    pub(super) grants: Vec<Spanned<String>>,
+    #[serde(default)]
     pub(super) cases: Vec<Spanned<CaseTable>>,
 }
 
@@ -87,6 +89,8 @@ pub(super) struct MotionTable {
     pub(super) servo: Option<Spanned<ServoTable>>,
     #[serde(default)]
     pub(super) sensors: Vec<SensorTable>,
+    #[serde(default)]
+    pub(super) grants: Vec<Spanned<String>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

@@ -2,6 +2,7 @@
 //! with its place.
 
 mod checks;
+mod grants;
 mod motion;
 mod run_checks;
 mod target;
@@ -473,6 +474,7 @@ impl Reader<'_> {
             .map(|case| self.case(function, case))
             .collect();
         Ok(FunctionTask {
+            grants: self.grants(&table.grants, Some(&function))?,
             function,
             cases: cases?,
         })

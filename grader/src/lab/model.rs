@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
 use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
-use crate::controller::{Budgets, Value};
+use crate::controller::{Budgets, Grant, Value};
 use crate::graded::TcpPath;
 
 /// A lab: ordered tasks on one robot.
@@ -144,6 +144,8 @@ pub struct FunctionTask {
     pub function: Function,
     /// Its visible cases.
     pub cases: Vec<Case>,
+    /// Functions of `robot` that it grants.
+    pub grants: Vec<Grant>,
 }
 
 /// One call of a function, and what a right answer is like.
@@ -194,6 +196,8 @@ pub struct MotionTask {
     pub target: Value,
     /// Where the TCP is to go, in order.
     pub goals: Vec<MotionGoal>,
+    /// Functions of `robot` that it grants.
+    pub grants: Vec<Grant>,
 }
 
 /// A place the TCP is to reach and to stay at.

@@ -118,18 +118,22 @@ impl Meter {
         (self.counted.get() - self.counted_before.get()).saturating_add(self.charged.get())
     }
 
-    /// Charges a built-in for walking over `elements`.
-    pub(super) fn charge(&self, elements: usize) -> Result<(), Problem> {
-        if elements < ELEMENTS_PER_OPERATION {
-            return Ok(());
-        }
-        let cost = (elements / ELEMENTS_PER_OPERATION) as u64;
+    /// Charges a built-in a number of operations.
+    pub(super) fn operations(&self, cost: u64) -> Result<(), Problem> {
         self.charged.set(self.charged.get().saturating_add(cost));
         if self.count(self.counted.get()) {
             Ok(())
         } else {
             Err(Problem::Exhausted)
         }
+    }
+
+    /// Charges a built-in for walking over `elements`.
+    pub(super) fn charge(&self, elements: usize) -> Result<(), Problem> {
+        if elements < ELEMENTS_PER_OPERATION {
+            return Ok(());
+        }
+        self.operations((elements / ELEMENTS_PER_OPERATION) as u64)
     }
 
     /// Refuses a list, vector or matrix of more than the budget's elements, and charges for making it.

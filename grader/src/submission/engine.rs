@@ -7,11 +7,12 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, EvalAltResult, Position};
 
 use super::budget::Meter;
+use super::granted::{self, Model};
 use super::hints::Names;
 use super::library::Library;
 use super::mistake::raise;
 use super::{arithmetic, linear, list, math, output};
-use crate::controller::Budgets;
+use crate::controller::{Budgets, Grant};
 
 /// What variables stand for that no function declares.
 #[derive(Default)]
@@ -37,11 +38,12 @@ const DISABLED: [&str; 8] = [
     "type_of",
 ];
 
-/// Builds an engine for one task, and the names of what is built in.
+/// Builds an engine for one task, with what that grants, and the names of what is built in.
 pub(super) fn build(
     budgets: &Budgets,
     meter: &Rc<Meter>,
     globals: &Rc<Globals>,
+    granted: Option<(&Rc<Model>, &[Grant])>,
 ) -> (Engine, Names) {
     let mut engine = Engine::new_raw();
     let mut library = Library::new(Rc::clone(meter));
@@ -50,6 +52,9 @@ pub(super) fn build(
     linear::register(&mut library);
     list::register(&mut library);
     output::register(&mut library);
+    if let Some((model, grants)) = granted {
+        granted::register(&mut library, model, grants);
+    }
     let (module, built_in) = library.finish();
     engine.register_global_module(module.into());
 

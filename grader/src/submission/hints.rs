@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::foreign;
+use crate::controller::Grant;
 
 /// Everything that has a name in one submission.
 #[derive(Debug, Default)]
@@ -27,9 +28,6 @@ pub(super) struct Names {
     pub(super) robot_parameters: BTreeSet<String>,
 }
 
-/// Functions of `robot` that a task may grant.
-const GRANTED: [&str; 4] = ["fk", "jacobian", "gravity", "mass_matrix"];
-
 /// What a submission's functions are called with.
 pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
     ("forward_kinematics", &["robot", "q"]),
@@ -47,7 +45,16 @@ impl Names {
             0 => "none".to_owned(),
             count => count.to_string(),
         };
+        let may_be_granted = Grant::ALL.iter().any(|grant| grant.name() == name);
+        let of_a_map = may_be_granted && arguments.first() == Some(&"map");
         if let Some((_, parameters)) = self.functions.iter().find(|(known, _)| known == name) {
+            if of_a_map && parameters.len() == arguments.len() && !self.built_in.contains_key(name)
+            {
+                return (
+                    format!("`robot.{name}` is not granted in this task"),
+                    Some(format!("call your own: {name}({})", parameters.join(", "))),
+                );
+            }
             return (
                 format!(
                     "`{name}` takes {} ({}), got {given}",
@@ -69,7 +76,7 @@ impl Names {
                 None,
             );
         }
-        if GRANTED.contains(&name) && arguments.first() == Some(&"map") {
+        if of_a_map {
             return (
                 format!("`robot.{name}` is not granted in this task"),
                 Some("write it yourself: the dimensions are in `robot`".to_owned()),

@@ -10,6 +10,7 @@ mod convert;
 mod copies;
 mod engine;
 mod foreign;
+mod granted;
 mod hints;
 mod library;
 mod linear;

@@ -11,6 +11,7 @@ use rhai::{
 use super::budget::{Meter, place};
 use super::convert;
 use super::engine::{self, ARGUMENTS, Globals};
+use super::granted::Model;
 use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::memory;
@@ -37,6 +38,8 @@ pub struct ScriptController {
     run: Run,
     task: String,
     robot: CachedRobot,
+    /// What granted functions ask, where any is granted.
+    model: Option<Rc<Model>>,
     observation: Map,
     sensors: Vec<SensorFacts>,
     /// One statement for each function that may be called: `memory.control(argument)`.
@@ -95,7 +98,13 @@ impl ScriptController {
         }
         let meter = Rc::new(Meter::new(budgets.clone()));
         let globals = Rc::new(Globals::default());
-        let (engine, mut names) = engine::build(budgets, &meter, &globals);
+        let model = match &opening.granted {
+            Some(granted) => Some(Rc::new(Model::new(granted, &opening.robot)?)),
+            None => None,
+        };
+        let grants = opening.granted.as_ref().map(|g| g.functions.as_slice());
+        let granted = model.as_ref().zip(grants);
+        let (engine, mut names) = engine::build(budgets, &meter, &globals, granted);
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
         names.observation = observation.keys().map(ToString::to_string).collect();
@@ -140,6 +149,7 @@ impl ScriptController {
             },
             task: opening.task.clone(),
             robot,
+            model,
             observation,
             sensors: opening.sensors.clone(),
             statements,
@@ -271,6 +281,9 @@ impl Controller for ScriptController {
         let defined = self.statements.contains_key(name);
         if !defined && let Some(missing) = self.missing(name) {
             return Err(missing);
+        }
+        if let (Some(model), Some(facts)) = (&self.model, call.robot()) {
+            model.is_now(facts)?;
         }
         self.meter.start();
         let vector =

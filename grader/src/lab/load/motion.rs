@@ -149,6 +149,7 @@ impl Reader<'_> {
                 None => Value::List(Vec::new()),
             },
             goals,
+            grants: self.grants(&motion.grants, None)?,
         })
     }
 

@@ -34,6 +34,7 @@ fn opening(source: &str) -> Opening {
         target: numbers([2.0, 1.4, 0.0]),
         sensors: Vec::new(),
         budgets: Budgets::default(),
+        granted: None,
     }
 }
 
