@@ -312,6 +312,21 @@ pub struct Digests {
     pub all: String,
     /// Of every simulated second of a motion task.
     pub seconds: Vec<SecondDigests>,
+    /// Of the runs under disturbances that robustness checks asked for, where there were any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rungs: Vec<RungDigest>,
+}
+
+/// Identity of one run under a disturbance.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RungDigest {
+    /// The robustness check's name.
+    pub check: String,
+    /// The rung's name.
+    pub rung: String,
+    /// Of the whole run, in hexadecimal BLAKE3.
+    pub digest: String,
 }
 
 /// Digests of one simulated second.

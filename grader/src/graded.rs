@@ -43,6 +43,8 @@ pub struct TaskRun {
     pub goals: Vec<Goal>,
     /// The reference solution's TCP path, if the lab has one.
     pub reference_tcp: Option<TcpPath>,
+    /// Paths that the TCP was to follow.
+    pub paths: Vec<AskedPath>,
     /// The curves that checks judged, in the lab's order.
     pub curves: Vec<Curve>,
 }
@@ -71,6 +73,17 @@ pub struct Goal {
     pub zero_m: f64,
     /// First and last tick of the stay that was judged, if one was found.
     pub stay: Option<(u64, u64)>,
+}
+
+/// A path of straight segments that the TCP was to follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AskedPath {
+    /// Its name.
+    pub name: String,
+    /// Its points in the lab's frame \[m\].
+    pub points_m: Vec<[f64; 3]>,
+    /// Distances from it that earn all points and none \[m\], where a check measures them.
+    pub tube_m: Option<[f64; 2]>,
 }
 
 /// TCP positions at a fixed period, from time zero.

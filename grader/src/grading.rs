@@ -4,19 +4,20 @@ use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::source::Source;
 
 use crate::cases::{self, CasesRun};
-use crate::check::{self, Answered, CaseError, CaseFacts, Finding, MotionFacts, stay};
+use crate::check::{self, Answered, CaseError, CaseFacts, Climb, Finding, MotionFacts, stay};
+use crate::climb::{self, Undecided};
 use crate::controller::{Controller, Granted, Opening, Stop, Value};
 use crate::diagnose;
 use crate::event_words::Names;
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Digests, FORMAT, Grade, GradeMode, HiddenClass, LogEntry,
-    Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
+    Outcome, Part, RungDigest, SecondDigests, Stopped, TaskGrade, TaskKind,
 };
-use crate::graded::{Goal, GradedRun, TaskRun, TcpPath};
+use crate::graded::{AskedPath, Goal, GradedRun, TaskRun, TcpPath};
 use crate::lab::model::{
     Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
 };
-use crate::lab::{LabRobot, MeshFile, Staff, staff::Mutant};
+use crate::lab::{LabRobot, MeshFile, Staff, staff::Mutant, watched::PathToFollow};
 use crate::motion::{self, EarlyEnd, MotionRun};
 use crate::quantity::{list, lists};
 use crate::stopped;
@@ -289,6 +290,7 @@ impl Grader<'_> {
             digests: Digests {
                 all: run.digest.to_hex().to_string(),
                 seconds: Vec::new(),
+                rungs: Vec::new(),
             },
         })
     }
@@ -359,7 +361,7 @@ impl Grader<'_> {
         }
         let band = pose_band(&task.checks);
         let reference = self.reference_path(&task.name);
-        let facts = MotionFacts {
+        let mut facts = MotionFacts {
             robot: &self.lab.robot,
             names,
             motion: work,
@@ -367,11 +369,25 @@ impl Grader<'_> {
             stays: stay::best_stays(&trace, &work.goals, band),
             pose_band: band,
             reference,
+            climbs: Vec::new(),
         };
-        let judged = judged(&task.checks, ended.is_none(), |check| {
+        let mut can_be_judged = ended.is_none();
+        if can_be_judged {
+            match climb::climbs(self.lab, task, work, &opening, &facts, host) {
+                Ok(climbs) => facts.climbs = climbs,
+                Err(Undecided(stop)) => {
+                    // a rung that this machine could not run decides nothing, nor does the grade without it
+                    can_be_judged = false;
+                    verdict = stopped::verdict(&stop).ok_or(Interrupted)?;
+                    stopped_record = Some(stopped::record(&stop, self.submission.text()));
+                }
+            }
+        }
+        let judged = judged(&task.checks, can_be_judged, |check| {
             check::judge_motion(check, &facts)
         });
         let stays = facts.stays;
+        let rungs = rung_digests(task, &facts.climbs);
         let mut checks = Vec::new();
         let mut curves = Vec::new();
         for (check, curve) in judged {
@@ -437,6 +453,7 @@ impl Grader<'_> {
                         }
                     })
                     .collect(),
+                rungs,
             },
         };
         let goals = work.goals.iter().enumerate().map(|(i, goal)| Goal {
@@ -458,6 +475,11 @@ impl Grader<'_> {
             effort_limits: work.servo.gains.iter().map(|g| g.effort_limit).collect(),
             goals: goals.collect(),
             reference_tcp: reference.cloned(),
+            paths: work
+                .paths
+                .iter()
+                .map(|path| asked(path, &task.checks))
+                .collect(),
             curves,
             trace,
         };
@@ -467,6 +489,38 @@ impl Grader<'_> {
     fn reference_path(&self, task: &str) -> Option<&TcpPath> {
         let mut paths = self.lab.reference_paths.paths.iter();
         paths.find(|(name, _)| name == task).map(|(_, path)| path)
+    }
+}
+
+/// Identities of the runs of all rungs, in the lab's order.
+fn rung_digests(task: &Task, climbs: &[Climb]) -> Vec<RungDigest> {
+    let mut digests = Vec::new();
+    for climb in climbs {
+        let check = task.checks.iter().find(|check| check.name == climb.check);
+        let Some(CheckKind::Robustness(ladder)) = check.map(|check| &check.kind) else {
+            continue;
+        };
+        for (rung, facts) in ladder.rungs.iter().zip(&climb.rungs) {
+            digests.push(RungDigest {
+                check: climb.check.clone(),
+                rung: rung.name.clone(),
+                digest: facts.digest.clone(),
+            });
+        }
+    }
+    digests
+}
+
+/// A path as the plots draw it, with the band of the first check that measures the distance from it.
+fn asked(path: &PathToFollow, checks: &[Check]) -> AskedPath {
+    let band = checks.iter().find_map(|check| match &check.kind {
+        CheckKind::PathDeviation { path: of, band, .. } if of.name == path.name => Some(*band),
+        _ => None,
+    });
+    AskedPath {
+        name: path.name.clone(),
+        points_m: path.points_m.iter().map(|p| (*p).into()).collect(),
+        tube_m: band.map(|band| [band.full, band.zero]),
     }
 }
 

@@ -10,6 +10,7 @@
 //! | [`cases`], [`motion`] | a function task, a motion task |
 //! | [`jacobian`] | the Jacobian that answers are held against |
 //! | [`check`] | one file per check |
+//! | [`climb`] | the same motion under disturbances |
 //! | [`diagnose`] | known mistakes, recognised |
 //! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
@@ -27,6 +28,7 @@ pub mod answer;
 pub mod blow_up;
 pub mod cases;
 pub mod check;
+pub mod climb;
 pub mod controller;
 pub mod diagnose;
 pub mod event_words;

@@ -1,7 +1,8 @@
 //! Runs a motion task: the simulator under the submission's `control`.
 
 use kinemark_sim::event::{Event, EventKind};
-use kinemark_sim::run::{self, End, Run, RunSnapshot, Setup};
+use kinemark_sim::robot::Robot;
+use kinemark_sim::run::{self, Disturbance, End, Run, RunSnapshot, Setup};
 use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
 use kinemark_sim::sensor::{Sensor, SensorKind};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
@@ -85,6 +86,24 @@ pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Hos
     session.finish()
 }
 
+/// Runs `motion` under the submission of `opening` with `robot` in the place of the lab's, disturbed. The submission is told of neither.
+pub fn run_disturbed(
+    lab: &Lab,
+    motion: &MotionTask,
+    opening: &Opening,
+    host: &mut dyn Host,
+    robot: &Robot,
+    disturbance: &Disturbance<'_>,
+) -> MotionRun {
+    let disturbed = (robot, Some(disturbance));
+    let mut session = match Session::open_with(lab, motion, opening, host, disturbed) {
+        Ok(session) => session,
+        Err(run) => return *run,
+    };
+    session.advance_to(u64::MAX);
+    session.finish()
+}
+
 /// A motion task between two ticks: the simulator, the submission, and what was recorded so far.
 pub struct Session<'a> {
     run: Run<'a>,
@@ -118,7 +137,17 @@ impl<'a> Session<'a> {
         opening: &Opening,
         host: &mut dyn Host,
     ) -> Result<Self, Box<MotionRun>> {
-        let robot = &lab.robot;
+        Self::open_with(lab, motion, opening, host, (&lab.robot, None))
+    }
+
+    /// The same with another robot of the same joints and frames, and a disturbance.
+    fn open_with(
+        lab: &'a Lab,
+        motion: &'a MotionTask,
+        opening: &Opening,
+        host: &mut dyn Host,
+        (robot, disturbance): (&'a Robot, Option<&Disturbance<'a>>),
+    ) -> Result<Self, Box<MotionRun>> {
         let world = &robot.frames()[0];
         let setup = Setup {
             robot,
@@ -136,7 +165,11 @@ impl<'a> Session<'a> {
         let recorder = TraceRecorder::new(&setup);
         let mut told = Told::default();
         let opened = started(opening, host, &mut told).and_then(|controller| {
-            let run = Run::new(setup).map_err(|error| Stop::GraderFault(error.to_string()))?;
+            let run = match disturbance {
+                None => Run::new(setup),
+                Some(disturbance) => Run::disturbed(setup, disturbance),
+            };
+            let run = run.map_err(|error| Stop::GraderFault(error.to_string()))?;
             Ok((controller, run))
         });
         match opened {

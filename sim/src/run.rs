@@ -3,6 +3,7 @@
 //! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
 //! world moves on to the next tick. [`Run`] goes tick by tick and can be copied in the middle; [`run`] goes to the end.
 
+mod disturbance;
 mod stepper;
 
 use nalgebra::Vector3;
@@ -19,6 +20,8 @@ use crate::scene::Scene;
 use crate::sensor::{Seen, Sensor, SensorError, Sensors};
 use crate::spatial::Pose;
 use crate::ticks::Periods;
+pub use disturbance::Disturbance;
+use disturbance::Disturbed;
 use stepper::{Moved, Stepper};
 
 /// Everything a run needs but its controller.
@@ -136,6 +139,8 @@ pub enum RunError {
 #[derive(Debug)]
 pub struct Run<'a> {
     setup: Setup<'a>,
+    /// The robot as the servos know it.
+    known: &'a Robot,
     state: State,
 }
 
@@ -165,6 +170,8 @@ struct State {
     qdd: Vec<f64>,
     guard: RunawayGuard,
     poses: FramePoses,
+    /// What keeps the state from being seen and commands from arriving as they are, where anything does.
+    disturbed: Option<Disturbed>,
 }
 
 impl<'a> Run<'a> {
@@ -203,8 +210,31 @@ impl<'a> Run<'a> {
             qdd: vec![0.0; n],
             guard: RunawayGuard::new(robot),
             poses: FramePoses::new(robot),
+            disturbed: None,
         };
-        Ok(Self { setup, state })
+        Ok(Self {
+            known: robot,
+            setup,
+            state,
+        })
+    }
+
+    /// A run of `setup` under a disturbance. The trace holds the true state, and commands as they reach the servos.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    ///
+    /// # Panics
+    /// As [`Run::new`], and if the known robot has another number of joints than the one that moves.
+    pub fn disturbed(setup: Setup<'a>, disturbance: &Disturbance<'a>) -> Result<Self, RunError> {
+        let n = setup.robot.n();
+        let mut run = Self::new(setup)?;
+        run.state.disturbed = Some(Disturbed::new(disturbance, n));
+        if let Some(known) = disturbance.known {
+            assert_eq!(known.n(), n, "a known robot of the same joints");
+            run.known = known;
+        }
+        Ok(run)
     }
 
     /// What is run.
@@ -243,16 +273,26 @@ impl<'a> Run<'a> {
         }
         state.measure(&self.setup);
         let begins = |ticks: std::num::NonZeroU32| tick.is_multiple_of(u64::from(ticks.get()));
+        // every control period begins with a servo period
+        if let Some(disturbed) = &mut state.disturbed
+            && begins(periods.ticks_per_servo)
+        {
+            disturbed.measure(&state.q, &state.qd);
+        }
+        let (q, qd) = match &state.disturbed {
+            Some(disturbed) => (&disturbed.q, &disturbed.qd),
+            None => (&state.q, &state.qd),
+        };
         if begins(periods.ticks_per_control) && (tick < self.setup.ticks || tick == 0) {
-            state.poses.update(robot, &state.q);
+            state.poses.update(robot, q);
             let world_from_tcp = state.poses.world_from(tcp);
             let tcp = state.poses.world_from(seen_from).inv_mul(&world_from_tcp);
             let observation = Observation {
                 tick,
                 time_s: periods.time_s(tick),
                 dt_s: periods.control_s(),
-                q: &state.q,
-                qd: &state.qd,
+                q,
+                qd,
                 effort: &state.effort,
                 tcp: &tcp,
                 sensors: state.sensors.values(),
@@ -260,15 +300,18 @@ impl<'a> Run<'a> {
             if let Err(why) = control(&observation, &mut state.command) {
                 return Ok(Some(End::Stopped { tick, why }));
             }
+            if let Some(disturbed) = &mut state.disturbed {
+                disturbed.deliver(&mut state.command);
+            }
         }
         if begins(periods.ticks_per_servo) {
-            state.servo.sample(
-                robot,
-                &state.command,
-                &state.q,
-                &state.qd,
-                &mut state.driven,
-            );
+            let (q, qd) = match &state.disturbed {
+                Some(disturbed) => (&disturbed.q, &disturbed.qd),
+                None => (&state.q, &state.qd),
+            };
+            state
+                .servo
+                .sample(self.known, &state.command, q, qd, &mut state.driven);
         }
         state.effort.copy_from_slice(&state.driven);
         state.sensors.open_motors(&mut state.effort);

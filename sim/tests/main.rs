@@ -8,6 +8,7 @@ mod contact_order;
 mod contact_run;
 mod contact_scenes;
 mod differential;
+mod disturbances;
 mod golden_contact;
 mod golden_robots;
 mod golden_rrbot;

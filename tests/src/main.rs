@@ -20,6 +20,7 @@ mod hostile;
 mod jacobian_task;
 mod lab_audit;
 mod mesh_labs;
+mod path_checks;
 mod robot_docs;
 mod robot_files;
 mod scene_check;

@@ -22,6 +22,7 @@ scene = "shelf-and-can"
 duration_s = 3.0
 start_rad = [1.3444, 2.0236]
 servo = { kp = 1000.0, kd = 30.0, derivative = "velocity", gravity_compensation = true, effort_limit = 100.0 }
+paths = { line = { points_m = [[1.25, 0.75, 0.05], [1.25, 1.3, 0.05]], trim_m = 0.05 } }
 
 [[tasks.checks]]
 name = "knocked"
@@ -53,13 +54,19 @@ tcp-speed = { at = "run", full_m_s = 1.5, zero_m_s = 4.0 }
 name = "line"
 title = "Along the line"
 points = 2.0
-path-deviation = { points_m = [[1.25, 0.75, 0.05], [1.25, 1.3, 0.05]], trim_m = 0.05, full_m = 0.008, zero_m = 0.03 }
+path-deviation = { path = "line", full_m = 0.008, zero_m = 0.03 }
 
 [[tasks.checks]]
 name = "whole"
 title = "All of the line"
 points = 1.0
-path-coverage = { points_m = [[1.25, 0.75, 0.05], [1.25, 1.3, 0.05]], trim_m = 0.05, within_m = 0.03, full = 0.98, zero = 0.5 }
+path-coverage = { path = "line", within_m = 0.03, full = 0.98, zero = 0.5 }
+
+[[tasks.checks]]
+name = "soon"
+title = "In time"
+points = 1.0
+time-limit = { until = "fall", body = "can", full_s = 2.5, zero_s = 3.5 }
 "#;
 
 /// A submission whose tip is at `place`, `[up, out]` in the lab's frame, an expression of the time `t`.
@@ -118,7 +125,9 @@ fn a_steady_push_has_full_marks() {
         0,
     );
     assert_eq!(task["verdict"], "passed", "{task}");
-    assert_eq!(task["points"], 12.0, "{task}");
+    assert_eq!(task["points"], 13.0, "{task}");
+    let fell = check(&task, "soon")["measure"]["value"].as_f64();
+    assert!((1.0..2.5).contains(&fell.expect("a time")), "{fell:?}");
     // the tip follows at half a metre a second, and the can is 0.18 m from where it starts
     let speed = check(&task, "gentle")["measure"]["value"].as_f64();
     assert!((speed.expect("a speed") - 0.5).abs() < 0.05, "{speed:?}");
@@ -142,6 +151,10 @@ fn an_arm_that_stays_earns_nothing() {
     let told = message(check(&task, "line")).to_owned();
     assert!(told.contains("never passed"), "{told}");
     assert_eq!(check(&task, "whole")["measure"]["value"], 0.0);
+    assert_eq!(
+        message(check(&task, "soon")),
+        "`can` never fell, so the time was never over"
+    );
 }
 
 #[test]
@@ -245,8 +258,8 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
             "`body` is missing",
         ),
         (
-            "trim_m = 0.05, full_m",
-            "trim_m = 0.3, full_m",
+            "trim_m = 0.05 }",
+            "trim_m = 0.3 }",
             "lab::path",
             "segment 1",
         ),
@@ -255,6 +268,18 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
             "full = 0.5, zero = 0.98",
             "lab::band",
             "coverage",
+        ),
+        (
+            "until = \"fall\", body = \"can\"",
+            "until = \"fall\", body = \"shelf\"",
+            "lab::body_falls",
+            "is not free",
+        ),
+        (
+            "until = \"fall\", body = \"can\"",
+            "until = \"fall\", path = \"line\"",
+            "lab::time_limit",
+            "needs `body`",
         ),
         (
             "scene = \"shelf-and-can\"",

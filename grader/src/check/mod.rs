@@ -14,10 +14,13 @@ pub mod joint_reached;
 pub mod overshoot;
 pub mod path_coverage;
 pub mod path_deviation;
+pub mod path_speed;
 pub mod pose_reached;
 pub mod road;
+pub mod robustness;
 pub mod stay;
 pub mod tcp_speed;
+pub mod time_limit;
 pub mod trajectory_match;
 
 use kinemark_sim::robot::Robot;
@@ -28,6 +31,7 @@ use crate::event_words::Names;
 use crate::grade::{Evidence, Measure};
 use crate::graded::{Curve, TcpPath};
 use crate::lab::model::{Band, Case, Check, CheckKind, Function, MotionTask};
+use robustness::RungFacts;
 use stay::Stay;
 
 /// What a check found.
@@ -62,6 +66,19 @@ pub struct MotionFacts<'a> {
     pub pose_band: Band,
     /// The reference's path.
     pub reference: Option<&'a TcpPath>,
+    /// How the same motion went on the rungs of robustness checks; empty where nothing was disturbed.
+    pub climbs: Vec<Climb>,
+}
+
+/// The runs of one robustness check.
+#[derive(Debug, Clone)]
+pub struct Climb {
+    /// The check's name.
+    pub check: String,
+    /// Title of the check that is repeated.
+    pub repeated: String,
+    /// One run per rung.
+    pub rungs: Vec<RungFacts>,
 }
 
 impl MotionFacts<'_> {
@@ -182,14 +199,30 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             contact_impulse::judge(facts, *between, *band, &check.name)
         }
         CheckKind::TcpSpeed { at, band } => tcp_speed::judge(facts, *at, *band, &check.name),
-        CheckKind::PathDeviation { path, band } => {
-            path_deviation::judge(facts, path, *band, &check.name)
-        }
+        CheckKind::PathDeviation {
+            path,
+            segment,
+            band,
+        } => path_deviation::judge(facts, path, *segment, *band, &check.name),
         CheckKind::PathCoverage {
             path,
             within_m,
             shares,
         } => path_coverage::judge(facts, path, *within_m, *shares),
+        CheckKind::PathSpeed {
+            path,
+            segment,
+            speed_m_s,
+            band,
+        } => path_speed::judge(facts, path, *segment, *speed_m_s, *band, &check.name),
+        CheckKind::TimeLimit { until, band } => time_limit::judge(facts, until, *band),
+        CheckKind::Robustness(ladder) => {
+            let climb = facts.climbs.iter().find(|climb| climb.check == check.name);
+            let (repeated, rungs) =
+                climb.map_or(("", &[][..]), |climb| (&climb.repeated, &climb.rungs));
+            let periods = facts.motion.periods;
+            robustness::judge(ladder, repeated, rungs, |tick| periods.time_s(tick))
+        }
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -217,7 +250,10 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::ContactImpulse { .. }
         | CheckKind::TcpSpeed { .. }
         | CheckKind::PathDeviation { .. }
-        | CheckKind::PathCoverage { .. } => foreign(),
+        | CheckKind::PathCoverage { .. }
+        | CheckKind::PathSpeed { .. }
+        | CheckKind::TimeLimit { .. }
+        | CheckKind::Robustness(_) => foreign(),
     }
 }
 

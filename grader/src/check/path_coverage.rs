@@ -43,8 +43,9 @@ pub fn judge(
         }
         let [from, to] = [i, i + 1].map(|k| list(path.points_m[k].as_slice()));
         let message = format!(
-            "of segment {}, from {from} to {to}, {} is passed within {}",
+            "of segment {} of the path `{}`, from {from} to {to}, {} is passed within {}",
             i + 1,
+            path.name,
             with_unit(share, ""),
             metres(within_m)
         );

@@ -14,16 +14,24 @@ use crate::lab::watched::PathToFollow;
 use crate::quantity::{list, metres, seconds};
 
 /// Judges the check.
-pub fn judge(facts: &MotionFacts<'_>, path: &PathToFollow, band: Band, check: &str) -> Finding {
+pub fn judge(
+    facts: &MotionFacts<'_>,
+    path: &PathToFollow,
+    only: Option<usize>,
+    band: Band,
+    check: &str,
+) -> Finding {
     let trace = facts.trace;
     let p_tcp_m: Vec<Vector3<f64>> = (0..trace.len()).map(|k| trace.tcp_position(k)).collect();
     let driven = road::driven(&p_tcp_m, path).unwrap_or_default();
-    let worst = driven.iter().map(|segment| segment.rms_m);
+    let counts = |i: usize| only.is_none_or(|only| only == i);
+    let segments = driven.iter().enumerate().filter(|(i, _)| counts(*i));
+    let worst = segments.clone().map(|(_, segment)| segment.rms_m);
     // of the sizes, so that one that is no number is the worst
     let worst = worst.max_by(|a, b| a.abs().total_cmp(&b.abs()));
     let value = worst.unwrap_or(f64::INFINITY);
     let score = band.score(value);
-    let mut lost: Vec<(usize, &Driven)> = driven.iter().enumerate().collect();
+    let mut lost: Vec<(usize, &Driven)> = segments.collect();
     lost.retain(|(_, segment)| band.score(segment.rms_m) < 1.0);
     lost.sort_by(|a, b| b.1.rms_m.total_cmp(&a.1.rms_m));
     let evidence = lost.iter().take(3).map(|(i, segment)| Evidence {
@@ -35,7 +43,7 @@ pub fn judge(facts: &MotionFacts<'_>, path: &PathToFollow, band: Band, check: &s
     Finding {
         score,
         measure: Some(Measure {
-            quantity: "distance from the path, in its worst segment".to_owned(),
+            quantity: format!("distance from the path, {}", which(only)),
             value: value.is_finite().then_some(value),
             unit: "m".to_owned(),
             full: band.full,
@@ -43,15 +51,24 @@ pub fn judge(facts: &MotionFacts<'_>, path: &PathToFollow, band: Band, check: &s
         }),
         evidence: evidence.collect(),
         next_step: "Lead the TCP along each segment to its end before the next one, and correct what it is aside.".to_owned(),
-        curve: curve(facts, &driven, band, check),
+        curve: curve(facts, &driven, only, band, check),
     }
+}
+
+/// Which segment a measure of a path is of.
+pub(super) fn which(only: Option<usize>) -> String {
+    only.map_or_else(
+        || "in its worst segment".to_owned(),
+        |segment| format!("in its segment {}", segment + 1),
+    )
 }
 
 fn told(facts: &MotionFacts<'_>, path: &PathToFollow, i: usize, segment: &Driven) -> Evidence {
     let [from, to] = [i, i + 1].map(|k| list(path.points_m[k].as_slice()));
     let mut message = format!(
-        "segment {} of the path, from {from} to {to}: {} off (root mean square along the road)",
+        "segment {} of the path `{}`, from {from} to {to}: {} off (root mean square along the road)",
         i + 1,
+        path.name,
         metres(segment.rms_m),
     );
     let mut tick = segment.places.last().map_or(0, |place| place.tick);
@@ -76,7 +93,13 @@ fn told(facts: &MotionFacts<'_>, path: &PathToFollow, i: usize, segment: &Driven
 }
 
 /// Distance aside while the path is driven; near the corners, where it does not count, there are gaps.
-fn curve(facts: &MotionFacts<'_>, driven: &[Driven], band: Band, check: &str) -> Option<Curve> {
+fn curve(
+    facts: &MotionFacts<'_>,
+    driven: &[Driven],
+    only: Option<usize>,
+    band: Band,
+    check: &str,
+) -> Option<Curve> {
     let mut t_s = Vec::new();
     let mut values = Vec::new();
     let mut marks = Vec::new();
@@ -85,7 +108,7 @@ fn curve(facts: &MotionFacts<'_>, driven: &[Driven], band: Band, check: &str) ->
         marks.push((facts.time_s(begun.tick), format!("point {}", i + 1)));
         for place in &segment.places {
             t_s.push(facts.time_s(place.tick));
-            values.push(if place.counts {
+            values.push(if place.counts && only.is_none_or(|only| only == i) {
                 place.aside_m
             } else {
                 f64::NAN

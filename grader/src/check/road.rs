@@ -79,6 +79,32 @@ pub fn driven(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Option<Vec<Drive
     Some(segments.collect())
 }
 
+/// Where the TCP came nearest to a point of a path, in its turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// The tick.
+    pub tick: usize,
+    /// How far outside `trim` of the point the TCP is there \[m\]; 0 where it came as near as that.
+    pub gap_m: f64,
+}
+
+/// Where the TCP, at `p_tcp_m` tick by tick, came to each point of `path` in order; none where it was nowhere, or at no numbers.
+pub fn corners_of(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Option<Vec<Corner>> {
+    let are_numbers = p_tcp_m.iter().all(|p| p.iter().all(|x| x.is_finite()));
+    if p_tcp_m.is_empty() || !are_numbers {
+        return None;
+    }
+    let ticks = corners(p_tcp_m, path);
+    let corners = ticks
+        .iter()
+        .zip(&path.points_m)
+        .map(|(&tick, point)| Corner {
+            tick,
+            gap_m: ((p_tcp_m[tick] - point).norm() - path.trim_m).max(0.0),
+        });
+    Some(corners.collect())
+}
+
 /// The tick of each point of the path.
 fn corners(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Vec<usize> {
     // least cost of the points so far, the last of them at or before a tick; and where that one is
@@ -170,6 +196,7 @@ mod tests {
 
     fn path(points: &[[f64; 2]]) -> PathToFollow {
         PathToFollow {
+            name: "path".to_owned(),
             points_m: points
                 .iter()
                 .map(|[x, y]| Vector3::new(*x, *y, 0.05))

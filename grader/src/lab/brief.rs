@@ -49,6 +49,13 @@ fn table(lab: &Lab) -> String {
                     format!("from {}", with_unit(shares.full, "")),
                     format!("up to {}", with_unit(shares.zero, "")),
                 ),
+                (CheckKind::Robustness(ladder), _) => {
+                    let repeated = &task.checks[ladder.check].title;
+                    (
+                        format!("\"{repeated}\" in full on every rung"),
+                        "nothing on any rung".to_owned(),
+                    )
+                }
                 (_, Some((band, unit))) => (
                     format!("up to {}", with_unit(band.full, unit)),
                     format!("from {}", with_unit(band.zero, unit)),

@@ -6,6 +6,11 @@ use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::ladder_tables::RobustnessTable;
+use super::path_tables::{
+    PathCoverageTable, PathDeviationTable, PathSpeedTable, PathTable, TimeLimitTable,
+};
+
 /// A number as typed, whole or not.
 pub(super) type NumberAt = Spanned<f64>;
 
@@ -91,6 +96,8 @@ pub(super) struct MotionTable {
     pub(super) sensors: Vec<SensorTable>,
     #[serde(default)]
     pub(super) grants: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub(super) paths: BTreeMap<Spanned<String>, PathTable>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -188,6 +195,11 @@ pub(super) struct CheckTable {
     pub(super) path_deviation: Option<Spanned<PathDeviationTable>>,
     #[serde(rename = "path-coverage")]
     pub(super) path_coverage: Option<Spanned<PathCoverageTable>>,
+    #[serde(rename = "path-speed")]
+    pub(super) path_speed: Option<Spanned<PathSpeedTable>>,
+    #[serde(rename = "time-limit")]
+    pub(super) time_limit: Option<Spanned<TimeLimitTable>>,
+    pub(super) robustness: Option<Spanned<RobustnessTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -291,25 +303,6 @@ pub(super) struct TcpSpeedTable {
 pub(super) enum SpeedAtName {
     Touch,
     Run,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PathDeviationTable {
-    pub(super) points_m: Spanned<Vec<[f64; 3]>>,
-    pub(super) trim_m: NumberAt,
-    pub(super) full_m: f64,
-    pub(super) zero_m: f64,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PathCoverageTable {
-    pub(super) points_m: Spanned<Vec<[f64; 3]>>,
-    pub(super) trim_m: NumberAt,
-    pub(super) within_m: NumberAt,
-    pub(super) full: f64,
-    pub(super) zero: f64,
 }
 
 /// `hidden.toml` in the staff's folder.

@@ -3,7 +3,9 @@
 
 mod checks;
 mod grants;
+mod ladder;
 mod motion;
+mod path_checks;
 mod run_checks;
 mod target;
 

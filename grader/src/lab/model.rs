@@ -9,9 +9,10 @@ use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 
+use super::ladder::Ladder;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
-use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
+use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty, Until};
 use crate::controller::{Budgets, Grant, Value};
 use crate::graded::TcpPath;
 
@@ -198,6 +199,8 @@ pub struct MotionTask {
     pub goals: Vec<MotionGoal>,
     /// Functions of `robot` that it grants.
     pub grants: Vec<Grant>,
+    /// Paths for the TCP, which checks name.
+    pub paths: Vec<PathToFollow>,
 }
 
 /// A place the TCP is to reach and to stay at.
@@ -311,6 +314,8 @@ pub enum CheckKind {
     PathDeviation {
         /// The path.
         path: PathToFollow,
+        /// The one segment that counts, from 0; the worst of all where there is none.
+        segment: Option<usize>,
         /// Root mean square distance \[m\].
         band: Band,
     },
@@ -323,6 +328,26 @@ pub enum CheckKind {
         /// The share.
         shares: Shares,
     },
+    /// Speed of the TCP along a path, in the worst of its segments.
+    PathSpeed {
+        /// The path.
+        path: PathToFollow,
+        /// The one segment that counts, from 0; the worst of all where there is none.
+        segment: Option<usize>,
+        /// The speed \[m/s\].
+        speed_m_s: f64,
+        /// Root mean square error, as a fraction of the speed.
+        band: Band,
+    },
+    /// When something was done.
+    TimeLimit {
+        /// What.
+        until: Until,
+        /// Time \[s\].
+        band: Band,
+    },
+    /// An earlier check, of the same motion under disturbances.
+    Robustness(Ladder),
 }
 
 impl CheckKind {
@@ -346,6 +371,9 @@ impl CheckKind {
             Self::TcpSpeed { .. } => "tcp-speed",
             Self::PathDeviation { .. } => "path-deviation",
             Self::PathCoverage { .. } => "path-coverage",
+            Self::PathSpeed { .. } => "path-speed",
+            Self::TimeLimit { .. } => "time-limit",
+            Self::Robustness(_) => "robustness",
         }
     }
 
@@ -364,6 +392,9 @@ impl CheckKind {
             Self::ContactImpulse { band, .. } => Some((*band, "N s")),
             Self::TcpSpeed { band, .. } => Some((*band, "m/s")),
             Self::IkUnreachable | Self::BodyFalls(_) | Self::PathCoverage { .. } => None,
+            Self::PathSpeed { band, .. } => Some((*band, "")),
+            Self::TimeLimit { band, .. } => Some((*band, "s")),
+            Self::Robustness(_) => None,
         }
     }
 }

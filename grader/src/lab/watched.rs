@@ -71,10 +71,21 @@ pub enum SpeedAt {
 /// A path of straight segments for the TCP.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathToFollow {
+    /// Its name in the task.
+    pub name: String,
     /// Its points in the lab's frame, at least two \[m\].
     pub points_m: Vec<Vector3<f64>>,
     /// What is cut off each end of each segment; positive, and under half of the shortest \[m\].
     pub trim_m: f64,
+}
+
+/// What ends the time of a time limit.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Until {
+    /// The body of this index in the scene fell.
+    Fall(usize),
+    /// The TCP was at the last point of a path.
+    Path(PathToFollow),
 }
 
 /// A band of shares: more is better.

@@ -1,5 +1,6 @@
 //! The plots of a motion task, as SVG that follows a reader's light or dark screen.
 
+mod asked;
 mod axis;
 mod canvas;
 mod joints;

@@ -160,6 +160,7 @@ pub(crate) fn task_run() -> TaskRun {
         trace: trace_of_run,
         goals: goals.to_vec(),
         reference_tcp,
+        paths: Vec::new(),
         curves,
     }
 }
@@ -244,6 +245,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
         trace,
         goals: Vec::new(),
         reference_tcp: None,
+        paths: Vec::new(),
         curves: Vec::new(),
         robot,
     }
@@ -328,6 +330,7 @@ fn task(
                 };
                 8
             ],
+            rungs: Vec::new(),
         },
     }
 }

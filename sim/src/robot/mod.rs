@@ -5,6 +5,7 @@
 //! What robot files share with scene files is in [`part`].
 
 mod assemble;
+mod burdened;
 pub mod config_string;
 mod description;
 pub mod expression;

@@ -72,6 +72,9 @@ impl Reader<'_> {
             }
         }
         let mut kinds = self.kinds(table, work, task)?;
+        if let Some(table) = &table.robustness {
+            kinds.push(self.robustness(table, earlier, work)?);
+        }
         let (Some(kind), true) = (kinds.pop(), kinds.is_empty()) else {
             return self.report.err(
                 table.name.span(),
@@ -82,6 +85,12 @@ impl Reader<'_> {
             );
         };
         self.fits(&kind, work, &table.name)?;
+        // what earned nothing undisturbed is not tried again
+        if let CheckKind::Robustness(ladder) = &kind
+            && !needs.contains(&ladder.check)
+        {
+            needs.push(ladder.check);
+        }
         Ok(Check {
             name: name.clone(),
             title: table.title.clone(),
@@ -257,10 +266,16 @@ impl Reader<'_> {
             kinds.push(self.tcp_speed(table, work)?);
         }
         if let Some(table) = &table.path_deviation {
-            kinds.push(self.path_deviation(table)?);
+            kinds.push(self.path_deviation(table, work)?);
         }
         if let Some(table) = &table.path_coverage {
-            kinds.push(self.path_coverage(table)?);
+            kinds.push(self.path_coverage(table, work)?);
+        }
+        if let Some(table) = &table.path_speed {
+            kinds.push(self.path_speed(table, work)?);
+        }
+        if let Some(table) = &table.time_limit {
+            kinds.push(self.time_limit(table, work)?);
         }
         Ok(kinds)
     }
@@ -307,7 +322,10 @@ impl Reader<'_> {
                 | CheckKind::ContactImpulse { .. }
                 | CheckKind::TcpSpeed { .. }
                 | CheckKind::PathDeviation { .. }
-                | CheckKind::PathCoverage { .. },
+                | CheckKind::PathCoverage { .. }
+                | CheckKind::PathSpeed { .. }
+                | CheckKind::TimeLimit { .. }
+                | CheckKind::Robustness(_),
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

@@ -150,6 +150,7 @@ impl Reader<'_> {
             },
             goals,
             grants: self.grants(&motion.grants, None)?,
+            paths: self.paths(&motion.paths)?,
         })
     }
 

@@ -1,4 +1,4 @@
-//! Checks of what a run did in a scene, and of paths: names become indices, paths are long enough for what is cut off them.
+//! Checks of what a run did in a scene: names become indices of bodies and links that can do what is asked.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,24 +6,17 @@ use std::sync::Arc;
 use kinemark_sim::event::SeenSide;
 use kinemark_sim::scene::BodyKind;
 use kinemark_sim::source::suggest;
-use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{
-    BodyFallsTable, ContactImpulseTable, NumberAt, PathCoverageTable, PathDeviationTable, SideName,
-    SpeedAtName, TcpSpeedTable,
-};
+use crate::lab::file::{BodyFallsTable, ContactImpulseTable, SideName, SpeedAtName, TcpSpeedTable};
 use crate::lab::model::{CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::scene::LabScene;
-use crate::lab::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty};
-
-/// More points than any path of a lab has: each costs memory for every tick.
-const MOST_POINTS: usize = 100;
+use crate::lab::watched::{Fall, SpeedAt, TouchingParty};
 
 impl Reader<'_> {
-    fn scene_of<'w>(
+    pub(super) fn scene_of<'w>(
         &self,
         work: &'w TaskWork,
         kind: &str,
@@ -46,7 +39,7 @@ impl Reader<'_> {
     }
 
     /// Index of a body of the scene.
-    fn body(&self, scene: &LabScene, name: &Spanned<String>) -> Result<usize, LabError> {
+    pub(super) fn body(&self, scene: &LabScene, name: &Spanned<String>) -> Result<usize, LabError> {
         let names = scene.scene.bodies.iter().map(|body| body.name.as_str());
         let found = names.clone().position(|known| known == name.get_ref());
         match found {
@@ -61,6 +54,31 @@ impl Reader<'_> {
         }
     }
 
+    /// Index of a body of the scene that can fall.
+    pub(super) fn free_body(
+        &self,
+        scene: &LabScene,
+        name: &Spanned<String>,
+    ) -> Result<usize, LabError> {
+        let body = self.body(scene, name)?;
+        if matches!(scene.scene.bodies[body].kind, BodyKind::Free) {
+            return Ok(body);
+        }
+        let free = scene.scene.bodies.iter();
+        let free = free.filter(|body| matches!(body.kind, BodyKind::Free));
+        self.report.err(
+            name.span(),
+            "lab::body_falls",
+            format!("body `{}` cannot fall: it is not free", name.get_ref()),
+            "not a free body",
+            Some(suggest(
+                name.get_ref(),
+                "free bodies",
+                free.map(|body| body.name.as_str()),
+            )),
+        )
+    }
+
     pub(super) fn body_falls(
         &self,
         table: &Spanned<BodyFallsTable>,
@@ -69,25 +87,7 @@ impl Reader<'_> {
         let scene = self.scene_of(work, "body-falls", table.span())?;
         let at = table.span();
         let table = table.get_ref();
-        let body = self.body(scene, &table.body)?;
-        if !matches!(scene.scene.bodies[body].kind, BodyKind::Free) {
-            let free = scene.scene.bodies.iter();
-            let free = free.filter(|body| matches!(body.kind, BodyKind::Free));
-            return self.report.err(
-                table.body.span(),
-                "lab::body_falls",
-                format!(
-                    "body `{}` cannot fall: it is not free",
-                    table.body.get_ref()
-                ),
-                "not a free body",
-                Some(suggest(
-                    table.body.get_ref(),
-                    "free bodies",
-                    free.map(|body| body.name.as_str()),
-                )),
-            );
-        }
+        let body = self.free_body(scene, &table.body)?;
         let (toppled, moved) = (table.toppled.unwrap_or(0.6), table.moved.unwrap_or(0.3));
         if !(0.0 <= moved && moved <= toppled && toppled <= 1.0) {
             return self.report.err(
@@ -231,85 +231,5 @@ impl Reader<'_> {
             at,
             band: self.band(table.full_m_s, table.zero_m_s, span)?,
         })
-    }
-
-    pub(super) fn path_deviation(
-        &self,
-        table: &Spanned<PathDeviationTable>,
-    ) -> Result<CheckKind, LabError> {
-        let at = table.span();
-        let table = table.get_ref();
-        Ok(CheckKind::PathDeviation {
-            path: self.path(&table.points_m, &table.trim_m)?,
-            band: self.band(table.full_m, table.zero_m, at)?,
-        })
-    }
-
-    pub(super) fn path_coverage(
-        &self,
-        table: &Spanned<PathCoverageTable>,
-    ) -> Result<CheckKind, LabError> {
-        let at = table.span();
-        let table = table.get_ref();
-        let (full, zero) = (table.full, table.zero);
-        // here more is better, unlike in other bands
-        if !(0.0 <= zero && zero <= full && full <= 1.0 && full > 0.0) {
-            return self.report.err(
-                at,
-                "lab::band",
-                format!("a coverage needs 0 <= zero <= full <= 1 and `full` above 0, got full = {full} and zero = {zero}"),
-                "this band",
-                Some("such as `full = 0.98, zero = 0.5`".to_owned()),
-            );
-        }
-        Ok(CheckKind::PathCoverage {
-            path: self.path(&table.points_m, &table.trim_m)?,
-            within_m: self.positive(&table.within_m, "`within_m`")?,
-            shares: Shares { full, zero },
-        })
-    }
-
-    fn path(
-        &self,
-        points: &Spanned<Vec<[f64; 3]>>,
-        trim: &NumberAt,
-    ) -> Result<PathToFollow, LabError> {
-        let points_m: Vec<Vector3<f64>> = points.get_ref().iter().map(|p| (*p).into()).collect();
-        let refuse = |message: String| {
-            self.report.err(
-                points.span(),
-                "lab::path",
-                message,
-                "this path",
-                Some("give points in the lab's frame [m], as [x, y, z]".to_owned()),
-            )
-        };
-        if !(2..=MOST_POINTS).contains(&points_m.len()) {
-            let count = points_m.len();
-            return refuse(format!("a path has 2 to {MOST_POINTS} points, got {count}"));
-        }
-        if let Some(at) = points_m
-            .iter()
-            .position(|p| !p.iter().all(|x| x.abs() <= 1e6))
-        {
-            return refuse(format!("point {} of the path is not within 1e6 m", at + 1));
-        }
-        let trim_m = self.positive(trim, "`trim_m`")?;
-        let lengths = points_m.windows(2).map(|ends| (ends[1] - ends[0]).norm());
-        for (i, length_m) in lengths.enumerate() {
-            if 2.0 * trim_m >= length_m {
-                return self.report.err(
-                    trim.span(),
-                    "lab::path",
-                    format!(
-                        "segment {} of the path is {length_m} m long: nothing is left of it with {trim_m} m cut off each end",
-                        i + 1
-                    ),
-                    "too much is cut off",
-                    Some("cut off less, or leave out one of two points that are as near".to_owned()),
-                );
-            }
-        }
-        Ok(PathToFollow { points_m, trim_m })
     }
 }

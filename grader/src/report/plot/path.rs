@@ -4,6 +4,7 @@ use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::spatial::Pose;
 use nalgebra::Vector3;
 
+use super::asked::Asked;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
 use super::plane::Plane;
@@ -46,6 +47,11 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
         .chain(reference)
         .copied()
         .chain(goals.iter().map(|goal| goal.position_m))
+        .chain(
+            run.paths
+                .iter()
+                .flat_map(|path| path.points_m.iter().copied()),
+        )
         .collect();
     if places.is_empty() {
         return None;
@@ -58,6 +64,7 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
         goals,
         tcp: flat(&tcp),
         reference: flat(reference),
+        asked: Asked::of(run, &plane),
         scenery: Scenery::of(run, &frame_from_world(run), &plane),
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
@@ -124,6 +131,7 @@ struct Drawn<'a> {
     reference: Vec<(f64, f64)>,
     arms: [Vec<(f64, f64)>; 2],
     scenery: Scenery,
+    asked: Asked,
 }
 
 impl Drawn<'_> {
@@ -181,6 +189,7 @@ impl Drawn<'_> {
         if !self.reference.is_empty() {
             legend.push(Entry::new(Swatch::Line(PURPLE_DASHED), "reference"));
         }
+        self.asked.legend(&mut legend);
         if !self.tcp.is_empty() {
             legend.push(Entry::new(Swatch::Ring(BLUE), "start"));
             match stopped_s(self.run) {
@@ -216,6 +225,7 @@ impl Drawn<'_> {
         let mut points: Vec<(f64, f64)> = self.tcp.clone();
         points.extend(&self.reference);
         points.extend(self.arms.iter().flatten());
+        points.extend(self.asked.extremes());
         // where the scene's bodies start is part of the picture, where they end only if that is not far off
         for (start, end) in self.scenery.at_start.iter().zip(&self.scenery.at_end) {
             points.extend(start);
@@ -241,6 +251,7 @@ impl Drawn<'_> {
     fn main(&self, canvas: &mut Canvas<'_>, view: &View) {
         view.ground(canvas, (0.0, 0.0), 1.0, &self.plane);
         self.around(canvas, view);
+        self.asked.tubes(canvas, view);
         view.frame(canvas);
         for (arm, colour, width) in [
             (&self.arms[0], MUTED_DASHED, 2.0),
@@ -262,6 +273,9 @@ impl Drawn<'_> {
             canvas.text(&words, (at.0 + 9.0, at.1 + 13.0), Align::Start, INK);
         }
         self.paths(canvas, view, 1000);
+        // on top, so that its gaps show the TCP where both agree
+        self.asked.lines(canvas, view);
+        self.asked.names(canvas, view);
         if let Some(start) = self.tcp.iter().find(|p| p.0.is_finite() && p.1.is_finite()) {
             canvas.ring(view.at(*start), 5.0, BLUE, 2.0);
         }
@@ -361,6 +375,7 @@ impl Drawn<'_> {
         view.ground(canvas, centre, 1e3, &self.plane);
         self.circles(canvas, goal, view.at(centre), view.pixels_per_m);
         self.paths(canvas, &view, 250);
+        self.asked.lines(canvas, &view);
         view.frame(canvas);
         let nearest = distances_m(self.run, goal)
             .enumerate()

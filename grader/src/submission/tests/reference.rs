@@ -7,8 +7,12 @@ use crate::controller::{Budget, Budgets};
 fn the_reference_is_complete() {
     let reference = include_str!("../../../../docs/script-language.md");
     let meter = std::rc::Rc::new(crate::submission::budget::Meter::new(Budgets::default()));
-    let (_, names) =
-        crate::submission::engine::build(&Budgets::default(), &meter, &std::rc::Rc::default());
+    let (_, names) = crate::submission::engine::build(
+        &Budgets::default(),
+        &meter,
+        &std::rc::Rc::default(),
+        None,
+    );
     let words: std::collections::BTreeSet<&str> = reference
         .split(|c: char| !(c.is_alphanumeric() || c == '_'))
         .collect();
