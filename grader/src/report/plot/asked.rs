@@ -55,7 +55,7 @@ impl Asked {
         let tubes = self.0.iter().flat_map(|path| &path.tubes);
         if tubes.count() > 0 {
             legend.push(Entry::new(Swatch::Area(GREEN), "full points"));
-            legend.push(Entry::new(Swatch::Area(VERMILLION), "partial"));
+            legend.push(Entry::new(Swatch::Area(VERMILLION), "partial points"));
         }
     }
 
