@@ -114,4 +114,17 @@ pub struct Curve {
     pub zero: Option<f64>,
     /// Moments worth a mark, with what they are.
     pub marks: Vec<(f64, String)>,
+    /// What a step response is drawn with.
+    pub step: Option<StepBackdrop>,
+}
+
+/// What is drawn with a step response besides the run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StepBackdrop {
+    /// What a linear loop would have done, at the times of the curve.
+    pub prediction: Option<Vec<f64>>,
+    /// Where the joint was to go, drawn as a line.
+    pub target: Option<f64>,
+    /// Values from and to that are shaded, with what they are.
+    pub band: Option<(f64, f64, String)>,
 }

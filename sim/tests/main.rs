@@ -16,6 +16,7 @@ mod golden_steps;
 mod golden_urdf;
 mod inverse;
 mod laws;
+mod linear_step;
 mod link_drag;
 mod loops;
 mod mesh_files;

@@ -120,6 +120,7 @@ fn curve(facts: &MotionFacts<'_>, between: [TouchingParty; 2], band: Band, check
         full: Some(band.full),
         zero: Some(band.zero),
         marks: marks.into_iter().collect(),
+        step: None,
     }
 }
 

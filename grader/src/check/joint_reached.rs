@@ -79,6 +79,7 @@ pub fn judge(
             full: Some(band.full),
             zero: Some(band.zero),
             marks: vec![(facts.time_s(first), "judged from here".to_owned())],
+            step: None,
         }),
     }
 }

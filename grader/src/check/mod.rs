@@ -1,14 +1,22 @@
 //! The checks, one file each: what is measured, the band it is held against, and the evidence where points are lost.
 
+mod alternation;
 pub mod body_falls;
+#[cfg(test)]
+mod by_hand;
+pub mod chatter;
 pub mod contact_impulse;
+pub mod effort_peak;
+pub mod effort_rms;
 pub mod effort_saturation;
+pub mod energy;
 pub mod finish_time;
 pub mod fk_error;
 pub mod ik_branches;
 pub mod ik_reach;
 pub mod ik_unreachable;
 pub mod jacobian_match;
+pub mod jerk;
 pub mod joint_limits;
 pub mod joint_reached;
 pub mod overshoot;
@@ -16,9 +24,14 @@ pub mod path_coverage;
 pub mod path_deviation;
 pub mod path_speed;
 pub mod pose_reached;
+mod response;
+pub mod rise_time;
 pub mod road;
 pub mod robustness;
+pub mod settling_time;
 pub mod stay;
+pub mod steady_error;
+pub mod step_overshoot;
 pub mod tcp_speed;
 pub mod time_limit;
 pub mod trajectory_match;
@@ -91,6 +104,22 @@ impl MotionFacts<'_> {
     pub fn joint_name(&self, joint: usize) -> &str {
         let found = self.robot.moving_joints().nth(joint);
         found.map_or("?", |joint| joint.name.as_str())
+    }
+
+    /// The joint `asked`, or that with the greatest value, and its value; one that is no number is the greatest of all.
+    fn worst_joint(&self, asked: Option<usize>, value: impl Fn(usize) -> f64) -> (usize, f64) {
+        let joints = match asked {
+            Some(joint) => joint..joint + 1,
+            None => 0..self.robot.n(),
+        };
+        let values = joints.map(|joint| (joint, value(joint)));
+        let greater = |a: &(usize, f64), b: &(usize, f64)| {
+            // of equal ones the first
+            b.1.abs().total_cmp(&a.1.abs()).is_gt()
+        };
+        values
+            .reduce(|a, b| if greater(&a, &b) { b } else { a })
+            .unwrap_or((0, f64::NAN))
     }
 
     /// A piece of evidence at a tick.
@@ -223,6 +252,34 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
             let periods = facts.motion.periods;
             robustness::judge(ladder, repeated, rungs, |tick| periods.time_s(tick))
         }
+        CheckKind::RiseTime {
+            response,
+            from,
+            to,
+            band,
+        } => rise_time::judge(facts, response, [*from, *to], *band, &check.name),
+        CheckKind::SettlingTime {
+            response,
+            within,
+            band,
+        } => settling_time::judge(facts, response, *within, *band, &check.name),
+        CheckKind::StepOvershoot { response, band } => {
+            step_overshoot::judge(facts, response, *band, &check.name)
+        }
+        CheckKind::SteadyError {
+            response,
+            target,
+            band,
+        } => steady_error::judge(facts, response, *target, *band, &check.name),
+        CheckKind::EffortPeak { joint, band } => {
+            effort_peak::judge(facts, *joint, *band, &check.name)
+        }
+        CheckKind::EffortRms { joint, band } => {
+            effort_rms::judge(facts, *joint, *band, &check.name)
+        }
+        CheckKind::Energy(band) => energy::judge(facts, *band, &check.name),
+        CheckKind::Jerk(band) => jerk::judge(facts, *band, &check.name),
+        CheckKind::Chatter { joint, band } => chatter::judge(facts, *joint, *band, &check.name),
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
@@ -253,7 +310,16 @@ pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]
         | CheckKind::PathCoverage { .. }
         | CheckKind::PathSpeed { .. }
         | CheckKind::TimeLimit { .. }
-        | CheckKind::Robustness(_) => foreign(),
+        | CheckKind::Robustness(_)
+        | CheckKind::RiseTime { .. }
+        | CheckKind::SettlingTime { .. }
+        | CheckKind::StepOvershoot { .. }
+        | CheckKind::SteadyError { .. }
+        | CheckKind::EffortPeak { .. }
+        | CheckKind::EffortRms { .. }
+        | CheckKind::Energy(_)
+        | CheckKind::Jerk(_)
+        | CheckKind::Chatter { .. } => foreign(),
     }
 }
 

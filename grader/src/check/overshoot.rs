@@ -76,6 +76,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
             full: Some(band.full),
             zero: Some(band.zero),
             marks: Vec::new(),
+            step: None,
         }),
     }
 }

@@ -129,5 +129,6 @@ fn curve(
         full: Some(band.full),
         zero: Some(band.zero),
         marks,
+        step: None,
     })
 }

@@ -155,6 +155,7 @@ pub fn judge(
             full: Some(speed_m_s),
             zero: None,
             marks,
+            step: None,
         }),
     }
 }

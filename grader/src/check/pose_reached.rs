@@ -104,5 +104,6 @@ fn curve(facts: &MotionFacts<'_>, band: Band, check: &str) -> Curve {
         full: Some(band.full),
         zero: Some(band.zero),
         marks: marks.collect(),
+        step: None,
     }
 }

@@ -115,6 +115,7 @@ pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> F
             full: Some(band.full),
             zero: Some(band.zero),
             marks,
+            step: None,
         }),
     }
 }

@@ -1,11 +1,17 @@
 //! The TOML types of `lab.toml`, as typed; spans are kept wherever a later check may point.
 
+pub(super) mod step;
+
 use std::collections::BTreeMap;
 
 use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
 
+use self::step::{
+    BandJ, BandJerk, ChatterTable, EffortTable, RiseTimeTable, SettlingTimeTable, SteadyErrorTable,
+    StepOvershootTable,
+};
 use super::ladder_tables::RobustnessTable;
 use super::path_tables::{
     PathCoverageTable, PathDeviationTable, PathSpeedTable, PathTable, TimeLimitTable,
@@ -200,6 +206,21 @@ pub(super) struct CheckTable {
     #[serde(rename = "time-limit")]
     pub(super) time_limit: Option<Spanned<TimeLimitTable>>,
     pub(super) robustness: Option<Spanned<RobustnessTable>>,
+    #[serde(rename = "rise-time")]
+    pub(super) rise_time: Option<Spanned<RiseTimeTable>>,
+    #[serde(rename = "settling-time")]
+    pub(super) settling_time: Option<Spanned<SettlingTimeTable>>,
+    #[serde(rename = "step-overshoot")]
+    pub(super) step_overshoot: Option<Spanned<StepOvershootTable>>,
+    #[serde(rename = "steady-error")]
+    pub(super) steady_error: Option<Spanned<SteadyErrorTable>>,
+    #[serde(rename = "effort-peak")]
+    pub(super) effort_peak: Option<Spanned<EffortTable>>,
+    #[serde(rename = "effort-rms")]
+    pub(super) effort_rms: Option<Spanned<EffortTable>>,
+    pub(super) energy: Option<Spanned<BandJ>>,
+    pub(super) jerk: Option<Spanned<BandJerk>>,
+    pub(super) chatter: Option<Spanned<ChatterTable>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]

@@ -7,6 +7,7 @@ mod ladder;
 mod motion;
 mod path_checks;
 mod run_checks;
+mod step_checks;
 mod target;
 
 use std::collections::BTreeMap;

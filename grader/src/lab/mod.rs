@@ -15,6 +15,7 @@ pub mod problem;
 pub mod robot;
 pub mod scene;
 pub mod staff;
+pub mod step;
 pub mod watched;
 
 pub use files::Files;

@@ -12,6 +12,7 @@ use nalgebra::Vector3;
 use super::ladder::Ladder;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
+use super::step::StepResponse;
 use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty, Until};
 use crate::controller::{Budgets, Grant, Value};
 use crate::graded::TcpPath;
@@ -348,6 +349,67 @@ pub enum CheckKind {
     },
     /// An earlier check, of the same motion under disturbances.
     Robustness(Ladder),
+    /// How long a joint takes from one share of its step to another.
+    RiseTime {
+        /// The response.
+        response: StepResponse,
+        /// The lower share, above 0.
+        from: f64,
+        /// The upper share, below 1.
+        to: f64,
+        /// Time \[s\].
+        band: Band,
+    },
+    /// When a joint comes to stay near its final value.
+    SettlingTime {
+        /// The response.
+        response: StepResponse,
+        /// How near, as a share of the step.
+        within: f64,
+        /// Time \[s\].
+        band: Band,
+    },
+    /// How far a joint goes past its final value, as a share of the step.
+    StepOvershoot {
+        /// The response.
+        response: StepResponse,
+        /// The share.
+        band: Band,
+    },
+    /// How far from a target a joint comes to rest.
+    SteadyError {
+        /// The response.
+        response: StepResponse,
+        /// The target \[rad or rad/s\].
+        target: f64,
+        /// Distance \[rad or rad/s\].
+        band: Band,
+    },
+    /// The greatest effort.
+    EffortPeak {
+        /// Index of the joint in `q`; the worst of all where there is none.
+        joint: Option<usize>,
+        /// Effort \[N m or N\].
+        band: Band,
+    },
+    /// The root mean square of the effort.
+    EffortRms {
+        /// Index of the joint in `q`; the worst of all where there is none.
+        joint: Option<usize>,
+        /// Effort \[N m or N\].
+        band: Band,
+    },
+    /// The mechanical work of all motors, whichever its sign \[J\].
+    Energy(Band),
+    /// The root mean square jerk of the TCP \[m/s³\].
+    Jerk(Band),
+    /// How often an effort turns round.
+    Chatter {
+        /// Index of the joint in `q`; the worst of all where there is none.
+        joint: Option<usize>,
+        /// Reversals in a second \[Hz\].
+        band: Band,
+    },
 }
 
 impl CheckKind {
@@ -374,6 +436,15 @@ impl CheckKind {
             Self::PathSpeed { .. } => "path-speed",
             Self::TimeLimit { .. } => "time-limit",
             Self::Robustness(_) => "robustness",
+            Self::RiseTime { .. } => "rise-time",
+            Self::SettlingTime { .. } => "settling-time",
+            Self::StepOvershoot { .. } => "step-overshoot",
+            Self::SteadyError { .. } => "steady-error",
+            Self::EffortPeak { .. } => "effort-peak",
+            Self::EffortRms { .. } => "effort-rms",
+            Self::Energy(_) => "energy",
+            Self::Jerk(_) => "jerk",
+            Self::Chatter { .. } => "chatter",
         }
     }
 
@@ -395,6 +466,13 @@ impl CheckKind {
             Self::PathSpeed { band, .. } => Some((*band, "")),
             Self::TimeLimit { band, .. } => Some((*band, "s")),
             Self::Robustness(_) => None,
+            Self::RiseTime { band, .. } | Self::SettlingTime { band, .. } => Some((*band, "s")),
+            Self::StepOvershoot { band, .. } => Some((*band, "")),
+            Self::SteadyError { band, response, .. } => Some((*band, response.unit())),
+            Self::EffortPeak { band, .. } | Self::EffortRms { band, .. } => Some((*band, "N m")),
+            Self::Energy(band) => Some((*band, "J")),
+            Self::Jerk(band) => Some((*band, "m/s³")),
+            Self::Chatter { band, .. } => Some((*band, "Hz")),
         }
     }
 }

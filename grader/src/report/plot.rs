@@ -208,6 +208,7 @@ mod tests {
                 (1e300, "<y>".repeat(99)),
                 (-1.0, "z".to_owned()),
             ],
+            step: None,
         }];
         sound(&run);
     }

@@ -148,6 +148,7 @@ pub(crate) fn task_run() -> TaskRun {
             (0.78, "worst before the goal".to_owned()),
             (3.71, "worst".to_owned()),
         ],
+        step: None,
     }];
     TaskRun {
         task: "move".to_owned(),

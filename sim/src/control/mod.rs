@@ -1,8 +1,11 @@
-//! Joint servos: a command in, an effort out; the gains and periods at which they are stable; and how drives keep speed limits.
+//! Joint servos: a command in, an effort out; the gains and periods at which they are stable; the step response of the ideal loop;
+//! and how drives keep speed limits.
 
+pub mod linear_step;
 pub mod sampled_loop;
 pub mod servo;
 pub mod speed_limit;
 
+pub use linear_step::LinearStep;
 pub use sampled_loop::{SampledLoop, sampled_loop};
 pub use servo::{Derivative, Gains, Mode, Servo, ServoSettings};

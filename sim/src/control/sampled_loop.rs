@@ -14,7 +14,7 @@
 //! Source: Åström & Wittenmark, *Computer-Controlled Systems* (1997), sec. 2.3 (exact sampling of a held input).
 
 mod linear;
-mod matrix;
+pub(super) mod matrix;
 
 use nalgebra::Vector3;
 

@@ -277,6 +277,7 @@ impl Reader<'_> {
         if let Some(table) = &table.time_limit {
             kinds.push(self.time_limit(table, work)?);
         }
+        kinds.extend(self.step_kinds(table, work)?);
         Ok(kinds)
     }
 
@@ -325,7 +326,16 @@ impl Reader<'_> {
                 | CheckKind::PathCoverage { .. }
                 | CheckKind::PathSpeed { .. }
                 | CheckKind::TimeLimit { .. }
-                | CheckKind::Robustness(_),
+                | CheckKind::Robustness(_)
+                | CheckKind::RiseTime { .. }
+                | CheckKind::SettlingTime { .. }
+                | CheckKind::StepOvershoot { .. }
+                | CheckKind::SteadyError { .. }
+                | CheckKind::EffortPeak { .. }
+                | CheckKind::EffortRms { .. }
+                | CheckKind::Energy(_)
+                | CheckKind::Jerk(_)
+                | CheckKind::Chatter { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",

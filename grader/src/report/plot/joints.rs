@@ -163,6 +163,7 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
             .map(|level| (level, VERMILLION_DASHED))
             .collect(),
         spans: Vec::new(),
+        bands: Vec::new(),
     }
 }
 

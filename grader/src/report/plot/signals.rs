@@ -5,10 +5,12 @@ use kinemark_sim::event::EventKind;
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};
 use super::timeline::{Line, Panel, Timeline};
-use crate::graded::{Curve, Goal, TaskRun};
+use crate::graded::{Curve, Goal, StepBackdrop, TaskRun};
 use crate::report::goal::{current_goal, distances_m};
 use crate::report::number::{joined, shown_unit, significant};
-use crate::report::theme::{BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, VERMILLION_DASHED};
+use crate::report::theme::{
+    BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, PURPLE_DASHED, VERMILLION_DASHED,
+};
 use crate::report::visible::{shortened, visible};
 
 /// Panels of one picture.
@@ -173,6 +175,7 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
             .into_iter()
             .map(|(from, to)| (from, to, GREEN))
             .collect(),
+        bands: Vec::new(),
     };
     Some(timeline(
         run,
@@ -185,6 +188,23 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
 fn stay_s(run: &TaskRun, goal: &Goal) -> Option<(f64, f64)> {
     let (first, last) = goal.stay?;
     Some((time_s(run, first), time_s(run, last)))
+}
+
+/// Words of what a step response is drawn with.
+fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
+    let mut entries = vec![Entry::new(Swatch::Line(BLUE), "run")];
+    if step.prediction.is_some() {
+        entries.push(Entry::new(Swatch::Line(PURPLE_DASHED), "linear prediction"));
+    }
+    if let Some(target) = step.target {
+        let target = joined(&significant(target * scale, 4), unit);
+        let target = format!("target {target}");
+        entries.push(Entry::new(Swatch::Line(MUTED_DASHED), target));
+    }
+    if let Some((_, _, told)) = &step.band {
+        entries.push(Entry::new(Swatch::Area(GREEN), shortened(told, 60)));
+    }
+    entries
 }
 
 /// A curve that a check judged, with its band and marks.
@@ -204,19 +224,42 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         .iter()
         .copied()
         .zip(curve.values.iter().map(|value| value * scale));
-    let lines = vec![line(points.collect(), BLUE, false)];
-    let levels: Vec<_> = [(curve.zero, VERMILLION_DASHED), (curve.full, GREEN_DASHED)]
+    let step = curve.step.as_ref();
+    let mut lines = vec![line(points.collect(), BLUE, false)];
+    // its dashes on the run's line: where both are one, both are seen
+    if let Some(prediction) = step.and_then(|step| step.prediction.as_ref()) {
+        let values = prediction.iter().map(|value| value * scale);
+        let points = curve.t_s.iter().copied().zip(values);
+        lines.push(line(points.collect(), PURPLE_DASHED, false));
+    }
+    let target = step.and_then(|step| step.target);
+    let levels: Vec<_> = [
+        (curve.zero, VERMILLION_DASHED),
+        (curve.full, GREEN_DASHED),
+        (target, MUTED_DASHED),
+    ]
+    .into_iter()
+    .filter_map(|(level, colour)| Some((level? * scale, colour)))
+    .collect();
+    let band = step.and_then(|step| step.band.as_ref());
+    let bands: Vec<_> = band
+        .map(|(from, to, _)| (from * scale, to * scale, GREEN))
         .into_iter()
-        .filter_map(|(level, colour)| Some((level? * scale, colour)))
         .collect();
-    let shown = || values(&lines).chain(levels.iter().map(|level| level.0));
+    let edges = || bands.iter().flat_map(|(from, to, _)| [*from, *to]);
+    let shown = || {
+        values(&lines)
+            .chain(levels.iter().map(|level| level.0))
+            .chain(edges())
+    };
     let (least, greatest) = extent(shown()).unwrap_or((0.0, 1.0));
     let lowest_level = levels
         .iter()
         .map(|level| level.0)
         .fold(f64::INFINITY, f64::min);
     // a band that would be a hair's breadth at the foot of the picture
-    let is_wide = least >= 0.0 && lowest_level > 0.0 && greatest > 40.0 * typical * scale;
+    let is_wide =
+        step.is_none() && least >= 0.0 && lowest_level > 0.0 && greatest > 40.0 * typical * scale;
     let (axis, word) = if is_wide {
         (Axis::decades(lowest_level / 9.0, greatest), ", logarithmic")
     } else {
@@ -229,8 +272,12 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         lines,
         levels,
         spans: Vec::new(),
+        bands,
     };
-    let legend = band_entries(curve.full, curve.zero, unit, scale);
+    let mut legend = band_entries(curve.full, curve.zero, unit, scale);
+    if let Some(step) = step {
+        legend.extend(step_entries(step, unit, scale));
+    }
     let last_s = extent(curve.t_s.iter().copied()).map_or(0.0, |reach| reach.1);
     let mut marks: Vec<(f64, String)> = curve
         .marks
@@ -269,6 +316,7 @@ pub(super) fn own(run: &TaskRun) -> Vec<Timeline> {
                 lines,
                 levels: Vec::new(),
                 spans: Vec::new(),
+                bands: Vec::new(),
             }
         });
         let mut title = "Signals of the submission".to_owned();

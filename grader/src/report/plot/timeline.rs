@@ -28,6 +28,8 @@ pub(super) struct Panel {
     pub(super) levels: Vec<(f64, Colour)>,
     /// Times from and to \[s\] that are shaded.
     pub(super) spans: Vec<(f64, f64, Colour)>,
+    /// Values from and to that are shaded.
+    pub(super) bands: Vec<(f64, f64, Colour)>,
 }
 
 /// A picture over time.
@@ -121,6 +123,10 @@ impl Timeline {
         for (from_s, to_s, colour) in &panel.spans {
             let (from, to) = (place.x(*from_s), place.x(*to_s));
             canvas.area((from, top), (to.max(from + 1.0), bottom), *colour, 0.16);
+        }
+        for (from, to, colour) in &panel.bands {
+            let (from, to) = (place.y(*from), place.y(*to));
+            canvas.area((LEFT, to), (RIGHT, from.max(to + 2.0)), *colour, 0.2);
         }
         let time_ticks = place.time.ticks(8);
         for tick in &time_ticks {

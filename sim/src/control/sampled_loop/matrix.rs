@@ -39,7 +39,7 @@ fn norm(a: &DMatrix<f64>) -> f64 {
 }
 
 /// The exponential, by scaling, Taylor series and squaring; `None` where it is not finite.
-pub(super) fn exponential(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(in crate::control) fn exponential(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let n = a.nrows();
     let (mut scaled, mut halvings) = (a.clone(), 0);
     let mut size = norm(a);

@@ -1,0 +1,108 @@
+//! Traces written by hand, judged by a check as a lab file has it.
+
+use kinemark_sim::run::{Recorder as _, Row, Setup};
+use kinemark_sim::trace::TraceRecorder;
+
+use super::{Finding, MotionFacts, judge_motion};
+use crate::event_words::Names;
+use crate::lab::{Band, Files, Lab, TaskWork};
+
+/// One row of the course's arm.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct HandRow {
+    pub(super) q: [f64; 2],
+    pub(super) qd: [f64; 2],
+    pub(super) command: [f64; 2],
+    pub(super) effort: [f64; 2],
+}
+
+struct OneLab(String);
+
+impl Files for OneLab {
+    fn name(&self) -> String {
+        "by hand".to_owned()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(match path {
+            "by-hand/lab.toml" => Some(self.0.clone().into_bytes()),
+            "robots/rrbot.toml" => Some(include_bytes!("../../../labs/robots/rrbot.toml").to_vec()),
+            _ => None,
+        })
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let names: &[&str] = match folder {
+            "" => &["by-hand", "robots"],
+            "robots" => &["rrbot.toml"],
+            _ => &[],
+        };
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+}
+
+/// What the check `kind = {...}` finds in the run that `row` gives at each time \[s\], in a task with the keys of `motion`.
+pub(super) fn judged(motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
+    let text = format!(
+        "format = 1\nname = \"by-hand\"\ntitle = \"By hand\"\nrobot = \"rrbot\"\nframe = \"lab\"\n\
+         [[tasks]]\nname = \"step\"\ntitle = \"Step\"\n[tasks.motion]\n{motion}\n\
+         [[tasks.checks]]\nname = \"check\"\ntitle = \"Check\"\npoints = 1.0\n{kind}\n"
+    );
+    let lab = Lab::load(&OneLab(text), "by-hand").unwrap_or_else(|error| panic!("{error:?}"));
+    let task = &lab.tasks[0];
+    let TaskWork::Motion(motion) = &task.work else {
+        panic!("a motion task");
+    };
+    let robot = &lab.robot;
+    let setup = Setup {
+        robot,
+        scene: None,
+        tcp: robot.tcp(),
+        seen_from: robot.frame(&lab.frame).expect("the lab's frame"),
+        periods: motion.periods,
+        gravity_m_s2: motion.gravity_m_s2,
+        servo: motion.servo.clone(),
+        sensors: Vec::new(),
+        start_q: motion.start_q.clone(),
+        start_qd: vec![0.0; robot.n()],
+        ticks: motion.ticks,
+    };
+    let mut recorder = TraceRecorder::new(&setup);
+    for tick in 0..=motion.ticks {
+        let row = row(motion.periods.time_s(tick));
+        recorder.row(Row {
+            tick,
+            q: &row.q,
+            qd: &row.qd,
+            command: &row.command,
+            effort: &row.effort,
+            sensors: &[],
+            scene: None,
+        });
+    }
+    let trace = recorder.finish();
+    let facts = MotionFacts {
+        robot,
+        names: Names {
+            robot,
+            scene: None,
+            seen_from: &lab.frame,
+        },
+        motion,
+        trace: &trace,
+        stays: Vec::new(),
+        pose_band: Band {
+            full: 0.0,
+            zero: 1.0,
+        },
+        reference: None,
+        climbs: Vec::new(),
+    };
+    judge_motion(&task.checks[0], &facts)
+}
+
+/// The value a finding measured; infinity where it has none.
+pub(super) fn value(finding: &Finding) -> f64 {
+    let measure = finding.measure.as_ref().expect("a measure");
+    measure.value.unwrap_or(f64::INFINITY)
+}

@@ -1,0 +1,136 @@
+//! step-overshoot: how far a joint goes past its final value, as a fraction of its step.
+
+use super::response::{Response, SETTLED};
+use super::{Finding, MotionFacts};
+use crate::grade::{Evidence, Measure};
+use crate::lab::model::Band;
+use crate::lab::step::StepResponse;
+use crate::quantity::{seconds, with_unit};
+
+/// The greatest share of the way from `start` to `end` beyond all of it, and its tick; none of it is 0, and NaN stays.
+fn beyond(values: &[f64], start: f64, end: f64) -> (f64, usize) {
+    let gone = |tick: usize| (values[tick] - start) / (end - start);
+    let peak = (0..values.len())
+        .max_by(|a, b| gone(*a).total_cmp(&gone(*b)).then(b.cmp(a)))
+        .unwrap_or(0);
+    let over = gone(peak) - 1.0;
+    (if over < 0.0 { 0.0 } else { over }, peak)
+}
+
+/// Judges the check.
+pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &str) -> Finding {
+    let response = Response::new(facts, asked);
+    let fault = response
+        .stayed()
+        .or_else(|| response.unsettled(SETTLED * response.step().abs()));
+    let (over, peak) = beyond(&response.values, response.start, response.end);
+    let value = if fault.is_some() { f64::INFINITY } else { over };
+    let score = band.score(value);
+    let mut evidence = Vec::new();
+    let mut next_step = "Add damping, or ask for the step less suddenly.".to_owned();
+    if let Some(fault) = fault {
+        evidence.push(fault.evidence);
+        next_step = fault.next_step;
+    } else if score < 1.0 {
+        let mut message = format!(
+            "{} goes to {} at {}, {} of its step past the final value of {}",
+            response.what(),
+            response.told(response.values[peak]),
+            seconds(facts.time_s(peak)),
+            with_unit(value, ""),
+            response.told(response.end),
+        );
+        if let Some(predicted) = response.predicted() {
+            let end = response.predicted_end(&predicted);
+            let (over, _) = beyond(&predicted, response.start, end);
+            message += &format!("; the linear loop goes {} past", with_unit(over, ""));
+        }
+        evidence.push(Evidence {
+            limit: Some(response.end),
+            ..response.evidence(message, peak)
+        });
+    }
+    let marks = if value > 0.0 && value.is_finite() {
+        vec![(facts.time_s(peak), "furthest".to_owned())]
+    } else {
+        Vec::new()
+    };
+    let edge = response.start + (1.0 + band.full) * response.step();
+    let told = format!("{} past the final value", with_unit(band.full, ""));
+    let edges = (response.end.min(edge), response.end.max(edge), told);
+    let drawn = (response.end.is_finite() && band.full > 0.0).then_some(edges);
+    Finding {
+        score,
+        measure: Some(Measure {
+            quantity: format!("overshoot of {}", response.what()),
+            value: value.is_finite().then_some(value),
+            unit: String::new(),
+            full: band.full,
+            zero: band.zero,
+        }),
+        evidence,
+        next_step,
+        curve: Some(response.curve(check, marks, drawn)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::by_hand::{HandRow, judged, value};
+
+    const MOTION: &str = "mode = \"effort\"\nduration_s = 4.0";
+    const KIND: &str = "step-overshoot = { joint = \"elbow\", full = 0.05, zero = 0.45 }";
+
+    fn elbow(q: f64) -> HandRow {
+        HandRow {
+            q: [0.0, q],
+            ..HandRow::default()
+        }
+    }
+
+    #[test]
+    fn a_triangle_past_the_end_counts_as_a_share_of_the_step() {
+        // from 1 down to -1, with a peak 0.5 further at 1 s
+        let row = |t_s: f64| elbow(1.0 - (2.5 * t_s).min((4.5 - 2.0 * t_s).max(2.0)));
+        let finding = judged(MOTION, KIND, row);
+        assert!((value(&finding) - 0.25).abs() < 1e-12);
+        assert!((finding.score - 0.5).abs() < 1e-12);
+        assert_eq!(
+            finding.evidence[0].message,
+            "joint `elbow` goes to -1.5 rad at 1 s, 25 % of its step past the final value of -1 rad"
+        );
+    }
+
+    #[test]
+    fn a_second_order_loop_overshoots_by_its_damping() {
+        // damping ratio 0.5: exp(-pi/√3) of the step
+        let (w, zeta) = (20.0, 0.5);
+        let damped = w * 0.75_f64.sqrt();
+        let row = |t_s: f64| {
+            let wave = libm::cos(damped * t_s) + zeta * w / damped * libm::sin(damped * t_s);
+            elbow(1.0 - libm::exp(-zeta * w * t_s) * wave)
+        };
+        let finding = judged(MOTION, KIND, row);
+        let expected = libm::exp(-std::f64::consts::PI / 3.0_f64.sqrt());
+        // a peak between ticks: curvature w² over half a tick squared
+        assert!((value(&finding) - expected).abs() < 1e-4);
+    }
+
+    #[test]
+    fn what_creeps_up_has_none_and_what_stays_earns_none() {
+        let creeps = judged(MOTION, KIND, |t_s| elbow(1.0 - libm::exp(-8.0 * t_s)));
+        // the final part is level but for exp(-30)
+        assert!(value(&creeps) < 1e-9, "{}", value(&creeps));
+        assert_eq!(creeps.score, 1.0);
+        assert_eq!(judged(MOTION, KIND, |_| elbow(0.3)).score, 0.0);
+        assert_eq!(judged(MOTION, KIND, |_| elbow(f64::NAN)).score, 0.0);
+        let jump = |t_s: f64| {
+            elbow(if t_s > 1.0 && t_s < 1.1 {
+                f64::NAN
+            } else {
+                t_s.min(1.0)
+            })
+        };
+        assert_eq!(judged(MOTION, KIND, jump).score, 0.0);
+    }
+}
