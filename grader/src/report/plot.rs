@@ -103,8 +103,9 @@ mod tests {
     use kinemark_sim::trace::PlotSignal;
 
     use super::*;
-    use crate::graded::Curve;
+    use crate::graded::{Curve, StepBackdrop};
     use crate::report::sample;
+    use crate::report::theme::{BLUE, MUTED_DASHED, PURPLE_DASHED};
 
     /// What must hold of every picture, whatever the run.
     fn sound(run: &TaskRun) -> Vec<Plot> {
@@ -211,6 +212,48 @@ mod tests {
             step: None,
         }];
         sound(&run);
+    }
+
+    #[test]
+    fn a_step_response_has_its_prediction_target_and_band() {
+        let lag = |t_s: f64, rate: f64| 1.0 - libm::exp(-rate * t_s);
+        let t_s: Vec<f64> = (0..1000).map(|tick| 0.001 * f64::from(tick)).collect();
+        let of = |rate: f64| t_s.iter().map(|t_s| lag(*t_s, rate)).collect();
+        let mut run = sample::chain(2, 1000, |_, _| 0.0);
+        run.curves = vec![Curve {
+            check: "settle".to_owned(),
+            title: "position of joint `elbow`".to_owned(),
+            unit: "rad".to_owned(),
+            values: of(8.0),
+            full: None,
+            zero: None,
+            marks: vec![(0.489, "settled".to_owned())],
+            step: Some(StepBackdrop {
+                prediction: Some(of(12.0)),
+                target: Some(1.05),
+                band: Some((0.98, 1.02, "within 2 % of the final value".to_owned())),
+            }),
+            t_s,
+        }];
+        let plots = sound(&run);
+        let plot = plots
+            .iter()
+            .find(|plot| plot.name.ends_with("check-settle"))
+            .expect("the curve");
+        for word in [
+            ">\nrun\n<",
+            "linear prediction",
+            "target 1.05\u{a0}rad",
+            "within 2 % of the final value",
+        ] {
+            assert!(plot.svg.contains(word), "no {word:?}");
+        }
+        // the run, the prediction and the target are three lines of different looks
+        for colour in [BLUE, PURPLE_DASHED, MUTED_DASHED] {
+            let (r, g, b) = colour.light;
+            let key = format!("stroke=\"#{r:02X}{g:02X}{b:02X}\"");
+            assert!(plot.svg.matches(&key).count() >= 2, "{key}");
+        }
     }
 
     #[test]
