@@ -3,6 +3,10 @@
 //! A mistake is named only where it explains everything: the answers agree with it wherever it would show, are right elsewhere,
 //! and agree with no other mistake as well. A wrong diagnosis is worse than none.
 
+mod whole_run;
+
+pub use self::whole_run::{Compared, whole_run};
+
 use crate::check::ik_branches::same_branch;
 use crate::check::stay::{Stay, best_stays};
 use crate::check::{Answered, CaseError, CaseFacts};

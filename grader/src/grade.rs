@@ -109,6 +109,34 @@ pub struct TaskGrade {
     pub log: Vec<LogEntry>,
     /// Identity of what the submission did.
     pub digests: Digests,
+    /// Where the run of a motion task that lost points first differs from the reference solution's; absent where it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub divergence: Option<Divergence>,
+}
+
+/// The first control tick at which a run is not where the reference solution's is. It is no mistake by itself: another road, or
+/// another time, may be as right.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Divergence {
+    /// The tick.
+    pub tick: u64,
+    /// Its time \[s\].
+    pub time_s: f64,
+    /// The signal: `tcp`, or a joint's position such as `q[1]`.
+    pub signal: String,
+    /// The signal there: x, y, z in the lab's frame, or one number.
+    pub yours: Vec<f64>,
+    /// The reference solution's.
+    pub reference: Vec<f64>,
+    /// How far the two are from each other.
+    pub distance: f64,
+    /// How far they may be without being told.
+    pub tolerance: f64,
+    /// Unit of all four.
+    pub unit: String,
+    /// In words.
+    pub message: String,
 }
 
 /// Something that happened in a run.

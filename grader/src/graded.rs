@@ -8,7 +8,7 @@ use kinemark_sim::sensor::Sensor;
 use kinemark_sim::trace::Trace;
 
 use crate::event_words::Names;
-use crate::grade::Grade;
+use crate::grade::{Divergence, Grade};
 use crate::lab::LabScene;
 
 /// The grade of a submission with the runs it rests on.
@@ -47,6 +47,8 @@ pub struct TaskRun {
     pub paths: Vec<AskedPath>,
     /// The curves that checks judged, in the lab's order.
     pub curves: Vec<Curve>,
+    /// Where it first differs from the reference solution's, where that is told.
+    pub divergence: Option<Divergence>,
 }
 
 impl TaskRun {

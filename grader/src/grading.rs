@@ -2,12 +2,14 @@
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::source::Source;
+use kinemark_sim::trace::Trace;
 
 use crate::cases::{self, CasesRun};
 use crate::check::{self, Answered, CaseError, CaseFacts, Climb, Finding, MotionFacts, stay};
 use crate::climb::{self, Undecided};
 use crate::controller::{Controller, Granted, Opening, Stop, Value};
 use crate::diagnose;
+use crate::divergence;
 use crate::event_words::Names;
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Digests, FORMAT, Grade, GradeMode, HiddenClass, LogEntry,
@@ -18,7 +20,7 @@ use crate::lab::model::{
     Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
 };
 use crate::lab::{LabRobot, MeshFile, Staff, staff::Mutant, watched::PathToFollow};
-use crate::motion::{self, EarlyEnd, MotionRun};
+use crate::motion::{self, EarlyEnd, MotionRun, Session};
 use crate::quantity::{list, lists};
 use crate::stopped;
 use crate::submission::ScriptController;
@@ -292,6 +294,7 @@ impl Grader<'_> {
                 seconds: Vec::new(),
                 rungs: Vec::new(),
             },
+            divergence: None,
         })
     }
 
@@ -397,7 +400,37 @@ impl Grader<'_> {
         if checks.iter().any(|check| check.outcome != Outcome::Full) {
             verdict = verdict.min(Verdict::Missed);
         }
-        let diagnoses = if verdict == Verdict::Missed && ended.is_none() && !work.goals.is_empty() {
+        let ran_away = matches!(ended, Some((_, EarlyEnd::Diverged { .. })));
+        let compares = verdict == Verdict::Missed && (ended.is_none() || ran_away);
+        let solution = compares.then(|| self.solution_run(task, work)).flatten();
+        let differs = match (&solution, self.staff) {
+            _ if !compares => None,
+            (Some(solution), _) => {
+                divergence::from_run(&trace, solution, &self.lab.robot, &work.periods)
+            }
+            (None, Some(_)) => None,
+            (None, None) => {
+                reference.and_then(|path| divergence::from_path(&trace, path, &work.periods))
+            }
+        };
+        let diagnoses = if !compares {
+            Vec::new()
+        } else if work.goals.is_empty() {
+            solution.as_ref().map_or_else(Vec::new, |solution| {
+                let compared = diagnose::Compared {
+                    student: &trace,
+                    ended: ended.as_ref(),
+                    reference: solution,
+                    periods: work.periods,
+                };
+                let mutants = self.mutants_of(task).filter_map(|mutant| {
+                    let opening = self.opening(task, &mutant.source);
+                    let session = Session::open(self.lab, work, &opening, &mut InProcess);
+                    Some((mutant, session.ok()?))
+                });
+                diagnose::whole_run(compared, mutants)
+            })
+        } else if ended.is_none() {
             let mutants = self.mutants_of(task).map(|mutant| {
                 let opening = self.opening(task, &mutant.source);
                 (
@@ -455,6 +488,7 @@ impl Grader<'_> {
                     .collect(),
                 rungs,
             },
+            divergence: differs.clone(),
         };
         let goals = work.goals.iter().enumerate().map(|(i, goal)| Goal {
             position_m: goal.position_m.into(),
@@ -481,9 +515,17 @@ impl Grader<'_> {
                 .map(|path| asked(path, &task.checks))
                 .collect(),
             curves,
+            divergence: differs,
             trace,
         };
         Ok((grade, run))
+    }
+
+    /// The reference solution's run of a task, with the staff's part and if it comes to its end.
+    fn solution_run(&self, task: &Task, work: &MotionTask) -> Option<Trace> {
+        let opening = self.opening(task, &self.staff?.solution);
+        let run = motion::run(self.lab, work, &opening, &mut InProcess);
+        run.ended.is_none().then_some(run.trace)
     }
 
     fn reference_path(&self, task: &str) -> Option<&TcpPath> {

@@ -12,6 +12,8 @@
 //! | [`check`] | one file per check |
 //! | [`climb`] | the same motion under disturbances |
 //! | [`diagnose`] | known mistakes, recognised |
+//! | [`divergence`] | where a run first differs from the reference solution's |
+//! | [`audit`] | the grader of a lab, graded |
 //! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
 //! | [`graded`] | the record with the runs it rests on |
@@ -25,12 +27,14 @@
 )]
 
 pub mod answer;
+pub mod audit;
 pub mod blow_up;
 pub mod cases;
 pub mod check;
 pub mod climb;
 pub mod controller;
 pub mod diagnose;
+pub mod divergence;
 pub mod event_words;
 pub mod grade;
 pub mod graded;

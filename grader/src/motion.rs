@@ -193,6 +193,16 @@ impl<'a> Session<'a> {
         self.run.tick()
     }
 
+    /// Whether it has ended, at its last tick or before.
+    pub fn is_over(&self) -> bool {
+        self.ended.is_some()
+    }
+
+    /// The signals recorded so far.
+    pub fn so_far(&self) -> &Trace {
+        self.recorder.so_far()
+    }
+
     /// Goes on until `tick` comes next, or to the end.
     pub fn advance_to(&mut self, tick: u64) {
         while self.ended.is_none() && self.run.tick() < tick {

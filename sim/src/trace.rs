@@ -292,6 +292,11 @@ impl<'a> TraceRecorder<'a> {
         }
     }
 
+    /// The signals as far as they are recorded; contacts and events are known at the end only.
+    pub fn so_far(&self) -> &Trace {
+        &self.trace
+    }
+
     /// The trace, once the run has ended.
     pub fn finish(self) -> Trace {
         let mut trace = self.trace;

@@ -38,7 +38,7 @@ fn completions_name_every_command() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let ran = bed.run(&["completions", shell]);
         assert_eq!(ran.code, Some(0), "{ran:?}");
-        for command in ["grade", "verify", "labs", "new", "robot", "scene"] {
+        for command in ["grade", "verify", "labs", "new", "robot", "scene", "lab"] {
             assert!(ran.stdout.contains(command), "{shell} {command}");
         }
     }

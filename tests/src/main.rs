@@ -23,6 +23,7 @@ mod mesh_labs;
 mod path_checks;
 mod robot_docs;
 mod robot_files;
+mod run_diagnoses;
 mod scene_check;
 mod scene_checks;
 mod scene_labs;

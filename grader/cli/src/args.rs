@@ -62,6 +62,9 @@ pub(crate) enum Command {
     /// Check a scene
     #[command(subcommand)]
     Scene(SceneCommand),
+    /// Check a lab
+    #[command(subcommand)]
+    Lab(LabCommand),
     Completions(CompletionsArgs),
     /// Runs a submission for another process; not for people
     #[command(hide = true)]
@@ -272,6 +275,36 @@ pub(crate) struct SceneCheckArgs {
     /// Print all findings as JSON
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) places: PlaceArgs,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum LabCommand {
+    Check(LabCheckArgs),
+}
+
+/// Check a lab's grader with the staff's part: the starter misses, the reference solution has full marks, every known mistake
+/// loses points and is named
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n\n\
+    A starter may earn a tenth of the points; a lab has at least 6 known mistakes, each of which shows in 30 % of a function \
+    task's cases. Everything runs in this process: check labs of people you trust. See docs/lab-format.md.\n\
+    Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
+)]
+pub(crate) struct LabCheckArgs {
+    /// The lab, as `kinemark labs` names it
+    pub(crate) lab: String,
+    /// Draws of hidden cases that the reference solution is tried on, besides the lab's own
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(crate) salts: u32,
+    /// Print what was tried as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Folder of the staff's reference [default: `reference` beside the labs folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) reference: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) places: PlaceArgs,
 }

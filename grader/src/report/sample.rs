@@ -163,6 +163,7 @@ pub(crate) fn task_run() -> TaskRun {
         reference_tcp,
         paths: Vec::new(),
         curves,
+        divergence: None,
     }
 }
 
@@ -248,6 +249,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
         reference_tcp: None,
         paths: Vec::new(),
         curves: Vec::new(),
+        divergence: None,
         robot,
     }
 }
@@ -333,6 +335,7 @@ fn task(
             ],
             rungs: Vec::new(),
         },
+        divergence: None,
     }
 }
 

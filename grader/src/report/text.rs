@@ -88,6 +88,18 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             ),
         );
     }
+    if let Some(differs) = &task.divergence {
+        line(
+            out,
+            &format!(
+                "  {} at {}: {} {}",
+                "first differs".cyan(),
+                seconds(differs.time_s),
+                visible(&differs.message),
+                format!("[tick {}, {}]", differs.tick, differs.signal).dimmed()
+            ),
+        );
+    }
     for check in &task.checks {
         push_check(out, check);
     }

@@ -4,6 +4,7 @@ mod completions;
 mod convert;
 mod eval;
 mod grade;
+mod lab_check;
 mod labs;
 mod new;
 mod scene_check;
@@ -12,7 +13,7 @@ mod verify;
 
 use std::process::ExitCode;
 
-use crate::args::{Args, Command, RobotCommand, SceneCommand};
+use crate::args::{Args, Command, LabCommand, RobotCommand, SceneCommand};
 use crate::failure::Failure;
 use crate::worker;
 
@@ -27,6 +28,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Robot(RobotCommand::Convert(args)) => convert::run(&args),
         Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),
         Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
+        Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Worker => Ok(worker::serve()),
     }

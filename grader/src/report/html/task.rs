@@ -6,8 +6,8 @@ use super::band::{gauge, outcome, told};
 use super::head::{anchor, earned, meaning, verdict};
 use super::{foreign, prose};
 use crate::grade::{
-    CaseGrade, CheckGrade, ContactRecord, Diagnosis, EventRecord, Evidence, HiddenClass, LogEntry,
-    Outcome, Stopped, TaskGrade, TaskKind,
+    CaseGrade, CheckGrade, ContactRecord, Diagnosis, Divergence, EventRecord, Evidence,
+    HiddenClass, LogEntry, Outcome, Stopped, TaskGrade, TaskKind,
 };
 use crate::graded::TaskRun;
 use crate::quantity::seconds;
@@ -35,6 +35,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
             p class="lead" { (meaning(task.verdict)) }
             @if let Some(stop) = &task.stopped { (stopped(stop)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis)) }
+            @if let Some(differs) = &task.divergence { (differing(differs)) }
             @if !task.checks.is_empty() {
                 h3 { "Checks" }
                 ul class="checks" { @for check in &task.checks { li { (checked(check)) } } }
@@ -111,6 +112,23 @@ fn diagnosed(diagnosis: &Diagnosis) -> Markup {
             p class="where" {
                 span { (diagnosis.agreeing) " of the " (diagnosis.telling) " answers in which this mistake would show agree with it" }
             }
+        }
+    }
+}
+
+/// Where to look first; no statement that anything is wrong there.
+fn differing(differs: &Divergence) -> Markup {
+    html! {
+        div class="note hint" {
+            h3 { "Where it first differs" }
+            p { (prose(&differs.message)) }
+            p class="where" {
+                span { "at " (seconds(differs.time_s)) }
+                span { "tick " (differs.tick) }
+                span { "signal " code { (foreign(&differs.signal)) } }
+                span { "told from " (visible(&with_unit(differs.tolerance, &differs.unit))) }
+            }
+            p { "This is where to look first, and no mistake by itself: another road, or another time, may be as right." }
         }
     }
 }

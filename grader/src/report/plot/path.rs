@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
 use super::plane::Plane;
 use super::scenery::{Scenery, clipped};
-use super::signals::stopped_s;
+use super::signals::{differs, stopped_s};
 use super::thin::in_plane;
 use super::view::{LEFT, RIGHT, View};
 use crate::graded::{Goal, TaskRun};
@@ -200,6 +200,10 @@ impl Drawn<'_> {
                 None => legend.push(Entry::new(Swatch::Dot(BLUE), "end")),
             }
         }
+        if let Some((t_s, words)) = differs(self.run) {
+            let words = format!("{words}, {}", seconds(t_s));
+            legend.push(Entry::new(Swatch::Number(1), words));
+        }
         if !self.arms[1].is_empty() {
             legend.push(Entry::new(Swatch::Line(MUTED_DASHED), "arm at the start"));
             legend.push(Entry::new(Swatch::Line(MUTED), "at the end"));
@@ -289,6 +293,11 @@ impl Drawn<'_> {
                 Some(_) => canvas.cross(view.at(*end), 6.0, RED, 2.5),
                 None => canvas.disc(view.at(*end), 4.5, BLUE, 1.0),
             }
+        }
+        let differs = self.run.divergence.as_ref();
+        let differs = differs.and_then(|found| self.tcp.get(found.tick as usize));
+        if let Some(at) = differs.filter(|p| p.0.is_finite() && p.1.is_finite()) {
+            canvas.number(1, view.at(*at));
         }
     }
 

@@ -42,6 +42,13 @@ pub(super) fn stopped_s(run: &TaskRun) -> Option<f64> {
     stopped.then(|| end_s(run))
 }
 
+/// The moment at which a run first differs from the reference solution's, in words.
+pub(super) fn differs(run: &TaskRun) -> Option<(f64, String)> {
+    let found = run.divergence.as_ref()?;
+    let words = format!("differs first from the reference ({})", found.signal);
+    Some((found.time_s, words))
+}
+
 pub(super) fn timeline(
     run: &TaskRun,
     title: String,
@@ -52,7 +59,7 @@ pub(super) fn timeline(
         title,
         panels,
         legend,
-        marks: Vec::new(),
+        marks: differs(run).into_iter().collect(),
         end_s: end_s(run),
         stopped_s: stopped_s(run),
     }

@@ -1,0 +1,133 @@
+//! `kinemark lab check`: what is wrong with the grader of a lab, before a student meets it.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use kinemark_grader::audit::{Audit, Row, Tried, depends_on_salt};
+use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::quantity::points;
+use kinemark_sim::source::Source;
+use owo_colors::OwoColorize as _;
+
+use crate::args::{LabCheckArgs, StaffArgs};
+use crate::failure::{Failure, LOST};
+use crate::{output, places};
+
+/// Audits the lab and prints what was tried.
+pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
+    let (files, labs_folder) = places::labs(&args.places)?;
+    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let from = StaffArgs {
+        reference: args.reference.clone(),
+        practice: false,
+        salt: None,
+    };
+    let reference = places::reference(&from, labs_folder.as_deref())?.ok_or_else(|| {
+        Failure::usage(
+            "there is no folder `reference` beside the labs".to_owned(),
+            "a lab is checked with the staff's part: give its folder with --reference DIR",
+        )
+    })?;
+    let staff = |salt: Option<&str>| {
+        Staff::load(&reference, &lab, salt)?.ok_or_else(|| {
+            Failure::usage(
+                format!(
+                    "{} has no solution for lab `{}`",
+                    reference.name(),
+                    lab.name
+                ),
+                "write solution.rhai there, or give another folder with --reference DIR",
+            )
+        })
+    };
+    let own = staff(None)?;
+    let path = format!("{}/starter.rhai", lab.name);
+    let starter = match files.read(&path) {
+        Ok(Some(text)) => Source::new("starter.rhai", text),
+        Ok(None) => {
+            return Err(Failure::broken(
+                format!("lab `{}` has no starter.rhai", lab.name),
+                "write the file that students begin with beside lab.toml",
+            ));
+        }
+        Err(why) => {
+            return Err(Failure::broken(
+                format!("{path}: {why}"),
+                "save it as UTF-8 text",
+            ));
+        }
+    };
+
+    let mut audit = Audit::new(&lab);
+    audit.starter(&lab, &own, &starter);
+    if let Some(run) = audit.reference(&lab, &own, "own hidden cases") {
+        audit.reference_paths(&lab, &run);
+    }
+    let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
+    for draw in 1..=draws {
+        let staff = staff(Some(&format!("lab check {draw}")))?;
+        audit.reference(&lab, &staff, &format!("hidden cases of draw {draw}"));
+    }
+    audit.mutants(&lab, &own);
+
+    if args.json {
+        output::print_json(&audit)?;
+    } else {
+        output::print(&text(&audit))?;
+    }
+    let bad = audit.problems().next().is_some();
+    Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// A line for everything tried, with what is wrong below it.
+fn text(audit: &Audit) -> String {
+    let mut out = format!(
+        "{}  {} points\n\n",
+        audit.lab.bold(),
+        points(audit.max_points)
+    );
+    for row in &audit.rows {
+        push(&mut out, row);
+    }
+    let problems = audit.problems().count();
+    let told = match problems {
+        0 => "nothing is wrong".green().to_string(),
+        1 => "1 problem".red().to_string(),
+        _ => format!("{problems} problems").red().to_string(),
+    };
+    let _ = writeln!(out, "\n{} tried, {told}", audit.rows.len());
+    out
+}
+
+fn push(out: &mut String, row: &Row) {
+    let mark = if row.problem.is_some() {
+        "-".red().to_string()
+    } else {
+        "+".green().to_string()
+    };
+    let earned = match (row.points, row.max_points) {
+        (Some(earned), Some(of)) => format!("{}/{}", points(earned), points(of)),
+        _ => String::new(),
+    };
+    let task = row.task.as_deref().unwrap_or_default();
+    let right = match row.tried {
+        Tried::Starter => "misses",
+        Tried::Reference => "full marks",
+        Tried::ReferencePath => "is the reference solution's",
+        Tried::Mutants => "enough of them",
+        Tried::Mutant => "loses and is named",
+    };
+    let told = if row.problem.is_some() { "" } else { right };
+    let line = format!(
+        "{mark} {:<14} {:<26} {task:<12} {earned:>9}  {told}",
+        row.tried.name(),
+        row.name
+    );
+    let _ = writeln!(out, "{}", line.trim_end());
+    if let Some(problem) = &row.problem {
+        let _ = writeln!(out, "    {problem}");
+    }
+    if let Some(help) = &row.help {
+        let _ = writeln!(out, "    {} {help}", "next:".cyan());
+    }
+}
