@@ -133,7 +133,7 @@ impl Audit {
         let problem = if let Some(task) = failed {
             let what = format!("task `{}`: {}", task.name, stop_of(task));
             Some((what, "a starter runs as it is, and misses"))
-        } else if !(grade.points <= most) {
+        } else if grade.points > most {
             let what = format!(
                 "{} points for nothing done, and at most {} may be",
                 points(grade.points),
@@ -299,7 +299,7 @@ fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<St
         }
         told = tick;
         let apart = (trace.tcp_position(tick) - nalgebra::Vector3::from(*place)).norm();
-        if !(apart <= SAME_PATH_M) {
+        if apart > SAME_PATH_M {
             return Some(format!(
                 "reference-path.json is {} from the path of the reference solution at {}",
                 metres(apart),
