@@ -79,6 +79,7 @@ fn opening(source: &str) -> Opening {
             ..Budgets::default()
         },
         granted: None,
+        function: None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! From what a submission returned to what was asked for: shape and finiteness, or words for what came instead.
 
+use kinemark_sim::robot::Dimension;
 use nalgebra::Vector3;
 
 use crate::controller::Value;
@@ -90,6 +91,76 @@ pub fn matrix(value: &Value, rows: usize, columns: usize) -> Result<Vec<Vec<f64>
             ))
         }
     }
+}
+
+/// The entries of a map that were expected, in their order: each a finite number, or a list of as many as expected. A single entry
+/// without a name is the answer itself.
+///
+/// For each entry, or all of them, what was returned instead, in words.
+pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Vec<f64>, String>> {
+    let names = || expected.iter().map(|(name, _)| name.as_str());
+    let entry = |(name, should): &(String, Dimension)| {
+        let (found, of) = match (value, name.as_str()) {
+            (value, "") => (value, String::new()),
+            (Value::Map(map), name) => {
+                let Some((_, found)) = map.iter().find(|(key, _)| key == name) else {
+                    return Err(format!("{}, without `{name}`", describe(value)));
+                };
+                (found, format!(" as `{name}`"))
+            }
+            _ => {
+                let names: Vec<&str> = names().collect();
+                return Err(instead(value, &format!("a map of {}", names.join(", "))));
+            }
+        };
+        let (numbers, wanted) = match (should, found) {
+            (Dimension::Number(_), Value::Number(number)) => (Some(vec![*number]), String::new()),
+            (Dimension::Number(_), _) => (None, "a number".to_owned()),
+            (Dimension::List(list), found) => (
+                numbers(found).filter(|found| found.len() == list.len()),
+                format!("a list of {} numbers", list.len()),
+            ),
+        };
+        match numbers {
+            None => Err(format!("{}{of}, expected {wanted}", describe(found))),
+            Some(numbers) if numbers.iter().all(|number| number.is_finite()) => Ok(numbers),
+            Some(_) => Err(format!("{}{of}, expected finite numbers", describe(found))),
+        }
+    };
+    expected.iter().map(entry).collect()
+}
+
+/// The entries of an answer under the names of `like`, numbers where that has numbers and lists where it has lists of any length.
+///
+/// # Errors
+/// What was returned instead, in words.
+pub fn named_entries(
+    value: &Value,
+    like: &[(String, Dimension)],
+) -> Result<Vec<(String, Dimension)>, String> {
+    let length = |name: &str| match value {
+        Value::Map(map) => match map.iter().find(|(key, _)| key == name) {
+            Some((_, Value::List(items))) => items.len(),
+            _ => 0,
+        },
+        _ => 0,
+    };
+    let expected: Vec<(String, Dimension)> = like
+        .iter()
+        .map(|(name, like)| match like {
+            Dimension::Number(_) => (name.clone(), like.clone()),
+            Dimension::List(_) => (name.clone(), Dimension::List(vec![0.0; length(name)])),
+        })
+        .collect();
+    let found = entries(value, &expected);
+    let found: Vec<Vec<f64>> = found.into_iter().collect::<Result<_, _>>()?;
+    let filled = expected.into_iter().zip(found);
+    Ok(filled
+        .map(|((name, kind), numbers)| match kind {
+            Dimension::Number(_) => (name, Dimension::Number(numbers[0])),
+            Dimension::List(_) => (name, Dimension::List(numbers)),
+        })
+        .collect())
 }
 
 /// A command: `n` finite numbers; one bare number where `n` is 1.
@@ -245,6 +316,47 @@ mod tests {
         assert!(matrix(&Value::Nothing, 1, 1).is_err());
         let nan = Value::List(vec![list(&[1.0, f64::NAN])]);
         assert!(matrix(&nan, 1, 2).unwrap_err().contains("finite"));
+    }
+
+    #[test]
+    fn entries_are_found_by_name_each_for_itself() {
+        let number = |name: &str, x| (name.to_owned(), Dimension::Number(x));
+        let map = |entries: &[(&str, Value)]| {
+            Value::Map(
+                entries
+                    .iter()
+                    .map(|(k, v)| ((*k).to_owned(), v.clone()))
+                    .collect(),
+            )
+        };
+        let expected = [
+            number("a", 1.0),
+            ("b".to_owned(), Dimension::List(vec![1.0, 2.0])),
+        ];
+        let answer = map(&[("b", list(&[3.0, 4.0])), ("c", Value::Nothing)]);
+        let found = entries(&answer, &expected);
+        assert_eq!(found[0], Err("a map of b, c, without `a`".to_owned()));
+        assert_eq!(found[1], Ok(vec![3.0, 4.0]));
+        let found = entries(
+            &map(&[("a", Value::Number(f64::NAN)), ("b", list(&[1.0]))]),
+            &expected,
+        );
+        assert_eq!(
+            found[0],
+            Err("NaN as `a`, expected finite numbers".to_owned())
+        );
+        assert_eq!(
+            found[1],
+            Err("[1] as `b`, expected a list of 2 numbers".to_owned())
+        );
+        assert_eq!(
+            entries(&Value::Number(1.0), &expected)[0],
+            Err("1, expected a map of a, b".to_owned())
+        );
+        assert_eq!(
+            entries(&Value::Number(7.0), &[number("", 1.0)]),
+            [Ok(vec![7.0])]
+        );
     }
 
     #[test]

@@ -5,6 +5,7 @@ use kinemark_sim::robot::{Dimension, Robot};
 use nalgebra::Vector3;
 
 use crate::answer;
+use crate::check::function_cases::{as_slice, relative_error};
 use crate::check::ik_branches::count_distinct;
 use crate::check::{Answered, CaseError, CaseFacts};
 use crate::controller::{Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop, Value};
@@ -12,6 +13,7 @@ use crate::grade::LogEntry;
 use crate::grading::Host;
 use crate::jacobian;
 use crate::lab::model::{Case, Function, Given, Lab};
+use crate::submission::ScriptController;
 
 /// After so many calls that used up their budget the submission is not asked again: the reason is known, and each costs time.
 const MOST_EXHAUSTED: usize = 3;
@@ -34,7 +36,7 @@ pub struct CasesRun<'a> {
 /// Calls the submission of `opening` on `cases`.
 pub fn run<'a>(
     lab: &Lab,
-    function: Function,
+    function: &Function,
     cases: &'a [Case],
     opening: &Opening,
     host: &mut dyn Host,
@@ -108,9 +110,34 @@ pub fn run<'a>(
     }
 }
 
+/// What the submission of `opening` answers to cases of a free function, in this process.
+///
+/// # Errors
+/// The first [`Stop`].
+pub fn answers(function: &Function, cases: &[Case], opening: &Opening) -> Result<Vec<Value>, Stop> {
+    let mut script = ScriptController::open(opening)?;
+    let mut answers = Vec::new();
+    for case in cases {
+        if let Given::Values { given, .. } = &case.given {
+            answers.push(script.call(&free_call(function, given))?.value);
+        }
+    }
+    Ok(answers)
+}
+
+fn free_call(function: &Function, given: &[(String, Dimension)]) -> Call {
+    Call::Free {
+        function: function.name().to_owned(),
+        given: given
+            .iter()
+            .map(|(name, value)| (name.clone(), value_of(value)))
+            .collect(),
+    }
+}
+
 fn ask(
     controller: &mut Option<Box<dyn Controller>>,
-    function: Function,
+    function: &Function,
     robot: &Robot,
     case: &Case,
     opening: &Opening,
@@ -134,12 +161,13 @@ fn ask(
             robot,
             position_m: *position_m,
         },
+        Given::Values { given, .. } => free_call(function, given),
     })
 }
 
 fn measure<'a>(
     lab: &Lab,
-    function: Function,
+    function: &Function,
     case: &'a Case,
     robot: Robot,
     value: Option<&Value>,
@@ -148,7 +176,7 @@ fn measure<'a>(
     let (answer, error) = match (&case.given, function) {
         (Given::Q(q), Function::Jacobian(rows)) => {
             // a case's positions were counted when the lab was loaded
-            let truth = jacobian::jacobian_in(&robot, &lab.frame, q, rows).unwrap_or_default();
+            let truth = jacobian::jacobian_in(&robot, &lab.frame, q, *rows).unwrap_or_default();
             let answer = match value.map(|value| answer::matrix(value, truth.len(), robot.n())) {
                 None => Answered::Stopped,
                 Some(Ok(matrix)) => Answered::Matrix(matrix),
@@ -171,6 +199,24 @@ fn measure<'a>(
                 _ => f64::INFINITY,
             };
             (answer, CaseError::Position(error_m))
+        }
+        (Given::Values { expected, .. }, _) => {
+            let entries = value.map(|value| answer::entries(value, expected));
+            let relative = expected.iter().enumerate().map(|(i, (_, should))| {
+                let entry = entries
+                    .as_ref()
+                    .and_then(|entries| entries[i].as_ref().ok());
+                entry.map_or(f64::INFINITY, |entry| {
+                    relative_error(entry, as_slice(should))
+                })
+            });
+            let error = CaseError::Entries(relative.collect());
+            let answer = match entries.map(|entries| entries.into_iter().collect()) {
+                None => Answered::Stopped,
+                Some(Ok(entries)) => Answered::Entries(entries),
+                Some(Err(what)) => invalid(what),
+            };
+            (answer, error)
         }
         (
             Given::Position {
@@ -248,13 +294,10 @@ pub fn tcp_in(robot: &Robot, frame: &str, q: &[f64]) -> Option<Vector3<f64>> {
 
 /// What a submission may know of `robot`; `effort_limits` are the task's, else the robot's own.
 pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts {
-    let dimensions = robot.dimensions().iter().map(|(name, dimension)| {
-        let value = match dimension {
-            Dimension::Number(number) => Value::Number(*number),
-            Dimension::List(list) => Value::List(list.iter().copied().map(Value::Number).collect()),
-        };
-        (name.to_owned(), value)
-    });
+    let dimensions = robot
+        .dimensions()
+        .iter()
+        .map(|(name, dimension)| (name.to_owned(), value_of(dimension)));
     let joints = || robot.moving_joints();
     RobotFacts {
         name: robot.name().to_owned(),
@@ -271,6 +314,14 @@ pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts
                 .map(|j| j.limits.effort.unwrap_or(f64::INFINITY))
                 .collect()
         }),
+    }
+}
+
+/// A number or a list of numbers as submissions get it.
+fn value_of(dimension: &Dimension) -> Value {
+    match dimension {
+        Dimension::Number(number) => Value::Number(*number),
+        Dimension::List(list) => Value::List(list.iter().copied().map(Value::Number).collect()),
     }
 }
 

@@ -107,6 +107,8 @@ pub struct Opening {
     pub budgets: Budgets,
     /// What it may ask of the robot's model, where the task grants anything.
     pub granted: Option<Granted>,
+    /// The function of the lab's own that is called, where one is.
+    pub function: Option<String>,
 }
 
 /// A function of `robot` that a task may grant.
@@ -214,6 +216,13 @@ pub enum Call {
         /// Joint positions \[rad or m\].
         q: Vec<f64>,
     },
+    /// A function of the lab's own: `function(given)`.
+    Free {
+        /// The function's name.
+        function: String,
+        /// What it is given: numbers and lists of numbers.
+        given: Vec<(String, Value)>,
+    },
     /// `init(robot, task)`, once before the first `Control`; a submission without `init` answers nothing.
     Init,
     /// `control(observation)`.
@@ -227,7 +236,7 @@ impl Call {
             Self::ForwardKinematics { robot, .. }
             | Self::InverseKinematics { robot, .. }
             | Self::Jacobian { robot, .. } => Some(robot),
-            Self::Init | Self::Control(_) => None,
+            Self::Free { .. } | Self::Init | Self::Control(_) => None,
         }
     }
 }

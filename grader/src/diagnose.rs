@@ -7,6 +7,7 @@ mod whole_run;
 
 pub use self::whole_run::{Compared, whole_run};
 
+use crate::check::function_cases::relative_error;
 use crate::check::ik_branches::same_branch;
 use crate::check::stay::{Stay, best_stays};
 use crate::check::{Answered, CaseError, CaseFacts};
@@ -88,6 +89,7 @@ fn is_wrong(facts: &CaseFacts<'_>, band: Band) -> bool {
         }
         CaseError::Unreachable { said_so } => !said_so,
         CaseError::Jacobian { relative, .. } => band.score(*relative) <= 0.0,
+        CaseError::Entries(relative) => relative.iter().any(|off| band.score(*off) <= 0.0),
     }
 }
 
@@ -104,6 +106,10 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
         (Answered::Matrix(a), Answered::Matrix(b)) => {
             jacobian::distance(a, b) <= SAME_POSITION_M * (1.0 + jacobian::norm(b))
         }
+        (Answered::Entries(a), Answered::Entries(b)) => a
+            .iter()
+            .zip(b)
+            .all(|(a, b)| relative_error(a, b) <= SAME_POSITION_M),
         // "not a number" where the mistake gives none either
         (Answered::Invalid(_), Answered::Invalid(_)) => true,
         _ => false,

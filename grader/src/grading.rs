@@ -5,6 +5,7 @@ use kinemark_sim::source::Source;
 use kinemark_sim::trace::Trace;
 
 use crate::cases::{self, CasesRun};
+use crate::check::function_cases::{as_slice, written};
 use crate::check::{self, Answered, CaseError, CaseFacts, Climb, Finding, MotionFacts, stay};
 use crate::climb::{self, Undecided};
 use crate::controller::{Controller, Granted, Opening, Stop, Value};
@@ -159,6 +160,27 @@ pub fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
     })
 }
 
+/// What `solution` answers to `cases` of a function of the lab's own, in this process.
+///
+/// # Errors
+/// Why it has no answer, in words.
+pub fn answers(
+    lab: &Lab,
+    task: &Task,
+    function: &Function,
+    cases: &[Case],
+    solution: &Source,
+) -> Result<Vec<Value>, String> {
+    let grader = Grader {
+        lab,
+        staff: None,
+        submission: solution,
+    };
+    let opening = grader.opening(task, solution);
+    cases::answers(function, cases, &opening)
+        .map_err(|stop| stopped::record(&stop, solution.text()).message)
+}
+
 struct Grader<'a> {
     lab: &'a Lab,
     staff: Option<&'a Staff>,
@@ -188,6 +210,13 @@ impl Grader<'_> {
             sensors,
             budgets: self.lab.budgets.clone(),
             granted: granted(self.lab, &task.work),
+            function: match &task.work {
+                TaskWork::Function(FunctionTask {
+                    function: Function::Free(name),
+                    ..
+                }) => Some(name.clone()),
+                _ => None,
+            },
         }
     }
 
@@ -207,7 +236,7 @@ impl Grader<'_> {
         let mut all: Vec<Case> = work.cases.clone();
         all.extend_from_slice(self.staff.map_or(&[], |staff| staff.hidden(&task.name)));
         let opening = self.opening(task, self.submission);
-        let run = cases::run(self.lab, work.function, &all, &opening, host);
+        let run = cases::run(self.lab, &work.function, &all, &opening, host);
         let mut stopped_record = None;
         let mut verdict = Verdict::Passed;
         if let Some((case, stop)) = &run.stop {
@@ -229,7 +258,7 @@ impl Grader<'_> {
             Some((_, Stop::Missing { .. } | Stop::DidNotBuild(_)))
         );
         let checks = judged(&task.checks, could_run && verdict.is_decided(), |check| {
-            check::judge_function(check, work.function, &run.facts)
+            check::judge_function(check, &work.function, &run.facts)
         });
         let checks: Vec<CheckGrade> = checks.into_iter().map(|(check, _)| check).collect();
         let invalid = run.facts.iter().find_map(|facts| match &facts.answer {
@@ -241,6 +270,7 @@ impl Grader<'_> {
             Answered::Position(_)
             | Answered::Branches(_)
             | Answered::Matrix(_)
+            | Answered::Entries(_)
             | Answered::Stopped => None,
         });
         let invalid = invalid.map(|(case, what)| (case.to_owned(), what));
@@ -263,7 +293,7 @@ impl Grader<'_> {
         let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
             Vec::new()
         } else {
-            self.function_diagnoses(task, work.function, &all, &run)
+            self.function_diagnoses(task, &work.function, &all, &run)
         };
         let explained = stopped_record.is_some() || !diagnoses.is_empty();
         let checks = without_hints(checks, explained);
@@ -301,7 +331,7 @@ impl Grader<'_> {
     fn function_diagnoses(
         &self,
         task: &Task,
-        function: Function,
+        function: &Function,
         all: &[Case],
         student: &CasesRun<'_>,
     ) -> Vec<Diagnosis> {
@@ -659,9 +689,10 @@ fn judged(
 /// The band of distances, or of relative ones, by which a function task's single answers are called good or wrong.
 fn good_bands(checks: &[Check]) -> Band {
     let found = checks.iter().find_map(|check| match &check.kind {
-        CheckKind::FkError(band) | CheckKind::IkReach(band) | CheckKind::JacobianMatch(band) => {
-            Some(*band)
-        }
+        CheckKind::FkError(band)
+        | CheckKind::IkReach(band)
+        | CheckKind::JacobianMatch(band)
+        | CheckKind::FunctionCases { band, .. } => Some(*band),
         _ => None,
     });
     found.unwrap_or(Band {
@@ -690,6 +721,7 @@ fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
             .is_some_and(|error_m| *error_m <= band.full),
         CaseError::Unreachable { said_so } => *said_so,
         CaseError::Jacobian { relative, .. } => *relative <= band.full,
+        CaseError::Entries(relative) => relative.iter().all(|relative| *relative <= band.full),
     }
 }
 
@@ -711,6 +743,7 @@ fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
             // the angles would be the answer of the task itself
             (*branches == 0).then(|| "[] (out of reach)".to_owned()),
         ),
+        Given::Values { given, expected } => (entries(given), Some(entries(expected))),
     };
     let changed = facts.case.dimensions.iter().map(|(name, dimension)| {
         let value = match dimension {
@@ -722,10 +755,11 @@ fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
     let error_m = match &facts.error {
         CaseError::Position(error_m) => Some(*error_m),
         CaseError::Reach { branches_m, .. } => branches_m.first().copied(),
-        CaseError::Unreachable { .. } | CaseError::Jacobian { .. } => None,
+        CaseError::Unreachable { .. } | CaseError::Jacobian { .. } | CaseError::Entries(_) => None,
     };
     let relative_error = match &facts.error {
         CaseError::Jacobian { relative, .. } => Some(*relative),
+        CaseError::Entries(relative) => relative.iter().copied().max_by(f64::total_cmp),
         _ => None,
     };
     CaseGrade {
@@ -734,6 +768,15 @@ fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
         answer: match &facts.answer {
             Answered::Position(p) => format!("{} m", list(p.as_slice())),
             Answered::Branches(rows) | Answered::Matrix(rows) => lists(rows),
+            Answered::Entries(answer) => match &facts.case.given {
+                Given::Values { expected, .. } => named(
+                    expected
+                        .iter()
+                        .zip(answer)
+                        .map(|((name, _), numbers)| (name.as_str(), numbers.as_slice())),
+                ),
+                _ => lists(answer),
+            },
             Answered::Invalid(what) => what.clone(),
             Answered::Stopped => "no answer".to_owned(),
         },
@@ -742,6 +785,25 @@ fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
         relative_error: relative_error.filter(|relative| relative.is_finite()),
         good: is_good(facts, band),
     }
+}
+
+/// Entries as people read them: `kp = 100, inertia = 0.1668`.
+fn entries(entries: &[(String, kinemark_sim::robot::Dimension)]) -> String {
+    named(
+        entries
+            .iter()
+            .map(|(name, value)| (name.as_str(), as_slice(value))),
+    )
+}
+
+fn named<'e>(entries: impl Iterator<Item = (&'e str, &'e [f64])>) -> String {
+    let texts: Vec<String> = entries
+        .map(|(name, numbers)| match name {
+            "" => written(numbers, 6),
+            name => format!("{name} = {}", written(numbers, 6)),
+        })
+        .collect();
+    texts.join(", ")
 }
 
 fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenClass> {

@@ -58,7 +58,7 @@ pub fn trimmed(value: f64, decimals: usize) -> String {
 }
 
 /// A number with `digits` significant digits.
-fn significant(value: f64, digits: usize) -> String {
+pub fn significant(value: f64, digits: usize) -> String {
     let mut decimals = digits;
     let mut scaled = value.abs();
     while scaled > 0.0 && scaled < 0.1 && decimals < 17 {

@@ -149,6 +149,7 @@ fn a_robot_kept_in_this_can_be_copied_in_the_middle_of_a_run() {
         sensors: Vec::new(),
         budgets: lab.budgets.clone(),
         granted: granted(&lab, &lab.tasks[1].work),
+        function: None,
     };
     let straight = motion::run(&lab, work, &opening, &mut InProcess);
     assert_eq!(straight.ended, None);

@@ -14,6 +14,7 @@ mod errors;
 mod eval;
 mod eval_golden;
 mod eval_operations;
+mod free_function_task;
 mod grade;
 mod grants;
 mod hostile;

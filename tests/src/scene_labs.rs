@@ -259,6 +259,7 @@ fn a_session_copied_in_the_middle_goes_on_with_the_same_bits() {
         sensors: motion::sensors_of(work),
         budgets: lab.budgets.clone(),
         granted: None,
+        function: None,
     };
     let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
     let straight = motion::run(&lab, work, &opening, &mut InProcess);

@@ -336,6 +336,7 @@ mod tests {
             sensors: Vec::new(),
             budgets: Budgets::default(),
             granted: None,
+            function: None,
         };
         let mut input = Vec::new();
         send(&mut input, &opening).expect("written");

@@ -7,12 +7,13 @@ use crate::lab::model::{Band, Function};
 use crate::quantity::metres;
 
 /// Judges the check.
-pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
+pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {
     let error = |facts: &CaseFacts<'_>| match facts.error {
         CaseError::Position(error_m) => error_m,
-        CaseError::Reach { .. } | CaseError::Unreachable { .. } | CaseError::Jacobian { .. } => {
-            f64::INFINITY
-        }
+        CaseError::Reach { .. }
+        | CaseError::Unreachable { .. }
+        | CaseError::Jacobian { .. }
+        | CaseError::Entries(_) => f64::INFINITY,
     };
     let mean = cases.iter().map(error).sum::<f64>() / cases.len() as f64;
     let score = band.score(mean);
@@ -24,7 +25,10 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
                 let message = match &facts.answer {
                     Answered::Invalid(what) => format!("{}: {what}", facts.told()),
                     Answered::Stopped => format!("{}: no answer", facts.told()),
-                    Answered::Position(_) | Answered::Branches(_) | Answered::Matrix(_) => {
+                    Answered::Position(_)
+                    | Answered::Branches(_)
+                    | Answered::Matrix(_)
+                    | Answered::Entries(_) => {
                         format!(
                             "{}: {} from the true position",
                             facts.told(),

@@ -10,7 +10,7 @@ use crate::quantity::metres;
 use kinemark_sim::robot::Robot;
 
 /// Judges the check.
-pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
+pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {
     let mut judged = Vec::new();
     let mut failed = Vec::new();
     let mut sum = 0.0;
@@ -30,6 +30,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
             Answered::Branches(branches) => count_distinct(&facts.robot, branches),
             Answered::Position(_)
             | Answered::Matrix(_)
+            | Answered::Entries(_)
             | Answered::Invalid(_)
             | Answered::Stopped => 0,
         };

@@ -9,7 +9,7 @@ use crate::lab::model::{Band, Function};
 use crate::quantity::metres;
 
 /// Judges the check.
-pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
+pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {
     let mut reachable = Vec::new();
     let mut failed = Vec::new();
     let mut sum = 0.0;
@@ -27,7 +27,10 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
                 Answered::Branches(branches) if branches.is_empty() => {
                     format!("{}: said to be out of reach, but it is not", facts.told())
                 }
-                Answered::Branches(_) | Answered::Position(_) | Answered::Matrix(_) => format!(
+                Answered::Branches(_)
+                | Answered::Position(_)
+                | Answered::Matrix(_)
+                | Answered::Entries(_) => format!(
                     "{}: the arm ends {} from the target",
                     facts.told(),
                     metres(nearest)

@@ -5,7 +5,7 @@ use crate::grade::Measure;
 use crate::lab::model::Function;
 
 /// Judges the check.
-pub fn judge(cases: &[CaseFacts<'_>], function: Function) -> Finding {
+pub fn judge(cases: &[CaseFacts<'_>], function: &Function) -> Finding {
     let mut judged = Vec::new();
     let mut failed = Vec::new();
     let mut good = 0.0;
@@ -21,7 +21,10 @@ pub fn judge(cases: &[CaseFacts<'_>], function: Function) -> Finding {
         let message = match &facts.answer {
             Answered::Invalid(what) => format!("{}: {what}", facts.told()),
             Answered::Stopped => format!("{}: no answer", facts.told()),
-            Answered::Branches(_) | Answered::Position(_) | Answered::Matrix(_) => {
+            Answered::Branches(_)
+            | Answered::Position(_)
+            | Answered::Matrix(_)
+            | Answered::Entries(_) => {
                 format!(
                     "{}: angles for a target no arm of these lengths reaches",
                     facts.told()

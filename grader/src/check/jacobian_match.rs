@@ -8,7 +8,7 @@ use crate::lab::model::{Band, Function};
 use crate::quantity::{trimmed, with_unit};
 
 /// Judges the check.
-pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding {
+pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {
     let relative = |facts: &CaseFacts<'_>| match &facts.error {
         CaseError::Jacobian { relative, .. } => *relative,
         _ => f64::INFINITY,
@@ -57,13 +57,14 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: Function) -> Finding
 /// The worst column, and in it the worst entry: `: column 2 (elbow): d x / d q2 is 0.2, should be -0.8`.
 fn worst_entry(
     facts: &CaseFacts<'_>,
-    function: Function,
+    function: &Function,
     answer: &[Vec<f64>],
     truth: &[Vec<f64>],
 ) -> String {
     let Function::Jacobian(rows) = function else {
         return String::new();
     };
+    let rows = *rows;
     let column = |matrix: &[Vec<f64>], joint: usize| -> Vec<Vec<f64>> {
         vec![matrix.iter().map(|row| row[joint]).collect()]
     };

@@ -12,6 +12,7 @@ pub mod effort_saturation;
 pub mod energy;
 pub mod finish_time;
 pub mod fk_error;
+pub mod function_cases;
 pub mod ik_branches;
 pub mod ik_reach;
 pub mod ik_unreachable;
@@ -171,6 +172,8 @@ pub enum Answered {
     Branches(Vec<Vec<f64>>),
     /// A matrix, row by row.
     Matrix(Vec<Vec<f64>>),
+    /// The entries that were expected, in their order, a number as a list of one.
+    Entries(Vec<Vec<f64>>),
     /// Something of the wrong shape or not finite; in words.
     Invalid(String),
     /// Nothing: the submission was stopped in this case, or before.
@@ -202,6 +205,8 @@ pub enum CaseError {
         /// The true one, row by row.
         truth: Vec<Vec<f64>>,
     },
+    /// Of a free function: the relative error of each entry expected; infinite where there is no valid one.
+    Entries(Vec<f64>),
 }
 
 /// Judges a check of a motion task.
@@ -284,18 +289,22 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
         | CheckKind::IkReach(_)
         | CheckKind::IkBranches(_)
         | CheckKind::IkUnreachable
-        | CheckKind::JacobianMatch(_) => foreign(),
+        | CheckKind::JacobianMatch(_)
+        | CheckKind::FunctionCases { .. } => foreign(),
     }
 }
 
 /// Judges a check of a function task.
-pub fn judge_function(check: &Check, function: Function, cases: &[CaseFacts<'_>]) -> Finding {
+pub fn judge_function(check: &Check, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
     match &check.kind {
         CheckKind::FkError(band) => fk_error::judge(cases, *band, function),
         CheckKind::IkReach(band) => ik_reach::judge(cases, *band, function),
         CheckKind::IkBranches(band) => ik_branches::judge(cases, *band, function),
         CheckKind::IkUnreachable => ik_unreachable::judge(cases, function),
         CheckKind::JacobianMatch(band) => jacobian_match::judge(cases, *band, function),
+        CheckKind::FunctionCases { band, entry } => {
+            function_cases::judge(cases, *band, entry.as_deref(), function)
+        }
         CheckKind::JointReached { .. }
         | CheckKind::PoseReached(_)
         | CheckKind::FinishTime(_)
@@ -330,7 +339,7 @@ fn foreign() -> Finding {
 
 /// Evidence of a function task's case.
 fn case_evidence(
-    function: Function,
+    function: &Function,
     facts: &CaseFacts<'_>,
     message: String,
     value: f64,
@@ -351,7 +360,7 @@ fn case_evidence(
 
 /// At most three visible cases, then hidden classes without their numbers: what a student can act on.
 fn summarise(
-    function: Function,
+    function: &Function,
     mut failed: Vec<(&CaseFacts<'_>, f64, String)>,
     totals: &[&CaseFacts<'_>],
     limit: f64,

@@ -28,6 +28,8 @@ pub(super) enum Drawn {
     PositionOf(Vec<[f64; 2]>, u32),
     /// A position, whether reachable or not.
     Position([[f64; 2]; 3], u32),
+    /// What a free function is given; the solution says what is expected.
+    Values(Vec<(String, Ranges)>),
 }
 
 /// Random numbers of one case.
@@ -51,6 +53,20 @@ impl Stream {
         let unit = (u64::from_le_bytes(bytes) >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit
     }
+
+    /// The next numbers and lists of numbers, by name.
+    fn entries(&mut self, ranges: &[(String, Ranges)]) -> Vec<(String, Dimension)> {
+        let drawn = ranges.iter().map(|(name, ranges)| {
+            let value = match ranges {
+                Ranges::One(range) => Dimension::Number(self.between(*range)),
+                Ranges::Each(ranges) => {
+                    Dimension::List(ranges.iter().map(|range| self.between(*range)).collect())
+                }
+            };
+            (name.clone(), value)
+        });
+        drawn.collect()
+    }
 }
 
 impl Draw {
@@ -63,19 +79,7 @@ impl Draw {
 
     fn case(&self, salt: &str, number: u32, lab: &Lab, robot_file: &RobotFile) -> Case {
         let mut stream = Stream::new(salt, self, number);
-        let dimensions: Vec<(String, Dimension)> = self
-            .dimensions
-            .iter()
-            .map(|(name, ranges)| {
-                let value = match ranges {
-                    Ranges::One(range) => Dimension::Number(stream.between(*range)),
-                    Ranges::Each(ranges) => {
-                        Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
-                    }
-                };
-                (name.clone(), value)
-            })
-            .collect();
+        let dimensions = stream.entries(&self.dimensions);
         let given = match &self.what {
             Drawn::Q(ranges) => Given::Q(ranges.iter().map(|r| stream.between(*r)).collect()),
             Drawn::PositionOf(ranges, branches) => {
@@ -88,6 +92,10 @@ impl Draw {
             Drawn::Position(ranges, branches) => Given::Position {
                 position_m: ranges.map(|range| stream.between(range)),
                 branches: *branches,
+            },
+            Drawn::Values(ranges) => Given::Values {
+                given: stream.entries(ranges),
+                expected: Vec::new(),
             },
         };
         Case {

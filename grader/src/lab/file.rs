@@ -57,7 +57,7 @@ pub(super) struct TaskTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FunctionTable {
-    pub(super) call: Spanned<FunctionName>,
+    pub(super) call: Spanned<String>,
     pub(super) rows: Option<Spanned<Vec<String>>>,
     #[serde(default)]
     pub(super) grants: Vec<Spanned<String>>,
@@ -65,12 +65,15 @@ pub(super) struct FunctionTable {
     pub(super) cases: Vec<Spanned<CaseTable>>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum FunctionName {
-    ForwardKinematics,
-    InverseKinematics,
-    Jacobian,
+/// What a free function is to answer.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected one number, or a table of numbers and lists of numbers"
+)]
+pub(super) enum ExpectedTable {
+    One(f64),
+    Entries(BTreeMap<String, kinemark_sim::robot::Dimension>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -82,6 +85,8 @@ pub(super) struct CaseTable {
     pub(super) branches: Option<Spanned<u64>>,
     #[serde(default)]
     pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+    pub(super) given: Option<BTreeMap<String, kinemark_sim::robot::Dimension>>,
+    pub(super) expected: Option<ExpectedTable>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -221,6 +226,16 @@ pub(super) struct CheckTable {
     pub(super) energy: Option<Spanned<BandJ>>,
     pub(super) jerk: Option<Spanned<BandJerk>>,
     pub(super) chatter: Option<Spanned<ChatterTable>>,
+    #[serde(rename = "function-cases")]
+    pub(super) function_cases: Option<Spanned<FunctionCasesTable>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FunctionCasesTable {
+    pub(super) full: f64,
+    pub(super) zero: f64,
+    pub(super) entry: Option<Spanned<String>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -348,6 +363,7 @@ pub(super) struct DrawTable {
     pub(super) branches: Option<u32>,
     #[serde(default)]
     pub(super) dimensions: BTreeMap<String, Ranges>,
+    pub(super) given: Option<BTreeMap<String, Ranges>>,
 }
 
 /// A range for a number, or one for each number of a list.

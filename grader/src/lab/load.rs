@@ -2,6 +2,7 @@
 //! with its place.
 
 mod checks;
+mod free_function;
 mod grants;
 mod ladder;
 mod motion;
@@ -19,9 +20,7 @@ use kinemark_sim::source::{Source, TomlRefusal, suggest};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 
-use super::file::{
-    BudgetTable, CaseTable, FunctionName, FunctionTable, LabTable, NumberAt, TaskTable,
-};
+use super::file::{BudgetTable, CaseTable, FunctionTable, LabTable, NumberAt, TaskTable};
 use super::files::Files;
 use super::model::{
     Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task, TaskWork,
@@ -446,14 +445,13 @@ impl Reader<'_> {
     }
 
     fn function(&self, table: &FunctionTable) -> Result<FunctionTask, LabError> {
-        let function = match table.call.get_ref() {
-            FunctionName::ForwardKinematics => Function::ForwardKinematics,
-            FunctionName::InverseKinematics => Function::InverseKinematics,
-            FunctionName::Jacobian => Function::Jacobian(self.rows(table.rows.as_ref())?),
+        let function = match table.call.get_ref().as_str() {
+            "forward_kinematics" => Function::ForwardKinematics,
+            "inverse_kinematics" => Function::InverseKinematics,
+            "jacobian" => Function::Jacobian(self.rows(table.rows.as_ref())?),
+            _ => self.free_function(&table.call)?,
         };
-        if let (Some(rows), FunctionName::ForwardKinematics | FunctionName::InverseKinematics) =
-            (&table.rows, table.call.get_ref())
-        {
+        if let (Some(rows), false) = (&table.rows, matches!(function, Function::Jacobian(_))) {
             return self.report.err(
                 rows.span(),
                 "lab::rows",
@@ -471,11 +469,13 @@ impl Reader<'_> {
                 Some("add [[tasks.function.cases]]: students practise on them".to_owned()),
             );
         }
-        let cases: Result<Vec<Case>, LabError> = table
-            .cases
-            .iter()
-            .map(|case| self.case(function, case))
-            .collect();
+        let cases: Result<Vec<Case>, LabError> = match &function {
+            Function::Free(_) => self.free_cases(table),
+            function => {
+                let cases = table.cases.iter();
+                cases.map(|case| self.case(function, case)).collect()
+            }
+        };
         Ok(FunctionTask {
             grants: self.grants(&table.grants, Some(&function))?,
             function,
@@ -503,7 +503,7 @@ impl Reader<'_> {
         }
     }
 
-    fn case(&self, function: Function, table: &Spanned<CaseTable>) -> Result<Case, LabError> {
+    fn case(&self, function: &Function, table: &Spanned<CaseTable>) -> Result<Case, LabError> {
         let case = table.get_ref();
         let name = case.name.get_ref().clone();
         let dimensions: Vec<_> = case
@@ -524,12 +524,13 @@ impl Reader<'_> {
                 )),
             );
         }
+        let own = case.given.is_none() && case.expected.is_none();
         let given = match (function, &case.q_rad, case.position_m) {
-            (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => {
+            (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) if own => {
                 self.counted(q, "q_rad")?;
                 Given::Q(q.get_ref().clone())
             }
-            (Function::InverseKinematics, None, Some(position_m)) => Given::Position {
+            (Function::InverseKinematics, None, Some(position_m)) if own => Given::Position {
                 position_m,
                 branches: case.branches.as_ref().map_or(2, |branches| {
                     u32::try_from(*branches.get_ref()).unwrap_or(2)
@@ -539,6 +540,7 @@ impl Reader<'_> {
                 let wanted = match function {
                     Function::ForwardKinematics | Function::Jacobian(_) => "`q_rad`",
                     Function::InverseKinematics => "`position_m`",
+                    Function::Free(_) => "`given`",
                 };
                 return self.report.err(
                     table.span(),

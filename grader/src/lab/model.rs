@@ -85,7 +85,7 @@ pub enum TaskWork {
 }
 
 /// The function of a function task.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Function {
     /// `forward_kinematics(robot, q)`.
     ForwardKinematics,
@@ -93,15 +93,18 @@ pub enum Function {
     InverseKinematics,
     /// `jacobian(robot, q)`, a matrix of these rows and one column per joint that moves.
     Jacobian(Rows),
+    /// A function of the lab's own, of this name: `name(given)`.
+    Free(String),
 }
 
 impl Function {
     /// Its name in submissions.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::ForwardKinematics => "forward_kinematics",
             Self::InverseKinematics => "inverse_kinematics",
             Self::Jacobian(_) => "jacobian",
+            Self::Free(name) => name,
         }
     }
 }
@@ -174,6 +177,13 @@ pub enum Given {
         position_m: [f64; 3],
         /// How many branches reach it; 0 where none does.
         branches: u32,
+    },
+    /// Numbers and lists of numbers by name, and what a right answer holds.
+    Values {
+        /// The entries of the map `given`.
+        given: Vec<(String, Dimension)>,
+        /// The entries of the answer; a single one without a name where the answer is a number.
+        expected: Vec<(String, Dimension)>,
     },
 }
 
@@ -410,6 +420,13 @@ pub enum CheckKind {
         /// Reversals in a second \[Hz\].
         band: Band,
     },
+    /// Relative errors of what a free function answers.
+    FunctionCases {
+        /// Relative error of one entry.
+        band: Band,
+        /// The one entry that counts, where not all do.
+        entry: Option<String>,
+    },
 }
 
 impl CheckKind {
@@ -445,6 +462,7 @@ impl CheckKind {
             Self::Energy(_) => "energy",
             Self::Jerk(_) => "jerk",
             Self::Chatter { .. } => "chatter",
+            Self::FunctionCases { .. } => "function-cases",
         }
     }
 
@@ -459,7 +477,9 @@ impl CheckKind {
             | Self::TrajectoryMatch { band, .. }
             | Self::PathDeviation { band, .. } => Some((*band, "m")),
             Self::FinishTime(band) | Self::EffortSaturation(band) => Some((*band, "s")),
-            Self::Overshoot(band) | Self::JacobianMatch(band) => Some((*band, "")),
+            Self::Overshoot(band)
+            | Self::JacobianMatch(band)
+            | Self::FunctionCases { band, .. } => Some((*band, "")),
             Self::ContactImpulse { band, .. } => Some((*band, "N s")),
             Self::TcpSpeed { band, .. } => Some((*band, "m/s")),
             Self::IkUnreachable | Self::BodyFalls(_) | Self::PathCoverage { .. } => None,

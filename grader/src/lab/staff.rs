@@ -8,7 +8,7 @@ use super::draw::{Draw, Drawn};
 use super::file::{DrawTable, HiddenTable, MutantsTable, Ranges};
 use super::files::Files;
 use super::load::{Reporter, read, tables};
-use super::model::{Case, Function, Lab, TaskWork};
+use super::model::{Case, Function, FunctionTask, Given, Lab, TaskWork};
 use super::problem::{LabError, LoadError};
 
 /// The staff's part of a lab.
@@ -78,8 +78,18 @@ impl Staff {
             let salt = salt.unwrap_or(&table.salt);
             digest(&Source::new("salt", salt));
             for draw in &table.draws {
+                let at = draw.span();
                 let draw = checked(report, lab, draw)?;
-                let cases = draw.cases(salt, lab);
+                let mut cases = draw.cases(salt, lab);
+                if let Err(why) = expect(lab, &draw.task, &mut cases, &solution) {
+                    return Ok(report.err(
+                        at,
+                        "staff::solution",
+                        why,
+                        "what is expected here is what the solution answers",
+                        Some("correct `solution.rhai`, or draw other numbers".to_owned()),
+                    )?);
+                }
                 match hidden.iter_mut().find(|(task, _)| *task == draw.task) {
                     Some((_, all)) => {
                         let all: &mut Vec<Case> = all;
@@ -132,6 +142,36 @@ impl Staff {
         let found = self.hidden.iter().find(|(name, _)| name == task);
         found.map_or(&[], |(_, cases)| cases)
     }
+}
+
+/// Lets the solution answer the cases of a free function: what it says is what is expected, entry by entry as in visible cases.
+fn expect(lab: &Lab, task: &str, cases: &mut [Case], solution: &Source) -> Result<(), String> {
+    let mut tasks = lab.tasks.iter();
+    let Some(task) = tasks.find(|known| known.name == task) else {
+        return Ok(());
+    };
+    let TaskWork::Function(FunctionTask {
+        function: function @ Function::Free(_),
+        cases: visible,
+        ..
+    }) = &task.work
+    else {
+        return Ok(());
+    };
+    let Some(Given::Values {
+        expected: names, ..
+    }) = visible.first().map(|case| &case.given)
+    else {
+        return Ok(());
+    };
+    let answers = crate::grading::answers(lab, task, function, cases, solution)?;
+    for (case, answer) in cases.iter_mut().zip(answers) {
+        if let Given::Values { expected, .. } = &mut case.given {
+            *expected = crate::answer::named_entries(&answer, names)
+                .map_err(|what| format!("`{}` of the solution returned {what}", function.name()))?;
+        }
+    }
+    Ok(())
 }
 
 fn known_task<'l>(
@@ -196,7 +236,44 @@ fn checked(
         Some(ranges) => Some(ranges.get_ref().clone()),
         None => None,
     };
-    let what = match (task.function, q_ranges, table.position_m) {
+    let free = matches!(task.function, Function::Free(_));
+    if free != table.given.is_some() || (free && !table.dimensions.is_empty()) {
+        return refuse(
+            format!(
+                "a draw for `{}` {} `given`",
+                task.function.name(),
+                if free { "is of" } else { "has no" }
+            ),
+            "a function of the lab's own is drawn by `given`, and nothing else is",
+        );
+    }
+    let what = match (&task.function, q_ranges, table.position_m) {
+        (Function::Free(_), None, None) => {
+            let ranges: Vec<(String, Ranges)> = table
+                .given
+                .iter()
+                .flatten()
+                .map(|(name, ranges)| (name.clone(), ranges.clone()))
+                .collect();
+            let drawn: Vec<&str> = ranges.iter().map(|(name, _)| name.as_str()).collect();
+            let of_cases: Vec<&str> = match task.cases.first().map(|case| &case.given) {
+                Some(Given::Values { given, .. }) => {
+                    given.iter().map(|(name, _)| name.as_str()).collect()
+                }
+                _ => Vec::new(),
+            };
+            if drawn != of_cases {
+                return refuse(
+                    format!(
+                        "this draw gives {}, the visible cases give {}",
+                        drawn.join(", "),
+                        of_cases.join(", ")
+                    ),
+                    "give the same names",
+                );
+            }
+            Drawn::Values(ranges)
+        }
         (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => Drawn::Q(q),
         (Function::InverseKinematics, Some(q), None) => {
             Drawn::PositionOf(q, table.branches.unwrap_or(2))

@@ -26,6 +26,10 @@ pub(super) struct Names {
     pub(super) observation_parameters: BTreeSet<String>,
     /// Parameters that stand for the robot.
     pub(super) robot_parameters: BTreeSet<String>,
+    /// Keys of what a function of the lab's own is given.
+    pub(super) given: BTreeSet<String>,
+    /// Parameters that stand for that.
+    pub(super) given_parameters: BTreeSet<String>,
 }
 
 /// What a submission's functions are called with.
@@ -147,6 +151,7 @@ impl Names {
             Some(name) if name == "observation" || self.observation_parameters.contains(name) => {
                 &self.observation
             }
+            Some(name) if self.given_parameters.contains(name) => &self.given,
             Some(name) if name == "robot" || self.robot_parameters.contains(name) => &self.robot,
             _ => {
                 let both = self.observation.iter().chain(&self.robot);

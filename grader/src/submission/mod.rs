@@ -27,4 +27,4 @@ mod tests;
 mod vector;
 mod words;
 
-pub use script::{STACK_BYTES, ScriptController};
+pub use script::{STACK_BYTES, ScriptController, refused_name};

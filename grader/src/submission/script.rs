@@ -17,8 +17,8 @@ use super::list;
 use super::memory;
 use super::mistake::{Context, Problem, raise};
 use crate::controller::{
-    Answer, Budget, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said, SensorFacts,
-    Stop, Value,
+    Answer, Budget, Budgets, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said,
+    SensorFacts, Stop, Value,
 };
 
 /// The stack a thread needs on which scripts run.
@@ -45,7 +45,9 @@ pub struct ScriptController {
     /// One statement for each function that may be called: `memory.control(argument)`.
     ///
     /// A method call, because that is how the engine gives a function its `this`.
-    statements: BTreeMap<&'static str, AST>,
+    statements: BTreeMap<String, AST>,
+    /// The function of the lab's own that is called, where one is.
+    free: Option<String>,
 }
 
 /// The engine's state, kept from call to call so that it need not look up every operator and built-in again.
@@ -126,13 +128,13 @@ impl ScriptController {
             .compile(source)
             .map_err(|error| context.parsing(&error))?;
         refuse_known_slips(&ast)?;
-        collect_names(&ast, &mut names);
+        collect_names(&ast, &mut names, opening.function.as_deref());
 
         let mut global = engine.new_global_runtime_state();
         global.lib.push(ast.shared_lib().clone());
         let mut scope = Scope::new();
         scope.push_dynamic(MEMORY, Dynamic::from_map(Map::new()));
-        let statements = call_statements(&engine, &scope, &names)?;
+        let statements = call_statements(&engine, &scope, &names, opening.function.as_deref())?;
         let mut caches = Caches::new();
         caches.push_fn_resolution_cache();
         let mut script = Self {
@@ -153,6 +155,7 @@ impl ScriptController {
             observation,
             sensors: opening.sensors.clone(),
             statements,
+            free: opening.function.clone(),
         };
         script.run_top_level()?;
         Ok(script)
@@ -197,7 +200,7 @@ impl ScriptController {
     /// What words are made from, for a run of `function` or of the top level.
     fn context(&self, function: Option<&str>) -> Context<'_> {
         let body = function.and_then(|name| {
-            let parameters = entry_parameters(name).len();
+            let parameters = self.parameters_of(name).len();
             self.ast
                 .iter_fn_def()
                 .find(|function| function.name == name && function.params.len() == parameters)
@@ -211,13 +214,21 @@ impl ScriptController {
         }
     }
 
+    /// What the grader calls a function with; nothing for a function it does not call.
+    fn parameters_of(&self, name: &str) -> &'static [&'static str] {
+        match &self.free {
+            Some(free) if free == name => &FREE_PARAMETERS,
+            _ => entry_parameters(name),
+        }
+    }
+
     #[expect(
         deprecated,
         reason = "the engine's other ways look up every operator and built-in again at each call"
     )]
     fn call_function(
         &mut self,
-        name: &'static str,
+        name: &str,
         arguments: impl IntoIterator<Item = Dynamic>,
     ) -> Result<Value, Stop> {
         let Some(statement) = self.statements.get(name) else {
@@ -260,7 +271,7 @@ impl ScriptController {
 
     /// The stop for a function that is not there, or has other parameters; none if it need not be there.
     fn missing(&self, name: &str) -> Option<Stop> {
-        let parameters = entry_parameters(name);
+        let parameters = self.parameters_of(name);
         let has_namesake = self.names.functions.iter().any(|(known, _)| known == name);
         (name != "init" || has_namesake).then(|| Stop::Missing {
             function: format!("{name}({})", parameters.join(", ")),
@@ -275,6 +286,7 @@ impl Controller for ScriptController {
             Call::ForwardKinematics { .. } => "forward_kinematics",
             Call::InverseKinematics { .. } => "inverse_kinematics",
             Call::Jacobian { .. } => "jacobian",
+            Call::Free { function, .. } => function,
             Call::Init => "init",
             Call::Control(_) => "control",
         };
@@ -296,6 +308,11 @@ impl Controller for ScriptController {
             Call::InverseKinematics { robot, position_m } => {
                 let robot = self.robot.of(robot);
                 self.call_function(name, [robot, vector(position_m)])
+            }
+            Call::Free { given, .. } => {
+                self.names.given = given.iter().map(|(key, _)| key.clone()).collect();
+                let given = convert::to_dynamic(&Value::Map(given.clone()));
+                self.call_function(name, [given])
             }
             Call::Init if !defined => Ok(Value::Nothing),
             Call::Init => {
@@ -357,23 +374,52 @@ fn call_statements(
     engine: &Engine,
     scope: &Scope<'_>,
     names: &Names,
-) -> Result<BTreeMap<&'static str, AST>, Stop> {
+    free: Option<&str>,
+) -> Result<BTreeMap<String, AST>, Stop> {
     let defined = |name: &str, parameters: usize| {
         let mut functions = names.functions.iter();
         functions.any(|(known, got)| known == name && got.len() == parameters)
     };
+    let free = free.map(|name| (name, &FREE_PARAMETERS[..]));
     ENTRY_POINTS
         .iter()
+        .copied()
+        .chain(free)
         .filter(|(name, parameters)| defined(name, parameters.len()))
-        .map(|&(name, parameters)| {
+        .map(|(name, parameters)| {
             let arguments = ARGUMENTS[..parameters.len()].join(", ");
             let text = format!("{MEMORY}.{name}({arguments})");
             let statement = engine
                 .compile_with_scope(scope, text)
                 .map_err(|error| Stop::GraderFault(format!("the call of `{name}`: {error}")))?;
-            Ok((name, statement))
+            Ok((name.to_owned(), statement))
         })
         .collect()
+}
+
+/// What a function of the lab's own is called with.
+const FREE_PARAMETERS: [&str; 1] = ["given"];
+
+/// Why no function of a lab's own can be called `name`; `None` where one can.
+pub fn refused_name(name: &str) -> Option<&'static str> {
+    let first = name.starts_with(|c: char| c.is_ascii_lowercase());
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if !first || name.len() > 64 || !name.chars().all(plain) {
+        return Some("it is not in lower snake case");
+    }
+    if ENTRY_POINTS.iter().any(|(known, _)| *known == name) {
+        return Some("it is called in motion tasks");
+    }
+    let budgets = Budgets::default();
+    let meter = Rc::new(Meter::new(budgets.clone()));
+    let (engine, names) = engine::build(&budgets, &meter, &Rc::default(), None);
+    if names.is_function(name) || names.constants.contains(name) {
+        return Some("the language has something of this name");
+    }
+    match engine.compile(format!("fn {name}(given) {{ 0 }}")) {
+        Ok(_) => None,
+        Err(_) => Some("it is a word of the language"),
+    }
 }
 
 /// What the grader calls a function with; nothing for a function it does not call.
@@ -424,7 +470,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
 }
 
 /// Notes what the file declares.
-fn collect_names(ast: &AST, names: &mut Names) {
+fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
     for function in ast.iter_functions() {
         let parameters: Vec<String> = function.params.iter().map(ToString::to_string).collect();
         names.local.extend(parameters.iter().cloned());
@@ -434,6 +480,9 @@ fn collect_names(ast: &AST, names: &mut Names) {
             }
             ("forward_kinematics" | "inverse_kinematics" | "jacobian" | "init", Some(first)) => {
                 names.robot_parameters.insert(first.clone());
+            }
+            (name, Some(first)) if Some(name) == free => {
+                names.given_parameters.insert(first.clone());
             }
             _ => {}
         }

@@ -7,8 +7,8 @@ use kinemark_sim::ticks::whole_ratio;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{BandM, BandS, CheckTable, SpanName};
-use crate::lab::model::{Band, Check, CheckKind, Function, MatchSpan, TaskWork};
+use crate::lab::file::{BandM, BandS, CheckTable, FunctionCasesTable, SpanName};
+use crate::lab::model::{Band, Check, CheckKind, Function, Given, MatchSpan, TaskWork};
 use crate::lab::problem::LabError;
 
 impl Reader<'_> {
@@ -278,7 +278,40 @@ impl Reader<'_> {
             kinds.push(self.time_limit(table, work)?);
         }
         kinds.extend(self.step_kinds(table, work)?);
+        if let Some(table) = &table.function_cases {
+            kinds.push(self.function_cases(table, work)?);
+        }
         Ok(kinds)
+    }
+
+    fn function_cases(
+        &self,
+        table: &Spanned<FunctionCasesTable>,
+        work: &TaskWork,
+    ) -> Result<CheckKind, LabError> {
+        let typed = table.get_ref();
+        if let (Some(entry), TaskWork::Function(task)) = (&typed.entry, work)
+            && let Some(Given::Values { expected, .. }) = task.cases.first().map(|case| &case.given)
+        {
+            let names = || expected.iter().map(|(name, _)| name.as_str());
+            if names().all(|name| name.is_empty() || name != entry.get_ref()) {
+                return self.report.err(
+                    entry.span(),
+                    "lab::unknown_entry",
+                    format!("no case expects an entry `{}`", entry.get_ref()),
+                    "not an entry of `expected`",
+                    Some(suggest(
+                        entry.get_ref(),
+                        "entries",
+                        names().filter(|name| !name.is_empty()),
+                    )),
+                );
+            }
+        }
+        Ok(CheckKind::FunctionCases {
+            band: self.band(typed.full, typed.zero, table.span())?,
+            entry: typed.entry.as_ref().map(|entry| entry.get_ref().clone()),
+        })
     }
 
     /// A check must look at something its task has.
@@ -338,6 +371,14 @@ impl Reader<'_> {
                 | CheckKind::Chatter { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),
+            (CheckKind::FunctionCases { .. }, TaskWork::Function(task))
+                if matches!(task.function, Function::Free(_)) =>
+            {
+                return Ok(());
+            }
+            (CheckKind::FunctionCases { .. }, _) => {
+                "a function task of the lab's own, with `given` and `expected`"
+            }
             (CheckKind::FkError(_), _) => "a function task of `forward_kinematics`",
             (CheckKind::IkReach(_) | CheckKind::IkBranches(_) | CheckKind::IkUnreachable, _) => {
                 "a function task of `inverse_kinematics`"

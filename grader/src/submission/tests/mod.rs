@@ -35,6 +35,7 @@ fn opening(source: &str) -> Opening {
         sensors: Vec::new(),
         budgets: Budgets::default(),
         granted: None,
+        function: None,
     }
 }
 
