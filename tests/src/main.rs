@@ -29,6 +29,7 @@ mod scene_check;
 mod scene_checks;
 mod scene_labs;
 mod sensor_labs;
+mod step_checks;
 mod submissions;
 mod targets;
 mod testbed;
