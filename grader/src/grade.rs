@@ -2,6 +2,8 @@
 //!
 //! No clock, no path, no host is in it: the same submission gives the same bytes.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +24,9 @@ pub struct Grade {
     pub mode: GradeMode,
     /// The lab.
     pub lab: Part,
+    /// The numbers of the variant that was graded; absent where it was the lab as everyone has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<VariantRecord>,
     /// The robot file.
     pub robot: Part,
     /// The scenes of its motion tasks: name and digest of file and meshes.
@@ -39,6 +44,42 @@ pub struct Grade {
     pub max_points: f64,
     /// One per task, in the lab's order.
     pub tasks: Vec<TaskGrade>,
+}
+
+/// A variant of a lab: whose it is, and its numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VariantRecord {
+    /// The student; absent where the file names none.
+    pub student: Option<String>,
+    /// All parameters of the lab.
+    pub parameters: BTreeMap<String, ParameterValue>,
+}
+
+/// The value of a parameter: a number, or a list of numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ParameterValue {
+    /// One number.
+    Number(f64),
+    /// A list.
+    List(Vec<f64>),
+}
+
+impl VariantRecord {
+    /// It in words: whose it is, and every number.
+    pub fn words(&self) -> String {
+        let numbers = self.parameters.iter().map(|(name, value)| match value {
+            ParameterValue::Number(number) => format!("{name} = {number}"),
+            ParameterValue::List(numbers) => format!("{name} = {numbers:?}"),
+        });
+        let numbers: Vec<String> = numbers.collect();
+        let whose = match &self.student {
+            Some(student) => format!("variant of {student}"),
+            None => "variant of nobody named".to_owned(),
+        };
+        format!("{whose}: {}", numbers.join(", "))
+    }
 }
 
 /// Whether hidden cases took part.
@@ -95,7 +136,7 @@ pub struct TaskGrade {
     pub diagnoses: Vec<Diagnosis>,
     /// Visible cases of a function task, each with its answer.
     pub cases: Vec<CaseGrade>,
-    /// Hidden cases of a function task, counted by class.
+    /// Hidden cases of a function task, or hidden runs of a motion task, counted by class.
     pub hidden: Vec<HiddenClass>,
     /// What happened in the run of a motion task (the first 100 events of joints and the first 200 others).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -310,15 +351,15 @@ pub struct CaseGrade {
     pub good: bool,
 }
 
-/// Hidden cases of one class: only their number is told.
+/// Hidden cases or runs of one class: only their number is told.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HiddenClass {
     /// The class of case, such as `unequal links`.
     pub class: String,
-    /// Cases with a good answer.
+    /// Cases with a good answer; runs in which every check is full.
     pub good: u32,
-    /// Cases there are.
+    /// Cases or runs there are.
     pub total: u32,
 }
 

@@ -1,6 +1,7 @@
 //! From a lab and a submission to a graded run: every task in order, its checks, its diagnoses, the record.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::robot::Dimension;
 use kinemark_sim::source::Source;
 use kinemark_sim::trace::Trace;
 
@@ -14,9 +15,11 @@ use crate::divergence;
 use crate::event_words::Names;
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Digests, FORMAT, Grade, GradeMode, HiddenClass, LogEntry,
-    Outcome, Part, RungDigest, SecondDigests, Stopped, TaskGrade, TaskKind,
+    Outcome, ParameterValue, Part, RungDigest, SecondDigests, Stopped, TaskGrade, TaskKind,
+    VariantRecord,
 };
 use crate::graded::{AskedPath, Goal, GradedRun, TaskRun, TcpPath};
+use crate::hidden_runs::HiddenRuns;
 use crate::lab::model::{
     Band, Case, Check, CheckKind, Function, FunctionTask, Given, Lab, MotionTask, Task, TaskWork,
 };
@@ -99,11 +102,15 @@ pub fn grade(
         lab: Part {
             name: lab.name.clone(),
             digest: digest(&format!(
-                "{}\n{}",
+                "{}\n{}{}",
                 lab.source.text(),
-                lab.reference_paths.text
+                lab.reference_paths.text,
+                lab.variant
+                    .as_ref()
+                    .map_or(String::new(), |variant| format!("\n{}", variant.numbers()))
             )),
         },
+        variant: variant_record(lab),
         robot: Part {
             name: lab.robot.name().to_owned(),
             digest: LabRobot::digest(&lab.robot_file, &lab.robot_meshes)
@@ -117,7 +124,13 @@ pub fn grade(
                 name: scene.name.clone(),
                 digest: scene.digest().to_hex().to_string(),
             })
-            .collect(),
+            // one file, whatever its dimensions
+            .fold(Vec::new(), |mut scenes, scene| {
+                if !scenes.contains(&scene) {
+                    scenes.push(scene);
+                }
+                scenes
+            }),
         submission: Part {
             name: submission.name().to_owned(),
             digest: digest(submission.text()),
@@ -132,6 +145,21 @@ pub fn grade(
         tasks,
     };
     Ok(GradedRun { grade, runs })
+}
+
+fn variant_record(lab: &Lab) -> Option<VariantRecord> {
+    let variant = lab.variant.as_ref()?;
+    let parameters = lab.parameters.iter().map(|(name, value)| {
+        let value = match value {
+            Dimension::Number(number) => ParameterValue::Number(*number),
+            Dimension::List(numbers) => ParameterValue::List(numbers.clone()),
+        };
+        (name.to_owned(), value)
+    });
+    Some(VariantRecord {
+        student: variant.student().map(str::to_owned),
+        parameters: parameters.collect(),
+    })
 }
 
 /// The engine and its version, as in grade records and logs.
@@ -181,6 +209,39 @@ pub fn answers(
         .map_err(|stop| stopped::record(&stop, solution.text()).message)
 }
 
+/// What a submission is opened with for `task` of `lab`.
+pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
+    let (robot, target, sensors) = match &task.work {
+        TaskWork::Function(_) => (
+            cases::robot_facts(&lab.robot, None),
+            Value::Nothing,
+            Vec::new(),
+        ),
+        TaskWork::Motion(motion) => (
+            motion::facts_of(lab, motion),
+            motion::target_of(motion),
+            motion::sensors_of(motion),
+        ),
+    };
+    Opening {
+        file: submission.name().to_owned(),
+        source: submission.text().to_owned(),
+        task: task.name.clone(),
+        robot,
+        target,
+        sensors,
+        budgets: lab.budgets.clone(),
+        granted: granted(lab, &task.work),
+        function: match &task.work {
+            TaskWork::Function(FunctionTask {
+                function: Function::Free(name),
+                ..
+            }) => Some(name.clone()),
+            _ => None,
+        },
+    }
+}
+
 struct Grader<'a> {
     lab: &'a Lab,
     staff: Option<&'a Staff>,
@@ -189,37 +250,8 @@ struct Grader<'a> {
 
 impl Grader<'_> {
     fn opening(&self, task: &Task, submission: &Source) -> Opening {
-        let (robot, target, sensors) = match &task.work {
-            TaskWork::Function(_) => (
-                cases::robot_facts(&self.lab.robot, None),
-                Value::Nothing,
-                Vec::new(),
-            ),
-            TaskWork::Motion(motion) => (
-                motion::facts_of(self.lab, motion),
-                motion::target_of(motion),
-                motion::sensors_of(motion),
-            ),
-        };
-        Opening {
-            file: submission.name().to_owned(),
-            source: submission.text().to_owned(),
-            task: task.name.clone(),
-            robot,
-            target,
-            sensors,
-            budgets: self.lab.budgets.clone(),
-            granted: granted(self.lab, &task.work),
-            function: match &task.work {
-                TaskWork::Function(FunctionTask {
-                    function: Function::Free(name),
-                    ..
-                }) => Some(name.clone()),
-                _ => None,
-            },
-        }
+        opening(self.lab, task, submission)
     }
-
     fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
         let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
         let name = task.name.clone();
@@ -472,8 +504,28 @@ impl Grader<'_> {
         } else {
             Vec::new()
         };
-        let checks = without_hints(checks, !diagnoses.is_empty());
+        let mut checks = without_hints(checks, !diagnoses.is_empty());
         let digest = trace.digest();
+        let mut all_digest = digest.all;
+        let mut hidden = Vec::new();
+        if ended.is_none() {
+            let runs = self
+                .staff
+                .map_or(Vec::new(), |staff| staff.runs(&task.name));
+            let seen = HiddenRuns::run(&runs, &task.name, self.submission, host)?;
+            if !runs.is_empty() {
+                all_digest = seen.digest(all_digest);
+            }
+            seen.count_in(&mut checks, &task.checks);
+            hidden = seen.classes();
+            if checks.iter().any(|check| check.outcome != Outcome::Full) {
+                verdict = verdict.min(Verdict::Missed);
+            }
+            if let Some((worst, record)) = seen.into_stopped() {
+                verdict = verdict.min(worst);
+                stopped_record = Some(record);
+            }
+        }
         let grade = TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
@@ -485,7 +537,7 @@ impl Grader<'_> {
             checks,
             diagnoses,
             cases: Vec::new(),
-            hidden: Vec::new(),
+            hidden,
             events: names.events(&trace, &work.periods),
             contacts: names.contacts(&trace),
             operations,
@@ -499,7 +551,7 @@ impl Grader<'_> {
                 })
                 .collect(),
             digests: Digests {
-                all: digest.all.to_hex().to_string(),
+                all: all_digest.to_hex().to_string(),
                 seconds: digest
                     .seconds
                     .iter()
@@ -628,7 +680,7 @@ fn said(message: String, help: Option<String>) -> Stopped {
 }
 
 /// Judges the checks in order; one whose needs earned nothing, or of a task that cannot be judged, earns nothing itself.
-fn judged(
+pub(crate) fn judged(
     checks: &[Check],
     can_be_judged: bool,
     judge: impl Fn(&Check) -> Finding,
@@ -702,7 +754,7 @@ fn good_bands(checks: &[Check]) -> Band {
 }
 
 /// The band by which stays are chosen.
-fn pose_band(checks: &[Check]) -> Band {
+pub(crate) fn pose_band(checks: &[Check]) -> Band {
     let found = checks.iter().find_map(|check| match &check.kind {
         CheckKind::PoseReached(band) => Some(*band),
         _ => None,

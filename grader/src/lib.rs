@@ -39,6 +39,7 @@ pub mod event_words;
 pub mod grade;
 pub mod graded;
 pub mod grading;
+mod hidden_runs;
 pub mod jacobian;
 pub mod lab;
 #[cfg(not(target_family = "wasm"))]

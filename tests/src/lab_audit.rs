@@ -88,6 +88,36 @@ fn references_lose_no_point_whatever_the_salt() {
     }
 }
 
+#[test]
+fn references_lose_no_point_whoever_the_student_is() {
+    for lab in labs() {
+        let places = ["labs", "reference"].map(|folder| Folder(root().join(folder)));
+        passes_variants(&places[0], &places[1], &lab, 200);
+    }
+}
+
+/// The reference has full marks in the variants of the first `students`, each with the hidden cases and runs of that variant.
+pub(crate) fn passes_variants(labs: &Folder, reference: &Folder, lab: &Lab, students: u32) {
+    if lab.variants.is_empty() {
+        return;
+    }
+    let salt = Staff::salt(reference, &lab.name, None).expect("hidden.toml");
+    let salt = salt.expect("a salt");
+    for student in 0..students {
+        let student = format!("s{student}");
+        let variant = lab.variant_of(&salt, &student).expect("a variant");
+        let load = Lab::load_variant(labs, &lab.name, Some(&variant));
+        let lab = load.unwrap_or_else(|error| panic!("{student}: {error:?}"));
+        let staff = Staff::load(reference, &lab, None);
+        let staff = staff.unwrap_or_else(|error| panic!("{student}: {error:?}"));
+        let staff = staff.expect("a reference");
+        let solution = staff.solution.text();
+        let graded = grade(&lab, Some(&staff), "solution.rhai", solution).grade;
+        assert_eq!(graded.verdict, Verdict::Passed, "{}", text(&graded));
+        assert_eq!(graded.points, graded.max_points, "{}", text(&graded));
+    }
+}
+
 /// `reference-path.json` is the TCP path of the reference solution; `KINEMARK_BLESS=1` writes it anew.
 fn reference_path_is_current(lab: &Lab, runs: &[TaskRun]) {
     let mut paths = serde_json::Map::new();
@@ -208,7 +238,7 @@ fn hidden_targets_lie_inside_the_boundary() {
 /// The numbers of a brief are those of its lab; `KINEMARK_BLESS=1` writes them anew.
 #[test]
 fn briefs_state_the_numbers_of_their_labs() {
-    use kinemark_grader::lab::brief::{BEGIN, with_grading};
+    use kinemark_grader::lab::brief::{BEGIN, with_grading, with_numbers};
     for lab in labs() {
         let path = root().join("labs").join(&lab.name).join("brief.md");
         let brief = read(&lab, "brief.md");
@@ -217,7 +247,8 @@ fn briefs_state_the_numbers_of_their_labs() {
             "{} has no grading table",
             path.display()
         );
-        let current = with_grading(&brief, &lab);
+        let current = with_numbers(&with_grading(&brief, &lab), &lab)
+            .unwrap_or_else(|why| panic!("{}: {why}", path.display()));
         if std::env::var_os("KINEMARK_BLESS").is_some() {
             std::fs::write(&path, &current).expect("written");
         }

@@ -33,6 +33,7 @@ mod step_checks;
 mod submissions;
 mod targets;
 mod testbed;
+mod variants;
 mod verify;
 mod wasm;
 

@@ -50,12 +50,24 @@ pub(crate) struct StaffArgs {
     pub(crate) salt: Option<String>,
 }
 
+/// Which variant of the lab: the numbers of one student.
+#[derive(Debug, Clone, ClapArgs)]
+pub(crate) struct VariantArgs {
+    /// The numbers of one student: a file that `kinemark variant` wrote
+    #[arg(long, value_name = "FILE", conflicts_with = "student")]
+    pub(crate) variant: Option<PathBuf>,
+    /// The numbers of this student, computed from the course's salt: for staff
+    #[arg(long, value_name = "ID", conflicts_with = "practice")]
+    pub(crate) student: Option<String>,
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Grade(GradeArgs),
     Verify(VerifyArgs),
     Labs(LabsArgs),
     New(NewArgs),
+    Variant(VariantCommandArgs),
     /// Show, convert or ask a robot: kinematics, dynamics, simulation
     #[command(subcommand)]
     Robot(RobotCommand),
@@ -76,6 +88,7 @@ pub(crate) enum Command {
 #[command(
     after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n\n\
+    A file variant.toml beside the submission is taken where neither --variant nor --student is given.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]
@@ -95,6 +108,8 @@ pub(crate) struct GradeArgs {
     pub(crate) in_process: bool,
     #[command(flatten)]
     pub(crate) places: PlaceArgs,
+    #[command(flatten)]
+    pub(crate) variant: VariantArgs,
     #[command(flatten)]
     pub(crate) staff: StaffArgs,
 }
@@ -142,6 +157,39 @@ pub(crate) struct NewArgs {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) places: PlaceArgs,
+    #[command(flatten)]
+    pub(crate) variant: VariantArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
+
+/// Write the numbers of one student: for staff
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark variant 04-line --student s1234567\n  \
+    kinemark variant 04-line --student s1234567 --out s1234567/variant.toml\n\n\
+    Needs the course's salt: the staff's hidden.toml, or --salt. The same salt, lab and student give the same numbers everywhere.\n\
+    Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
+)]
+pub(crate) struct VariantCommandArgs {
+    /// The lab, as `kinemark labs` names it
+    pub(crate) lab: String,
+    /// The student's id, letter by letter as the course writes it
+    #[arg(long, value_name = "ID")]
+    pub(crate) student: String,
+    /// File to write [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    /// Print the numbers as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) places: PlaceArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
 }
 
 #[derive(Debug, Subcommand)]

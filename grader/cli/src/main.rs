@@ -14,6 +14,7 @@ mod places;
 mod report_folder;
 mod robot_source;
 mod scene_source;
+mod variants;
 mod worker;
 
 fn main() -> ExitCode {

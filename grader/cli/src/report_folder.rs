@@ -138,38 +138,14 @@ pub(crate) fn files(
     graded: &GradedRun,
 ) -> Result<Vec<OutFile>, Failure> {
     let record = output::json(&graded.grade)?;
-    let lab_path = format!("{}/lab.toml", lab.name);
-    let robot_path = lab.robot_file.source().name().to_owned();
     let plots: Vec<Vec<Plot>> = graded.runs.iter().map(report::plot::plots).collect();
     let mut files = vec![
         OutFile::new(RECORD, record.as_bytes()),
         OutFile::new("report.html", report::html::html(graded, &plots)),
         OutFile::new(SUBMISSION, submission.text()),
-        OutFile::new(format!("{LABS}/{lab_path}"), lab.source.text()),
-        OutFile::new(
-            format!("{LABS}/{robot_path}"),
-            lab.robot_file.source().text(),
-        ),
     ];
-    if !lab.reference_paths.text.is_empty() {
-        files.push(OutFile::new(
-            format!("{LABS}/{}/reference-path.json", lab.name),
-            lab.reference_paths.text.as_str(),
-        ));
-    }
-    for scene in &lab.scenes {
-        let source = scene.file.source();
-        files.push(OutFile::new(
-            format!("{LABS}/{}", source.name()),
-            source.text(),
-        ));
-    }
-    let meshes = lab.scenes.iter().flat_map(|scene| &scene.meshes);
-    for mesh in lab.robot_meshes.iter().chain(meshes) {
-        files.push(OutFile::new(
-            format!("{LABS}/{}", mesh.path),
-            mesh.bytes.as_slice(),
-        ));
+    for (path, bytes) in lab.copies().iter() {
+        files.push(OutFile::new(format!("{LABS}/{path}"), bytes));
     }
     for (run, plots) in graded.runs.iter().zip(plots) {
         for plot in plots {

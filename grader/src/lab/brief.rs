@@ -1,9 +1,11 @@
-//! The brief's table of points: made from the lab, so that brief and grader cannot disagree.
+//! The brief's table of points, and the numbers in its text: made from the lab, so that brief and grader cannot disagree.
 
 use std::fmt::Write as _;
 
+use kinemark_sim::robot::expression::evaluate_named;
+
 use super::model::{CheckKind, Lab};
-use crate::quantity::{points, with_unit};
+use crate::quantity::{points, trimmed, with_unit};
 
 /// The line before the table.
 pub const BEGIN: &str = "<!-- grading: begin -->";
@@ -19,6 +21,89 @@ pub fn with_grading(brief: &str, lab: &Lab) -> String {
         return brief.to_owned();
     };
     format!("{head}{BEGIN}\n{}{END}{tail}", table(lab))
+}
+
+/// How a mark begins that stands behind a number, invisible where the brief is shown: `3.0<!-- = line_x -->`.
+const MARK: &str = "<!-- =";
+const MARK_END: &str = "-->";
+
+/// Decimals of a number whose mark names none: a micrometre, if it is a length.
+const DECIMALS: usize = 6;
+
+/// The brief with the numbers of `lab` before its marks `<!-- = expression -->` or `<!-- = expression | decimals -->`.
+///
+/// Without decimals a number has as many as it needs, at most six, and at least as many as stood there.
+///
+/// # Errors
+/// In words, with the line: a mark without a number before it or without an end, or an expression that has no value.
+pub fn with_numbers(brief: &str, lab: &Lab) -> Result<String, String> {
+    let mut out = String::new();
+    let mut rest = brief;
+    while let Some((before, behind)) = rest.split_once(MARK) {
+        let line = brief[..brief.len() - rest.len() + before.len()]
+            .matches('\n')
+            .count()
+            + 1;
+        let Some((mark, tail)) = behind.split_once(MARK_END) else {
+            return Err(format!("line {line}: the mark has no `{MARK_END}`"));
+        };
+        let text = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+        let digits = &before[text.len()..];
+        if digits.trim_matches('.').is_empty() {
+            return Err(format!(
+                "line {line}: no number stands before the mark `{}`",
+                mark.trim()
+            ));
+        }
+        // a sign, unless it stands between two numbers
+        let unsigned = text.strip_suffix(['-', '−']);
+        let between = |before: &str| before.ends_with(|c: char| c.is_ascii_digit());
+        let text = match unsigned {
+            Some(before) if !between(before) => before,
+            _ => text,
+        };
+        let (expression, decimals) = match mark.split_once('|') {
+            None => (mark, None),
+            Some((expression, decimals)) => match decimals.trim().parse::<usize>() {
+                Ok(decimals) if decimals <= 12 => (expression, Some(decimals)),
+                _ => {
+                    return Err(format!(
+                        "line {line}: `{}` is no number of decimals",
+                        decimals.trim()
+                    ));
+                }
+            },
+        };
+        let value =
+            evaluate_named(expression, &lab.parameters, "parameter").map_err(|problem| {
+                let help = problem
+                    .help
+                    .map(|help| format!(" ({help})"))
+                    .unwrap_or_default();
+                format!("line {line}: {}{help}", problem.message)
+            })?;
+        let number = match decimals {
+            Some(decimals) => format!("{value:.decimals$}"),
+            None => {
+                let stood = digits
+                    .split_once('.')
+                    .map_or(0, |(_, decimals)| decimals.len());
+                let short = trimmed(value, DECIMALS);
+                let needed = short
+                    .split_once('.')
+                    .map_or(0, |(_, decimals)| decimals.len());
+                format!("{value:.*}", needed.max(stood))
+            }
+        };
+        out.push_str(text);
+        out.push_str(&number);
+        out.push_str(MARK);
+        out.push_str(mark);
+        out.push_str(MARK_END);
+        rest = tail;
+    }
+    out.push_str(rest);
+    Ok(out)
 }
 
 fn table(lab: &Lab) -> String {
@@ -84,4 +169,92 @@ fn table(lab: &Lab) -> String {
     }
     let _ = writeln!(text, "| | **together** | **{}** | | | |\n", points(total));
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::copies::Copies;
+
+    const LAB: &str = r#"
+format = 1
+name = "x"
+title = "X"
+robot = "r"
+parameters = { far = 3.0, l = [0.25, -1.5] }
+[[tasks]]
+name = "t"
+title = "T"
+function = { call = "forward_kinematics", cases = [{ name = "c", q_rad = ["= l[0]"] }] }
+checks = [{ name = "c", title = "C", points = 1.0, fk-error = { full_m = 0.1, zero_m = 0.2 } }]
+"#;
+    const ROBOT: &str = r#"
+format = 1
+name = "r"
+links = [{ name = "a" }, { name = "b", shapes = [{ box = { size_m = [1.0, 1.0, 1.0] } }], inertia = { mass_kg = 1.0 } }]
+joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.0, 0.0, 1.0] }]
+"#;
+
+    #[test]
+    fn the_number_before_a_mark_is_that_of_the_lab() {
+        let files = Copies::from_texts([("x/lab.toml", LAB), ("robots/r.toml", ROBOT)]);
+        let lab = Lab::load(&files, "x").unwrap();
+        for (brief, told) in [
+            ("from 9.0<!-- = far --> m", "from 3.0<!-- = far --> m"),
+            ("9<!-- = far / 8 -->", "0.375<!-- = far / 8 -->"),
+            ("9<!-- = far / 7 | 2 -->", "0.43<!-- = far / 7 | 2 -->"),
+            ("9<!-- = far / 7 -->", "0.428571<!-- = far / 7 -->"),
+            (
+                "-1.25<!-- =l[1] --> to 2<!-- =l[0]-->",
+                "-1.5<!-- =l[1] --> to 0.25<!-- =l[0]-->",
+            ),
+            ("1.0-9.0<!-- = far -->", "1.0-3.0<!-- = far -->"),
+            (
+                "no mark <!-- but a comment -->",
+                "no mark <!-- but a comment -->",
+            ),
+        ] {
+            assert_eq!(with_numbers(brief, &lab).as_deref(), Ok(told));
+            // what is right already stays
+            assert_eq!(with_numbers(told, &lab).as_deref(), Ok(told));
+        }
+        for (brief, why) in [
+            (
+                "a\nb<!-- = far -->",
+                "line 2: no number stands before the mark `far`",
+            ),
+            (
+                "1<!-- = near -->",
+                "line 1: no parameter is called `near` (parameters: far, l)",
+            ),
+            ("1<!-- = far", "line 1: the mark has no `-->`"),
+            (
+                "1<!-- = far | x -->",
+                "line 1: `x` is no number of decimals",
+            ),
+        ] {
+            assert_eq!(with_numbers(brief, &lab), Err(why.to_owned()));
+        }
+    }
+
+    #[test]
+    fn a_variant_is_a_lab_of_other_numbers() {
+        let files = Copies::from_texts([("x/lab.toml", LAB), ("robots/r.toml", ROBOT)]);
+        let lab = Lab::load(&files, "x").unwrap();
+        let changed = [(
+            "far".to_owned(),
+            kinemark_sim::robot::Dimension::Number(2.5),
+        )];
+        let other = lab.with_parameters(&changed).unwrap();
+        assert_eq!(
+            with_numbers("0<!-- = far -->", &other).as_deref(),
+            Ok("2.5<!-- = far -->")
+        );
+        let unknown = [(
+            "near".to_owned(),
+            kinemark_sim::robot::Dimension::Number(2.5),
+        )];
+        let error = lab.with_parameters(&unknown).unwrap_err();
+        assert_eq!(error.to_string(), "lab `x` has no parameter `near`");
+    }
 }

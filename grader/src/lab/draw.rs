@@ -3,6 +3,8 @@
 //! Numbers come from BLAKE3 in extendable-output mode, keyed by salt, task, class and the case's number, so that adding a draw
 //! changes no other draw's cases.
 
+use std::collections::BTreeMap;
+
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::robot::{Dimension, RobotFile};
 
@@ -37,8 +39,15 @@ struct Stream(blake3::OutputReader);
 
 impl Stream {
     fn new(salt: &str, draw: &Draw, number: u32) -> Self {
-        let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 hidden cases v1");
-        for part in [salt, &draw.task, &draw.class] {
+        Self::of(
+            blake3::Hasher::new_derive_key("kinemark 2026 hidden cases v1"),
+            [salt, &draw.task, &draw.class],
+            number,
+        )
+    }
+
+    fn of(mut hasher: blake3::Hasher, key: [&str; 3], number: u32) -> Self {
+        for part in key {
             hasher.update(&(part.len() as u64).to_le_bytes());
             hasher.update(part.as_bytes());
         }
@@ -67,6 +76,28 @@ impl Stream {
         });
         drawn.collect()
     }
+}
+
+/// The parameters of hidden run `number` of a class.
+pub(super) fn parameters(
+    salt: &str,
+    task: &str,
+    class: &str,
+    number: u32,
+    ranges: &BTreeMap<String, Ranges>,
+) -> Vec<(String, Dimension)> {
+    let hasher = blake3::Hasher::new_derive_key("kinemark 2026 hidden runs v1");
+    let mut stream = Stream::of(hasher, [salt, task, class], number);
+    let drawn = ranges.iter().map(|(name, ranges)| {
+        let value = match ranges {
+            Ranges::One(range) => Dimension::Number(stream.between(*range)),
+            Ranges::Each(ranges) => {
+                Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
+            }
+        };
+        (name.clone(), value)
+    });
+    drawn.collect()
 }
 
 impl Draw {

@@ -13,6 +13,7 @@ use self::step::{
     StepOvershootTable,
 };
 use super::ladder_tables::RobustnessTable;
+use super::parameters::NumbersTable;
 use super::path_tables::{
     PathCoverageTable, PathDeviationTable, PathSpeedTable, PathTable, TimeLimitTable,
 };
@@ -32,6 +33,13 @@ pub(super) struct LabTable {
     pub(super) frame: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) budgets: BudgetTable,
+    // read before all else, for the expressions: see `parameters`
+    #[serde(default, rename = "parameters")]
+    _parameters: NumbersTable,
+    #[serde(default)]
+    pub(super) dimensions: NumbersTable,
+    #[serde(default)]
+    pub(super) variants: BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
     #[serde(default)]
     pub(super) tasks: Vec<TaskTable>,
 }
@@ -93,7 +101,7 @@ pub(super) struct CaseTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionTable {
     pub(super) mode: ModeName,
-    pub(super) scene: Option<Spanned<String>>,
+    pub(super) scene: Option<Spanned<SceneTable>>,
     pub(super) duration_s: NumberAt,
     pub(super) physics_step_ms: Option<NumberAt>,
     pub(super) servo_period_ms: Option<NumberAt>,
@@ -349,6 +357,8 @@ pub(super) struct HiddenTable {
     pub(super) salt: String,
     #[serde(default)]
     pub(super) draws: Vec<Spanned<DrawTable>>,
+    #[serde(default)]
+    pub(super) runs: Vec<Spanned<HiddenRunsTable>>,
 }
 
 /// Cases drawn at random, all of one class.
@@ -371,6 +381,17 @@ pub(super) struct DrawTable {
 pub(super) enum Ranges {
     One([f64; 2]),
     Each(Vec<[f64; 2]>),
+}
+
+impl Ranges {
+    /// The low ends (0) or the high ones (1).
+    pub(super) fn end(&self, end: usize) -> kinemark_sim::robot::Dimension {
+        use kinemark_sim::robot::Dimension;
+        match self {
+            Self::One(range) => Dimension::Number(range[end]),
+            Self::Each(ranges) => Dimension::List(ranges.iter().map(|r| r[end]).collect()),
+        }
+    }
 }
 
 impl<'de> Deserialize<'de> for Ranges {
@@ -427,4 +448,101 @@ pub(super) struct MutantTable {
     pub(super) name: Spanned<String>,
     pub(super) tasks: Vec<Spanned<String>>,
     pub(super) says: String,
+}
+
+/// The scene of a motion task: its name alone, or with dimensions that differ from its file's.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct SceneTable {
+    pub(super) name: String,
+    pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+}
+
+impl<'de> Deserialize<'de> for SceneTable {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NameOrTable;
+        impl<'de> serde::de::Visitor<'de> for NameOrTable {
+            type Value = SceneTable;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("the name of a scene, or { name = \"...\", dimensions = { ... } }")
+            }
+            fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<SceneTable, E> {
+                Ok(SceneTable {
+                    name: name.to_owned(),
+                    dimensions: BTreeMap::new(),
+                })
+            }
+            fn visit_map<A: serde::de::MapAccess<'de>>(
+                self,
+                map: A,
+            ) -> Result<SceneTable, A::Error> {
+                #[derive(Deserialize)]
+                #[serde(deny_unknown_fields)]
+                struct Table {
+                    name: String,
+                    #[serde(default)]
+                    dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+                }
+                let table = serde::de::value::MapAccessDeserializer::new(map);
+                let Table { name, dimensions } = Table::deserialize(table)?;
+                Ok(SceneTable { name, dimensions })
+            }
+        }
+        deserializer.deserialize_any(NameOrTable)
+    }
+}
+
+/// The values that a parameter takes in variants.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StepsTable {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) step: f64,
+}
+
+/// One such table for a number, or one for each number of a list.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum StepsOrEach {
+    One(StepsTable),
+    Each(Vec<StepsTable>),
+}
+
+impl<'de> Deserialize<'de> for StepsOrEach {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrEach;
+        impl<'de> serde::de::Visitor<'de> for OneOrEach {
+            type Value = StepsOrEach;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("{ from, to, step }, or a list of such tables")
+            }
+            fn visit_map<A: serde::de::MapAccess<'de>>(
+                self,
+                map: A,
+            ) -> Result<StepsOrEach, A::Error> {
+                let table = serde::de::value::MapAccessDeserializer::new(map);
+                StepsTable::deserialize(table).map(StepsOrEach::One)
+            }
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(
+                self,
+                mut seq: A,
+            ) -> Result<StepsOrEach, A::Error> {
+                let mut each = Vec::new();
+                while let Some(steps) = seq.next_element()? {
+                    each.push(steps);
+                }
+                Ok(StepsOrEach::Each(each))
+            }
+        }
+        deserializer.deserialize_any(OneOrEach)
+    }
+}
+
+/// A motion task that is run again with other parameters, drawn at random.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HiddenRunsTable {
+    pub(super) task: Spanned<String>,
+    pub(super) class: Spanned<String>,
+    pub(super) count: u32,
+    pub(super) parameters: BTreeMap<String, Ranges>,
 }

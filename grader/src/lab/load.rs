@@ -16,18 +16,23 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::{Source, TomlRefusal, suggest};
+use kinemark_sim::source::{Source, suggest};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 
-use super::file::{BudgetTable, CaseTable, FunctionTable, LabTable, NumberAt, TaskTable};
+use super::file::{
+    BudgetTable, CaseTable, FunctionTable, LabTable, NumberAt, SceneTable, TaskTable,
+};
 use super::files::Files;
 use super::model::{
-    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task, TaskWork,
+    Case, Check, CheckKind, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task,
+    TaskWork,
 };
+use super::parameters::{self, refused};
 use super::problem::{LabError, LabProblem, LoadError};
 use super::robot::{LabRobot, robot_names};
 use super::scene::{LabScene, scene_names};
+use super::variant::{self, Variant};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
 
@@ -56,26 +61,22 @@ pub(super) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, Load
 
 /// Reads TOML into its tables.
 pub(super) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
-    if let Some(at) = not_finite(source.text()) {
-        let report = Reporter { source };
-        return report.err(
+    refuse_not_finite(source)?;
+    toml::from_str(source.text()).map_err(|error| refused(source, &error))
+}
+
+/// Refuses `nan` and `inf`, which no number of a lab may be.
+pub(super) fn refuse_not_finite(source: &Source) -> Result<(), LabError> {
+    match not_finite(source.text()) {
+        None => Ok(()),
+        Some(at) => Reporter { source }.err(
             at,
             "lab::not_finite",
             "a lab's numbers are finite".to_owned(),
             "not a finite number",
             Some("leave a limit out to have none".to_owned()),
-        );
+        ),
     }
-    toml::from_str(source.text()).map_err(|error| {
-        let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
-        let problem = LabProblem {
-            message,
-            code: "lab::toml",
-            label: "here".to_owned(),
-            help,
-        };
-        LabError::new(problem, source, at)
-    })
 }
 
 /// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
@@ -144,6 +145,18 @@ impl Lab {
     /// # Errors
     /// [`LoadError`] if there is no such lab, or something in its files is wrong.
     pub fn load(files: &dyn Files, name: &str) -> Result<Self, LoadError> {
+        Self::load_variant(files, name, None)
+    }
+
+    /// Loads the lab called `name` with the numbers of `variant`: a lab like any other.
+    ///
+    /// # Errors
+    /// Those of [`Lab::load`], and a variant that is none of this lab.
+    pub fn load_variant(
+        files: &dyn Files,
+        name: &str,
+        variant: Option<&Variant>,
+    ) -> Result<Self, LoadError> {
         let Some(source) = read(files, &format!("{name}/lab.toml"))? else {
             let known = lab_names(files);
             return Err(LoadError::UnknownLab {
@@ -155,7 +168,15 @@ impl Lab {
                 ),
             });
         };
-        let lab: LabTable = tables(&source)?;
+        let stated = parameters::stated(&source)?;
+        let mut parameters = stated.clone();
+        if let Some(variant) = variant {
+            variant.fits(name, &stated)?;
+            for (name, value) in variant.parameters() {
+                parameters.set(name.to_owned(), value.clone());
+            }
+        }
+        let lab: LabTable = parameters::tables_with(&source, &parameters)?;
         let report = Reporter { source: &source };
         report.format(&lab.format)?;
         if lab.name.get_ref() != name {
@@ -189,6 +210,7 @@ impl Lab {
                 )),
             )?);
         };
+        let robot_file = of_dimensions(report, robot_file, &lab)?;
         let robot = robot_file.build(&[])?;
         let frame = match &lab.frame {
             None => robot.links()[0].name.clone(),
@@ -208,7 +230,7 @@ impl Lab {
                 )?);
             }
         };
-        let reference_paths = reference_paths(files, name)?;
+        let mut reference_paths = reference_paths(files, name)?;
         let scenes = scenes(files, report, &robot, &lab)?;
         let reader = Reader {
             report,
@@ -218,11 +240,29 @@ impl Lab {
             reference_paths: &reference_paths.paths,
         };
         let tasks = reader.tasks(&lab)?;
+        let budgets = reader.budgets(&lab.budgets)?;
+        let variants = variant::rules(report, &lab.variants, &stated)?;
+        if let (Some(at), Some(check)) = (lab.variants.keys().next(), one_path(&tasks)) {
+            return Ok(report.err(
+                at.span(),
+                "lab::variants",
+                format!("check `{check}` compares with one path, and every variant has its own"),
+                "varies the path",
+                Some("judge the task by goals or a path of its own instead".to_owned()),
+            )?);
+        }
+        if parameters != stated {
+            // it is the path of the numbers in lab.toml
+            reference_paths.paths.clear();
+        }
         Ok(Self {
             name: name.to_owned(),
             title: lab.title,
             summary: lab.summary,
-            budgets: reader.budgets(&lab.budgets)?,
+            parameters,
+            variants,
+            variant: variant.cloned(),
+            budgets,
             tasks,
             source,
             robot_file,
@@ -235,6 +275,53 @@ impl Lab {
     }
 }
 
+/// The robot file with the dimensions that the lab changes.
+fn of_dimensions(
+    report: Reporter<'_>,
+    robot_file: RobotFile,
+    lab: &LabTable,
+) -> Result<RobotFile, LabError> {
+    let mut robot_file = robot_file;
+    for (name, value) in &lab.dimensions {
+        let changed = [(name.get_ref().clone(), value.get_ref().clone())];
+        let known = suggest(
+            name.get_ref(),
+            "dimensions",
+            robot_file.dimensions().names(),
+        );
+        // one by one, so that the place is that of the one that is wrong
+        robot_file = match robot_file.with_dimensions(&changed) {
+            Ok(changed) => changed,
+            Err(error) => {
+                return report.err(
+                    name.span(),
+                    "lab::dimensions",
+                    error.to_string(),
+                    "this dimension",
+                    Some(known),
+                );
+            }
+        };
+    }
+    if let (Some(name), Err(error)) = (lab.dimensions.keys().next(), robot_file.build(&[])) {
+        return report.err(
+            name.span(),
+            "lab::dimensions",
+            format!("with these dimensions: {error}"),
+            "here they begin",
+            None,
+        );
+    }
+    Ok(robot_file)
+}
+
+/// The first check that compares with `reference-path.json`.
+fn one_path(tasks: &[Task]) -> Option<&str> {
+    let mut checks = tasks.iter().flat_map(|task| &task.checks);
+    let found = checks.find(|check| matches!(check.kind, CheckKind::TrajectoryMatch { .. }))?;
+    Some(&found.name)
+}
+
 /// Loads the scenes that motion tasks name, each once.
 fn scenes(
     files: &dyn Files,
@@ -245,8 +332,10 @@ fn scenes(
     let mut scenes: Vec<Arc<LabScene>> = Vec::new();
     let motions = lab.tasks.iter().filter_map(|task| task.motion.as_ref());
     for at in motions.filter_map(|motion| motion.get_ref().scene.as_ref()) {
-        let name = at.get_ref().as_str();
-        if scenes.iter().any(|scene| scene.name == name) {
+        let SceneTable { name, dimensions } = at.get_ref();
+        let name = name.as_str();
+        let dimensions: Vec<_> = dimensions.clone().into_iter().collect();
+        if scenes.iter().any(|scene| scene.is(name, &dimensions)) {
             continue;
         }
         let Some(scene) = LabScene::load(files, name)? else {
@@ -258,6 +347,20 @@ fn scenes(
                 "not a scene of this place",
                 Some(suggest(name, "scenes", known.iter().map(String::as_str))),
             )?);
+        };
+        let known = scene.file.dimensions().names();
+        let known = suggest("", "dimensions", known);
+        let scene = match scene.with_dimensions(dimensions) {
+            Ok(scene) => scene,
+            Err(error) => {
+                return Ok(report.err(
+                    at.span(),
+                    "lab::dimensions",
+                    error.to_string(),
+                    "this scene",
+                    Some(known),
+                )?);
+            }
         };
         if let Some(body) = scene.namesake(robot) {
             return Ok(report.err(

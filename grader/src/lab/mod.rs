@@ -1,7 +1,8 @@
 //! Labs: the TOML types ([`mod@file`]), what they become ([`model`]), the way from one to the other ([`load`], [`robot`], [`scene`]), and the
-//! cases that hidden draws add ([`draw`]).
+//! cases that hidden draws add ([`draw`]). A student's numbers ([`variant`]) make a lab like any other: nothing downstream knows.
 
 pub mod brief;
+pub mod copies;
 pub mod draw;
 pub mod file;
 pub mod files;
@@ -10,12 +11,14 @@ mod ladder_tables;
 pub mod load;
 pub mod mesh_file;
 pub mod model;
+mod parameters;
 mod path_tables;
 pub mod problem;
 pub mod robot;
 pub mod scene;
 pub mod staff;
 pub mod step;
+pub mod variant;
 pub mod watched;
 
 pub use files::Files;
@@ -25,3 +28,4 @@ pub use problem::{LabError, LabProblem, LoadError};
 pub use robot::LabRobot;
 pub use scene::LabScene;
 pub use staff::Staff;
+pub use variant::Variant;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
-use kinemark_sim::robot::{Dimension, Robot, RobotFile};
+use kinemark_sim::robot::{Dimension, Dimensions, Robot, RobotFile};
 use kinemark_sim::sensor::Sensor;
 use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
@@ -13,6 +13,7 @@ use super::ladder::Ladder;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
 use super::step::StepResponse;
+use super::variant::{Variant, VariantRule};
 use super::watched::{Fall, PathToFollow, Shares, SpeedAt, TouchingParty, Until};
 use crate::controller::{Budgets, Grant, Value};
 use crate::graded::TcpPath;
@@ -28,11 +29,17 @@ pub struct Lab {
     pub summary: String,
     /// The text of `lab.toml`.
     pub source: Source,
+    /// Its parameters, with the numbers of its variant where it is one.
+    pub parameters: Dimensions,
+    /// How variants are drawn; empty where everyone has the same numbers.
+    pub variants: Vec<VariantRule>,
+    /// The variant it is, if it is one.
+    pub variant: Option<Variant>,
     /// The robot file, which variants and cases build with other dimensions.
     pub robot_file: RobotFile,
     /// The meshes the robot file names.
     pub robot_meshes: Vec<MeshFile>,
-    /// The robot as its file states it.
+    /// The robot as its file states it, but for the dimensions that the lab changes.
     pub robot: Robot,
     /// The scenes of its motion tasks, each once, in the order the tasks name them.
     pub scenes: Vec<Arc<LabScene>>,

@@ -1,7 +1,7 @@
 //! A scene of the labs: its file, and the meshes that file names, all of them inside `scenes/`.
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::{Scene, SceneFile};
+use kinemark_sim::robot::{Dimension, Robot};
+use kinemark_sim::scene::{Scene, SceneError, SceneFile};
 
 use super::files::Files;
 use super::load::read;
@@ -17,7 +17,9 @@ pub struct LabScene {
     pub file: SceneFile,
     /// The meshes as they were read, in the order the file names them.
     pub meshes: Vec<MeshFile>,
-    /// The scene as its file states it.
+    /// Dimensions that a lab changes.
+    pub dimensions: Vec<(String, Dimension)>,
+    /// The scene as its file states it, but for these dimensions.
     pub scene: Scene,
 }
 
@@ -51,7 +53,27 @@ impl LabScene {
             scene: file.build(&[])?,
             file,
             meshes,
+            dimensions: Vec::new(),
         }))
+    }
+
+    /// This scene with other dimensions.
+    ///
+    /// # Errors
+    /// A dimension its file does not have, or a scene that cannot be with it.
+    pub fn with_dimensions(self, dimensions: Vec<(String, Dimension)>) -> Result<Self, SceneError> {
+        let file = self.file.with_dimensions(&dimensions)?;
+        Ok(Self {
+            scene: file.build(&[])?,
+            file,
+            dimensions,
+            ..self
+        })
+    }
+
+    /// Whether it is the scene of this name with these dimensions.
+    pub fn is(&self, name: &str, dimensions: &[(String, Dimension)]) -> bool {
+        self.name == name && self.dimensions == dimensions
     }
 
     /// A body that bears the name of a link of `robot`: nobody could tell the two apart in a report.

@@ -4,11 +4,11 @@ use kinemark_sim::robot::Dimension;
 use kinemark_sim::source::{Source, suggest};
 use toml::Spanned;
 
-use super::draw::{Draw, Drawn};
-use super::file::{DrawTable, HiddenTable, MutantsTable, Ranges};
+use super::draw::{Draw, Drawn, parameters};
+use super::file::{DrawTable, HiddenRunsTable, HiddenTable, MutantsTable, Ranges};
 use super::files::Files;
 use super::load::{Reporter, read, tables};
-use super::model::{Case, Function, FunctionTask, Given, Lab, TaskWork};
+use super::model::{Case, CheckKind, Function, FunctionTask, Given, Lab, TaskWork};
 use super::problem::{LabError, LoadError};
 
 /// The staff's part of a lab.
@@ -20,8 +20,19 @@ pub struct Staff {
     pub mutants: Vec<Mutant>,
     /// Hidden cases by task.
     hidden: Vec<(String, Vec<Case>)>,
+    /// Hidden runs by task.
+    runs: Vec<(String, Vec<HiddenRun>)>,
     /// BLAKE3 over all of it, salt included.
     pub digest: blake3::Hash,
+}
+
+/// A motion task that is run again with other numbers.
+#[derive(Debug, Clone)]
+pub struct HiddenRun {
+    /// All that students are told of it.
+    pub class: String,
+    /// The lab with its numbers.
+    pub lab: Lab,
 }
 
 /// A known mistake: a submission that makes it, and what to tell a student who does.
@@ -58,6 +69,7 @@ impl Staff {
         };
         digest(&solution);
         let mut hidden = Vec::new();
+        let mut runs: Vec<(String, Vec<HiddenRun>)> = Vec::new();
         let hidden_path = format!("{folder}/hidden.toml");
         let hidden_source = read(files, &hidden_path)?;
         let has_functions = lab
@@ -77,6 +89,10 @@ impl Staff {
             report.format(&table.format)?;
             let salt = salt.unwrap_or(&table.salt);
             digest(&Source::new("salt", salt));
+            for typed in &table.runs {
+                let task = typed.get_ref().task.get_ref().clone();
+                runs.push((task, hidden_runs(report, lab, salt, typed)?));
+            }
             for draw in &table.draws {
                 let at = draw.span();
                 let draw = checked(report, lab, draw)?;
@@ -133,8 +149,34 @@ impl Staff {
             solution,
             mutants,
             hidden,
+            runs,
             digest: hasher.finalize(),
         }))
+    }
+
+    /// The salt of the course for `lab`: `replacing`, or that of its `hidden.toml`; `None` where there is neither.
+    ///
+    /// # Errors
+    /// [`LoadError`] if `hidden.toml` is wrong.
+    pub fn salt(
+        files: &dyn Files,
+        lab: &str,
+        replacing: Option<&str>,
+    ) -> Result<Option<String>, LoadError> {
+        if let Some(salt) = replacing {
+            return Ok(Some(salt.to_owned()));
+        }
+        let Some(source) = read(files, &format!("{lab}/hidden.toml"))? else {
+            return Ok(None);
+        };
+        let table: HiddenTable = tables(&source)?;
+        Ok(Some(table.salt))
+    }
+
+    /// The hidden runs of a task.
+    pub fn runs(&self, task: &str) -> Vec<&HiddenRun> {
+        let of_task = self.runs.iter().filter(|(name, _)| name == task);
+        of_task.flat_map(|(_, runs)| runs).collect()
     }
 
     /// The hidden cases of a task.
@@ -173,6 +215,102 @@ fn expect(lab: &Lab, task: &str, cases: &mut [Case], solution: &Source) -> Resul
     }
     Ok(())
 }
+
+/// The runs of one `[[runs]]` table, each a lab of its own.
+fn hidden_runs(
+    report: Reporter<'_>,
+    lab: &Lab,
+    salt: &str,
+    spanned: &Spanned<HiddenRunsTable>,
+) -> Result<Vec<HiddenRun>, LabError> {
+    let table = spanned.get_ref();
+    let refuse = |message: String, help: &str| {
+        let help = Some(help.to_owned());
+        report.err(spanned.span(), "staff::runs", message, "these runs", help)
+    };
+    let TaskWork::Motion(_) = known_task(report, lab, &table.task)? else {
+        return refuse(
+            format!("task `{}` is no motion task", table.task.get_ref()),
+            "hidden cases of function tasks are [[draws]]",
+        );
+    };
+    if table.count == 0 || table.count > MOST_RUNS {
+        return refuse(
+            format!(
+                "there are 1 to {MOST_RUNS} hidden runs of a class, got {}",
+                table.count
+            ),
+            "change `count`",
+        );
+    }
+    let task = lab
+        .tasks
+        .iter()
+        .find(|task| task.name == *table.task.get_ref());
+    let mut checks = task.into_iter().flat_map(|task| &task.checks);
+    if let Some(check) =
+        checks.find(|check| matches!(check.kind, CheckKind::TrajectoryMatch { .. }))
+    {
+        return refuse(
+            format!(
+                "check `{}` compares with one path, and every run has its own",
+                check.name
+            ),
+            "judge the task by goals or a path of its own instead",
+        );
+    }
+    for (name, ranges) in &table.parameters {
+        let fits = match (lab.parameters.get(name), ranges) {
+            (Some(Dimension::Number(_)), Ranges::One(_)) => true,
+            (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
+            (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
+            (None, _) => {
+                return refuse(
+                    format!("lab `{}` has no parameter `{name}`", lab.name),
+                    &suggest(name, "parameters", lab.parameters.names()),
+                );
+            }
+        };
+        if !fits {
+            return refuse(
+                format!("the ranges of `{name}` do not fit its shape"),
+                "give [low, high] for one number, and a list of such ranges for a list",
+            );
+        }
+    }
+    let with = |parameters: Vec<(String, Dimension)>| {
+        lab.with_parameters(&parameters).or_else(|error| {
+            report.err(
+                spanned.span(),
+                "staff::runs",
+                error.to_string(),
+                "these runs",
+                Some("change the ranges of `parameters`".to_owned()),
+            )
+        })
+    };
+    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
+    for end in [0, 1] {
+        let all = table.parameters.iter();
+        with(
+            all.map(|(name, ranges)| (name.clone(), ranges.end(end)))
+                .collect(),
+        )?;
+    }
+    let class = table.class.get_ref();
+    (0..table.count)
+        .map(|number| {
+            let drawn = parameters(salt, table.task.get_ref(), class, number, &table.parameters);
+            Ok(HiddenRun {
+                class: class.clone(),
+                lab: with(drawn)?,
+            })
+        })
+        .collect()
+}
+
+/// A run costs about as much as the visible one; a class of students is to be graded in minutes.
+const MOST_RUNS: u32 = 20;
 
 fn known_task<'l>(
     report: Reporter<'_>,
@@ -303,15 +441,7 @@ fn checked(
     for end in [0, 1] {
         let changed: Vec<(String, Dimension)> = dimensions
             .iter()
-            .map(|(name, ranges)| {
-                let value = match ranges {
-                    Ranges::One(range) => Dimension::Number(range[end]),
-                    Ranges::Each(ranges) => {
-                        Dimension::List(ranges.iter().map(|r| r[end]).collect())
-                    }
-                };
-                (name.clone(), value)
-            })
+            .map(|(name, ranges)| (name.clone(), ranges.end(end)))
             .collect();
         if let Err(error) = lab.robot_file.build(&changed) {
             return refuse(error.to_string(), "change the ranges of `dimensions`");

@@ -598,6 +598,7 @@ pub(crate) fn graded() -> GradedRun {
             format: FORMAT.to_owned(),
             engine: "kinemark 0.1.0".to_owned(),
             mode: GradeMode::Practice,
+            variant: None,
             lab: part("01-kinematics", 1),
             robot: part("rrbot", 2),
             scenes: Vec::new(),

@@ -7,7 +7,9 @@ use std::fmt::Write as _;
 use owo_colors::OwoColorize as _;
 
 use super::visible::visible;
-use crate::grade::{CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade};
+use crate::grade::{
+    CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade, TaskKind,
+};
 use crate::quantity::{points, seconds, with_unit};
 use crate::verdict::Verdict;
 
@@ -27,6 +29,9 @@ pub fn text(grade: &Grade) -> String {
         ),
     );
     line(&mut out, &mode.dimmed().to_string());
+    if let Some(variant) = &grade.variant {
+        line(&mut out, &visible(&variant.words()).dimmed().to_string());
+    }
     for task in &grade.tasks {
         out.push('\n');
         push_task(&mut out, task, &grade.submission.name);
@@ -113,9 +118,17 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             out,
             &format!(
                 "  {}",
-                format!("hidden cases: {}", lost.join(", ")).dimmed()
+                format!("hidden {}: {}", hidden_word(task.kind), lost.join(", ")).dimmed()
             ),
         );
+    }
+}
+
+/// What is hidden in a task of this kind.
+fn hidden_word(kind: TaskKind) -> &'static str {
+    match kind {
+        TaskKind::Function => "cases",
+        TaskKind::Motion => "runs",
     }
 }
 

@@ -18,11 +18,24 @@ pub struct ExpressionProblem {
 /// # Errors
 /// An unknown name, a missing or superfluous index, a stray character, or a result that is not finite.
 pub fn evaluate(text: &str, dimensions: &Dimensions) -> Result<f64, ExpressionProblem> {
+    evaluate_named(text, dimensions, "dimension")
+}
+
+/// As [`evaluate`], over values that messages call `noun` (`dimension`, `parameter`).
+///
+/// # Errors
+/// Those of [`evaluate`].
+pub fn evaluate_named(
+    text: &str,
+    dimensions: &Dimensions,
+    noun: &'static str,
+) -> Result<f64, ExpressionProblem> {
     let mut reader = Reader {
         text,
         at: 0,
         depth: 0,
         dimensions,
+        noun,
     };
     let value = reader.sum()?;
     reader.skip_spaces();
@@ -46,6 +59,7 @@ struct Reader<'a> {
     at: usize,
     depth: usize,
     dimensions: &'a Dimensions,
+    noun: &'static str,
 }
 
 fn problem(message: String, help: Option<String>, at: std::ops::Range<usize>) -> ExpressionProblem {
@@ -135,7 +149,11 @@ impl Reader<'_> {
             match self.peek() {
                 Some(c) if c.is_ascii_digit() || c == '.' => self.number()?,
                 Some(c) if c.is_ascii_alphabetic() || c == '_' => self.dimension()?,
-                _ => return Err(self.stray("expected a number, a dimension's name or `(`")),
+                _ => {
+                    return Err(
+                        self.stray(&format!("expected a number, a {}'s name or `(`", self.noun))
+                    );
+                }
             }
         };
         self.depth -= 1;
@@ -172,10 +190,10 @@ impl Reader<'_> {
         let dimensions = self.dimensions;
         let Some(dimension) = dimensions.get(name) else {
             return Err(problem(
-                format!("no dimension is called `{name}`"),
+                format!("no {} is called `{name}`", self.noun),
                 Some(crate::source::suggest(
                     name,
-                    "dimensions",
+                    &format!("{}s", self.noun),
                     dimensions.names(),
                 )),
                 name_at,

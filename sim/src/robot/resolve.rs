@@ -41,6 +41,16 @@ impl RobotFile {
         robot.sensors = sensor::resolve_all(&self.tables.sensors, &self.source, KIND, &robot)?;
         Ok(robot)
     }
+
+    /// This file with the dimensions `changed` for good: what is built from it has them, until they are changed again.
+    ///
+    /// # Errors
+    /// A dimension that the file does not have, or has in another shape.
+    pub fn with_dimensions(mut self, changed: &[(String, Dimension)]) -> Result<Self, RobotError> {
+        let dimensions = &self.tables.dimensions;
+        self.tables.dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
+        Ok(self)
+    }
 }
 
 struct Resolver<'a> {

@@ -53,6 +53,16 @@ impl SceneFile {
         };
         resolver.scene()
     }
+
+    /// This file with the dimensions `changed` for good: what is built from it has them, until they are changed again.
+    ///
+    /// # Errors
+    /// A dimension that the file does not have, or has in another shape.
+    pub fn with_dimensions(mut self, changed: &[(String, Dimension)]) -> Result<Self, SceneError> {
+        let dimensions = &self.tables.dimensions;
+        self.tables.dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
+        Ok(self)
+    }
 }
 
 struct Resolver<'a> {

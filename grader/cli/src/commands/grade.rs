@@ -9,6 +9,7 @@ use kinemark_grader::verdict::Verdict;
 
 use crate::args::GradeArgs;
 use crate::failure::{FAULT, Failure, LOST};
+use crate::variants::{self, Chosen};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, places, report_folder};
 
@@ -19,8 +20,15 @@ const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
 pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let (files, labs_folder) = places::labs(&args.places)?;
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
     let reference = places::reference(&args.staff, labs_folder.as_deref())?;
+    let Chosen { lab, note } = variants::choose(
+        &args.lab,
+        files.as_ref(),
+        reference.as_ref(),
+        &args.variant,
+        &args.staff,
+        Some(&args.submission),
+    )?;
     let staff = match &reference {
         Some(reference) => staff_of(reference, &lab, args)?,
         None => None,
@@ -47,6 +55,9 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     if args.json {
         output::print_json(&graded.grade)?;
     } else {
+        if let Some(note) = &note {
+            output::print(&format!("{note}\n"))?;
+        }
         output::print(&report::text::text(&graded.grade))?;
     }
     report_folder::write(&args.out, &lab, &submission, &graded)?;

@@ -9,6 +9,7 @@ mod labs;
 mod new;
 mod scene_check;
 mod show;
+mod variant;
 mod verify;
 
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Verify(args) => verify::run(&args),
         Command::Labs(args) => labs::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Variant(args) => variant::run(&args),
         Command::Robot(RobotCommand::Show(args)) => show::run(&args),
         Command::Robot(RobotCommand::Convert(args)) => convert::run(&args),
         Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use kinemark_grader::lab::{Lab, brief::with_grading};
+use kinemark_grader::lab::brief::{with_grading, with_numbers};
+use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::report::brief_page::brief_page;
 use serde::Serialize;
 
 use crate::args::NewArgs;
 use crate::disk::plain;
 use crate::failure::Failure;
+use crate::variants::{self, Chosen};
 use crate::{output, places};
 
 #[derive(Serialize)]
@@ -20,8 +22,16 @@ struct Written {
 
 /// Writes the folder.
 pub(crate) fn run(args: &NewArgs) -> Result<ExitCode, Failure> {
-    let (files, _) = places::labs(&args.places)?;
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let (files, labs_folder) = places::labs(&args.places)?;
+    let reference = places::reference(&args.staff, labs_folder.as_deref())?;
+    let Chosen { lab, .. } = variants::choose(
+        &args.lab,
+        files.as_ref(),
+        reference.as_ref(),
+        &args.variant,
+        &args.staff,
+        None,
+    )?;
     let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
     let read = |name: &str| match files.read(&format!("{}/{name}", lab.name)) {
         Ok(Some(text)) => Ok(text),
@@ -34,13 +44,21 @@ pub(crate) fn run(args: &NewArgs) -> Result<ExitCode, Failure> {
             "save it as UTF-8 text",
         )),
     };
-    let brief = with_grading(&read("brief.md")?, &lab);
+    let brief = with_numbers(&with_grading(&read("brief.md")?, &lab), &lab).map_err(|why| {
+        Failure::broken(
+            format!("brief.md: {why}"),
+            "a mark is `<!-- = expression -->` behind the number it stands for",
+        )
+    })?;
     let page = brief_page(&lab.title, &brief);
     let mut written = vec![
         (dir.join("submission.rhai"), read("starter.rhai")?),
         (dir.join("brief.html"), page),
         (dir.join("brief.md"), brief),
     ];
+    if let Some(variant) = &lab.variant {
+        written.push((dir.join(VARIANT_FILE), variant.text()));
+    }
     for name in files.list(&lab.name) {
         if name.ends_with(".svg") {
             written.push((dir.join(&name), read(&name)?));

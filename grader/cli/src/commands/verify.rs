@@ -4,7 +4,9 @@ use std::process::ExitCode;
 
 use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::grading;
-use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::lab::{Files as _, Lab, LoadError, Staff, Variant};
+use kinemark_sim::source::Source;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -39,7 +41,22 @@ struct Difference {
 pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let report = report_folder::read(&args.folder)?;
-    let lab = Lab::load(&Folder::new(report.labs.clone()), &report.grade.lab.name)?;
+    let name = &report.grade.lab.name;
+    let copies = Folder::new(report.labs.clone());
+    let variant = match copies.read(&format!("{name}/{VARIANT_FILE}")) {
+        Ok(Some(text)) => {
+            let variant = Variant::parse(Source::new(VARIANT_FILE, text));
+            Some(variant.map_err(LoadError::from)?)
+        }
+        Ok(None) => None,
+        Err(why) => {
+            return Err(Failure::broken(
+                format!("{VARIANT_FILE}: {why}"),
+                "grade the submission again",
+            ));
+        }
+    };
+    let lab = Lab::load_variant(&copies, name, variant.as_ref())?;
     let staff = match report.grade.mode {
         GradeMode::Practice => None,
         GradeMode::Graded => {
@@ -123,6 +140,13 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
         if before.kind == TaskKind::Function && !hidden_too {
             not_compared.push(format!(
                 "task `{}`: its hidden cases are with the staff; give --reference DIR",
+                before.name
+            ));
+            continue;
+        }
+        if !before.hidden.is_empty() && !hidden_too {
+            not_compared.push(format!(
+                "task `{}`: its hidden runs are with the staff; give --reference DIR",
                 before.name
             ));
             continue;

@@ -104,7 +104,11 @@ impl Reader<'_> {
         let scene = motion.scene.as_ref().and_then(|name| {
             let mut scenes = self.scenes.iter();
             Some((
-                scenes.find(|scene| scene.name == *name.get_ref())?,
+                scenes.find(|scene| {
+                    let dimensions: Vec<_> =
+                        name.get_ref().dimensions.clone().into_iter().collect();
+                    scene.is(&name.get_ref().name, &dimensions)
+                })?,
                 name.span(),
             ))
         });

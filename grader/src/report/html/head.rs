@@ -64,6 +64,7 @@ pub(super) fn head(grade: &Grade) -> Markup {
             p class="eyebrow" { "Kinemark report" }
             h1 { (foreign(&grade.lab.name)) }
             p class="by" { "robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name)) }
+            @if let Some(variant) = &grade.variant { p class="by" { (foreign(&variant.words())) } }
             div class="result" {
                 p class="score" {
                     @if grade.verdict.is_decided() {

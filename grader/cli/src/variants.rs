@@ -1,0 +1,110 @@
+//! Which variant of a lab is meant: one of a file, one beside the submission, one computed for a student, or none.
+
+use std::path::Path;
+
+use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
+use kinemark_grader::lab::{Files, Lab, Staff, Variant};
+
+use crate::args::{StaffArgs, VariantArgs};
+use crate::disk::{self, Folder};
+use crate::failure::Failure;
+
+/// A variant is a few lines.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// The lab that is meant, and a sentence where nobody said so.
+pub(crate) struct Chosen {
+    pub(crate) lab: Lab,
+    /// What was taken that nobody named.
+    pub(crate) note: Option<String>,
+}
+
+/// Loads the lab `name` in the variant that is asked for; `beside` is the submission, next to which a file is taken unasked.
+///
+/// # Errors
+/// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
+pub(crate) fn choose(
+    name: &str,
+    files: &dyn Files,
+    reference: Option<&Folder>,
+    args: &VariantArgs,
+    staff: &StaffArgs,
+    beside: Option<&Path>,
+) -> Result<Chosen, Failure> {
+    let lab = Lab::load(files, name)?;
+    if let Some(student) = &args.student {
+        let variant = of_student(&lab, reference, staff, student)?;
+        return Ok(Chosen {
+            lab: Lab::load_variant(files, name, Some(&variant))?,
+            note: None,
+        });
+    }
+    let found = beside.map(|submission| submission.with_file_name(VARIANT_FILE));
+    let found = found.filter(|path| path.is_file());
+    let (path, note) = match (&args.variant, &found) {
+        (Some(given), _) => (given, None),
+        (None, Some(found)) => (
+            found,
+            Some(format!("with the numbers of {}", found.display())),
+        ),
+        (None, None) => return Ok(Chosen { lab, note: None }),
+    };
+    let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)
+        .map_err(|error| Failure::from(kinemark_grader::lab::LoadError::from(error)))?;
+    let chosen = Lab::load_variant(files, name, Some(&variant))?;
+    if let (Some(student), Some(reference)) = (variant.student(), reference)
+        && let Some(salt) = Staff::salt(reference, name, staff.salt.as_deref())?
+    {
+        let own = lab.variant_of(&salt, student);
+        let own = own.map_err(kinemark_grader::lab::LoadError::from)?;
+        // what the file leaves out stands as in lab.toml, so whole labs are compared
+        if Lab::load_variant(files, name, Some(&own))?.parameters != chosen.parameters {
+            return Err(Failure::usage(
+                format!(
+                    "`{}` is not the variant of student `{student}`: the course's salt gives other numbers",
+                    path.display()
+                ),
+                &format!(
+                    "grade with `--student {student}`, or write the file anew: `kinemark variant {name} --student {student} --out FILE`"
+                ),
+            ));
+        }
+    }
+    Ok(Chosen { lab: chosen, note })
+}
+
+/// The variant of a student, computed from the course's salt.
+///
+/// # Errors
+/// Exit code 2 without a salt, for a lab without variants, and for what is no id.
+pub(crate) fn of_student(
+    lab: &Lab,
+    reference: Option<&Folder>,
+    staff: &StaffArgs,
+    student: &str,
+) -> Result<Variant, Failure> {
+    if let Err(why) = student_id(student) {
+        return Err(Failure::usage(why, "write the id as the course writes it"));
+    }
+    if lab.variants.is_empty() {
+        return Err(Failure::usage(
+            format!(
+                "lab `{}` has no variants: everyone has the same numbers",
+                lab.name
+            ),
+            "leave --student out, or add [variants] to its lab.toml",
+        ));
+    }
+    let salt = match (reference, &staff.salt) {
+        (Some(reference), salt) => Staff::salt(reference, &lab.name, salt.as_deref())?,
+        (None, salt) => salt.clone(),
+    };
+    let Some(salt) = salt else {
+        return Err(Failure::usage(
+            "--student needs the course's salt, which is in the staff's hidden.toml".to_owned(),
+            "give --reference DIR or --salt TEXT; students use the variant.toml they were given",
+        ));
+    };
+    let variant = lab.variant_of(&salt, student);
+    Ok(variant.map_err(kinemark_grader::lab::LoadError::from)?)
+}

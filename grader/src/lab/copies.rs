@@ -1,0 +1,112 @@
+//! The files of a lab as it was loaded, held in memory: copied into reports, and read again with other numbers.
+
+use kinemark_sim::robot::{Dimension, Dimensions};
+
+use super::files::Files;
+use super::model::Lab;
+use super::problem::LoadError;
+use super::variant::{VARIANT_FILE, Variant};
+
+/// Files by path, in the shape of a labs folder.
+#[derive(Debug, Clone, Default)]
+pub struct Copies(Vec<(String, Vec<u8>)>);
+
+impl Copies {
+    /// Texts by path, for labs that are made in memory.
+    pub fn from_texts<'t>(texts: impl IntoIterator<Item = (&'t str, &'t str)>) -> Self {
+        let mut copies = Self::default();
+        for (path, text) in texts {
+            copies.add(path, text);
+        }
+        copies
+    }
+
+    /// Paths with their bytes, each path once.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        self.0
+            .iter()
+            .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
+    }
+
+    fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) {
+        let path = path.into();
+        if !self.0.iter().any(|(known, _)| *known == path) {
+            self.0.push((path, bytes.into()));
+        }
+    }
+}
+
+impl Files for Copies {
+    fn name(&self) -> String {
+        "the files of this lab".to_owned()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        let found = self.0.iter().find(|(known, _)| known == path);
+        Ok(found.map(|(_, bytes)| bytes.clone()))
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let prefix = if folder.is_empty() {
+            String::new()
+        } else {
+            format!("{folder}/")
+        };
+        let inside = self
+            .0
+            .iter()
+            .filter_map(|(path, _)| path.strip_prefix(&prefix));
+        let mut names: Vec<String> = inside
+            .filter_map(|path| Some(path.split('/').next()?.to_owned()))
+            .collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
+impl Lab {
+    /// Copies of all files it was read from, `variant.toml` among them where it is a variant.
+    pub fn copies(&self) -> Copies {
+        let mut copies = Copies::default();
+        copies.add(self.source.name(), self.source.text());
+        let robot = self.robot_file.source();
+        copies.add(robot.name(), robot.text());
+        if !self.reference_paths.text.is_empty() {
+            let path = format!("{}/reference-path.json", self.name);
+            copies.add(path, self.reference_paths.text.as_str());
+        }
+        for scene in &self.scenes {
+            let source = scene.file.source();
+            copies.add(source.name(), source.text());
+        }
+        let meshes = self.scenes.iter().flat_map(|scene| &scene.meshes);
+        for mesh in self.robot_meshes.iter().chain(meshes) {
+            copies.add(mesh.path.as_str(), mesh.bytes.as_slice());
+        }
+        if let Some(variant) = &self.variant {
+            copies.add(format!("{}/{VARIANT_FILE}", self.name), variant.text());
+        }
+        copies
+    }
+
+    /// This lab with the numbers `changed` instead; its other parameters stay as they are.
+    ///
+    /// # Errors
+    /// [`LoadError`] where a parameter is none of this lab, or where these numbers make no lab.
+    pub fn with_parameters(&self, changed: &[(String, Dimension)]) -> Result<Self, LoadError> {
+        let current = self.parameters.iter();
+        let mut parameters =
+            Dimensions::from_pairs(current.map(|(name, value)| (name.to_owned(), value.clone())));
+        for (name, value) in changed {
+            parameters.set(name.clone(), value.clone());
+        }
+        let pairs: Vec<(String, Dimension)> = parameters
+            .iter()
+            .map(|(name, value)| (name.to_owned(), value.clone()))
+            .collect();
+        let student = self.variant.as_ref().and_then(Variant::student);
+        let variant = Variant::new(&self.name, student, &pairs)?;
+        Self::load_variant(&self.copies(), &self.name, Some(&variant))
+    }
+}

@@ -1,0 +1,411 @@
+//! Variants of a lab: the numbers of one student, read from a `variant.toml` or drawn from the course's salt and the student's id.
+
+use kinemark_sim::robot::Dimension;
+use kinemark_sim::source::{Source, suggest};
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::file::{StepsOrEach, StepsTable};
+use super::load::{Reporter, tables};
+use super::model::Lab;
+use super::parameters::NumbersTable;
+use super::problem::LabError;
+
+/// The name of the file beside a submission, and in the copy of a lab in a report.
+pub const VARIANT_FILE: &str = "variant.toml";
+
+/// Ids longer than this are something else.
+const MOST_ID_CHARACTERS: usize = 100;
+
+/// Numbers for the parameters of a lab, and whose they are.
+#[derive(Debug, Clone)]
+pub struct Variant {
+    source: Source,
+    lab: Spanned<String>,
+    student: Option<String>,
+    parameters: NumbersTable,
+}
+
+/// `variant.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VariantTable {
+    format: Spanned<i64>,
+    lab: Spanned<String>,
+    student: Option<Spanned<String>>,
+    #[serde(default)]
+    parameters: NumbersTable,
+}
+
+impl Variant {
+    /// Reads a `variant.toml`.
+    ///
+    /// # Errors
+    /// What is no such file.
+    pub fn parse(source: Source) -> Result<Self, LabError> {
+        let table: VariantTable = tables(&source)?;
+        let report = Reporter { source: &source };
+        report.format(&table.format)?;
+        if let Some(student) = &table.student
+            && let Err(why) = student_id(student.get_ref())
+        {
+            let help = Some("write the id as the course writes it".to_owned());
+            return report.err(student.span(), "variant::student", why, "this id", help);
+        }
+        Ok(Self {
+            lab: table.lab,
+            student: table.student.map(Spanned::into_inner),
+            parameters: table.parameters,
+            source,
+        })
+    }
+
+    /// A variant of `lab` with these numbers.
+    ///
+    /// # Errors
+    /// An id that cannot be one, or a number that is not finite.
+    pub fn new(
+        lab: &str,
+        student: Option<&str>,
+        parameters: &[(String, Dimension)],
+    ) -> Result<Self, LabError> {
+        let named = parameters
+            .iter()
+            .map(|(name, value)| (name.as_str(), value));
+        Self::parse(Source::new(VARIANT_FILE, written(lab, student, named)))
+    }
+
+    /// Whose it is, where it says so.
+    pub fn student(&self) -> Option<&str> {
+        self.student.as_deref()
+    }
+
+    /// Its numbers, by name.
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, &Dimension)> {
+        let pairs = self.parameters.iter();
+        pairs.map(|(name, value)| (name.get_ref().as_str(), value.get_ref()))
+    }
+
+    /// It as a `variant.toml`: the same text for the same numbers, however they were typed.
+    pub fn text(&self) -> String {
+        written(self.lab.get_ref(), self.student(), self.parameters())
+    }
+
+    /// Its numbers as text alone: what a digest tells variants apart by.
+    pub(crate) fn numbers(&self) -> String {
+        let lines = self.parameters();
+        lines
+            .map(|(name, value)| format!("{name} = {}\n", toml_of(value)))
+            .collect()
+    }
+
+    /// Checks that it is one of `lab`: the lab's name, and each number one of its parameters in the same shape.
+    pub(super) fn fits(
+        &self,
+        lab: &str,
+        stated: &kinemark_sim::robot::Dimensions,
+    ) -> Result<(), LabError> {
+        let report = Reporter {
+            source: &self.source,
+        };
+        if self.lab.get_ref() != lab {
+            return report.err(
+                self.lab.span(),
+                "variant::lab",
+                format!(
+                    "this is a variant of lab `{}`, not of `{lab}`",
+                    self.lab.get_ref()
+                ),
+                "another lab",
+                Some("name the right file with --variant, or move this one away".to_owned()),
+            );
+        }
+        for (name, value) in &self.parameters {
+            let Some(base) = stated.get(name.get_ref()) else {
+                return report.err(
+                    name.span(),
+                    "variant::unknown_parameter",
+                    format!("lab `{lab}` has no parameter `{}`", name.get_ref()),
+                    "not a parameter of this lab",
+                    Some(suggest(name.get_ref(), "parameters", stated.names())),
+                );
+            };
+            if base.to_string() != value.get_ref().to_string() {
+                return report.err(
+                    value.span(),
+                    "variant::shape",
+                    format!(
+                        "parameter `{}` is {base}, got {}",
+                        name.get_ref(),
+                        value.get_ref()
+                    ),
+                    "another shape",
+                    Some("write it as in lab.toml".to_owned()),
+                );
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number or a list as TOML, exact.
+fn toml_of(value: &Dimension) -> String {
+    match value {
+        Dimension::Number(number) => format!("{number:?}"),
+        Dimension::List(numbers) => format!("{numbers:?}"),
+    }
+}
+
+fn written<'n>(
+    lab: &str,
+    student: Option<&str>,
+    parameters: impl Iterator<Item = (&'n str, &'n Dimension)>,
+) -> String {
+    let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+    let mut text = format!("format = 1\nlab = {}\n", quoted(lab));
+    if let Some(student) = student {
+        text += &format!("student = {}\n", quoted(student));
+    }
+    text += "\n[parameters]\n";
+    for (name, value) in parameters {
+        text += &format!("{name} = {}\n", toml_of(value));
+    }
+    text
+}
+
+/// What can be a student's id: it is taken letter by letter, so what nobody sees in it has no place.
+///
+/// # Errors
+/// Why it cannot, in words.
+pub fn student_id(id: &str) -> Result<(), String> {
+    if id.is_empty() || id.trim() != id || id.chars().any(char::is_control) {
+        return Err(format!(
+            "{id:?} is no student id: it is empty, or has spaces around it or signs that nobody sees"
+        ));
+    }
+    if id.chars().count() > MOST_ID_CHARACTERS {
+        return Err(format!(
+            "a student id has at most {MOST_ID_CHARACTERS} characters"
+        ));
+    }
+    Ok(())
+}
+
+/// How the values of one parameter are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VariantRule {
+    /// The parameter.
+    pub name: String,
+    /// The steps of its number, or of each number of its list.
+    pub steps: Vec<Steps>,
+    /// Whether it is a list.
+    pub list: bool,
+}
+
+/// Values at equal distances.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// The first.
+    pub from: f64,
+    /// From one to the next.
+    pub step: f64,
+    /// How many there are.
+    pub count: u64,
+}
+
+impl Steps {
+    /// Value `k`, to 12 significant digits: a person reads 3.04, not 3.0399999999999996.
+    fn value(&self, k: u64) -> f64 {
+        let value = self.from + self.step * k as f64;
+        format!("{value:.11e}").parse().unwrap_or(value)
+    }
+}
+
+impl Lab {
+    /// The variant of `student` under `salt`: the same numbers on every machine.
+    ///
+    /// # Errors
+    /// An id that cannot be one.
+    pub fn variant_of(&self, salt: &str, student: &str) -> Result<Variant, LabError> {
+        let parameters: Vec<(String, Dimension)> = self
+            .variants
+            .iter()
+            .map(|rule| {
+                let drawn = |(i, steps): (usize, &Steps)| {
+                    let index = rule.list.then_some(i as u64);
+                    steps.value(chosen(
+                        salt,
+                        &self.name,
+                        student,
+                        &rule.name,
+                        index,
+                        steps.count,
+                    ))
+                };
+                let mut values = rule.steps.iter().enumerate().map(drawn);
+                let value = match (rule.list, values.next()) {
+                    (false, Some(value)) => Dimension::Number(value),
+                    (_, first) => Dimension::List(first.into_iter().chain(values).collect()),
+                };
+                (rule.name.clone(), value)
+            })
+            .collect();
+        Variant::new(&self.name, Some(student), &parameters)
+    }
+}
+
+/// A number below `count`, uniform: BLAKE3 keyed by all that it depends on.
+fn chosen(
+    salt: &str,
+    lab: &str,
+    student: &str,
+    parameter: &str,
+    index: Option<u64>,
+    count: u64,
+) -> u64 {
+    let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 variants v1");
+    for part in [salt, lab, student, parameter] {
+        hasher.update(&(part.len() as u64).to_le_bytes());
+        hasher.update(part.as_bytes());
+    }
+    if let Some(index) = index {
+        hasher.update(&index.to_le_bytes());
+    }
+    let mut bytes = [0; 8];
+    hasher.finalize_xof().fill(&mut bytes);
+    // 64 bits over at most a million values: no value is preferred by more than a part in 10^13
+    let product = u128::from(u64::from_le_bytes(bytes)) * u128::from(count);
+    (product >> 64) as u64
+}
+
+/// More steps than this are a slip of the pen.
+const MOST_STEPS: f64 = 1e6;
+
+/// The rules of a lab's `[variants]`.
+pub(super) fn rules(
+    report: Reporter<'_>,
+    table: &std::collections::BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
+    stated: &kinemark_sim::robot::Dimensions,
+) -> Result<Vec<VariantRule>, LabError> {
+    let mut rules = Vec::new();
+    for (at, typed) in table {
+        let name = at.get_ref();
+        let Some(base) = stated.get(name) else {
+            return report.err(
+                at.span(),
+                "lab::variants",
+                format!("no parameter is called `{name}`"),
+                "not in [parameters]",
+                Some(suggest(name, "parameters", stated.names())),
+            );
+        };
+        let (tables, list) = match (typed.get_ref(), base) {
+            (StepsOrEach::One(steps), Dimension::Number(_)) => (vec![*steps], false),
+            (StepsOrEach::Each(each), Dimension::List(base)) if each.len() == base.len() => {
+                (each.clone(), true)
+            }
+            _ => {
+                return report.err(
+                    typed.span(),
+                    "lab::variants",
+                    format!("parameter `{name}` is {base}, and this varies something else"),
+                    "another shape",
+                    Some(
+                        "give { from, to, step } for one number, and a list of such tables for a list"
+                            .to_owned(),
+                    ),
+                );
+            }
+        };
+        let mut steps = Vec::new();
+        for StepsTable { from, to, step } in tables {
+            let whole = ((to - from) / step).round();
+            let fits = step > 0.0
+                && (0.0..=MOST_STEPS).contains(&whole)
+                && (from + whole * step - to).abs() <= 1e-6 * step;
+            if !fits {
+                return report.err(
+                    typed.span(),
+                    "lab::variants",
+                    format!(
+                        "from {from} to {to} is not a whole number of steps of {step}, or none, or more than {MOST_STEPS}"
+                    ),
+                    "these steps",
+                    Some("write such as { from = 2.9, to = 3.1, step = 0.01 }".to_owned()),
+                );
+            }
+            steps.push(Steps {
+                from,
+                step,
+                count: whole as u64 + 1,
+            });
+        }
+        rules.push(VariantRule {
+            name: name.clone(),
+            steps,
+            list,
+        });
+    }
+    Ok(rules)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_variant_is_read_as_it_is_written() {
+        let parameters = [
+            ("l".to_owned(), Dimension::List(vec![1.0, 0.1 + 0.2])),
+            ("x".to_owned(), Dimension::Number(3.04)),
+        ];
+        let variant = Variant::new("04-line", Some("s \"7\""), &parameters).unwrap();
+        assert_eq!(
+            variant.text(),
+            "format = 1\nlab = \"04-line\"\nstudent = 's \"7\"'\n\n[parameters]\nl = [1.0, 0.30000000000000004]\nx = 3.04\n"
+        );
+        let read = Variant::parse(Source::new("variant.toml", variant.text())).unwrap();
+        assert_eq!(read.student(), Some("s \"7\""));
+        assert_eq!(read.text(), variant.text());
+        for id in ["", " a", "a\n", "a\u{7}"] {
+            assert!(Variant::new("x", Some(id), &[]).is_err(), "{id:?}");
+        }
+    }
+
+    #[test]
+    fn steps_are_all_reached_and_told_in_short() {
+        let steps = Steps {
+            from: 2.9,
+            step: 0.01,
+            count: 21,
+        };
+        assert_eq!(steps.value(14), 3.04);
+        assert_eq!(steps.value(20), 3.1);
+        let mut seen = [0_u32; 21];
+        for student in 0..2100 {
+            let k = chosen("salt", "lab", &format!("s{student}"), "x", None, 21);
+            seen[k as usize] += 1;
+        }
+        // 100 are expected of each, with a standard deviation of 10
+        assert!(seen.iter().all(|&n| (50..150).contains(&n)), "{seen:?}");
+    }
+
+    #[test]
+    fn every_part_of_the_key_matters() {
+        let of = |salt, lab, student, parameter, index| {
+            chosen(salt, lab, student, parameter, index, u64::MAX)
+        };
+        let one = of("a", "b", "c", "d", None);
+        assert_eq!(one, of("a", "b", "c", "d", None));
+        for other in [
+            of("x", "b", "c", "d", None),
+            of("a", "x", "c", "d", None),
+            of("a", "b", "x", "d", None),
+            of("a", "b", "c", "x", None),
+            of("a", "b", "c", "d", Some(0)),
+            of("ab", "", "c", "d", None),
+        ] {
+            assert_ne!(one, other);
+        }
+    }
+}
