@@ -147,9 +147,11 @@ fn staff_write_the_numbers_of_a_student() {
     // on every machine and in every later version: students hold files of these numbers
     assert_eq!(
         printed.stdout,
-        "format = 1\nlab = \"93-touch\"\nstudent = \"s1234567\"\n\n[parameters]\nlengths = [@, @]\nout = @\n"
+        "format = 1\nlab = \"93-touch\"\nstudent = \"s1234567\"\n\n[parameters]\nlengths = [0.95, 0.97]\nout = 0.87\n"
     );
-    assert_ne!(of("s1234568", &[]).stdout.lines().last(), None);
+    let numbers = |stdout: &str| stdout.split_once("[parameters]").map(|(_, n)| n.to_owned());
+    let other = of("s1234568", &[]).stdout;
+    assert_ne!(numbers(&other), numbers(&printed.stdout));
     assert_ne!(
         printed.stdout,
         of("s1234567", &["--salt", "another"]).stdout
@@ -232,9 +234,15 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
         &format!("out = {out}"),
         "out = 0.9123",
     );
-    let ran = bed.run(&["verify", "out"]);
+    let ran = bed.run(&["verify", "out", "--practice"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("differs: lab"), "{ran:?}");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(
+        ran.stderr.contains("is not the variant of student `s7`"),
+        "{ran:?}"
+    );
 
     // the same by the student's id; the lab as everyone has it is another
     let by_id = [

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
-use kinemark_grader::lab::{Files, Lab, Staff, Variant};
+use kinemark_grader::lab::{Files, Lab, LoadError, Staff, Variant};
 
 use crate::args::{StaffArgs, VariantArgs};
 use crate::disk::{self, Folder};
@@ -50,27 +50,46 @@ pub(crate) fn choose(
         (None, None) => return Ok(Chosen { lab, note: None }),
     };
     let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)
-        .map_err(|error| Failure::from(kinemark_grader::lab::LoadError::from(error)))?;
+        .map_err(|error| Failure::from(LoadError::from(error)))?;
     let chosen = Lab::load_variant(files, name, Some(&variant))?;
-    if let (Some(student), Some(reference)) = (variant.student(), reference)
-        && let Some(salt) = Staff::salt(reference, name, staff.salt.as_deref())?
-    {
-        let own = lab.variant_of(&salt, student);
-        let own = own.map_err(kinemark_grader::lab::LoadError::from)?;
-        // what the file leaves out stands as in lab.toml, so whole labs are compared
-        if Lab::load_variant(files, name, Some(&own))?.parameters != chosen.parameters {
-            return Err(Failure::usage(
-                format!(
-                    "`{}` is not the variant of student `{student}`: the course's salt gives other numbers",
-                    path.display()
-                ),
-                &format!(
-                    "grade with `--student {student}`, or write the file anew: `kinemark variant {name} --student {student} --out FILE`"
-                ),
-            ));
-        }
+    if let Some(reference) = reference {
+        let shown = path.display().to_string();
+        refuse_forged(&chosen, files, reference, staff, &shown)?;
     }
     Ok(Chosen { lab: chosen, note })
+}
+
+/// Refuses a variant that names a student and holds other numbers than the salt gives; `shown` is its file for people.
+///
+/// # Errors
+/// Exit code 2 with the way out.
+pub(crate) fn refuse_forged(
+    lab: &Lab,
+    files: &dyn Files,
+    reference: &dyn Files,
+    staff: &StaffArgs,
+    shown: &str,
+) -> Result<(), Failure> {
+    let name = &lab.name;
+    let Some(student) = lab.variant.as_ref().and_then(Variant::student) else {
+        return Ok(());
+    };
+    let Some(salt) = Staff::salt(reference, name, staff.salt.as_deref())? else {
+        return Ok(());
+    };
+    let own = lab.variant_of(&salt, student).map_err(LoadError::from)?;
+    // what a file leaves out stands as in lab.toml, so whole labs are compared
+    if Lab::load_variant(files, name, Some(&own))?.parameters == lab.parameters {
+        return Ok(());
+    }
+    Err(Failure::usage(
+        format!(
+            "`{shown}` is not the variant of student `{student}`: the course's salt gives other numbers"
+        ),
+        &format!(
+            "grade with `--student {student}`, or write the file anew: `kinemark variant {name} --student {student} --out FILE`"
+        ),
+    ))
 }
 
 /// The variant of a student, computed from the course's salt.
@@ -106,5 +125,5 @@ pub(crate) fn of_student(
         ));
     };
     let variant = lab.variant_of(&salt, student);
-    Ok(variant.map_err(kinemark_grader::lab::LoadError::from)?)
+    Ok(variant.map_err(LoadError::from)?)
 }

@@ -228,7 +228,7 @@ parameters = { x = 0.1, l = [1, 2.5] }
                 (7, 16),
                 "parameter name \"x-y\" cannot be used",
             ),
-            ("x = 0.1", "x = true", (7, 20), "a boolean"),
+            ("x = 0.1", "x = true", (7, 20), "invalid type: boolean"),
             ("x = 0.1", "x = inf", (7, 20), "a lab's numbers are finite"),
         ] {
             let error = read(&TEXT.replacen(from, to, 1)).unwrap_err();

@@ -14,7 +14,7 @@ use crate::args::VerifyArgs;
 use crate::disk::Folder;
 use crate::failure::{Failure, LOST};
 use crate::worker::WorkerHost;
-use crate::{interrupt, output, places, report_folder};
+use crate::{interrupt, output, places, report_folder, variants};
 
 /// What the comparison found.
 #[derive(Serialize)]
@@ -62,7 +62,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         GradeMode::Graded => {
             let (_, labs_folder) = places::labs(&args.places)?;
             match places::reference(&args.staff, labs_folder.as_deref())? {
-                Some(reference) => Staff::load(&reference, &lab, args.staff.salt.as_deref())?,
+                Some(reference) => {
+                    variants::refuse_forged(&lab, &copies, &reference, &args.staff, VARIANT_FILE)?;
+                    Staff::load(&reference, &lab, args.staff.salt.as_deref())?
+                }
                 None => None,
             }
         }

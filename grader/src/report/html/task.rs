@@ -41,7 +41,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                 ul class="checks" { @for check in &task.checks { li { (checked(check)) } } }
             }
             @if !task.cases.is_empty() { (cases(&task.cases)) }
-            @if !task.hidden.is_empty() { (hidden(&task.hidden)) }
+            @if !task.hidden.is_empty() { (hidden(&task.hidden, task.kind)) }
             @if !plots.is_empty() {
                 h3 { "Plots" }
                 div class="plots" {
@@ -209,9 +209,13 @@ fn cases(cases: &[CaseGrade]) -> Markup {
     }
 }
 
-fn hidden(classes: &[HiddenClass]) -> Markup {
+fn hidden(classes: &[HiddenClass], kind: TaskKind) -> Markup {
+    let what = match kind {
+        TaskKind::Function => "Hidden cases",
+        TaskKind::Motion => "Hidden runs",
+    };
     html! {
-        h3 { "Hidden cases" }
+        h3 { (what) }
         div class="wide" {
             table class="hidden" {
                 thead { tr { th scope="col" { "Class" } th scope="col" class="number" { "Good" } th scope="col" class="number" { "Of" } } }
