@@ -142,8 +142,8 @@ fn servos_do_not_know_of_a_payload() {
         let mut poses = kinemark_sim::kinematics::FramePoses::new(&robot);
         poses.update(&robot, &sagged);
         let tcp = poses.world_from(robot.tcp()).translation.vector;
-        let elbow = robot.joints().iter().filter(|joint| joint.kind.turns());
-        let elbow = elbow.last().expect("an elbow").child;
+        let mut elbow = robot.joints().iter().filter(|joint| joint.kind.turns());
+        let elbow = elbow.next_back().expect("an elbow").child;
         let elbow = poses.world_from(&robot.frames()[elbow]).translation.vector;
         // both joints turn about y, so a weight's lever lies along x
         (tcp - elbow).x.abs()
