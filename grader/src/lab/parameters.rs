@@ -134,7 +134,7 @@ fn number(
 ) -> Result<String, LabError> {
     match evaluate_named(expression, parameters, "parameter") {
         // 2^53: above, whole numbers are no longer exact
-        Ok(value) if value.trunc() == value && value.abs() < 9_007_199_254_740_992.0 => {
+        Ok(value) if value.fract().abs() <= 0.0 && value.abs() < 9_007_199_254_740_992.0 => {
             Ok(format!("{value:.0}"))
         }
         Ok(value) => Ok(format!("{value:?}")),
