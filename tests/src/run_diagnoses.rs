@@ -27,17 +27,20 @@ duration_s = 4.0
 start_rad = [0.775397496610753, 1.5907976603682872]
 servo = { kp = 20.0, ki = 50.0, gravity_compensation = true, effort_limit = [30.0, 15.0] }
 
+[tasks.motion.paths]
+lines = { points_m = [[2, 1.4, 0.05], [1.6, 1.4, 0.05], [1.6, 1.0, 0.05]], trim_m = 0.05 }
+
 [[tasks.checks]]
 name = "line"
 title = "Along the lines"
 points = 2.0
-path-deviation = { points_m = [[2, 1.4, 0.05], [1.6, 1.4, 0.05], [1.6, 1.0, 0.05]], trim_m = 0.05, full_m = 0.02, zero_m = 0.06 }
+path-deviation = { path = "lines", full_m = 0.02, zero_m = 0.06 }
 
 [[tasks.checks]]
 name = "whole"
 title = "All of them"
 points = 1.0
-path-coverage = { points_m = [[2, 1.4, 0.05], [1.6, 1.4, 0.05], [1.6, 1.0, 0.05]], trim_m = 0.05, within_m = 0.03, full = 0.98, zero = 0.5 }
+path-coverage = { path = "lines", within_m = 0.03, full = 0.98, zero = 0.5 }
 
 [[tasks.checks]]
 name = "calm"

@@ -20,6 +20,7 @@ pub mod jacobian_match;
 pub mod jerk;
 pub mod joint_limits;
 pub mod joint_reached;
+pub mod joint_speed;
 pub mod overshoot;
 pub mod path_coverage;
 pub mod path_deviation;
@@ -284,6 +285,7 @@ pub fn judge_motion(check: &Check, facts: &MotionFacts<'_>) -> Finding {
         }
         CheckKind::Energy(band) => energy::judge(facts, *band, &check.name),
         CheckKind::Jerk(band) => jerk::judge(facts, *band, &check.name),
+        CheckKind::JointSpeed(band) => joint_speed::judge(facts, *band, &check.name),
         CheckKind::Chatter { joint, band } => chatter::judge(facts, *joint, *band, &check.name),
         CheckKind::FkError(_)
         | CheckKind::IkReach(_)
@@ -328,6 +330,7 @@ pub fn judge_function(check: &Check, function: &Function, cases: &[CaseFacts<'_>
         | CheckKind::EffortRms { .. }
         | CheckKind::Energy(_)
         | CheckKind::Jerk(_)
+        | CheckKind::JointSpeed(_)
         | CheckKind::Chatter { .. } => foreign(),
     }
 }

@@ -9,8 +9,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use self::step::{
-    BandJ, BandJerk, ChatterTable, EffortTable, RiseTimeTable, SettlingTimeTable, SteadyErrorTable,
-    StepOvershootTable,
+    BandJ, BandJerk, BandRadS, ChatterTable, EffortTable, RiseTimeTable, SettlingTimeTable,
+    SteadyErrorTable, StepOvershootTable,
 };
 use super::ladder_tables::RobustnessTable;
 use super::parameters::NumbersTable;
@@ -233,6 +233,8 @@ pub(super) struct CheckTable {
     pub(super) effort_rms: Option<Spanned<EffortTable>>,
     pub(super) energy: Option<Spanned<BandJ>>,
     pub(super) jerk: Option<Spanned<BandJerk>>,
+    #[serde(rename = "joint-speed")]
+    pub(super) joint_speed: Option<Spanned<BandRadS>>,
     pub(super) chatter: Option<Spanned<ChatterTable>>,
     #[serde(rename = "function-cases")]
     pub(super) function_cases: Option<Spanned<FunctionCasesTable>>,

@@ -420,6 +420,8 @@ pub enum CheckKind {
     Energy(Band),
     /// The root mean square jerk of the TCP \[m/s³\].
     Jerk(Band),
+    /// The greatest speed of any joint \[rad/s or m/s\].
+    JointSpeed(Band),
     /// How often an effort turns round.
     Chatter {
         /// Index of the joint in `q`; the worst of all where there is none.
@@ -468,6 +470,7 @@ impl CheckKind {
             Self::EffortRms { .. } => "effort-rms",
             Self::Energy(_) => "energy",
             Self::Jerk(_) => "jerk",
+            Self::JointSpeed(_) => "joint-speed",
             Self::Chatter { .. } => "chatter",
             Self::FunctionCases { .. } => "function-cases",
         }
@@ -499,6 +502,7 @@ impl CheckKind {
             Self::EffortPeak { band, .. } | Self::EffortRms { band, .. } => Some((*band, "N m")),
             Self::Energy(band) => Some((*band, "J")),
             Self::Jerk(band) => Some((*band, "m/s³")),
+            Self::JointSpeed(band) => Some((*band, "rad/s")),
             Self::Chatter { band, .. } => Some((*band, "Hz")),
         }
     }

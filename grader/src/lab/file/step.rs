@@ -108,6 +108,13 @@ pub(in crate::lab) struct BandJ {
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
+pub(in crate::lab) struct BandRadS {
+    pub(in crate::lab) full_rad_s: f64,
+    pub(in crate::lab) zero_rad_s: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(in crate::lab) struct BandJerk {
     pub(in crate::lab) full_m_s3: f64,
     pub(in crate::lab) zero_m_s3: f64,

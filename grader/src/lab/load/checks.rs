@@ -368,6 +368,7 @@ impl Reader<'_> {
                 | CheckKind::EffortRms { .. }
                 | CheckKind::Energy(_)
                 | CheckKind::Jerk(_)
+                | CheckKind::JointSpeed(_)
                 | CheckKind::Chatter { .. },
                 TaskWork::Motion(_),
             ) => return Ok(()),

@@ -9,7 +9,7 @@ use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::step::{
-    ChatterTable, EffortTable, OfName, PredictionTable, RiseTimeTable, SettlingTimeTable,
+    BandRadS, ChatterTable, EffortTable, OfName, PredictionTable, RiseTimeTable, SettlingTimeTable,
     SteadyErrorTable, StepOvershootTable,
 };
 use crate::lab::file::{CheckTable, DerivativeName, NumberAt};
@@ -66,6 +66,14 @@ impl Reader<'_> {
             let band = table.get_ref();
             let band = self.band(band.full_j, band.zero_j, table.span())?;
             kinds.push(CheckKind::Energy(band));
+        }
+        if let Some(table) = &table.joint_speed {
+            let BandRadS {
+                full_rad_s,
+                zero_rad_s,
+            } = *table.get_ref();
+            let band = self.band(full_rad_s, zero_rad_s, table.span())?;
+            kinds.push(CheckKind::JointSpeed(band));
         }
         if let Some(table) = &table.jerk {
             let band = table.get_ref();
