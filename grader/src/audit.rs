@@ -4,6 +4,8 @@
 //! An [`Audit`] collects rows. A lab that can be had in several forms is audited form by form: each call takes the lab as it is
 //! there, and says in words which it is.
 
+mod variants;
+
 use kinemark_sim::source::Source;
 use serde::Serialize;
 
@@ -14,6 +16,8 @@ use crate::lab::model::{Lab, TaskWork};
 use crate::lab::staff::{Mutant, Staff};
 use crate::quantity::{metres, points, seconds};
 use crate::verdict::Verdict;
+
+pub use self::variants::{Room, Variants};
 
 /// The share of a lab's points that a starter may earn, for a warm-up that it solves.
 pub const MOST_STARTER_SHARE: f64 = 0.1;
@@ -33,6 +37,8 @@ pub struct Audit {
     pub max_points: f64,
     /// What was tried, in order.
     pub rows: Vec<Row>,
+    /// The room of the reference solution in every band, over the variants that were tried; empty where none were.
+    pub rooms: Vec<Room>,
 }
 
 /// What was tried.
@@ -90,6 +96,7 @@ impl Audit {
             lab: lab.name.clone(),
             max_points: lab.tasks.iter().map(|task| task.max_points()).sum(),
             rows: Vec::new(),
+            rooms: Vec::new(),
         }
     }
 

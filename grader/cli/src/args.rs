@@ -336,7 +336,7 @@ pub(crate) enum LabCommand {
 /// loses points and is named
 #[derive(Debug, ClapArgs)]
 #[command(
-    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n\n\
+    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  kinemark lab check 02-jacobian-velocity --variants 200\n\n\
     A starter may earn a tenth of the points; a lab has at least 6 known mistakes, each of which shows in 30 % of a function \
     task's cases. Everything runs in this process: check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
@@ -347,6 +347,9 @@ pub(crate) struct LabCheckArgs {
     /// Draws of hidden cases that the reference solution is tried on, besides the lab's own
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) salts: u32,
+    /// Students in whose variants the reference solution is tried, each with hidden cases and runs of their own
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub(crate) variants: u32,
     /// Print what was tried as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,17 +1,22 @@
 //! `kinemark lab check`: what is wrong with the grader of a lab, before a student meets it.
 
 use std::fmt::Write as _;
+use std::num::NonZero;
 use std::process::ExitCode;
+use std::thread::ScopedJoinHandle;
 
-use kinemark_grader::audit::{Audit, Row, Tried, depends_on_salt};
-use kinemark_grader::lab::{Files, Lab, Staff};
+use indicatif::ProgressBar;
+use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
+use kinemark_grader::lab::{Files, Lab, LoadError, Staff};
 use kinemark_grader::quantity::points;
+use kinemark_grader::submission::STACK_BYTES;
 use kinemark_sim::source::Source;
 use owo_colors::OwoColorize as _;
 
 use crate::args::{LabCheckArgs, StaffArgs};
+use crate::disk::Folder;
 use crate::failure::{Failure, LOST};
-use crate::{output, places};
+use crate::{interrupt, output, places};
 
 /// Audits the lab and prints what was tried.
 pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
@@ -68,6 +73,10 @@ pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
         let staff = staff(Some(&format!("lab check {draw}")))?;
         audit.reference(&lab, &staff, &format!("hidden cases of draw {draw}"));
     }
+    if !lab.variants.is_empty() && args.variants > 0 {
+        let salt = Staff::salt(&reference, &lab.name, None)?.unwrap_or_default();
+        audit.variants(variants(&lab, &reference, &salt, args.variants)?);
+    }
     audit.mutants(&lab, &own);
 
     if args.json {
@@ -79,6 +88,49 @@ pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(if bad { LOST } else { 0 }))
 }
 
+/// Tries the variants of so many students, on all cores: no variant knows of another.
+fn variants(lab: &Lab, reference: &Folder, salt: &str, students: u32) -> Result<Variants, Failure> {
+    let progress = ProgressBar::new(students.into());
+    let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let of_thread = |first: usize| {
+        let mut tried = Variants::default();
+        for student in (first..students as usize).step_by(threads) {
+            if interrupt::asked() {
+                break;
+            }
+            tried.student(lab, reference, salt, &format!("student {}", student + 1))?;
+            progress.inc(1);
+        }
+        Ok(tried)
+    };
+    let all: Vec<Result<Variants, LoadError>> = std::thread::scope(|scope| {
+        let start = |first| {
+            std::thread::Builder::new()
+                .stack_size(STACK_BYTES)
+                .spawn_scoped(scope, move || of_thread(first))
+        };
+        let started: Vec<_> = (0..threads).map(start).collect();
+        // a thread that cannot be had is made up for by this one, whose stack is as large
+        started
+            .into_iter()
+            .enumerate()
+            .map(|(first, thread)| match thread.map(ScopedJoinHandle::join) {
+                Ok(Ok(tried)) => tried,
+                _ => of_thread(first),
+            })
+            .collect()
+    });
+    progress.finish_and_clear();
+    if interrupt::asked() {
+        return Err(Failure::interrupted());
+    }
+    let mut joined = Variants::default();
+    for tried in all {
+        joined.join(tried?);
+    }
+    Ok(joined)
+}
+
 /// A line for everything tried, with what is wrong below it.
 fn text(audit: &Audit) -> String {
     let mut out = format!(
@@ -88,6 +140,17 @@ fn text(audit: &Audit) -> String {
     );
     for row in &audit.rows {
         push(&mut out, row);
+    }
+    if !audit.rooms.is_empty() {
+        let _ = writeln!(
+            out,
+            "\nroom of the reference in its bands over the variants (0 %: at the edge of full marks, 100 %: a band's width inside)"
+        );
+    }
+    for room in &audit.rooms {
+        let name = format!("{}: {}", room.task, room.check);
+        let (least, greatest) = (100.0 * room.least, 100.0 * room.greatest);
+        let _ = writeln!(out, "  {name:<42} {least:>7.1} % to {greatest:.1} %");
     }
     let problems = audit.problems().count();
     let told = match problems {

@@ -1,0 +1,172 @@
+//! The reference solution in the variants of many students: it has full marks in every one, and some room in every band.
+
+use kinemark_sim::robot::Dimension;
+use serde::Serialize;
+
+use super::{Audit, Tried, graded, loss_of};
+use crate::grade::{Grade, Measure};
+use crate::lab::model::Lab;
+use crate::lab::staff::Staff;
+use crate::lab::{Files, LoadError};
+use crate::verdict::Verdict;
+
+/// What came of the variants of some students.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Variants {
+    students: u32,
+    /// Students in whose variant the reference solution lost points, and which.
+    lost: Vec<(String, String)>,
+    rooms: Vec<Room>,
+}
+
+/// How far inside a check's band the reference solution stays, over the variants that were tried: what makes one as hard as another.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Room {
+    /// The task.
+    pub task: String,
+    /// The check.
+    pub check: String,
+    /// The least distance of its value from the value that earns all points, on the good side, as a fraction of the band's width;
+    /// negative where points were lost.
+    pub least: f64,
+    /// The greatest such distance.
+    pub greatest: f64,
+}
+
+/// The room that a measure leaves; none where it has no value, or its band no width.
+fn room_of(measure: &Measure) -> Option<f64> {
+    let value = measure.value?;
+    let room = (measure.full - value) / (measure.zero - measure.full);
+    room.is_finite().then_some(room)
+}
+
+impl Variants {
+    /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs.
+    ///
+    /// # Errors
+    /// [`LoadError`] if that variant is no lab.
+    pub fn student(
+        &mut self,
+        lab: &Lab,
+        reference: &dyn Files,
+        salt: &str,
+        student: &str,
+    ) -> Result<(), LoadError> {
+        let variant = lab.variant_of(salt, student)?;
+        let numbers = variant.parameters();
+        let numbers: Vec<(String, Dimension)> = numbers
+            .map(|(name, value)| (name.to_owned(), value.clone()))
+            .collect();
+        let lab = lab.with_parameters(&numbers)?;
+        let Some(staff) = Staff::load(reference, &lab, Some(salt))? else {
+            return Ok(());
+        };
+        let Some(run) = graded(&lab, &staff, &staff.solution) else {
+            return Ok(());
+        };
+        self.students += 1;
+        let tasks = &run.grade.tasks;
+        if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
+            let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
+            self.lost.push((student.to_owned(), what));
+        }
+        self.measure(&run.grade);
+        Ok(())
+    }
+
+    fn measure(&mut self, grade: &Grade) {
+        for task in &grade.tasks {
+            for check in &task.checks {
+                if let Some(room) = check.measure.as_ref().and_then(room_of) {
+                    self.widen(Room {
+                        task: task.name.clone(),
+                        check: check.name.clone(),
+                        least: room,
+                        greatest: room,
+                    });
+                }
+            }
+        }
+    }
+
+    fn widen(&mut self, room: Room) {
+        let known = self.rooms.iter_mut();
+        let mut same = known.filter(|known| known.task == room.task && known.check == room.check);
+        match same.next() {
+            Some(known) => {
+                known.least = known.least.min(room.least);
+                known.greatest = known.greatest.max(room.greatest);
+            }
+            None => self.rooms.push(room),
+        }
+    }
+
+    /// These with those of other students.
+    pub fn join(&mut self, other: Self) {
+        self.students += other.students;
+        self.lost.extend(other.lost);
+        for room in other.rooms {
+            self.widen(room);
+        }
+    }
+}
+
+impl Audit {
+    /// Notes what came of the variants.
+    pub fn variants(&mut self, mut tried: Variants) {
+        tried.lost.sort();
+        let problem = tried.lost.first().map(|(student, what)| {
+            let count = tried.lost.len();
+            let what = format!("in {count} of them, such as that of `{student}`: {what}");
+            (
+                what,
+                "narrow [variants], widen the band, or mend the solution",
+            )
+        });
+        let form = format!("{} variants", tried.students);
+        self.add((Tried::Reference, &form), None, None, problem);
+        self.rooms = tried.rooms;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measure(value: f64, full: f64, zero: f64) -> Measure {
+        Measure {
+            quantity: String::new(),
+            value: Some(value),
+            unit: String::new(),
+            full,
+            zero,
+        }
+    }
+
+    #[test]
+    fn room_counts_from_full_in_widths_of_the_band_whichever_way_is_better() {
+        assert_eq!(room_of(&measure(1.0, 2.0, 4.0)), Some(0.5));
+        assert_eq!(room_of(&measure(3.0, 2.0, 4.0)), Some(-0.5));
+        assert_eq!(room_of(&measure(1.0, 0.75, 0.5)), Some(1.0));
+        assert_eq!(room_of(&measure(1.0, 2.0, 2.0)), None);
+    }
+
+    #[test]
+    fn students_that_were_tried_apart_are_joined() {
+        let room = |least, greatest| Room {
+            task: "line".to_owned(),
+            check: "speed".to_owned(),
+            least,
+            greatest,
+        };
+        let some = |student: &str, rooms| Variants {
+            students: 2,
+            lost: vec![(student.to_owned(), "a point".to_owned())],
+            rooms,
+        };
+        let mut all = some("s4", vec![room(0.2, 0.3)]);
+        all.join(some("s1", vec![room(0.1, 0.25)]));
+        assert_eq!(all.students, 4);
+        assert_eq!(all.rooms, [room(0.1, 0.3)]);
+    }
+}
