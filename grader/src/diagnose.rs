@@ -143,19 +143,24 @@ pub fn motion_task<'m>(
             continue;
         }
         let (mut agreeing, mut telling) = (0, 0);
+        let mut right_elsewhere = true;
         for ((goal, student), mutant) in motion.goals.iter().zip(&settled).zip(&places) {
             let stands_still =
                 trace.is_empty() || (mutant - trace.tcp_position(0)).norm() < still_m;
             if !stands_still && (mutant - goal.position_m).norm() > band.full {
                 telling += 1;
                 agreeing += usize::from((student - mutant).norm() <= same_m);
+            } else {
+                right_elsewhere &= band.score((student - goal.position_m).norm()) > 0.0;
             }
         }
-        candidates.push(Agreement {
-            mutant,
-            agreeing,
-            telling,
-        });
+        if right_elsewhere {
+            candidates.push(Agreement {
+                mutant,
+                agreeing,
+                telling,
+            });
+        }
     }
     clear(candidates)
 }

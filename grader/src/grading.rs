@@ -281,6 +281,8 @@ impl Grader<'_> {
                     // the words of the submission could tell the numbers of a hidden case
                     record.message = "the submission failed in a hidden case".to_owned();
                     record.help = None;
+                    // nor may the line that fails: a ladder of comparisons would count a number out
+                    (record.line, record.column, record.source_line) = (None, None, None);
                 }
             }
             stopped_record = Some(record);
@@ -504,7 +506,7 @@ impl Grader<'_> {
         } else {
             Vec::new()
         };
-        let mut checks = without_hints(checks, !diagnoses.is_empty());
+        let explained = !diagnoses.is_empty();
         let digest = trace.digest();
         let mut all_digest = digest.all;
         let mut hidden = Vec::new();
@@ -526,6 +528,7 @@ impl Grader<'_> {
                 stopped_record = Some(record);
             }
         }
+        let checks = without_hints(checks, explained);
         let grade = TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
@@ -727,7 +730,7 @@ pub(crate) fn judged(
                 grade.measure = finding.measure;
                 if grade.outcome != Outcome::Full {
                     grade.evidence = finding.evidence;
-                    let hint = check.hint.clone();
+                    let hint = check.hint.clone().filter(|_| !finding.insists);
                     grade.next_step = Some(hint.unwrap_or(finding.next_step));
                 }
                 curve = finding.curve;

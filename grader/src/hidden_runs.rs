@@ -25,6 +25,8 @@ struct Seen {
     class: String,
     /// The share of points of each check.
     scores: Vec<f64>,
+    /// For each check, whether it was judged: a check that needs another one may not have been.
+    judged: Vec<bool>,
     digest: blake3::Hash,
     stopped: Option<(Verdict, Stopped)>,
 }
@@ -88,7 +90,15 @@ impl HiddenRuns {
             let hidden: f64 = self.runs.iter().map(score).sum();
             let mean = (grade.points / grade.max_points + hidden) / (self.runs.len() + 1) as f64;
             grade.points = grade.max_points * mean;
-            let evidence = self.evidence(|run| score(run) < 1.0);
+            let judged = |run: &Seen| run.judged.get(i).copied().unwrap_or(false);
+            let was_full = grade.outcome == Outcome::Full;
+            let needs_failed = |run: &Seen| run.stopped.is_none() && !judged(run);
+            let mut evidence = self.evidence(
+                |run| score(run) < 1.0 && !needs_failed(run),
+                "points are lost",
+            );
+            let all_needs = evidence.is_empty();
+            evidence.extend(self.evidence(needs_failed, "a check that this one needs earns nothing"));
             if evidence.is_empty() {
                 // it was full in every hidden run; what the visible one lost is said already
                 if grade.outcome != Outcome::Full && mean > 0.0 {
@@ -104,15 +114,20 @@ impl HiddenRuns {
                 Outcome::None
             };
             grade.evidence.extend(evidence);
-            if grade.next_step.is_none() {
-                let hint = check.hint.clone();
-                grade.next_step = Some(hint.unwrap_or_else(|| NEXT_STEP.to_owned()));
+            if grade.next_step.is_none() && was_full {
+                let needed = check.needs.iter().map(|&need| checks[need].title.as_str());
+                grade.next_step = Some(if all_needs {
+                    let needed: Vec<&str> = needed.collect();
+                    format!("First see to \"{}\" there.", needed.join("\" and \""))
+                } else {
+                    NEXT_STEP.to_owned()
+                });
             }
         }
     }
 
     /// One sentence per class with a run in which `lost`: how many, and never which numbers.
-    fn evidence(&self, lost: impl Fn(&Seen) -> bool) -> Vec<Evidence> {
+    fn evidence(&self, lost: impl Fn(&Seen) -> bool, what: &str) -> Vec<Evidence> {
         let told = self
             .classes()
             .into_iter()
@@ -121,7 +136,7 @@ impl HiddenRuns {
                 let lost = of_class.filter(|run| lost(run)).count();
                 (lost > 0).then(|| Evidence {
                     message: format!(
-                        "in {lost} of {total} hidden runs of the class \"{class}\" points are lost"
+                        "in {lost} of {total} hidden runs of the class \"{class}\" {what}"
                     ),
                     signal: "control".to_owned(),
                     tick: None,
@@ -164,6 +179,28 @@ impl HiddenRuns {
 
 const NEXT_STEP: &str = "The task is run with other numbers too: take lengths from `robot` and places from `observation` instead of writing them down.";
 
+/// Steps in which a hidden score is told: finer ones could carry a hidden number out in the points.
+const HIDDEN_STEPS: f64 = 20.0;
+
+/// A score as it is told of a hidden run: never more than it was, and full only where it was full.
+fn told_score(score: f64) -> f64 {
+    (score * HIDDEN_STEPS).floor() / HIDDEN_STEPS
+}
+
+/// A stop without a place: which line fails can tell a hidden number.
+fn nowhere(message: &str) -> Stopped {
+    Stopped {
+        message: message.to_owned(),
+        help: None,
+        line: None,
+        column: None,
+        source_line: None,
+        tick: None,
+        time_s: None,
+        case: None,
+    }
+}
+
 /// One run; `None` if the lab of the run has not the task, which loading has ruled out.
 fn one(
     run: &HiddenRun,
@@ -187,9 +224,10 @@ fn one(
             let mut record = stopped::record(stop, submission.text());
             if stopped::is_of_one_call(stop) {
                 // the words of the submission could tell the numbers of a hidden run
-                record.message = "the submission failed in a hidden run".to_owned();
-                record.help = None;
-                record.case = Some(run.class.clone());
+                record = Stopped {
+                    case: Some(run.class.clone()),
+                    ..nowhere("the submission failed in a hidden run")
+                };
             }
             Some((verdict, record))
         }
@@ -205,14 +243,8 @@ fn one(
                 ),
             };
             let record = Stopped {
-                message: message.to_owned(),
-                help: None,
-                line: None,
-                column: None,
-                source_line: None,
-                tick: None,
-                time_s: None,
                 case: Some(run.class.clone()),
+                ..nowhere(message)
             };
             Some((verdict, record))
         }
@@ -246,10 +278,14 @@ fn one(
     });
     let scores = judged
         .iter()
-        .map(|(check, _)| check.points / check.max_points);
+        .map(|(check, _)| told_score(check.points / check.max_points));
+    let judged_ones = judged
+        .iter()
+        .map(|(check, _)| check.outcome != Outcome::NotJudged);
     Ok(Some(Seen {
         class: run.class.clone(),
         scores: scores.collect(),
+        judged: judged_ones.collect(),
         digest: trace.digest().all,
         stopped,
     }))

@@ -37,9 +37,11 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// Points: whole where whole, else two decimals without trailing zeros.
+/// Points: whole where whole, else two decimals without trailing zeros, cut off rather than rounded: what is not full does not look
+/// full.
 pub fn points(value: f64) -> String {
-    trimmed(value, 2)
+    // a sum of hundredths is off by its rounding
+    trimmed((value * 100.0 + 1e-6).floor() / 100.0, 2)
 }
 
 /// A number with at most `decimals` decimals and no trailing zeros; never `-0`.

@@ -20,6 +20,7 @@ mod grants;
 mod hostile;
 mod jacobian_task;
 mod lab_audit;
+mod lab_truths;
 mod mesh_labs;
 mod path_checks;
 mod robot_docs;

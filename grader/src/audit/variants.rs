@@ -37,7 +37,8 @@ pub struct Room {
 fn room_of(measure: &Measure) -> Option<f64> {
     let value = measure.value?;
     let room = (measure.full - value) / (measure.zero - measure.full);
-    room.is_finite().then_some(room)
+    // without the sign of a zero
+    room.is_finite().then_some(room + 0.0)
 }
 
 impl Variants {

@@ -127,6 +127,7 @@ pub fn judge(facts: &MotionFacts<'_>, fall: &Fall) -> Finding {
         format!(" over the {} side", side.name())
     });
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("how far `{name}` got towards falling{side}"),

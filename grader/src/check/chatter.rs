@@ -98,6 +98,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         *value = count / run_s;
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("reversals of the effort of joint `{name}` per second"),

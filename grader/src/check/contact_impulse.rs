@@ -81,6 +81,7 @@ pub fn judge(
     }
     let [a, b] = between.map(|party| party.told(&facts.names));
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("impulse between {a} and {b}"),

@@ -37,6 +37,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("greatest effort of joint `{name}`"),

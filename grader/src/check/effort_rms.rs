@@ -44,6 +44,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("root mean square effort of joint `{name}`"),

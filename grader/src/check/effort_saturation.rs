@@ -62,6 +62,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "time with an effort at its limit".to_owned(),

@@ -46,6 +46,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "work of the motors".to_owned(),

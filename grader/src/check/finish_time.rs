@@ -40,6 +40,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, pose: Band) -> Finding {
         evidence.push(facts.evidence(message, "tcp".to_owned(), last));
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "end of the last dwell".to_owned(),

@@ -42,6 +42,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Findin
     }
     let all: Vec<&CaseFacts<'_>> = cases.iter().collect();
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "mean position error".to_owned(),

@@ -63,6 +63,7 @@ pub fn judge(
     };
     let all: Vec<&CaseFacts<'_>> = cases.iter().collect();
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: match entry {

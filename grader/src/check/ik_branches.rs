@@ -60,6 +60,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Findin
         sum / judged.len() as f64
     };
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "targets with every branch".to_owned(),

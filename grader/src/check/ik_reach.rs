@@ -45,6 +45,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Findin
         sum / reachable.len() as f64
     };
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "targets reached".to_owned(),

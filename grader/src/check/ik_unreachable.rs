@@ -43,6 +43,7 @@ pub fn judge(cases: &[CaseFacts<'_>], function: &Function) -> Finding {
         (piece.value, piece.limit) = (None, None);
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "targets out of reach that are told so".to_owned(),

@@ -38,6 +38,7 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Findin
     }
     let all: Vec<&CaseFacts<'_>> = cases.iter().collect();
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "mean relative error of the Jacobian".to_owned(),

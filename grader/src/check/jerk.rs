@@ -50,6 +50,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "root mean square jerk of the TCP".to_owned(),

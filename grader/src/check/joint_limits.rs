@@ -43,6 +43,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "way beyond a joint's limits (negative inside)".to_owned(),

@@ -31,7 +31,8 @@ pub fn judge(
     if score < 1.0 {
         let at_end = trace.q.at(last)[joint];
         let started = trace.q.at(0)[joint];
-        let message = if (at_end - started).abs() < 1e-3 {
+        let is_to_move = (position - started).abs() > 1e-3;
+        let message = if is_to_move && (at_end - started).abs() < 1e-3 {
             format!(
                 "joint `{name}` did not move: it stands at {} rad, {} rad was asked for",
                 trimmed(at_end, 4),
@@ -54,6 +55,7 @@ pub fn judge(
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!(

@@ -50,6 +50,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "greatest speed of a joint".to_owned(),

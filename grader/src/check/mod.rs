@@ -58,8 +58,10 @@ pub struct Finding {
     pub measure: Option<Measure>,
     /// Why points were lost, worst first.
     pub evidence: Vec<Evidence>,
-    /// The next step where points were lost; the lab's own hint comes before it.
+    /// The next step where points were lost; the lab's own hint comes before it, unless this one `insists`.
     pub next_step: String,
+    /// Whether what was seen makes the lab's hint beside the point, such as a joint that never comes to rest.
+    pub insists: bool,
     /// The curve it judged.
     pub curve: Option<Curve>,
 }

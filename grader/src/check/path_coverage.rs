@@ -60,6 +60,7 @@ pub fn judge(
     evidence.sort_by(|a, b| share(a).total_cmp(&share(b)));
     evidence.truncate(3);
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("share of the path passed within {}", metres(within_m)),

@@ -41,6 +41,7 @@ pub fn judge(
         ..told(facts, path, *i, segment)
     });
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("distance from the path, {}", which(only)),

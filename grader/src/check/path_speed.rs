@@ -136,6 +136,7 @@ pub fn judge(
         }
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("error of the speed along the path, {}", which(only)),

@@ -59,6 +59,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
     });
     let worst_of_all = (0..goals.len()).map(settled).fold(0.0, f64::max);
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "greatest distance from a goal while it is held".to_owned(),

@@ -60,9 +60,11 @@ pub fn judge(
     }
     let mut evidence: Vec<Evidence> = Vec::new();
     let mut next_step = "Make it faster: more proportional gain, or less damping.".to_owned();
+    let mut insists = false;
     if let Some(fault) = fault {
         evidence.push(fault.evidence);
         next_step = fault.next_step;
+        insists = true;
     } else if score < 1.0 {
         let mut message = format!(
             "{} takes {} from {} to {} of its step, from {} to {}",
@@ -91,6 +93,7 @@ pub fn judge(
         });
     }
     Finding {
+        insists,
         score,
         measure: Some(Measure {
             quantity: format!(

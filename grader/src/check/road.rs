@@ -8,9 +8,10 @@
 //! **Progress** along a segment is the greatest projection of the TCP onto it so far, `m[k] = max(m[k-1], u[k])`: it never goes back.
 //! **Aside** is the distance of the TCP from the point at its progress: across the segment, and back along it.
 //!
-//! **Deviation** is taken along the road, so that neither haste nor waiting changes it: over the length `l = L - 2 trim` that counts,
-//! `rms² = (Σ aside[k]² |p[k] - p[k-1]| + ∫ |P(s) - p|² ds) / l`. The sum leaves out ticks within `trim` of either end of the segment;
-//! the integral is over what progress left out of `[trim, L - trim]`, from the TCP where the segment was begun or left.
+//! **Deviation** is taken along the road, so that neither haste nor waiting changes it:
+//! `rms² = (Σ aside[k]² |p[k] - p[k-1]| + ∫ |P(s) - p|² ds) / (Σ |p[k] - p[k-1]| + ∫ ds)`. The sums leave out ticks within `trim` of
+//! either end of the segment; the integrals are over what progress left out of `[trim, L - trim]`, from the TCP where the segment was
+//! begun or left.
 
 use nalgebra::Vector3;
 
@@ -144,7 +145,7 @@ fn segment(
     let along = (to - from) / whole_m;
     let (low, high) = (trim_m, whole_m - trim_m);
     let mut progress_m: f64 = 0.0;
-    let mut sum = 0.0;
+    let (mut sum, mut road_m) = (0.0, 0.0);
     let mut places: Vec<Place> = Vec::with_capacity(p_tcp_m.len());
     for (k, p) in p_tcp_m.iter().enumerate() {
         let u = (p - from).dot(&along).clamp(0.0, whole_m);
@@ -152,7 +153,9 @@ fn segment(
         let aside_m = (p - (from + along * progress_m)).norm();
         let counts = (p - from).norm() > trim_m && (p - to).norm() > trim_m;
         if counts && k > 0 {
-            sum += aside_m * aside_m * (p - p_tcp_m[k - 1]).norm();
+            let gone_m = (p - p_tcp_m[k - 1]).norm();
+            sum += aside_m * aside_m * gone_m;
+            road_m += gone_m;
         }
         places.push(Place {
             tick: first_tick + k,
@@ -173,10 +176,10 @@ fn segment(
             sum += squares(&(p - from), &along, a, b);
         }
     }
-    let length_m = high - low;
     Driven {
-        length_m,
-        rms_m: (sum / length_m).sqrt(),
+        length_m: high - low,
+        // a segment is longer than what is cut off its ends, so it was driven or left out
+        rms_m: (sum / (road_m + left_out_m)).sqrt(),
         left_out_m,
         places,
     }

@@ -51,6 +51,7 @@ pub fn judge(
         Some(told(rung, repeated, facts.get(i)?, scores[i], &time_s))
     });
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("\"{repeated}\" under disturbances, mean of {} rungs", scores.len()),
@@ -142,6 +143,7 @@ mod tests {
 
     fn scored(score: f64) -> RungFacts {
         let finding = Finding {
+            insists: false,
             score,
             measure: None,
             evidence: Vec::new(),

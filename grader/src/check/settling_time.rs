@@ -52,9 +52,11 @@ pub fn judge(
     let mut next_step =
         "Look at the curve: if it swings, add damping; if it creeps, add proportional gain."
             .to_owned();
+    let mut insists = false;
     if let Some(fault) = fault {
         evidence.push(fault.evidence);
         next_step = fault.next_step;
+        insists = true;
     } else if score < 1.0 {
         let mut message = format!(
             "{} stays within {share} of its step from {} on",
@@ -85,6 +87,7 @@ pub fn judge(
     let edges = (response.end - tolerance, response.end + tolerance, told);
     let drawn = response.end.is_finite().then_some(edges);
     Finding {
+        insists,
         score,
         measure: Some(Measure {
             quantity: format!(

@@ -65,7 +65,9 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
             return Vec::new();
         };
         let first = last - goal.dwell_ticks as usize;
-        let (later, settled_m) = settled(&worsts[i][last..], band);
+        // what comes after the next goal's stay has begun is no part of this one
+        let until = limit.unwrap_or(last);
+        let (later, settled_m) = settled(&worsts[i][last..=until], band);
         stays.push(Stay {
             first,
             last,

@@ -2,7 +2,7 @@
 //!
 //! Measured is the distance of the mean over the last `last_s` (0.5 s where the lab does not say) from the target. A joint that
 //! hardly moved, or that in this time goes further from the mean than 5 % of the way to the target or than the band's
-//! `zero`, whichever is more, is at no rest and earns nothing.
+//! `full`, whichever is more, is at no rest and earns nothing.
 //!
 //! The evidence says what the error is for: the effort that gravity takes where the joint stands, and the error at which a
 //! proportional gain gives it.
@@ -20,6 +20,10 @@ use crate::quantity::trimmed;
 
 /// Efforts below this are no reason for an error \[N m or N\].
 const LEAST_EFFORT: f64 = 1e-6;
+/// Gravity is the reason where the motor gives what it takes, but for this share.
+const SAME_EFFORT: f64 = 0.1;
+/// An error that shrinks by more than this share while it is judged is not at rest.
+const STILL_NEARING: f64 = 0.1;
 
 /// A number with three digits that count, however small.
 fn number(value: f64) -> String {
@@ -92,13 +96,32 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
     };
     let (words, help) = match asked.of {
         Fed::Position => {
+            let way = response.values[last] - response.values[response.final_tick];
+            let nearer = (target - response.values[response.final_tick]).abs()
+                - (target - response.values[last]).abs();
+            if nearer > STILL_NEARING * error.abs() && way.abs() > 0.0 {
+                let from = response.told(response.values[response.final_tick] - target);
+                let to = response.told(response.values[last] - target);
+                return Some((
+                    format!("it is still on its way, from {from} beside to {to} in this time"),
+                    "What takes the error away works, and is too slow: a stronger integral, or less for it to do.".to_owned(),
+                ));
+            }
             // what holds a robot with loops is shared among its joints
             if motion.servo.gravity_compensation || !facts.robot.loops().is_empty() {
                 return None;
             }
             let q = facts.robot.positions(trace.q.at(last)).ok()?;
             let gravity = gravity_effort(facts.robot, &motion.gravity_m_s2, &q).as_slice()[joint];
-            if gravity.abs() < LEAST_EFFORT {
+            let limit = gains.effort_limit;
+            if given.abs() >= 0.99 * limit {
+                return Some((
+                    format!("the motor is at its limit of {} N m", number(limit)),
+                    "Ask for less: the motor must have some effort left to correct with.".to_owned(),
+                ));
+            }
+            // another torque at work, such as a push of the other joints, would make gravity a wrong reason
+            if gravity.abs() < LEAST_EFFORT || (given - gravity).abs() > SAME_EFFORT * gravity.abs() {
                 return None;
             }
             proportional(
@@ -131,7 +154,7 @@ pub fn judge(
     let way = (target - response.start).abs();
     // a joint that begins at its target is there to be held
     let stayed = if way > 1e-6 { response.stayed() } else { None };
-    let tolerance = (SETTLED * way).max(band.zero);
+    let tolerance = (SETTLED * way).max(band.full);
     let fault = stayed.or_else(|| response.unsettled(tolerance));
     let value = match fault {
         Some(_) => f64::INFINITY,
@@ -141,9 +164,11 @@ pub fn judge(
     let last = response.values.len().saturating_sub(1);
     let mut evidence: Vec<Evidence> = Vec::new();
     let mut next_step = "Add integral action.".to_owned();
+    let mut insists = false;
     if let Some(fault) = fault {
         evidence.push(fault.evidence);
         next_step = fault.next_step;
+        insists = true;
     } else if score < 1.0 {
         let mut message = format!(
             "{} settles at {}, {} from {}",
@@ -166,6 +191,7 @@ pub fn judge(
     let told = format!("within {} {}", number(band.full), asked.unit());
     let edges = (target - band.full, target + band.full, told);
     Finding {
+        insists,
         score,
         measure: Some(Measure {
             quantity: format!(

@@ -28,9 +28,11 @@ pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &
     let score = band.score(value);
     let mut evidence = Vec::new();
     let mut next_step = "Add damping, or ask for the step less suddenly.".to_owned();
+    let mut insists = false;
     if let Some(fault) = fault {
         evidence.push(fault.evidence);
         next_step = fault.next_step;
+        insists = true;
     } else if score < 1.0 {
         let mut message = format!(
             "{} goes to {} at {}, {} of its step past the final value of {}",
@@ -60,6 +62,7 @@ pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &
     let edges = (response.end.min(edge), response.end.max(edge), told);
     let drawn = (response.end.is_finite() && band.full > 0.0).then_some(edges);
     Finding {
+        insists,
         score,
         measure: Some(Measure {
             quantity: format!("overshoot of {}", response.what()),

@@ -96,6 +96,7 @@ pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> F
         _ => Vec::new(),
     };
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity,

@@ -128,6 +128,7 @@ pub fn judge(facts: &MotionFacts<'_>, until: &Until, band: Band) -> Finding {
         None => evidence.push(facts.evidence(never, signal, never_tick)),
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: format!("time until {what}"),

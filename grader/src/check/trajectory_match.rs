@@ -2,7 +2,7 @@
 //!
 //! Over `dwells`, each of the best stays is compared with the reference's stay at the same goal: between goals every road is
 //! right, so only what the task fixes counts. Over the `run`, all of it is compared. Joint motion is never compared: other
-//! branches are as good.
+//! branches are as good. A variant has numbers of its own and no path; where its reference dwells is at the goals.
 
 use nalgebra::Vector3;
 
@@ -19,10 +19,13 @@ pub fn judge(
     max_shift_ticks: u64,
     band: Band,
 ) -> Finding {
-    let matched = facts.reference.and_then(|reference| match span {
-        MatchSpan::Dwells => dwells(facts, reference),
-        MatchSpan::Run => run(facts, reference, max_shift_ticks),
-    });
+    let matched = match (span, facts.reference) {
+        (MatchSpan::Dwells, Some(reference)) => dwells(facts, reference),
+        (MatchSpan::Dwells, None) => dwells_at_goals(facts),
+        (MatchSpan::Run, reference) => {
+            reference.and_then(|reference| run(facts, reference, max_shift_ticks))
+        }
+    };
     let value = matched
         .as_ref()
         .map_or(f64::INFINITY, |matched| matched.rms_m);
@@ -46,6 +49,7 @@ pub fn judge(
         });
     }
     Finding {
+        insists: false,
         score,
         measure: Some(Measure {
             quantity: "distance from the reference's path".to_owned(),
@@ -103,15 +107,37 @@ fn dwells(facts: &MotionFacts<'_>, reference: &TcpPath) -> Option<Matched> {
                 (tick, gap.norm())
             })
         });
-        let matched = summary(distances, format!(" during the dwell at goal {}", i + 1))?;
-        if worst
-            .as_ref()
-            .is_none_or(|worst| matched.rms_m > worst.rms_m)
-        {
-            worst = Some(matched);
-        }
+        let matched = summary(distances, at_goal(i))?;
+        worst = Some(worse(worst, matched));
     }
     worst
+}
+
+/// Compares the stays with standing at the goals; the worst goal counts.
+fn dwells_at_goals(facts: &MotionFacts<'_>) -> Option<Matched> {
+    let goals = facts.motion.goals.iter();
+    let mut worst: Option<Matched> = None;
+    for (i, (stay, goal)) in facts.stays.iter().zip(goals).enumerate() {
+        let distances = (stay.first..=stay.last).map(|tick| {
+            let gap = facts.trace.tcp_position(tick) - goal.position_m;
+            (tick, gap.norm())
+        });
+        let matched = summary(distances, at_goal(i))?;
+        worst = Some(worse(worst, matched));
+    }
+    worst
+}
+
+fn at_goal(index: usize) -> String {
+    format!(" during the dwell at goal {}", index + 1)
+}
+
+/// The worse of the two; of equal ones the first.
+fn worse(known: Option<Matched>, found: Matched) -> Matched {
+    match known {
+        Some(known) if known.rms_m >= found.rms_m => known,
+        _ => found,
+    }
 }
 
 /// Where the reference dwells: for each goal in order, the earliest window that stays nearest to it.

@@ -25,7 +25,7 @@ use super::file::{
 };
 use super::files::Files;
 use super::model::{
-    Case, Check, CheckKind, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task,
+    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task,
     TaskWork,
 };
 use super::parameters::{self, refused};
@@ -315,10 +315,10 @@ fn of_dimensions(
     Ok(robot_file)
 }
 
-/// The first check that compares with `reference-path.json`.
+/// The first check that compares the whole run with `reference-path.json`.
 fn one_path(tasks: &[Task]) -> Option<&str> {
     let mut checks = tasks.iter().flat_map(|task| &task.checks);
-    let found = checks.find(|check| matches!(check.kind, CheckKind::TrajectoryMatch { .. }))?;
+    let found = checks.find(|check| check.kind.follows_one_path())?;
     Some(&found.name)
 }
 

@@ -476,6 +476,12 @@ impl CheckKind {
         }
     }
 
+    /// Whether it compares a whole run with the one of the lab's own numbers.
+    pub(super) fn follows_one_path(&self) -> bool {
+        let run = MatchSpan::Run;
+        matches!(self, Self::TrajectoryMatch { span, .. } if *span == run)
+    }
+
     /// Its band with the unit of its values, where it has one.
     pub fn band(&self) -> Option<(Band, &'static str)> {
         match self {

@@ -8,7 +8,7 @@ use super::draw::{Draw, Drawn, parameters};
 use super::file::{DrawTable, HiddenRunsTable, HiddenTable, MutantsTable, Ranges};
 use super::files::Files;
 use super::load::{Reporter, read, tables};
-use super::model::{Case, CheckKind, Function, FunctionTask, Given, Lab, TaskWork};
+use super::model::{Case, Function, FunctionTask, Given, Lab, TaskWork};
 use super::problem::{LabError, LoadError};
 
 /// The staff's part of a lab.
@@ -249,7 +249,7 @@ fn hidden_runs(
         .find(|task| task.name == *table.task.get_ref());
     let mut checks = task.into_iter().flat_map(|task| &task.checks);
     if let Some(check) =
-        checks.find(|check| matches!(check.kind, CheckKind::TrajectoryMatch { .. }))
+        checks.find(|check| check.kind.follows_one_path())
     {
         return refuse(
             format!(

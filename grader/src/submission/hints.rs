@@ -24,6 +24,8 @@ pub(super) struct Names {
     pub(super) robot: BTreeSet<String>,
     /// Parameters that stand for the observation, whatever the file calls them.
     pub(super) observation_parameters: BTreeSet<String>,
+    /// Keys of `observation.target`, where it is a map.
+    pub(super) target: BTreeSet<String>,
     /// Parameters that stand for the robot.
     pub(super) robot_parameters: BTreeSet<String>,
     /// Keys of what a function of the lab's own is given.
@@ -151,6 +153,7 @@ impl Names {
             Some(name) if name == "observation" || self.observation_parameters.contains(name) => {
                 &self.observation
             }
+            Some("target") if !self.target.is_empty() => &self.target,
             Some(name) if self.given_parameters.contains(name) => &self.given,
             Some(name) if name == "robot" || self.robot_parameters.contains(name) => &self.robot,
             _ => {

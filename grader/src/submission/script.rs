@@ -110,6 +110,9 @@ impl ScriptController {
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
         names.observation = observation.keys().map(ToString::to_string).collect();
+        if let Value::Map(entries) = &opening.target {
+            names.target = entries.iter().map(|(key, _)| key.clone()).collect();
+        }
         names.robot = robot
             .map
             .as_map_ref()

@@ -108,7 +108,15 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
     )];
     lines[0].width = 2.0;
     if of.is_commanded(run) {
-        lines.insert(0, command(run, i));
+        let mut command = command(run, i);
+        if of == Of::Efforts {
+            let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
+            if let Some(greatest) = cut(&mut command, 1.5 * limit) {
+                let told = joined(&significant(greatest, 3), unit);
+                heading.push_str(&format!(" \u{2013} commands up to ±{told} are cut off"));
+            }
+        }
+        lines.insert(0, command);
     }
     let reach = extent(values(&lines)).unwrap_or((0.0, 0.0));
     let mut levels: Vec<f64> = match of {
@@ -206,6 +214,23 @@ fn column(run: &TaskRun, signal: &Signal, joint: usize) -> Vec<(f64, f64)> {
         .enumerate()
         .map(|(tick, value)| (time_s(run, tick as u64), value))
         .collect()
+}
+
+/// Cuts values off at a size, so that a few great ones do not flatten the rest; the greatest size there was, if one was cut.
+fn cut(line: &mut Line, most: f64) -> Option<f64> {
+    let sizes = line.points.iter().map(|(_, value)| value.abs());
+    let greatest = sizes
+        .filter(|size| size.is_finite())
+        .fold(0.0, f64::max);
+    if greatest <= most {
+        return None;
+    }
+    for (_, value) in &mut line.points {
+        if value.is_finite() {
+            *value = value.clamp(-most, most);
+        }
+    }
+    Some(greatest)
 }
 
 /// A command is held until the next one.

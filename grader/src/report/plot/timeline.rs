@@ -51,6 +51,8 @@ const RIGHT: f64 = WIDTH - 20.0;
 const MOST_POINTS: usize = 3600;
 /// Points of one line.
 const MOST_POINTS_OF_A_LINE: usize = 1400;
+/// A line of so few points takes no share of them.
+const SHORT_LINE: usize = 300;
 /// Marks that are numbered and told.
 const MOST_MARKS: usize = 6;
 
@@ -155,7 +157,9 @@ impl Timeline {
             let x = place.x(*t_s);
             canvas.line(&[(x, top), (x, bottom)], MUTED_DASHED, 1.0);
         }
-        let lines: usize = self.panels.iter().map(|panel| panel.lines.len()).sum();
+        let lines = self.panels.iter().flat_map(|panel| &panel.lines);
+        // short lines are not thinned
+        let lines = lines.filter(|line| line.points.len() > SHORT_LINE).count();
         let most = (MOST_POINTS / lines.max(1)).min(MOST_POINTS_OF_A_LINE);
         for line in &panel.lines {
             let width = ((RIGHT - LEFT) * UNITS) as i32;
