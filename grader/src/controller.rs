@@ -361,10 +361,6 @@ pub enum Budget {
     TextSize,
     /// Entries of one map.
     MapSize,
-    /// Lines printed in a task.
-    LogLines,
-    /// Values plotted in a task.
-    PlotSamples,
     /// Bytes of the submission.
     SourceBytes,
 }
@@ -380,8 +376,6 @@ impl Budget {
             Self::ListSize => "elements in one list",
             Self::TextSize => "characters in one text",
             Self::MapSize => "entries in one map",
-            Self::LogLines => "printed lines in one task",
-            Self::PlotSamples => "plotted values in one task",
             Self::SourceBytes => "bytes of source",
         }
     }
@@ -413,9 +407,9 @@ pub struct Budgets {
     pub text_size: u64,
     /// Entries of one map.
     pub map_size: u64,
-    /// Lines printed in a task.
+    /// Lines printed in a task that are kept.
     pub log_lines: u64,
-    /// Values plotted in a task.
+    /// Values plotted in a task that are kept.
     pub plot_samples: u64,
     /// Bytes of the submission.
     pub source_bytes: u64,

@@ -70,10 +70,11 @@ pub fn grade(
     submission: &Source,
     host: &mut dyn Host,
 ) -> Result<GradedRun, Interrupted> {
-    let grader = Grader {
+    let mut grader = Grader {
         lab,
         staff,
         submission,
+        right: Vec::new(),
     };
     let mut tasks = Vec::new();
     let mut runs = Vec::new();
@@ -86,6 +87,9 @@ pub fn grade(
                 (grade, Some(run))
             }
         };
+        if run.is_none() && grade.verdict == Verdict::Passed {
+            grader.right.push(task.name.clone());
+        }
         tasks.push(grade);
         runs.extend(run);
     }
@@ -203,6 +207,7 @@ pub fn answers(
         lab,
         staff: None,
         submission: solution,
+        right: Vec::new(),
     };
     let opening = grader.opening(task, solution);
     cases::answers(function, cases, &opening)
@@ -246,17 +251,23 @@ struct Grader<'a> {
     lab: &'a Lab,
     staff: Option<&'a Staff>,
     submission: &'a Source,
+    /// Function tasks so far whose every answer is right.
+    right: Vec<String>,
 }
 
 impl Grader<'_> {
     fn opening(&self, task: &Task, submission: &Source) -> Opening {
         opening(self.lab, task, submission)
     }
+
+    /// The known mistakes that a task may show: none that a function would show, too, which is right.
     fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
         let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
         let name = task.name.clone();
-        all.iter()
-            .filter(move |mutant| mutant.tasks.contains(&name))
+        all.iter().filter(move |mutant| {
+            let is_refuted = mutant.tasks.iter().any(|task| self.right.contains(task));
+            mutant.tasks.contains(&name) && !is_refuted
+        })
     }
 
     fn function(

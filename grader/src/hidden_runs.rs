@@ -98,7 +98,8 @@ impl HiddenRuns {
                 "points are lost",
             );
             let all_needs = evidence.is_empty();
-            evidence.extend(self.evidence(needs_failed, "a check that this one needs earns nothing"));
+            evidence
+                .extend(self.evidence(needs_failed, "a check that this one needs earns nothing"));
             if evidence.is_empty() {
                 // it was full in every hidden run; what the visible one lost is said already
                 if grade.outcome != Outcome::Full && mean > 0.0 {

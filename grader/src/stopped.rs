@@ -91,8 +91,6 @@ fn budget_help(budget: Budget) -> &'static str {
         Budget::ListSize | Budget::MapSize | Budget::TextSize => {
             "keep less: what is not needed at the next call need not be kept"
         }
-        Budget::LogLines => "print now and then, not at every call",
-        Budget::PlotSamples => "plot less often, or fewer signals",
         Budget::SourceBytes => "a submission is one short file: leave out what is not used",
     }
 }

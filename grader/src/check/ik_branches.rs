@@ -89,20 +89,20 @@ pub(crate) fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
     distinct.len()
 }
 
-/// Whether two answers are one configuration: angles equal but for whole circles, slides equal, to a thousandth.
+/// Whether two answers are one configuration: angles equal but for whole circles, slides equal, to a fiftieth and a thousandth.
 pub(crate) fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
-    let near = 1e-3; // far above rounding, far below the difference of two branches inside the boundary
+    // what moves the hand by less than a band is no other branch; two branches inside the boundary differ by far more
+    let (near_rad, near_m) = (0.02, 1e-3);
     robot
         .moving_joints()
         .zip(a.iter().zip(b))
         .all(|(joint, (a, b))| {
             let circle = 2.0 * std::f64::consts::PI;
-            let gap = if joint.kind.turns() {
+            if joint.kind.turns() {
                 let gap = (a - b).abs() % circle;
-                gap.min(circle - gap)
+                gap.min(circle - gap) <= near_rad
             } else {
-                (a - b).abs()
-            };
-            gap <= near
+                (a - b).abs() <= near_m
+            }
         })
 }

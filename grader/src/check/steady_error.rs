@@ -70,6 +70,20 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
             ));
         }
     }
+    let nearing = {
+        let then = response.values[response.final_tick] - target;
+        let now = response.values[last] - target;
+        then.abs() - now.abs() > STILL_NEARING * error.abs()
+    };
+    if nearing {
+        let [from, to] =
+            [response.final_tick, last].map(|tick| response.told(response.values[tick]));
+        return Some((
+            format!("it is still on its way, from {from} to {to} in this time"),
+            "What takes the error away works, and is too slow: a stronger integral, or less for it to do."
+                .to_owned(),
+        ));
+    }
     let proportional = |effort: f64, reason: String| {
         if is_servo && gains.kp > 0.0 {
             let needed = number((effort / gains.kp).abs());
@@ -96,17 +110,6 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
     };
     let (words, help) = match asked.of {
         Fed::Position => {
-            let way = response.values[last] - response.values[response.final_tick];
-            let nearer = (target - response.values[response.final_tick]).abs()
-                - (target - response.values[last]).abs();
-            if nearer > STILL_NEARING * error.abs() && way.abs() > 0.0 {
-                let from = response.told(response.values[response.final_tick] - target);
-                let to = response.told(response.values[last] - target);
-                return Some((
-                    format!("it is still on its way, from {from} beside to {to} in this time"),
-                    "What takes the error away works, and is too slow: a stronger integral, or less for it to do.".to_owned(),
-                ));
-            }
             // what holds a robot with loops is shared among its joints
             if motion.servo.gravity_compensation || !facts.robot.loops().is_empty() {
                 return None;
@@ -117,11 +120,13 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
             if given.abs() >= 0.99 * limit {
                 return Some((
                     format!("the motor is at its limit of {} N m", number(limit)),
-                    "Ask for less: the motor must have some effort left to correct with.".to_owned(),
+                    "Ask for less: the motor must have some effort left to correct with."
+                        .to_owned(),
                 ));
             }
             // another torque at work, such as a push of the other joints, would make gravity a wrong reason
-            if gravity.abs() < LEAST_EFFORT || (given - gravity).abs() > SAME_EFFORT * gravity.abs() {
+            if gravity.abs() < LEAST_EFFORT || (given - gravity).abs() > SAME_EFFORT * gravity.abs()
+            {
                 return None;
             }
             proportional(

@@ -25,8 +25,7 @@ use super::file::{
 };
 use super::files::Files;
 use super::model::{
-    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task,
-    TaskWork,
+    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task, TaskWork,
 };
 use super::parameters::{self, refused};
 use super::problem::{LabError, LabProblem, LoadError};

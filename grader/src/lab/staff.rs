@@ -248,9 +248,7 @@ fn hidden_runs(
         .iter()
         .find(|task| task.name == *table.task.get_ref());
     let mut checks = task.into_iter().flat_map(|task| &task.checks);
-    if let Some(check) =
-        checks.find(|check| check.kind.follows_one_path())
-    {
+    if let Some(check) = checks.find(|check| check.kind.follows_one_path()) {
         return refuse(
             format!(
                 "check `{}` compares with one path, and every run has its own",

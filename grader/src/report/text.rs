@@ -206,7 +206,7 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     let unit = &measure.unit;
     let value = match measure.value {
         Some(value) => with_unit(value, unit),
-        None => "none".to_owned(),
+        None => "nothing to measure".to_owned(),
     };
     let full = with_unit(measure.full, unit);
     let zero = with_unit(measure.zero, unit);

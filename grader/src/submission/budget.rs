@@ -157,24 +157,30 @@ impl Meter {
         }
     }
 
-    /// Adds a line to the log.
-    pub(super) fn print(&self, line: String) -> Result<(), Problem> {
-        self.log_lines.set(self.log_lines.get() + 1);
-        if self.log_lines.get() > self.budgets.log_lines {
-            return Err(self.exhaust(Budget::LogLines));
+    /// Adds a line to the log. Beyond the most that are kept it only says so, once: what a student looks at must not end the run.
+    pub(super) fn print(&self, line: String) {
+        let most = self.budgets.log_lines;
+        let printed = self.log_lines.get().saturating_add(1);
+        self.log_lines.set(printed);
+        if printed <= most {
+            self.log.borrow_mut().push(line);
+        } else if printed == most + 1 {
+            let told = format!("more than {most} lines are printed: the rest is not kept");
+            self.log.borrow_mut().push(told);
         }
-        self.log.borrow_mut().push(line);
-        Ok(())
     }
 
-    /// Adds a value to a signal.
-    pub(super) fn plot(&self, name: String, value: f64) -> Result<(), Problem> {
-        self.plot_samples.set(self.plot_samples.get() + 1);
-        if self.plot_samples.get() > self.budgets.plot_samples {
-            return Err(self.exhaust(Budget::PlotSamples));
+    /// Adds a value to a signal; beyond the most that are kept it only says so, once.
+    pub(super) fn plot(&self, name: String, value: f64) {
+        let most = self.budgets.plot_samples;
+        let plotted = self.plot_samples.get().saturating_add(1);
+        self.plot_samples.set(plotted);
+        if plotted <= most {
+            self.plots.borrow_mut().push((name, value));
+        } else if plotted == most + 1 {
+            let told = format!("more than {most} values are plotted: the rest is not kept");
+            self.log.borrow_mut().push(told);
         }
-        self.plots.borrow_mut().push((name, value));
-        Ok(())
     }
 
     /// Remembers the first result of a call that is not a number.
@@ -227,8 +233,6 @@ impl Meter {
             Budget::ListSize => budgets.list_size,
             Budget::TextSize => budgets.text_size,
             Budget::MapSize => budgets.map_size,
-            Budget::LogLines => budgets.log_lines,
-            Budget::PlotSamples => budgets.plot_samples,
             Budget::SourceBytes => budgets.source_bytes,
         }
     }

@@ -32,7 +32,7 @@ fn print(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem
         line.push_str(&show(meter, value)?);
         meter.text(line.len())?;
     }
-    meter.print(line)?;
+    meter.print(line);
     Ok(Dynamic::UNIT)
 }
 
@@ -54,14 +54,14 @@ fn plot(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem>
             // each sample stores its name
             meter.charge(8 * vector.len())?;
             for (index, value) in vector.elements().iter().enumerate() {
-                meter.plot(format!("{name}[{index}]"), *value)?;
+                meter.plot(format!("{name}[{index}]"), *value);
             }
         }
         operand => match operand.number().or_else(|| {
             let truth = arguments[1].as_bool().ok()?;
             Some(f64::from(u8::from(truth)))
         }) {
-            Some(value) => meter.plot(name.to_string(), value)?,
+            Some(value) => meter.plot(name.to_string(), value),
             None => {
                 return Err(fault(format!(
                     "`plot` shows numbers and vectors, got {}",

@@ -32,7 +32,7 @@ pub(super) fn told(measure: &Measure) -> Told {
         }
         Some(value) if is_far(value) => joined(&significant(value, 4), &given),
         Some(value) => joined(&told_apart(value * scale, full), &unit),
-        None => "no finite value".to_owned(),
+        None => "nothing to measure".to_owned(),
     };
     let (within, beyond) = if measure.zero >= measure.full {
         ("≤", "≥")

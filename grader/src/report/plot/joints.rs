@@ -219,9 +219,7 @@ fn column(run: &TaskRun, signal: &Signal, joint: usize) -> Vec<(f64, f64)> {
 /// Cuts values off at a size, so that a few great ones do not flatten the rest; the greatest size there was, if one was cut.
 fn cut(line: &mut Line, most: f64) -> Option<f64> {
     let sizes = line.points.iter().map(|(_, value)| value.abs());
-    let greatest = sizes
-        .filter(|size| size.is_finite())
-        .fold(0.0, f64::max);
+    let greatest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
     if greatest <= most {
         return None;
     }

@@ -68,7 +68,7 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
         scenery: Scenery::of(run, &frame_from_world(run), &plane),
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
-    let title = format!("TCP path in the frame `{}`", shortened(&run.seen_from, 40));
+    let title = format!("TCP path in the frame {}", shortened(&run.seen_from, 40));
     Some((drawn.draw(&title), title))
 }
 

@@ -40,8 +40,7 @@ fn a_task_has_a_budget_of_operations_too() {
 #[test]
 fn hostile_scripts_end_at_a_budget() {
     use Budget::{
-        CallDepth, ExpressionDepth, ListSize, LogLines, MapSize, OperationsPerCall, PlotSamples,
-        SourceBytes, TextSize,
+        CallDepth, ExpressionDepth, ListSize, MapSize, OperationsPerCall, SourceBytes, TextSize,
     };
     let list = |item: &str| vec![item; 990].join(",");
     let control = |body: &str| format!("fn control(o) {{ {body} }}");
@@ -83,7 +82,7 @@ fn hostile_scripts_end_at_a_budget() {
             ListSize,
         ),
         (control("eye(3000000000)"), ListSize),
-        (control("loop { print(1) }"), LogLines),
+        (control("loop { print(1) }"), OperationsPerCall),
         (
             control("loop { plot(\"a\", zeros(100)) }"),
             OperationsPerCall,
@@ -178,19 +177,27 @@ fn hostile_scripts_end_at_a_budget() {
                 other => panic!("{start}: {other:?}"),
             }
         }
-        let mut opening = opening("fn control(o) { loop { plot(\"a\", 1) } }");
-        opening.budgets.plot_samples = 10;
-        let mut script = ScriptController::open(&opening).unwrap();
-        assert!(matches!(
-            script.call(&Call::Control(observation())),
-            Err(Stop::OverBudget {
-                budget: PlotSamples,
-                limit: 10,
-                ..
-            })
-        ));
     };
     on_a_large_stack(run_all);
+}
+
+#[test]
+fn what_is_shown_beyond_the_most_is_left_out_and_said_once() {
+    let mut opening = opening("fn control(o) { for i in 0..9 { print(i); plot(\"a\", i); } 1 }");
+    (opening.budgets.log_lines, opening.budgets.plot_samples) = (4, 3);
+    let mut script = ScriptController::open(&opening).unwrap();
+    for call in 0..2 {
+        let answer = script.call(&Call::Control(observation())).unwrap();
+        let said = answer.said;
+        if call == 1 {
+            assert!(said.log.is_empty() && said.plots.is_empty(), "{said:?}");
+            continue;
+        }
+        let log = said.log.join("\n");
+        let expected = "0\n1\n2\n3\nmore than 3 values are plotted: the rest is not kept\nmore than 4 lines are printed: the rest is not kept";
+        assert_eq!(log, expected);
+        assert_eq!(said.plots.len(), 3);
+    }
 }
 
 #[test]

@@ -30,8 +30,6 @@ fn the_reference_is_complete() {
         Budget::ListSize,
         Budget::TextSize,
         Budget::MapSize,
-        Budget::LogLines,
-        Budget::PlotSamples,
         Budget::SourceBytes,
     ] {
         let row = format!("| {} | {} |", budget.name(), meter.limit(budget));
