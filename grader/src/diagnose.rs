@@ -167,9 +167,10 @@ pub fn motion_task<'m>(
 
 /// Where a run stood stillest in its stay nearest to each goal, however far that is, and for as long as it remained there.
 fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
+    // where nothing scores, nearer is better
     let anywhere = Band {
         full: 0.0,
-        zero: 1e3,
+        zero: 0.0,
     };
     let there_m = 0.02; // a step response swings through this at the end of its settling
     let beat = 20; // ticks over which stillness is judged

@@ -56,7 +56,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "duration_s = 3.0",
             "duration_s = \"3\"",
             "expected a number",
-            "lab.toml:15:14",
+            "lab.toml:23:14",
         ),
         (
             lab,
@@ -84,7 +84,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "control_period_ms = 10.0",
             "control_period_ms = 10.5",
             "not a whole number",
-            "lab.toml:16",
+            "lab.toml:24",
         ),
         (
             lab,

@@ -24,7 +24,7 @@ const HOSTILE: [(&str, &str, &str); 8] = [
     (
         "printing without end",
         "loop { print(\"x\"); }",
-        "printed lines",
+        "operations in one call",
     ),
     ("plotting without end", "loop { plot(\"x\", 1.0); }", ""),
     (

@@ -176,7 +176,7 @@ mod tests {
         let told = told(&measure(None, 0.002, 0.02));
         assert_eq!(
             (told.value.as_str(), told.margin),
-            ("no finite value", None)
+            ("nothing to measure", None)
         );
     }
 }
