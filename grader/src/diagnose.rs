@@ -150,7 +150,7 @@ pub fn motion_task<'m>(
             if !stands_still && (mutant - goal.position_m).norm() > band.full {
                 telling += 1;
                 agreeing += usize::from((student - mutant).norm() <= same_m);
-            } else {
+            } else if !stands_still {
                 right_elsewhere &= band.score((student - goal.position_m).norm()) > 0.0;
             }
         }
