@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::grade::{Outcome, TaskGrade};
 use crate::graded::{GradedRun, TcpPath};
 use crate::grading::{InProcess, grade};
+use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::model::{Lab, TaskWork};
 use crate::lab::staff::{Mutant, Staff};
 use crate::quantity::{metres, points, seconds};
@@ -45,6 +46,8 @@ pub struct Audit {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tried {
+    /// What students read.
+    Brief,
     /// What students begin with.
     Starter,
     /// The reference solution.
@@ -61,6 +64,7 @@ impl Tried {
     /// Its word in tables and records.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Brief => "brief",
             Self::Starter => "starter",
             Self::Reference => "reference",
             Self::ReferencePath => "reference-path",
@@ -124,6 +128,28 @@ impl Audit {
             problem,
             help,
         });
+    }
+
+    /// Looks at what students read: it is there, its numbers can be told in every variant, and it has a place for the table of points.
+    pub fn brief(&mut self, lab: &Lab, brief: Option<&str>) {
+        let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
+            None => Some((
+                "there is no brief.md".to_owned(),
+                "write what students read beside lab.toml: `kinemark new` hands it out",
+            )),
+            Some((_, Err(why))) => Some((
+                format!("brief.md: {why}"),
+                "a mark is `<!-- = expression -->` behind the number it stands for",
+            )),
+            Some((brief, Ok(_))) if !has_place_for_grading(brief) => Some((
+                format!(
+                    "brief.md has no place for the table of points: `{BEGIN}` with `{END}` after it"
+                ),
+                "write the two marks, each on a line, where the table shall be",
+            )),
+            Some((_, Ok(_))) => None,
+        };
+        self.add((Tried::Brief, ""), None, None, problem);
     }
 
     /// Tries what students begin with: it runs, earns next to nothing, and makes no known mistake.

@@ -172,12 +172,10 @@ fn staff_write_the_numbers_of_a_student() {
     assert!(ran.stderr.contains("needs the course's salt"), "{ran:?}");
     let ran = of("", &[]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    let lab = bed.path("labs/01-kinematics/lab.toml");
-    let text = std::fs::read_to_string(&lab).expect("lab.toml");
-    let (head, rest) = text.split_once("[variants]").expect("variants");
-    let (_, tail) = rest.split_once("# ----").expect("tasks");
-    std::fs::write(&lab, format!("{head}# ----{tail}")).expect("written");
-    let ran = bed.run(&["variant", "01-kinematics", "--student", "s1"]);
+    let (head, rest) = LAB.split_once("[variants]").expect("variants");
+    let (_, tail) = rest.split_once("[[tasks]]").expect("tasks");
+    bed.write("labs/93-touch/lab.toml", format!("{head}[[tasks]]{tail}"));
+    let ran = of("s1", &[]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("has no variants"), "{ran:?}");
 }
@@ -405,6 +403,18 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
             "did you mean `out`?",
         ),
         (
+            "out = { from = 0.85",
+            "out = { from = \"= out - 0.05\"",
+            "lab::variants",
+            "holds numbers, not expressions",
+        ),
+        (
+            "goals = [{",
+            "target = 1.0\ngoals = [{",
+            "lab::target",
+            "a task with goals has no target",
+        ),
+        (
             "lengths = [{ from = 0.95, to = 1.05, step = 0.01 }, ",
             "lengths = [",
             "lab::variants",
@@ -445,6 +455,26 @@ fn mistakes_in_hidden_runs_are_told_at_their_place() {
             "lengths = [[-1, -1], [1, 1]]",
             "must be positive",
         ),
+        ("[0.6, 0.75]", "[0.75, 0.6]", "write [0.6, 0.75]"),
+        (
+            "out = [0.6, 0.75]",
+            "lengths = [[0.9, 1.0], [1.0, 0.9]]",
+            "`lengths` goes from 1 down to 0.9",
+        ),
+        ("{ out = [0.6, 0.75] }", "{}", "is the visible run again"),
+        ("\"nearer places\"", "\" \"", "the class is empty"),
+        ("\"other bends\"", "\"\"", "the class is empty"),
+        (
+            "q_rad = [[-3.0, 3.0]",
+            "q_rad = [[3.0, -3.0]",
+            "`q_rad` goes from 3 down to -3",
+        ),
+        (
+            "[[runs]]",
+            "dimensions = { link_lengths = [[1.0, 0.9], [1, 1]] }\n[[runs]]",
+            "`link_lengths` goes from 1 down to 0.9",
+        ),
+        ("\"sea\"", "\"\"", "staff::salt"),
     ] {
         let bed = bed();
         assert!(HIDDEN.contains(from), "{from}");
@@ -552,4 +582,180 @@ fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
             assert!(!found, "{name} holds {number}");
         }
     }
+}
+
+#[test]
+fn digests_of_hidden_parts_tell_nothing_without_the_salt() {
+    let bed = bed();
+    let lab = base(&bed);
+    let practice = grade(&lab, None, "mine.rhai", SOLUTION).grade;
+    // answers that depend on no number, so that only the key can make a difference
+    let blind = "fn forward_kinematics(robot, q) { [1.0, 0.0, 0.0] }\nfn control(o) { [0.0, 0.0] }";
+    let of = |salt: &str| {
+        let staff = Staff::load(&places(&bed)[1], &lab, Some(salt)).expect("loads");
+        grade(&lab, staff.as_ref(), "blind.rhai", blind).grade
+    };
+    let (sea, lake) = (of("sea"), of("lake"));
+    for (task, (sea, lake)) in sea.tasks.iter().zip(&lake.tasks).enumerate() {
+        assert_ne!(sea.digests.all, lake.digests.all, "task {task}");
+        assert_eq!(sea.digests.seconds, lake.digests.seconds, "task {task}");
+    }
+    assert_eq!(of("sea"), sea);
+
+    // a task with nothing hidden keeps its digest: anybody may hold it against their own
+    let hidden = bed.path("reference/93-touch/hidden.toml");
+    std::fs::write(hidden, HIDDEN.split("[[runs]]").next().expect("draws")).expect("written");
+    let open = graded(&bed, SOLUTION);
+    assert_ne!(open.tasks[0].digests, practice.tasks[0].digests);
+    assert_eq!(open.tasks[1].digests, practice.tasks[1].digests);
+}
+
+#[test]
+fn an_empty_salt_is_no_salt() {
+    let bed = bed();
+    let args = ["variant", "93-touch", "--student", "s7"];
+    for salt in ["", " "] {
+        let by_option = bed.run(&[&args[..], &["--salt", salt]].concat());
+        let mut by_environment = bed.command(&args);
+        let by_environment = by_environment.env("KINEMARK_SALT", salt).output();
+        for ran in [by_option, by_environment.expect("runs").into()] {
+            assert_eq!(ran.code, Some(2), "{ran:?}");
+            assert!(ran.stderr.contains("the salt is empty"), "{ran:?}");
+            assert!(ran.stderr.contains("hidden.toml"), "{ran:?}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_of_students_are_not_followed() {
+    use std::os::unix::fs::symlink;
+    let bed = bed();
+    let secret = bed.path("reference/93-touch/hidden.toml");
+    std::fs::create_dir(bed.path("alice")).expect("folder");
+    symlink(&secret, bed.path("alice/link.rhai")).expect("link");
+    let refused = |args: &[&str], name: &str| {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        let words = format!("`{name}` is a link to another file");
+        assert!(ran.stderr.contains(&words), "{ran:?}");
+        assert!(ran.stderr.contains("copy the file itself"), "{ran:?}");
+        assert!(!ran.stderr.contains("salt"), "{ran:?}");
+        assert!(!bed.path("out").exists(), "{ran:?}");
+    };
+    refused(&["grade", "93-touch", "alice/link.rhai"], "alice/link.rhai");
+    bed.write("alice/mine.rhai", SOLUTION);
+    let mine = ["grade", "93-touch", "alice/mine.rhai"];
+    let beside = bed.path("alice/variant.toml");
+    for target in [secret, bed.path("nowhere")] {
+        symlink(target, &beside).expect("link");
+        refused(&mine, "alice/variant.toml");
+        std::fs::remove_file(&beside).expect("removed");
+    }
+    std::fs::create_dir(&beside).expect("folder");
+    let ran = bed.run(&mine);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is a folder, not a variant"), "{ran:?}");
+    std::fs::remove_dir(&beside).expect("removed");
+
+    // what a person names may be one
+    let args = ["variant", "93-touch", "--student", "s7", "--out", "s7.toml"];
+    assert_eq!(bed.run(&args).code, Some(0));
+    symlink(bed.path("s7.toml"), bed.path("link.toml")).expect("link");
+    let ran = bed.run(&[&mine[..], &["--variant", "link.toml"]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("variant of s7: "), "{ran:?}");
+}
+
+#[test]
+fn a_grade_of_everybodys_numbers_says_so() {
+    let bed = bed();
+    let args = ["grade", "93-touch", "solution.rhai"];
+    let says = "no variant: everybody's numbers of lab.toml\n";
+    let ran = bed.run(&args);
+    assert!(ran.stdout.starts_with(says), "{ran:?}");
+    let ran = bed.run(&[&args[..], &["--json"]].concat());
+    assert!(ran.stdout.starts_with('{'), "{ran:?}");
+    let ran = bed.run(&[&args[..], &["--practice"]].concat());
+    assert!(!ran.stdout.contains(says), "{ran:?}");
+    // a file of somebody else beside it is not taken, and not passed over in silence
+    bed.write("variant.toml", "format = 1\nlab = \"93-touch\"\n");
+    let ran = bed.run(&[&args[..], &["--student", "s7"]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(
+        ran.stdout
+            .starts_with("with the numbers of student s7; variant.toml is not used\n"),
+        "{ran:?}"
+    );
+}
+
+#[test]
+fn a_motion_task_of_a_robot_without_masses_is_the_labs_mistake() {
+    let bed = bed();
+    let lab = LAB.replace("robot = \"rrbot\"\nframe = \"lab\"", "robot = \"rppr\"");
+    let lab = lab.replace("link_lengths = [\"= lengths[0]\", \"= lengths[1]\"]\n", "");
+    bed.write(
+        "labs/93-touch/lab.toml",
+        lab.replace("[0.5, \"= out\"]", "[0, 0, 0, 0]"),
+    );
+    let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(shown.contains("lab::no_inertia"), "{shown}");
+    assert!(shown.contains("joint `gripper_turn`"), "{shown}");
+    assert!(shown.contains("robot `rppr`"), "{shown}");
+    assert!(shown.contains("lab.toml:5:9"), "{shown}");
+}
+
+#[test]
+fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
+    let bed = bed();
+    let check = |students: &str| {
+        let ran = bed.run(&[
+            "lab",
+            "check",
+            "93-touch",
+            "--salts",
+            "0",
+            "--variants",
+            students,
+        ]);
+        // this lab has no known mistakes, which is a problem of its own
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        ran.stdout
+    };
+    let told = check("0");
+    assert!(told.contains("can be handed out"), "{told}");
+    for (brief, problem) in [
+        (
+            BRIEF.replace("= out -->", "= ouf -->"),
+            "line 3: no parameter is called `ouf`",
+        ),
+        (
+            BRIEF.replace("<!-- grading: end -->", ""),
+            "has no place for the table of points",
+        ),
+    ] {
+        bed.write("labs/93-touch/brief.md", brief);
+        let told = check("0");
+        assert!(told.contains(problem), "{told}");
+    }
+    std::fs::remove_file(bed.path("labs/93-touch/brief.md")).expect("removed");
+    let told = check("0");
+    assert!(told.contains("there is no brief.md"), "{told}");
+
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "out = { from = 0.85, to = 0.95, step = 0.01 }",
+        "out = { from = -0.5, to = 0.5, step = 1.0 }",
+    );
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "points = 3.0",
+        "points = \"= out\"",
+    );
+    let told = check("6");
+    assert!(told.contains("such as that of `student "), "{told}");
+    assert!(told.contains("it cannot be loaded (lengths = ["), "{told}");
+    assert!(told.contains("out = -0.5): "), "{told}");
 }

@@ -45,9 +45,21 @@ pub(crate) struct StaffArgs {
         long,
         value_name = "TEXT",
         env = "KINEMARK_SALT",
-        hide_env_values = true
+        hide_env_values = true,
+        value_parser = salt
     )]
     pub(crate) salt: Option<String>,
+}
+
+/// Refuses a salt that everyone knows: that of a secret that is not set.
+fn salt(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() {
+        return Err(
+            "the salt is empty; leave it out (and KINEMARK_SALT unset) to use hidden.toml's"
+                .to_owned(),
+        );
+    }
+    Ok(text.to_owned())
 }
 
 /// Which variant of the lab: the numbers of one student.
@@ -89,6 +101,7 @@ pub(crate) enum Command {
     after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n\n\
     A file variant.toml beside the submission is taken where neither --variant nor --student is given.\n\
+    Neither it nor the submission may be a symbolic link.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]

@@ -90,6 +90,18 @@ pub(crate) fn plain(error: &std::io::Error) -> String {
     }
 }
 
+/// Refuses a symbolic link in place of a file that may be a student's: what it points to could be a secret of whoever grades.
+pub(crate) fn refuse_link(path: &Path) -> Result<(), Failure> {
+    match path.symlink_metadata() {
+        Ok(there) if there.is_symlink() => Err(Failure::usage(
+            format!("`{}` is a link to another file", path.display()),
+            "copy the file itself",
+        )),
+        // what is not there is told by whoever reads it
+        Ok(_) | Err(_) => Ok(()),
+    }
+}
+
 /// Reads the file that a person named `path`, which should be `what`, of at most `most` bytes.
 pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure> {
     let shown = path.display();

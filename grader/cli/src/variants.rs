@@ -32,21 +32,29 @@ pub(crate) fn choose(
     beside: Option<&Path>,
 ) -> Result<Chosen, Failure> {
     let lab = Lab::load(files, name)?;
+    let found = beside.map(|submission| submission.with_file_name(VARIANT_FILE));
+    // whatever it is: what is no file is refused below, and not passed over
+    let found = found.filter(|path| path.symlink_metadata().is_ok());
     if let Some(student) = &args.student {
         let variant = of_student(&lab, reference, staff, student)?;
+        let unused = found.map(|found| {
+            format!(
+                "with the numbers of student {student}; {} is not used",
+                found.display()
+            )
+        });
         return Ok(Chosen {
             lab: Lab::load_variant(files, name, Some(&variant))?,
-            note: None,
+            note: unused,
         });
     }
-    let found = beside.map(|submission| submission.with_file_name(VARIANT_FILE));
-    let found = found.filter(|path| path.is_file());
     let (path, note) = match (&args.variant, &found) {
         (Some(given), _) => (given, None),
-        (None, Some(found)) => (
-            found,
-            Some(format!("with the numbers of {}", found.display())),
-        ),
+        (None, Some(found)) => {
+            disk::refuse_link(found)?;
+            let note = format!("with the numbers of {}", found.display());
+            (found, Some(note))
+        }
         (None, None) => return Ok(Chosen { lab, note: None }),
     };
     let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)

@@ -7,7 +7,7 @@ use super::{Audit, Tried, graded, loss_of};
 use crate::grade::{Grade, Measure};
 use crate::lab::model::Lab;
 use crate::lab::staff::Staff;
-use crate::lab::{Files, LoadError};
+use crate::lab::{Files, LoadError, Variant};
 use crate::verdict::Verdict;
 
 /// What came of the variants of some students.
@@ -42,37 +42,50 @@ fn room_of(measure: &Measure) -> Option<f64> {
 }
 
 impl Variants {
-    /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs.
-    ///
-    /// # Errors
-    /// [`LoadError`] if that variant is no lab.
-    pub fn student(
-        &mut self,
-        lab: &Lab,
-        reference: &dyn Files,
-        salt: &str,
-        student: &str,
-    ) -> Result<(), LoadError> {
-        let variant = lab.variant_of(salt, student)?;
-        let numbers = variant.parameters();
-        let numbers: Vec<(String, Dimension)> = numbers
-            .map(|(name, value)| (name.to_owned(), value.clone()))
-            .collect();
-        let lab = lab.with_parameters(&numbers)?;
-        let Some(staff) = Staff::load(reference, &lab, Some(salt))? else {
-            return Ok(());
+    /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that is no lab is
+    /// noted like one that loses points.
+    pub fn student(&mut self, lab: &Lab, reference: &dyn Files, salt: &str, student: &str) {
+        self.students += 1;
+        let mut numbers = String::new();
+        let loaded = lab.variant_of(salt, student).map_err(Into::into);
+        let loaded = loaded.and_then(|variant| {
+            numbers = variant.numbers().trim_end().replace('\n', ", ");
+            Self::load(lab, reference, salt, &variant)
+        });
+        let (lab, staff) = match loaded {
+            Ok(Some(loaded)) => loaded,
+            Ok(None) => return,
+            Err(why) => {
+                let what = format!("it cannot be loaded ({numbers}): {why}");
+                self.lost.push((student.to_owned(), what));
+                return;
+            }
         };
         let Some(run) = graded(&lab, &staff, &staff.solution) else {
-            return Ok(());
+            return;
         };
-        self.students += 1;
         let tasks = &run.grade.tasks;
         if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
             let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
             self.lost.push((student.to_owned(), what));
         }
         self.measure(&run.grade);
-        Ok(())
+    }
+
+    /// The lab with the numbers of `variant`, and the staff's part of that.
+    fn load(
+        lab: &Lab,
+        reference: &dyn Files,
+        salt: &str,
+        variant: &Variant,
+    ) -> Result<Option<(Lab, Staff)>, LoadError> {
+        let numbers: Vec<(String, Dimension)> = variant
+            .parameters()
+            .map(|(name, value)| (name.to_owned(), value.clone()))
+            .collect();
+        let lab = lab.with_parameters(&numbers)?;
+        let staff = Staff::load(reference, &lab, Some(salt))?;
+        Ok(staff.map(|staff| (lab, staff)))
     }
 
     fn measure(&mut self, grade: &Grade) {

@@ -23,6 +23,12 @@ pub fn with_grading(brief: &str, lab: &Lab) -> String {
     format!("{head}{BEGIN}\n{}{END}{tail}", table(lab))
 }
 
+/// Whether a brief has the two marks, in their order.
+pub fn has_place_for_grading(brief: &str) -> bool {
+    let behind = brief.split_once(BEGIN).map(|(_, rest)| rest);
+    behind.is_some_and(|rest| rest.contains(END))
+}
+
 /// How a mark begins that stands behind a number, invisible where the brief is shown: `3.0<!-- = line_x -->`.
 const MARK: &str = "<!-- =";
 const MARK_END: &str = "-->";
@@ -155,7 +161,8 @@ fn table(lab: &Lab) -> String {
             let note = if needs.is_empty() {
                 String::new()
             } else {
-                format!("counts once {} earns something", needs.join(" and "))
+                let earn = if needs.len() == 1 { "earns" } else { "earn" };
+                format!("counts once {} {earn} something", needs.join(" and "))
             };
             // writing into a string cannot fail
             let _ = writeln!(

@@ -3,12 +3,10 @@
 //! Numbers come from BLAKE3 in extendable-output mode, keyed by salt, task, class and the case's number, so that adding a draw
 //! changes no other draw's cases.
 
-use std::collections::BTreeMap;
-
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::robot::{Dimension, RobotFile};
 
-use super::file::Ranges;
+use super::file::{Ranges, RangesTable};
 use super::model::{Case, Given, Lab};
 
 /// A draw that has been checked against its lab.
@@ -84,12 +82,12 @@ pub(super) fn parameters(
     task: &str,
     class: &str,
     number: u32,
-    ranges: &BTreeMap<String, Ranges>,
+    ranges: &RangesTable,
 ) -> Vec<(String, Dimension)> {
     let hasher = blake3::Hasher::new_derive_key("kinemark 2026 hidden runs v1");
     let mut stream = Stream::of(hasher, [salt, task, class], number);
     let drawn = ranges.iter().map(|(name, ranges)| {
-        let value = match ranges {
+        let value = match ranges.get_ref() {
             Ranges::One(range) => Dimension::Number(stream.between(*range)),
             Ranges::Each(ranges) => {
                 Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())

@@ -356,7 +356,7 @@ pub(super) enum SpeedAtName {
 #[serde(deny_unknown_fields)]
 pub(super) struct HiddenTable {
     pub(super) format: Spanned<i64>,
-    pub(super) salt: String,
+    pub(super) salt: Spanned<String>,
     #[serde(default)]
     pub(super) draws: Vec<Spanned<DrawTable>>,
     #[serde(default)]
@@ -371,12 +371,15 @@ pub(super) struct DrawTable {
     pub(super) class: Spanned<String>,
     pub(super) count: u32,
     pub(super) q_rad: Option<Spanned<Vec<[f64; 2]>>>,
-    pub(super) position_m: Option<[[f64; 2]; 3]>,
+    pub(super) position_m: Option<Spanned<[[f64; 2]; 3]>>,
     pub(super) branches: Option<u32>,
     #[serde(default)]
-    pub(super) dimensions: BTreeMap<String, Ranges>,
-    pub(super) given: Option<BTreeMap<String, Ranges>>,
+    pub(super) dimensions: RangesTable,
+    pub(super) given: Option<RangesTable>,
 }
+
+/// Names with ranges, the place of each kept.
+pub(super) type RangesTable = BTreeMap<String, Spanned<Ranges>>;
 
 /// A range for a number, or one for each number of a list.
 #[derive(Debug, Clone, PartialEq)]
@@ -386,6 +389,14 @@ pub(super) enum Ranges {
 }
 
 impl Ranges {
+    /// All of them.
+    pub(super) fn all(&self) -> &[[f64; 2]] {
+        match self {
+            Self::One(range) => std::slice::from_ref(range),
+            Self::Each(ranges) => ranges,
+        }
+    }
+
     /// The low ends (0) or the high ones (1).
     pub(super) fn end(&self, end: usize) -> kinemark_sim::robot::Dimension {
         use kinemark_sim::robot::Dimension;
@@ -546,5 +557,5 @@ pub(super) struct HiddenRunsTable {
     pub(super) task: Spanned<String>,
     pub(super) class: Spanned<String>,
     pub(super) count: u32,
-    pub(super) parameters: BTreeMap<String, Ranges>,
+    pub(super) parameters: Spanned<RangesTable>,
 }

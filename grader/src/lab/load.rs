@@ -234,6 +234,7 @@ impl Lab {
         let reader = Reader {
             report,
             robot: &robot,
+            robot_at: lab.robot.span(),
             scenes: &scenes,
             robot_file: &robot_file,
             reference_paths: &reference_paths.paths,
@@ -411,6 +412,8 @@ fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, Load
 struct Reader<'a> {
     report: Reporter<'a>,
     robot: &'a Robot,
+    /// Where the lab names its robot.
+    robot_at: Range<usize>,
     scenes: &'a [Arc<LabScene>],
     robot_file: &'a RobotFile,
     reference_paths: &'a [(String, TcpPath)],

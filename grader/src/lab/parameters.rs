@@ -67,7 +67,10 @@ pub(super) fn tables_with<T: DeserializeOwned>(
     // the numbers as texts, in the order in which they are found: the tables borrow from them
     let mut numbers = Vec::new();
     let mut table = DeTable::parse(source.text()).map_err(|error| refused(source, &error))?;
-    for value in table.get_ref().values() {
+    for (key, value) in table.get_ref() {
+        if key.get_ref() == "variants" {
+            refuse_expressions(value, source)?;
+        }
         evaluated(value, source, parameters, &mut numbers)?;
     }
     let mut next = numbers.iter().map(String::as_str);
@@ -75,6 +78,26 @@ pub(super) fn tables_with<T: DeserializeOwned>(
         replaced(value, &mut next);
     }
     T::deserialize(Deserializer::from(table)).map_err(|error| refused(source, &error))
+}
+
+/// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.
+fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(), LabError> {
+    match value.get_ref() {
+        DeValue::String(text) if text.starts_with(SIGN) => Reporter { source }.err(
+            value.span(),
+            "lab::variants",
+            "[variants] holds numbers, not expressions: parameters are drawn from it".to_owned(),
+            "an expression",
+            Some("write the number".to_owned()),
+        ),
+        DeValue::Array(items) => items
+            .iter()
+            .try_for_each(|item| refuse_expressions(item, source)),
+        DeValue::Table(table) => table
+            .values()
+            .try_for_each(|item| refuse_expressions(item, source)),
+        _ => Ok(()),
+    }
 }
 
 fn evaluated(

@@ -5,7 +5,7 @@ use kinemark_sim::source::{Source, suggest};
 use toml::Spanned;
 
 use super::draw::{Draw, Drawn, parameters};
-use super::file::{DrawTable, HiddenRunsTable, HiddenTable, MutantsTable, Ranges};
+use super::file::{DrawTable, HiddenRunsTable, HiddenTable, MutantsTable, Ranges, RangesTable};
 use super::files::Files;
 use super::load::{Reporter, read, tables};
 use super::model::{Case, Function, FunctionTask, Given, Lab, TaskWork};
@@ -24,6 +24,8 @@ pub struct Staff {
     runs: Vec<(String, Vec<HiddenRun>)>,
     /// BLAKE3 over all of it, salt included.
     pub digest: blake3::Hash,
+    /// What digests of hidden parts are keyed by.
+    key: [u8; 32],
 }
 
 /// A motion task that is run again with other numbers.
@@ -70,6 +72,8 @@ impl Staff {
         digest(&solution);
         let mut hidden = Vec::new();
         let mut runs: Vec<(String, Vec<HiddenRun>)> = Vec::new();
+        // without hidden.toml nothing is hidden, and nothing keyed
+        let mut key = [0; 32];
         let hidden_path = format!("{folder}/hidden.toml");
         let hidden_source = read(files, &hidden_path)?;
         let has_functions = lab
@@ -87,8 +91,10 @@ impl Staff {
             let table: HiddenTable = tables(&source)?;
             let report = Reporter { source: &source };
             report.format(&table.format)?;
-            let salt = salt.unwrap_or(&table.salt);
+            let own = own_salt(report, &table)?;
+            let salt = salt.unwrap_or(own);
             digest(&Source::new("salt", salt));
+            key = blake3::derive_key("kinemark 2026 digests of hidden parts v1", salt.as_bytes());
             for typed in &table.runs {
                 let task = typed.get_ref().task.get_ref().clone();
                 runs.push((task, hidden_runs(report, lab, salt, typed)?));
@@ -151,7 +157,14 @@ impl Staff {
             hidden,
             runs,
             digest: hasher.finalize(),
+            key,
         }))
+    }
+
+    /// A digest over hidden answers or runs as the record tells it: keyed by the salt, so that nobody without it can try out which
+    /// hidden numbers give it.
+    pub(crate) fn keyed(&self, digest: blake3::Hash) -> blake3::Hash {
+        blake3::keyed_hash(&self.key, digest.as_bytes())
     }
 
     /// The salt of the course for `lab`: `replacing`, or that of its `hidden.toml`; `None` where there is neither.
@@ -170,7 +183,8 @@ impl Staff {
             return Ok(None);
         };
         let table: HiddenTable = tables(&source)?;
-        Ok(Some(table.salt))
+        let salt = own_salt(Reporter { source: &source }, &table)?;
+        Ok(Some(salt.to_owned()))
     }
 
     /// The hidden runs of a task.
@@ -184,6 +198,64 @@ impl Staff {
         let found = self.hidden.iter().find(|(name, _)| name == task);
         found.map_or(&[], |(_, cases)| cases)
     }
+}
+
+/// The salt of a `hidden.toml`, which is not empty.
+fn own_salt<'t>(report: Reporter<'_>, table: &'t HiddenTable) -> Result<&'t str, LabError> {
+    if table.salt.get_ref().trim().is_empty() {
+        return report.err(
+            table.salt.span(),
+            "staff::salt",
+            "the salt is empty: anyone could compute the hidden numbers".to_owned(),
+            "no secret",
+            Some("write a text that nobody guesses".to_owned()),
+        );
+    }
+    Ok(table.salt.get_ref())
+}
+
+/// Refuses a class without a name: it is all that students are told.
+fn named(
+    report: Reporter<'_>,
+    code: &'static str,
+    class: &Spanned<String>,
+) -> Result<(), LabError> {
+    if !class.get_ref().trim().is_empty() {
+        return Ok(());
+    }
+    let message = "the class is empty, and it is all that students are told".to_owned();
+    let help = Some("say in a few words what is different, such as \"unequal links\"".to_owned());
+    report.err(class.span(), code, message, "no words", help)
+}
+
+/// Refuses a range whose low end is above its high one.
+fn rising(
+    report: Reporter<'_>,
+    code: &'static str,
+    at: std::ops::Range<usize>,
+    name: &str,
+    ranges: &[[f64; 2]],
+) -> Result<(), LabError> {
+    match ranges.iter().find(|[low, high]| low > high) {
+        None => Ok(()),
+        Some([low, high]) => report.err(
+            at,
+            code,
+            format!("a range of `{name}` goes from {low} down to {high}"),
+            "the wrong way round",
+            Some(format!("write [{high}, {low}]: a range is [low, high]")),
+        ),
+    }
+}
+
+/// [`rising`] for ranges by name.
+fn all_rising(
+    report: Reporter<'_>,
+    code: &'static str,
+    table: &RangesTable,
+) -> Result<(), LabError> {
+    let mut all = table.iter();
+    all.try_for_each(|(name, at)| rising(report, code, at.span(), name, at.get_ref().all()))
 }
 
 /// Lets the solution answer the cases of a free function: what it says is what is expected, entry by entry as in visible cases.
@@ -257,8 +329,20 @@ fn hidden_runs(
             "judge the task by goals or a path of its own instead",
         );
     }
-    for (name, ranges) in &table.parameters {
-        let fits = match (lab.parameters.get(name), ranges) {
+    named(report, "staff::runs", &table.class)?;
+    let ranges = table.parameters.get_ref();
+    if ranges.is_empty() {
+        return report.err(
+            table.parameters.span(),
+            "staff::runs",
+            "a hidden run without other numbers is the visible run again".to_owned(),
+            "nothing is drawn",
+            Some("give parameters, such as { can_y = [0.95, 1.05] }".to_owned()),
+        );
+    }
+    all_rising(report, "staff::runs", ranges)?;
+    for (name, ranges) in ranges {
+        let fits = match (lab.parameters.get(name), ranges.get_ref()) {
             (Some(Dimension::Number(_)), Ranges::One(_)) => true,
             (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
             (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
@@ -289,16 +373,16 @@ fn hidden_runs(
     };
     // what can be loaded at both ends can be loaded between: expressions are monotone in practice
     for end in [0, 1] {
-        let all = table.parameters.iter();
+        let all = ranges.iter();
         with(
-            all.map(|(name, ranges)| (name.clone(), ranges.end(end)))
+            all.map(|(name, ranges)| (name.clone(), ranges.get_ref().end(end)))
                 .collect(),
         )?;
     }
     let class = table.class.get_ref();
     (0..table.count)
         .map(|number| {
-            let drawn = parameters(salt, table.task.get_ref(), class, number, &table.parameters);
+            let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
             Ok(HiddenRun {
                 class: class.clone(),
                 lab: with(drawn)?,
@@ -358,6 +442,18 @@ fn checked(
             "change `count`",
         );
     }
+    let code = "staff::draw";
+    named(report, code, &table.class)?;
+    all_rising(report, code, &table.dimensions)?;
+    if let Some(given) = &table.given {
+        all_rising(report, code, given)?;
+    }
+    if let Some(at) = &table.position_m {
+        rising(report, code, at.span(), "position_m", at.get_ref())?;
+    }
+    if let Some(at) = &table.q_rad {
+        rising(report, code, at.span(), "q_rad", at.get_ref())?;
+    }
     let joints = lab.robot.n();
     let q_ranges = match &table.q_rad {
         Some(ranges) if ranges.get_ref().len() != joints => {
@@ -383,13 +479,14 @@ fn checked(
             "a function of the lab's own is drawn by `given`, and nothing else is",
         );
     }
-    let what = match (&task.function, q_ranges, table.position_m) {
+    let position_m = table.position_m.as_ref().map(|at| *at.get_ref());
+    let what = match (&task.function, q_ranges, position_m) {
         (Function::Free(_), None, None) => {
             let ranges: Vec<(String, Ranges)> = table
                 .given
                 .iter()
                 .flatten()
-                .map(|(name, ranges)| (name.clone(), ranges.clone()))
+                .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
                 .collect();
             let drawn: Vec<&str> = ranges.iter().map(|(name, _)| name.as_str()).collect();
             let of_cases: Vec<&str> = match task.cases.first().map(|case| &case.given) {
@@ -433,7 +530,7 @@ fn checked(
     let dimensions: Vec<(String, Ranges)> = table
         .dimensions
         .iter()
-        .map(|(name, ranges)| (name.clone(), ranges.clone()))
+        .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
         .collect();
     // what can be built at the low ends can be built between: expressions are monotone in practice, and both ends are tried
     for end in [0, 1] {

@@ -86,8 +86,13 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
                 "likely:".magenta().bold(),
                 diagnosis.says,
                 format!(
-                    "({} of {} telling answers agree)",
-                    diagnosis.agreeing, diagnosis.telling
+                    "({} of {} telling {} agree)",
+                    diagnosis.agreeing,
+                    diagnosis.telling,
+                    match task.kind {
+                        TaskKind::Function => "answers",
+                        TaskKind::Motion => "moments",
+                    }
                 )
                 .dimmed()
             ),

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let (files, labs_folder) = places::labs(&args.places)?;
     let reference = places::reference(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, note } = variants::choose(
+    let Chosen { lab, mut note } = variants::choose(
         &args.lab,
         files.as_ref(),
         reference.as_ref(),
@@ -33,6 +33,10 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
         Some(reference) => staff_of(reference, &lab, args)?,
         None => None,
     };
+    if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
+        note = Some("no variant: everybody's numbers of lab.toml".to_owned());
+    }
+    disk::refuse_link(&args.submission)?;
     let submission = disk::read(&args.submission, "a submission", MOST_SUBMISSION_BYTES)?;
     report_folder::refuse_foreign(&args.out)?;
 

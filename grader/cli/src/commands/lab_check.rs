@@ -7,7 +7,7 @@ use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
 use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
-use kinemark_grader::lab::{Files, Lab, LoadError, Staff};
+use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::quantity::points;
 use kinemark_grader::submission::STACK_BYTES;
 use kinemark_sim::source::Source;
@@ -63,7 +63,13 @@ pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
         }
     };
 
+    let path = format!("{}/brief.md", lab.name);
+    let brief = files
+        .read(&path)
+        .map_err(|why| Failure::broken(format!("{path}: {why}"), "save it as UTF-8 text"))?;
+
     let mut audit = Audit::new(&lab);
+    audit.brief(&lab, brief.as_deref());
     audit.starter(&lab, &own, &starter);
     if let Some(run) = audit.reference(&lab, &own, "own hidden cases") {
         audit.reference_paths(&lab, &run);
@@ -98,12 +104,12 @@ fn variants(lab: &Lab, reference: &Folder, salt: &str, students: u32) -> Result<
             if interrupt::asked() {
                 break;
             }
-            tried.student(lab, reference, salt, &format!("student {}", student + 1))?;
+            tried.student(lab, reference, salt, &format!("student {}", student + 1));
             progress.inc(1);
         }
-        Ok(tried)
+        tried
     };
-    let all: Vec<Result<Variants, LoadError>> = std::thread::scope(|scope| {
+    let all: Vec<Variants> = std::thread::scope(|scope| {
         let start = |first| {
             std::thread::Builder::new()
                 .stack_size(STACK_BYTES)
@@ -126,7 +132,7 @@ fn variants(lab: &Lab, reference: &Folder, salt: &str, students: u32) -> Result<
     }
     let mut joined = Variants::default();
     for tried in all {
-        joined.join(tried?);
+        joined.join(tried);
     }
     Ok(joined)
 }
@@ -174,6 +180,7 @@ fn push(out: &mut String, row: &Row) {
     };
     let task = row.task.as_deref().unwrap_or_default();
     let right = match row.tried {
+        Tried::Brief => "can be handed out",
         Tried::Starter => "misses",
         Tried::Reference => "full marks",
         Tried::ReferencePath => "is the reference solution's",

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use kinemark_sim::control::servo::Servo;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
-use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
 use kinemark_sim::hybrid::HybridStep;
 use kinemark_sim::sensor::{Sensors, replaced, resolve_all};
 use kinemark_sim::ticks::{Periods, whole_ratio};
@@ -65,6 +65,16 @@ impl Reader<'_> {
                 start.get_ref().clone()
             }
         };
+        if let (Some(target), false) = (&motion.target, motion.goals.is_empty()) {
+            return self.report.err(
+                target.span(),
+                "lab::target",
+                "a task with goals has no target: `observation.target` holds the goals' positions"
+                    .to_owned(),
+                "never given",
+                Some("leave out `target` or `goals`".to_owned()),
+            );
+        }
         let mut goals = Vec::new();
         for goal in &motion.goals {
             let dwell_s = self.positive(&goal.dwell_s, "the dwell")?;
@@ -86,6 +96,7 @@ impl Reader<'_> {
                 None,
             );
         }
+        self.can_move(&start_q)?;
         let default_servo = ServoTable::default();
         let (servo_table, servo_at) = match &motion.servo {
             Some(servo) => (servo.get_ref(), servo.span()),
@@ -156,6 +167,37 @@ impl Reader<'_> {
             grants: self.grants(&motion.grants, None)?,
             paths: self.paths(&motion.paths)?,
         })
+    }
+
+    /// Refuses a robot with a joint that moves neither mass nor armature: no effort on it has a finite answer.
+    fn can_move(&self, start_q: &[f64]) -> Result<(), LabError> {
+        let robot = self.robot;
+        let rest = vec![0.0; robot.n()];
+        let moved = ForwardDynamics::new(robot).acceleration(
+            robot,
+            &Vector3::zeros(),
+            start_q,
+            &rest,
+            &rest,
+            &mut rest.clone(),
+        );
+        let Err(SingularMassMatrix { joint }) = moved else {
+            return Ok(());
+        };
+        let known = robot.joints().iter().find(|known| known.name == joint);
+        let link = known.map_or("", |known| robot.links()[known.child].name.as_str());
+        self.report.err(
+            self.robot_at.clone(),
+            "lab::no_inertia",
+            format!(
+                "robot `{}` cannot be simulated: link `{link}` has no inertia that its joint `{joint}` could move",
+                robot.name()
+            ),
+            "has a link without inertia",
+            Some(format!(
+                "give link `{link}` an `inertia`, or joint `{joint}` an `armature`, in the robot file: motion tasks need masses"
+            )),
+        )
     }
 
     fn servo(

@@ -34,7 +34,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
             }
             p class="lead" { (meaning(task.verdict)) }
             @if let Some(stop) = &task.stopped { (stopped(stop)) }
-            @for diagnosis in &task.diagnoses { (diagnosed(diagnosis)) }
+            @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
             @if let Some(differs) = &task.divergence { (differing(differs)) }
             @if !task.checks.is_empty() {
                 h3 { "Checks" }
@@ -104,13 +104,17 @@ fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
     }
 }
 
-fn diagnosed(diagnosis: &Diagnosis) -> Markup {
+fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
+    let told_by = match kind {
+        TaskKind::Function => "answers in",
+        TaskKind::Motion => "moments at",
+    };
     html! {
         div class="note hint" {
             h3 { "It looks like this" }
             p { (prose(&diagnosis.says)) }
             p class="where" {
-                span { (diagnosis.agreeing) " of the " (diagnosis.telling) " answers in which this mistake would show agree with it" }
+                span { (diagnosis.agreeing) " of the " (diagnosis.telling) " " (told_by) " which this mistake would show agree with it" }
             }
         }
     }
