@@ -139,6 +139,10 @@ fn bed() -> TestBed {
     bed.copy_labs();
     bed.write("labs/90-sweep/lab.toml", LAB);
     bed.write("labs/90-sweep/starter.rhai", STARTER);
+    bed.write(
+        "labs/90-sweep/brief.md",
+        "# Sweep\n\n<!-- grading: begin -->\n<!-- grading: end -->\n",
+    );
     bed.write("reference/90-sweep/solution.rhai", SWEEP);
     let mut table = "format = 1\n".to_owned();
     for (name, from, to) in MUTANTS {
@@ -192,6 +196,7 @@ fn the_same_mistake_in_other_words_is_named() {
                 told.telling >= 50 && 100 * told.agreeing >= 95 * told.telling,
                 "{told:?}"
             );
+            assert!(self::text(&all).contains("telling moments agree)"));
             // the diagnosis takes the place of the checks' own hints
             assert!(
                 task.checks

@@ -245,6 +245,32 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
     }
 
     #[test]
+    fn the_table_says_what_a_check_waits_for() {
+        let check = |name: &str, needs: &str| {
+            format!(
+                "{{ name = \"{name}\", title = \"{name}\", points = 1.0, needs = {needs}, fk-error = {{ full_m = 0.1, zero_m = 0.2 }} }}"
+            )
+        };
+        let (head, _) = LAB.split_once("checks =").unwrap();
+        let checks = [
+            check("A", "[]"),
+            check("B", "[\"A\"]"),
+            check("C", "[\"A\", \"B\"]"),
+        ];
+        let text = format!("{head}checks = [{}]\n", checks.join(", "));
+        let files = Copies::from_texts([("x/lab.toml", &*text), ("robots/r.toml", ROBOT)]);
+        let table = table(&Lab::load(&files, "x").unwrap());
+        assert!(
+            table.contains("counts once \"A\" earns something"),
+            "{table}"
+        );
+        assert!(
+            table.contains("counts once \"A\" and \"B\" earn something"),
+            "{table}"
+        );
+    }
+
+    #[test]
     fn a_variant_is_a_lab_of_other_numbers() {
         let files = Copies::from_texts([("x/lab.toml", LAB), ("robots/r.toml", ROBOT)]);
         let lab = Lab::load(&files, "x").unwrap();
