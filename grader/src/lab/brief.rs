@@ -253,19 +253,19 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
         };
         let (head, _) = LAB.split_once("checks =").unwrap();
         let checks = [
-            check("A", "[]"),
-            check("B", "[\"A\"]"),
-            check("C", "[\"A\", \"B\"]"),
+            check("a", "[]"),
+            check("b", "[\"a\"]"),
+            check("c", "[\"a\", \"b\"]"),
         ];
         let text = format!("{head}checks = [{}]\n", checks.join(", "));
         let files = Copies::from_texts([("x/lab.toml", &*text), ("robots/r.toml", ROBOT)]);
         let table = table(&Lab::load(&files, "x").unwrap());
         assert!(
-            table.contains("counts once \"A\" earns something"),
+            table.contains("counts once \"a\" earns something"),
             "{table}"
         );
         assert!(
-            table.contains("counts once \"A\" and \"B\" earn something"),
+            table.contains("counts once \"a\" and \"b\" earn something"),
             "{table}"
         );
     }
