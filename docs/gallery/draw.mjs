@@ -50,9 +50,12 @@ for (const scheme of ["light", "dark"]) {
   await ask("Page.navigate", { url: pathToFileURL(resolve(page)).href });
   await loaded;
   const { cssContentSize: { height } } = await ask("Page.getLayoutMetrics");
+  // WebP knows no picture taller than 16383 pixels: a longer page is cut off
+  const shown = Math.min(Math.ceil(height), 16383);
   const { data } = await ask("Page.captureScreenshot", {
-    format: "webp", quality: 75, captureBeyondViewport: true, clip: { x: 0, y: 0, width: Number(width), height: Math.ceil(height), scale: 1 },
+    format: "webp", quality: 60, captureBeyondViewport: true, clip: { x: 0, y: 0, width: Number(width), height: shown, scale: 1 },
   });
+  if (!data) throw new Error(`${page} could not be drawn`);
   writeFileSync(join(gallery, `${name}-${scheme}.webp`), Buffer.from(data, "base64"));
 }
 session = undefined;
