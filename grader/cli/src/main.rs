@@ -9,6 +9,7 @@ mod commands;
 mod disk;
 mod failure;
 mod interrupt;
+mod one_processor;
 mod output;
 mod places;
 mod report_folder;

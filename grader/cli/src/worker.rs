@@ -18,6 +18,7 @@ use kinemark_grader::submission::{STACK_BYTES, ScriptController};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
+use crate::one_processor::OneProcessor;
 
 /// Wall clock of one task's submission: far above what the counted budgets allow, so that it speaks of the machine alone.
 const WALL_CLOCK: Duration = Duration::from_secs(60);
@@ -127,9 +128,26 @@ fn limit_this_process() {
 }
 
 /// The parent's side: starts a worker per submission and task.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct WorkerHost {
-    pub(crate) progress: Option<indicatif::ProgressBar>,
+    progress: Option<indicatif::ProgressBar>,
+    processor: OneProcessor,
+}
+
+impl WorkerHost {
+    pub(crate) fn new(progress: Option<indicatif::ProgressBar>) -> Self {
+        Self {
+            progress,
+            processor: OneProcessor::default(),
+        }
+    }
+
+    /// Takes the progress bar off the terminal.
+    pub(crate) fn finish(&self) {
+        if let Some(progress) = &self.progress {
+            progress.finish_and_clear();
+        }
+    }
 }
 
 impl Host for WorkerHost {
@@ -137,6 +155,8 @@ impl Host for WorkerHost {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
+        // before the worker is started: it inherits the choice
+        self.processor.choose();
         let mut worker = Worker::start().map_err(|error| {
             Stop::GraderFault(format!("a worker process could not be started: {error}"))
         })?;

@@ -41,18 +41,16 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     report_folder::refuse_foreign(&args.out)?;
 
     let mut in_process = InProcess;
-    let mut workers = WorkerHost {
-        progress: (!args.in_process).then(|| progress(lab.tasks.len())),
-    };
+    let mut workers = WorkerHost::new((!args.in_process).then(|| progress(lab.tasks.len())));
     let host: &mut dyn Host = if args.in_process {
         &mut in_process
     } else {
         &mut workers
     };
     let graded = grading::grade(&lab, staff.as_ref(), &submission, host);
-    if let Some(progress) = &workers.progress {
-        progress.finish_and_clear();
-    }
+    workers.finish();
+    // a worker's processor is for workers alone
+    drop(workers);
     let graded = graded.map_err(|_| Failure::interrupted())?;
 
     // the grade is told before anything is written: a full disk must not lose it

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
             }
         }
     };
-    let mut host = WorkerHost::default();
+    let mut host = WorkerHost::new(None);
     let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
     let graded = graded.map_err(|_| Failure::interrupted())?;
     let mut comparison = compare(&report.grade, &graded.grade)?;
