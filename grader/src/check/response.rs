@@ -8,9 +8,10 @@
 
 use kinemark_sim::control::linear_step::Fed;
 
-use super::{MotionFacts, alternation};
-use crate::grade::Evidence;
+use super::{Finding, MotionFacts, alternation};
+use crate::grade::{Evidence, Measure};
 use crate::graded::{Curve, StepBackdrop};
+use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
 use crate::quantity::{seconds, trimmed};
 
@@ -34,10 +35,19 @@ pub(super) struct Response<'a> {
     pub(super) final_tick: usize,
 }
 
-/// Why there is no step response to judge.
-pub(super) struct Fault {
+/// Why points are lost, and what to do.
+pub(super) struct Loss {
     pub(super) evidence: Evidence,
     pub(super) next_step: String,
+}
+
+/// What a check measures of a step response.
+pub(super) struct Measured {
+    pub(super) quantity: String,
+    /// Infinite where there is none.
+    pub(super) value: f64,
+    pub(super) unit: &'static str,
+    pub(super) band: Band,
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -108,8 +118,13 @@ impl<'a> Response<'a> {
         }
     }
 
+    /// Why there is no step response to judge, if there is none: the joint hardly moved, or never settles.
+    pub(super) fn fault(&self, tolerance: f64) -> Option<Loss> {
+        self.stayed().or_else(|| self.unsettled(tolerance))
+    }
+
     /// Whether the joint hardly moved.
-    pub(super) fn stayed(&self) -> Option<Fault> {
+    pub(super) fn stayed(&self) -> Option<Loss> {
         let way = self.asked.target.map(|target| target - self.start);
         let moved = match way {
             Some(way) if way.abs() > LEAST_STEP => self.step() / way >= LEAST_WAY,
@@ -136,14 +151,14 @@ impl<'a> Response<'a> {
             )
         };
         let last = self.values.len().saturating_sub(1);
-        Some(Fault {
+        Some(Loss {
             evidence: self.evidence(message, last),
             next_step: format!("Bring {} to its target first.", self.what()),
         })
     }
 
     /// Whether some tick of the final part is further than `tolerance` from the final value.
-    pub(super) fn unsettled(&self, tolerance: f64) -> Option<Fault> {
+    pub(super) fn unsettled(&self, tolerance: f64) -> Option<Loss> {
         let part = &self.values[self.final_tick..];
         let far = |value: &f64| {
             let near = (value - self.end).abs() <= tolerance;
@@ -186,7 +201,7 @@ impl<'a> Response<'a> {
             message = format!("{message}; {why}");
             next_step = help;
         }
-        Some(Fault {
+        Some(Loss {
             evidence: self.evidence(message, tick),
             next_step,
         })
@@ -235,6 +250,41 @@ impl<'a> Response<'a> {
                 target: self.asked.target,
                 band,
             }),
+        }
+    }
+
+    /// The finding of a check: where there is no step response it insists on saying why, else `short` says why points are lost.
+    pub(super) fn finding(
+        measured: Measured,
+        fault: Option<Loss>,
+        short: impl FnOnce() -> Loss,
+        curve: Curve,
+    ) -> Finding {
+        let Measured {
+            quantity,
+            value,
+            unit,
+            band,
+        } = measured;
+        let score = band.score(value);
+        let insists = fault.is_some();
+        let loss = fault.or_else(|| (score < 1.0).then(short));
+        let (evidence, next_step) = loss.map_or_else(Default::default, |loss| {
+            (vec![loss.evidence], loss.next_step)
+        });
+        Finding {
+            insists,
+            score,
+            measure: Some(Measure {
+                quantity,
+                value: value.is_finite().then_some(value),
+                unit: unit.to_owned(),
+                full: band.full,
+                zero: band.zero,
+            }),
+            evidence,
+            next_step,
+            curve: Some(curve),
         }
     }
 }

@@ -3,9 +3,9 @@
 //! The shares, 0.1 and 0.9 where the lab does not say, are of the way from the start to the final value. Each is passed where the
 //! signal first reaches it, on the straight line between two ticks.
 
-use super::response::{Response, SETTLED};
+use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
+use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
 use crate::quantity::{seconds, trimmed, with_unit};
@@ -36,9 +36,7 @@ pub fn judge(
     check: &str,
 ) -> Finding {
     let response = Response::new(facts, asked);
-    let fault = response
-        .stayed()
-        .or_else(|| response.unsettled(SETTLED * response.step().abs()));
+    let fault = response.fault(SETTLED * response.step().abs());
     let passed = match fault {
         Some(_) => None,
         None => passes(&response.values, response.start, response.end, shares),
@@ -51,21 +49,13 @@ pub fn judge(
     } else {
         f64::INFINITY
     };
-    let score = band.score(value);
     let told = shares.map(|share| with_unit(share, ""));
     let mut marks = Vec::new();
     if passed.is_some() {
         marks.push((from_s, format!("{} of the step", told[0])));
         marks.push((to_s, format!("{} of the step", told[1])));
     }
-    let mut evidence: Vec<Evidence> = Vec::new();
-    let mut next_step = "Make it faster: more proportional gain, or less damping.".to_owned();
-    let mut insists = false;
-    if let Some(fault) = fault {
-        evidence.push(fault.evidence);
-        next_step = fault.next_step;
-        insists = true;
-    } else if score < 1.0 {
+    let short = || {
         let mut message = format!(
             "{} takes {} from {} to {} of its step, from {} to {}",
             response.what(),
@@ -85,34 +75,30 @@ pub fn judge(
             }
         }
         let tick = passed.map_or(0.0, |ticks| ticks[1]).max(0.0) as usize;
-        evidence.push(Evidence {
-            value: value.is_finite().then_some(value),
-            limit: Some(band.full),
-            unit: "s".to_owned(),
-            ..response.evidence(message, tick.min(response.values.len() - 1))
-        });
-    }
-    Finding {
-        insists,
-        score,
-        measure: Some(Measure {
-            quantity: format!(
-                "time of {} from {} to {} of its step of {} {}",
-                response.what(),
-                told[0],
-                told[1],
-                trimmed(response.step(), 4),
-                asked.unit()
-            ),
-            value: value.is_finite().then_some(value),
-            unit: "s".to_owned(),
-            full: band.full,
-            zero: band.zero,
-        }),
-        evidence,
-        next_step,
-        curve: Some(response.curve(check, marks, None)),
-    }
+        Loss {
+            evidence: Evidence {
+                value: value.is_finite().then_some(value),
+                limit: Some(band.full),
+                unit: "s".to_owned(),
+                ..response.evidence(message, tick.min(response.values.len() - 1))
+            },
+            next_step: "Make it faster: more proportional gain, or less damping.".to_owned(),
+        }
+    };
+    let measured = Measured {
+        quantity: format!(
+            "time of {} from {} to {} of its step of {} {}",
+            response.what(),
+            told[0],
+            told[1],
+            trimmed(response.step(), 4),
+            asked.unit()
+        ),
+        value,
+        unit: "s",
+        band,
+    };
+    Response::finding(measured, fault, short, response.curve(check, marks, None))
 }
 
 #[cfg(test)]

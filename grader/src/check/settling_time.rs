@@ -3,9 +3,9 @@
 //! It is the last time at which the signal is further from its final value than `within` (0.02 where the lab does not say) times
 //! the step, on the straight line between two ticks. A joint that is so far off in the final part has not settled.
 
-use super::response::Response;
+use super::response::{Loss, Measured, Response};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
+use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
 use crate::quantity::{seconds, with_unit};
@@ -40,24 +40,14 @@ pub fn judge(
 ) -> Finding {
     let response = Response::new(facts, asked);
     let tolerance = within * response.step().abs();
-    let fault = response.stayed().or_else(|| response.unsettled(tolerance));
+    let fault = response.fault(tolerance);
     let ticks = last_off(&response.values, response.end, tolerance);
     let value = match fault {
         Some(_) => f64::INFINITY,
         None => response.time_s(ticks),
     };
-    let score = band.score(value);
     let share = with_unit(within, "");
-    let mut evidence = Vec::new();
-    let mut next_step =
-        "Look at the curve: if it swings, add damping; if it creeps, add proportional gain."
-            .to_owned();
-    let mut insists = false;
-    if let Some(fault) = fault {
-        evidence.push(fault.evidence);
-        next_step = fault.next_step;
-        insists = true;
-    } else if score < 1.0 {
+    let short = || {
         let mut message = format!(
             "{} stays within {share} of its step from {} on",
             response.what(),
@@ -71,13 +61,18 @@ pub fn judge(
                 message += &format!("; the linear loop does from {}", seconds(predicted_s));
             }
         }
-        evidence.push(Evidence {
-            value: value.is_finite().then_some(value),
-            limit: Some(band.full),
-            unit: "s".to_owned(),
-            ..response.evidence(message, ticks.max(0.0) as usize)
-        });
-    }
+        Loss {
+            evidence: Evidence {
+                value: value.is_finite().then_some(value),
+                limit: Some(band.full),
+                unit: "s".to_owned(),
+                ..response.evidence(message, ticks.max(0.0) as usize)
+            },
+            next_step:
+                "Look at the curve: if it swings, add damping; if it creeps, add proportional gain."
+                    .to_owned(),
+        }
+    };
     let marks = if value.is_finite() {
         vec![(value, "settled".to_owned())]
     } else {
@@ -86,23 +81,16 @@ pub fn judge(
     let told = format!("within {share} of the final value");
     let edges = (response.end - tolerance, response.end + tolerance, told);
     let drawn = response.end.is_finite().then_some(edges);
-    Finding {
-        insists,
-        score,
-        measure: Some(Measure {
-            quantity: format!(
-                "time until {} stays within {share} of its step",
-                response.what()
-            ),
-            value: value.is_finite().then_some(value),
-            unit: "s".to_owned(),
-            full: band.full,
-            zero: band.zero,
-        }),
-        evidence,
-        next_step,
-        curve: Some(response.curve(check, marks, drawn)),
-    }
+    let measured = Measured {
+        quantity: format!(
+            "time until {} stays within {share} of its step",
+            response.what()
+        ),
+        value,
+        unit: "s",
+        band,
+    };
+    Response::finding(measured, fault, short, response.curve(check, marks, drawn))
 }
 
 #[cfg(test)]

@@ -11,9 +11,9 @@ use kinemark_sim::control::Mode;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
 
-use super::response::{Response, SETTLED};
+use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
+use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
 use crate::quantity::trimmed;
@@ -165,16 +165,8 @@ pub fn judge(
         Some(_) => f64::INFINITY,
         None => (response.end - target).abs(),
     };
-    let score = band.score(value);
     let last = response.values.len().saturating_sub(1);
-    let mut evidence: Vec<Evidence> = Vec::new();
-    let mut next_step = "Add integral action.".to_owned();
-    let mut insists = false;
-    if let Some(fault) = fault {
-        evidence.push(fault.evidence);
-        next_step = fault.next_step;
-        insists = true;
-    } else if score < 1.0 {
+    let short = || {
         let mut message = format!(
             "{} settles at {}, {} from {}",
             response.what(),
@@ -182,41 +174,38 @@ pub fn judge(
             response.told(value),
             response.told(target),
         );
+        let mut next_step = "Add integral action.".to_owned();
         if let Some((why, help)) = reason(&response, target) {
             message += &format!(": {why}");
             next_step = help;
         }
-        evidence.push(Evidence {
-            value: Some(response.end),
-            limit: Some(target),
-            ..response.evidence(message, last)
-        });
-    }
-    let from_s = facts.time_s(response.final_tick);
+        Loss {
+            evidence: Evidence {
+                value: Some(response.end),
+                limit: Some(target),
+                ..response.evidence(message, last)
+            },
+            next_step,
+        }
+    };
+    let marks = vec![(
+        facts.time_s(response.final_tick),
+        "judged from here".to_owned(),
+    )];
     let told = format!("within {} {}", number(band.full), asked.unit());
     let edges = (target - band.full, target + band.full, told);
-    Finding {
-        insists,
-        score,
-        measure: Some(Measure {
-            quantity: format!(
-                "distance of {} at rest from {}",
-                response.what(),
-                response.told(target)
-            ),
-            value: value.is_finite().then_some(value),
-            unit: asked.unit().to_owned(),
-            full: band.full,
-            zero: band.zero,
-        }),
-        evidence,
-        next_step,
-        curve: Some(response.curve(
-            check,
-            vec![(from_s, "judged from here".to_owned())],
-            (band.full > 0.0).then_some(edges),
-        )),
-    }
+    let drawn = (band.full > 0.0).then_some(edges);
+    let measured = Measured {
+        quantity: format!(
+            "distance of {} at rest from {}",
+            response.what(),
+            response.told(target)
+        ),
+        value,
+        unit: asked.unit(),
+        band,
+    };
+    Response::finding(measured, fault, short, response.curve(check, marks, drawn))
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! step-overshoot: how far a joint goes past its final value, as a fraction of its step.
 
-use super::response::{Response, SETTLED};
+use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
+use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
 use crate::quantity::{seconds, with_unit};
@@ -20,20 +20,10 @@ fn beyond(values: &[f64], start: f64, end: f64) -> (f64, usize) {
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &str) -> Finding {
     let response = Response::new(facts, asked);
-    let fault = response
-        .stayed()
-        .or_else(|| response.unsettled(SETTLED * response.step().abs()));
+    let fault = response.fault(SETTLED * response.step().abs());
     let (over, peak) = beyond(&response.values, response.start, response.end);
     let value = if fault.is_some() { f64::INFINITY } else { over };
-    let score = band.score(value);
-    let mut evidence = Vec::new();
-    let mut next_step = "Add damping, or ask for the step less suddenly.".to_owned();
-    let mut insists = false;
-    if let Some(fault) = fault {
-        evidence.push(fault.evidence);
-        next_step = fault.next_step;
-        insists = true;
-    } else if score < 1.0 {
+    let short = || {
         let mut message = format!(
             "{} goes to {} at {}, {} of its step past the final value of {}",
             response.what(),
@@ -47,11 +37,14 @@ pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &
             let (over, _) = beyond(&predicted, response.start, end);
             message += &format!("; the linear loop goes {} past", with_unit(over, ""));
         }
-        evidence.push(Evidence {
-            limit: Some(response.end),
-            ..response.evidence(message, peak)
-        });
-    }
+        Loss {
+            evidence: Evidence {
+                limit: Some(response.end),
+                ..response.evidence(message, peak)
+            },
+            next_step: "Add damping, or ask for the step less suddenly.".to_owned(),
+        }
+    };
     let marks = if value > 0.0 && value.is_finite() {
         vec![(facts.time_s(peak), "furthest".to_owned())]
     } else {
@@ -61,20 +54,13 @@ pub fn judge(facts: &MotionFacts<'_>, asked: &StepResponse, band: Band, check: &
     let told = format!("{} past the final value", with_unit(band.full, ""));
     let edges = (response.end.min(edge), response.end.max(edge), told);
     let drawn = (response.end.is_finite() && band.full > 0.0).then_some(edges);
-    Finding {
-        insists,
-        score,
-        measure: Some(Measure {
-            quantity: format!("overshoot of {}", response.what()),
-            value: value.is_finite().then_some(value),
-            unit: String::new(),
-            full: band.full,
-            zero: band.zero,
-        }),
-        evidence,
-        next_step,
-        curve: Some(response.curve(check, marks, drawn)),
-    }
+    let measured = Measured {
+        quantity: format!("overshoot of {}", response.what()),
+        value,
+        unit: "",
+        band,
+    };
+    Response::finding(measured, fault, short, response.curve(check, marks, drawn))
 }
 
 #[cfg(test)]

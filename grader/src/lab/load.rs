@@ -7,6 +7,7 @@ mod grants;
 mod ladder;
 mod motion;
 mod path_checks;
+mod prediction;
 mod run_checks;
 mod step_checks;
 mod target;

@@ -2,17 +2,16 @@
 
 use std::ops::Range;
 
-use kinemark_sim::control::LinearStep;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::step::{
-    BandRadS, ChatterTable, EffortTable, OfName, PredictionTable, RiseTimeTable, SettlingTimeTable,
-    SteadyErrorTable, StepOvershootTable,
+    BandRadS, ChatterTable, EffortTable, OfName, RiseTimeTable, SettlingTimeTable,
+    SteadyErrorTable, StepKeys, StepOvershootTable,
 };
-use crate::lab::file::{CheckTable, DerivativeName, NumberAt};
+use crate::lab::file::{CheckTable, NumberAt};
 use crate::lab::model::{Band, CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::step::StepResponse;
@@ -21,18 +20,6 @@ use crate::lab::step::StepResponse;
 const FINAL_S: f64 = 0.2;
 /// The same for the steady error \[s\].
 const LAST_S: f64 = 0.5;
-
-/// The keys that checks of a step response share.
-struct StepKeys<'t> {
-    joint: &'t Spanned<String>,
-    of: OfName,
-    target_rad: &'t Option<NumberAt>,
-    target_rad_s: &'t Option<NumberAt>,
-    final_s: (&'t Option<NumberAt>, &'static str, f64),
-    prediction: &'t Option<Spanned<PredictionTable>>,
-    /// Of the whole table.
-    at: Range<usize>,
-}
 
 impl Reader<'_> {
     /// The kinds of this file that a check has.
@@ -146,18 +133,7 @@ impl Reader<'_> {
                 Some("left out they are 0.1 and 0.9".to_owned()),
             );
         }
-        let response = self.step_response(
-            StepKeys {
-                joint: &table.joint,
-                of: table.of,
-                target_rad: &table.target_rad,
-                target_rad_s: &table.target_rad_s,
-                final_s: (&table.final_s, "`final_s`", FINAL_S),
-                prediction: &table.prediction,
-                at: at.clone(),
-            },
-            work,
-        )?;
+        let response = self.step_response(table.keys(), FINAL_S, at.clone(), work)?;
         Ok(CheckKind::RiseTime {
             response,
             from,
@@ -174,18 +150,7 @@ impl Reader<'_> {
         let at = table.span();
         let table = table.get_ref();
         let within = self.share(&table.within, "`within`", 0.02)?;
-        let response = self.step_response(
-            StepKeys {
-                joint: &table.joint,
-                of: table.of,
-                target_rad: &table.target_rad,
-                target_rad_s: &table.target_rad_s,
-                final_s: (&table.final_s, "`final_s`", FINAL_S),
-                prediction: &table.prediction,
-                at: at.clone(),
-            },
-            work,
-        )?;
+        let response = self.step_response(table.keys(), FINAL_S, at.clone(), work)?;
         Ok(CheckKind::SettlingTime {
             response,
             within,
@@ -200,18 +165,7 @@ impl Reader<'_> {
     ) -> Result<CheckKind, LabError> {
         let at = table.span();
         let table = table.get_ref();
-        let response = self.step_response(
-            StepKeys {
-                joint: &table.joint,
-                of: table.of,
-                target_rad: &table.target_rad,
-                target_rad_s: &table.target_rad_s,
-                final_s: (&table.final_s, "`final_s`", FINAL_S),
-                prediction: &table.prediction,
-                at: at.clone(),
-            },
-            work,
-        )?;
+        let response = self.step_response(table.keys(), FINAL_S, at.clone(), work)?;
         Ok(CheckKind::StepOvershoot {
             response,
             band: self.band(table.full, table.zero, at)?,
@@ -225,18 +179,7 @@ impl Reader<'_> {
     ) -> Result<CheckKind, LabError> {
         let at = table.span();
         let table = table.get_ref();
-        let response = self.step_response(
-            StepKeys {
-                joint: &table.joint,
-                of: table.of,
-                target_rad: &table.target_rad,
-                target_rad_s: &table.target_rad_s,
-                final_s: (&table.last_s, "`last_s`", LAST_S),
-                prediction: &table.prediction,
-                at: at.clone(),
-            },
-            work,
-        )?;
+        let response = self.step_response(table.keys(), LAST_S, at.clone(), work)?;
         let unit = match table.of {
             OfName::Position => "rad",
             OfName::Velocity => "rad_s",
@@ -304,7 +247,14 @@ impl Reader<'_> {
         )
     }
 
-    fn step_response(&self, keys: StepKeys<'_>, work: &TaskWork) -> Result<StepResponse, LabError> {
+    /// What a check at `at` looks at; `absent_s` is the length of its last part where the lab does not say.
+    fn step_response(
+        &self,
+        keys: StepKeys<'_>,
+        absent_s: f64,
+        at: Range<usize>,
+        work: &TaskWork,
+    ) -> Result<StepResponse, LabError> {
         let joint = self.joint(keys.joint)?;
         let (of, target, foreign, wanted) = match keys.of {
             OfName::Position => (
@@ -335,7 +285,7 @@ impl Reader<'_> {
         };
         if prediction.is_some() && target.is_none() {
             return self.report.err(
-                keys.at,
+                at,
                 "lab::step",
                 "a prediction needs to know the step".to_owned(),
                 "the target is missing",
@@ -346,7 +296,7 @@ impl Reader<'_> {
             joint,
             of,
             target: target.as_ref().map(|number| *number.get_ref()),
-            final_ticks: self.final_ticks(keys.final_s, keys.at, work)?,
+            final_ticks: self.final_ticks(keys.last, absent_s, at, work)?,
             prediction,
         })
     }
@@ -354,7 +304,8 @@ impl Reader<'_> {
     /// Ticks of the part at the end that counts.
     fn final_ticks(
         &self,
-        (typed, what, absent_s): (&Option<NumberAt>, &str, f64),
+        (typed, what): (&Option<NumberAt>, &str),
+        absent_s: f64,
         at: Range<usize>,
         work: &TaskWork,
     ) -> Result<usize, LabError> {
@@ -380,76 +331,5 @@ impl Reader<'_> {
             "not shorter than the run",
             Some(format!("make {what} shorter, or the run longer")),
         )
-    }
-
-    fn prediction(
-        &self,
-        spanned: &Spanned<PredictionTable>,
-        of: Fed,
-    ) -> Result<LinearStep, LabError> {
-        let table = spanned.get_ref();
-        let refuse = |message: String, help: &str| {
-            self.report.err(
-                spanned.span(),
-                "lab::prediction",
-                message,
-                "this prediction",
-                Some(help.to_owned()),
-            )
-        };
-        if !(table.inertia > 0.0 && table.inertia.is_finite()) {
-            return refuse(
-                format!("`inertia` must be positive, got {}", table.inertia),
-                "it is the joint's moment of inertia [kg m²]",
-            );
-        }
-        let others = [
-            ("damping", table.damping),
-            ("kp", table.kp),
-            ("ki", table.ki),
-            ("kd", table.kd),
-        ];
-        for (name, value) in others {
-            if !(value >= 0.0 && value.is_finite()) {
-                return refuse(
-                    format!("`{name}` must be zero or more, got {value}"),
-                    "left out it is 0",
-                );
-            }
-        }
-        let derivative_of_error = match &table.derivative {
-            None => true,
-            Some(name) => match name.get_ref() {
-                DerivativeName::Error => true,
-                // of a measured position both are the velocity
-                DerivativeName::Measurement | DerivativeName::Velocity => false,
-            },
-        };
-        let prediction = LinearStep {
-            fed: of,
-            inertia_kg_m2: table.inertia,
-            damping_n_m_s: table.damping,
-            kp: table.kp,
-            ki: table.ki,
-            kd: table.kd,
-            derivative_of_error,
-        };
-        if !prediction.is_bounded() {
-            return refuse(
-                format!(
-                    "the predicted loop is unstable: (damping + kd) kp = {} is less than inertia ki = {}",
-                    (table.damping + table.kd) * table.kp,
-                    table.inertia * table.ki
-                ),
-                "predict a loop that settles, or leave the prediction out",
-            );
-        }
-        if prediction.response(0.001, 2).is_none() {
-            return refuse(
-                "the predicted loop is too fast to be computed".to_owned(),
-                "look at its inertia and gains",
-            );
-        }
-        Ok(prediction)
     }
 }
