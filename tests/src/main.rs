@@ -22,6 +22,7 @@ mod jacobian_task;
 mod lab_audit;
 mod lab_truths;
 mod mesh_labs;
+mod own_lab;
 mod path_checks;
 mod robot_docs;
 mod robot_files;

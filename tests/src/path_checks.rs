@@ -3,7 +3,7 @@
 
 use serde_json::Value as Json;
 
-use crate::testbed::TestBed;
+use crate::own_lab::{OwnLab, check, message, value};
 
 const LAB: &str = r#"
 format = 1
@@ -88,47 +88,14 @@ fn control(observation) {{
 const RIGHT: &str =
     "if t < 1.95 { min(0.4 * max(t - 0.2, 0.0), 0.5) } else { min(0.5 + 0.4 * (t - 1.95), 1.0) }";
 
-fn bed() -> TestBed {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    bed.write("labs/91-line/lab.toml", LAB);
-    bed
-}
-
-const GRADE: [&str; 4] = ["grade", "91-line", "mine.rhai", "--practice"];
-
-/// Grades a submission; its task as the record has it, after the report was verified.
-fn graded(bed: &TestBed, submission: &str, code: i32) -> Json {
-    bed.write("mine.rhai", submission);
-    let ran = bed.run(&GRADE);
-    assert_eq!(ran.code, Some(code), "{ran:?}");
-    let verified = bed.run(&["verify", "out"]);
-    assert_eq!(verified.code, Some(0), "{verified:?}");
-    let text = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
-    let record: Json = serde_json::from_str(&text).expect("JSON");
-    record["tasks"][0].clone()
-}
-
-fn check<'a>(task: &'a Json, name: &str) -> &'a Json {
-    let checks = task["checks"].as_array().expect("checks");
-    let found = checks.iter().find(|check| check["name"] == name);
-    found.unwrap_or_else(|| panic!("no check {name}"))
-}
-
-fn value(task: &Json, name: &str) -> f64 {
-    let value = check(task, name)["measure"]["value"].as_f64();
-    value.unwrap_or_else(|| panic!("no value of {name}: {task}"))
-}
-
-fn message(check: &Json) -> &str {
-    let message = check["evidence"][0]["message"].as_str();
-    message.unwrap_or_else(|| panic!("no evidence: {check}"))
+fn own_lab() -> OwnLab {
+    OwnLab::new("91-line", LAB)
 }
 
 #[test]
 fn who_follows_the_path_as_asked_has_full_marks() {
-    let bed = bed();
-    let task = graded(&bed, &along(RIGHT), 0);
+    let lab = own_lab();
+    let task = lab.graded(&along(RIGHT), 0);
     assert_eq!(task["verdict"], "passed", "{task}");
     assert_eq!(task["points"], 11.0, "{task}");
     // from 1.95 s on 0.44 m of the second line at 0.4 m/s, and a servo that lags by kd / kp = 0.06 s
@@ -141,22 +108,22 @@ fn who_follows_the_path_as_asked_has_full_marks() {
         .collect();
     assert_eq!(names, ["noise", "late", "stiff", "loaded"]);
     // the same noise for another submission that moves alike
-    let other = graded(&bed, &format!("// another\n{}", along(RIGHT)), 0);
+    let other = lab.graded(&format!("// another\n{}", along(RIGHT)), 0);
     assert_eq!(other["digests"], task["digests"]);
-    let plot = std::fs::read_to_string(bed.path("out/plots/line-path.svg")).expect("plot");
+    let plot = lab.written("plots/line-path.svg");
     for words in ["path asked for", "\nell\n", "\nspare\n", "full points"] {
         assert!(plot.contains(words), "no {words:?}");
     }
-    let page = std::fs::read_to_string(bed.path("out/report.html")).expect("report");
+    let page = lab.written("report.html");
     assert!(page.contains("under disturbances, mean of 4 rungs"));
 }
 
 #[test]
 fn who_hurries_rests_or_stops_loses_for_that() {
-    let bed = bed();
+    let lab = own_lab();
     // twice the speed on the second line
     let hasty = RIGHT.replace("0.5 + 0.4 * (t - 1.95)", "0.5 + 0.8 * (t - 1.95)");
-    let task = graded(&bed, &along(&hasty), 1);
+    let task = lab.graded(&along(&hasty), 1);
     assert_eq!(check(&task, "near")["outcome"], "full", "{task}");
     // hand: an error of 1 where the speed has settled
     assert!((0.8..1.1).contains(&value(&task, "pace")), "{task}");
@@ -169,12 +136,12 @@ fn who_hurries_rests_or_stops_loses_for_that() {
     );
     // a rest of 0.5 s in the middle of the first line: 0.2 m of 0.38 m and 0.2 m
     let resting = "if t < 0.825 { 0.4 * max(t - 0.2, 0.0) } else { min(0.25 + 0.4 * max(t - 1.325, 0.0), 1.0) }";
-    let task = graded(&bed, &along(resting), 1);
+    let task = lab.graded(&along(resting), 1);
     let expected = (0.2_f64 / 0.58).sqrt();
     assert!((value(&task, "pace") - expected).abs() < 0.05, "{task}");
     assert_eq!(check(&task, "pace-2")["outcome"], "full", "{task}");
     // the second line is never driven
-    let task = graded(&bed, &along("min(0.4 * max(t - 0.2, 0.0), 0.5)"), 1);
+    let task = lab.graded(&along("min(0.4 * max(t - 0.2, 0.0), 0.5)"), 1);
     assert_eq!(check(&task, "first")["outcome"], "full", "{task}");
     assert_eq!(check(&task, "near")["outcome"], "none", "{task}");
     assert_eq!(value(&task, "pace-2"), 1.0);
@@ -195,13 +162,9 @@ fn who_hurries_rests_or_stops_loses_for_that() {
 
 #[test]
 fn a_rung_that_is_too_high_costs_its_share() {
-    let bed = bed();
-    bed.edit(
-        "labs/91-line/lab.toml",
-        "payload_kg = 0.1",
-        "payload_kg = 8.0",
-    );
-    let task = graded(&bed, &along(RIGHT), 1);
+    let lab = own_lab();
+    lab.edit("payload_kg = 0.1", "payload_kg = 8.0");
+    let task = lab.graded(&along(RIGHT), 1);
     let sturdy = check(&task, "sturdy");
     // three rungs of five shares are kept
     assert_eq!(sturdy["measure"]["value"], 0.6, "{sturdy}");
@@ -226,8 +189,8 @@ fn a_submission_that_fails_on_a_rung_loses_the_rung_only() {
         "    let s =",
         "    if t == 0.0 && observation.qd[0] != 0.0 { throw \"shaking\"; }\n    let s =",
     );
-    let bed = bed();
-    let task = graded(&bed, &wary, 1);
+    let lab = own_lab();
+    let task = lab.graded(&wary, 1);
     let sturdy = check(&task, "sturdy");
     assert_eq!(sturdy["measure"]["value"], 0.8, "{sturdy}");
     let told = message(sturdy);
@@ -314,17 +277,5 @@ fn a_path_or_a_ladder_that_cannot_be_is_refused_at_its_place() {
         ("share = 2", "share = 0", "lab::out_of_range", "share"),
         ("delay_ms = 50", "delay_s = 0.05", "lab::toml", "delay_ms"),
     ];
-    let bed = bed();
-    bed.write("mine.rhai", along(RIGHT));
-    for (from, to, code, words) in cases {
-        bed.write("labs/91-line/lab.toml", LAB);
-        bed.edit("labs/91-line/lab.toml", from, to);
-        let ran = bed.run(&GRADE);
-        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
-        // the report may break a line between words
-        let plain = ran.stderr.replace("\n  │", "").replace('\n', " ");
-        for word in [code, words, "lab.toml:"] {
-            assert!(plain.contains(word), "{to}: no {word:?} in\n{}", ran.stderr);
-        }
-    }
+    own_lab().is_refused(&along(RIGHT), &cases);
 }

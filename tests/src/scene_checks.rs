@@ -1,9 +1,7 @@
 //! Checks of what a run did in a scene, and along a path: a right submission has full marks, wrong ones lose for the right reason, and
 //! a lab that asks for what cannot be is refused at the place.
 
-use serde_json::Value as Json;
-
-use crate::testbed::TestBed;
+use crate::own_lab::{OwnLab, check, message};
 
 const LAB: &str = r#"
 format = 1
@@ -85,45 +83,13 @@ fn control(observation) {{
     )
 }
 
-fn bed() -> TestBed {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    bed.write("labs/90-knock/lab.toml", LAB);
-    bed
-}
-
-const GRADE: [&str; 4] = ["grade", "90-knock", "mine.rhai", "--practice"];
-
-/// Grades a submission; its task as the record has it, after the report was verified.
-fn graded(bed: &TestBed, submission: &str, code: i32) -> Json {
-    bed.write("mine.rhai", submission);
-    let ran = bed.run(&GRADE);
-    assert_eq!(ran.code, Some(code), "{ran:?}");
-    let verified = bed.run(&["verify", "out"]);
-    assert_eq!(verified.code, Some(0), "{verified:?}");
-    let text = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
-    let record: Json = serde_json::from_str(&text).expect("JSON");
-    record["tasks"][0].clone()
-}
-
-fn check<'a>(task: &'a Json, name: &str) -> &'a Json {
-    let checks = task["checks"].as_array().expect("checks");
-    let found = checks.iter().find(|check| check["name"] == name);
-    found.unwrap_or_else(|| panic!("no check {name}"))
-}
-
-fn message(check: &Json) -> &str {
-    let message = check["evidence"][0]["message"].as_str();
-    message.unwrap_or_else(|| panic!("no evidence: {check}"))
+fn own_lab() -> OwnLab {
+    OwnLab::new("90-knock", LAB)
 }
 
 #[test]
 fn a_steady_push_has_full_marks() {
-    let task = graded(
-        &bed(),
-        &tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)]"),
-        0,
-    );
+    let task = own_lab().graded(&tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)]"), 0);
     assert_eq!(task["verdict"], "passed", "{task}");
     assert_eq!(task["points"], 13.0, "{task}");
     let fell = check(&task, "soon")["measure"]["value"].as_f64();
@@ -135,7 +101,7 @@ fn a_steady_push_has_full_marks() {
 
 #[test]
 fn an_arm_that_stays_earns_nothing() {
-    let task = graded(&bed(), &tip("[1.25, 0.75]"), 1);
+    let task = own_lab().graded(&tip("[1.25, 0.75]"), 1);
     assert_eq!(task["points"], 0.0, "{task}");
     assert_eq!(
         message(check(&task, "knocked")),
@@ -159,11 +125,7 @@ fn an_arm_that_stays_earns_nothing() {
 
 #[test]
 fn half_a_push_earns_its_share() {
-    let task = graded(
-        &bed(),
-        &tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.0)]"),
-        1,
-    );
+    let task = own_lab().graded(&tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.0)]"), 1);
     let knocked = check(&task, "knocked");
     let told = message(knocked);
     assert!(
@@ -181,8 +143,7 @@ fn half_a_push_earns_its_share() {
 
 #[test]
 fn a_fling_that_ends_on_the_shelf_loses_for_both() {
-    let task = graded(
-        &bed(),
+    let task = own_lab().graded(
         &tip("if t < 1.5 { [1.25, min(0.75 + 4.0 * max(t - 0.5, 0.0), 1.3)] } else { [1.1, 1.0] }"),
         1,
     );
@@ -288,16 +249,5 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
             "needs `scene`",
         ),
     ];
-    for (from, to, code, words) in cases {
-        let bed = bed();
-        bed.write("mine.rhai", tip("[1.25, 0.75]"));
-        bed.edit("labs/90-knock/lab.toml", from, to);
-        let ran = bed.run(&GRADE);
-        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
-        // the report may break a line between words
-        let plain = ran.stderr.replace("\n  │", "").replace('\n', " ");
-        for word in [code, words, "lab.toml:"] {
-            assert!(plain.contains(word), "{to}: no {word:?} in\n{}", ran.stderr);
-        }
-    }
+    own_lab().is_refused(&tip("[1.25, 0.75]"), &cases);
 }

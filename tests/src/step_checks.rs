@@ -1,9 +1,7 @@
 //! Checks of step responses, efforts and smoothness: the linear prediction is what the simulator does where nothing but the loop acts,
 //! gravity and gains that are too high are explained, and a lab that asks for what cannot be is refused at the place.
 
-use serde_json::Value as Json;
-
-use crate::testbed::TestBed;
+use crate::own_lab::{OwnLab, check, message, value};
 
 /// The elbow of the course's arm, held upright; the forearm's inertia about the joint is m l² / 3 and a little.
 const LAB: &str = r#"
@@ -83,70 +81,27 @@ needs = ["rise"]
 chatter = { joint = "elbow", full_hz = 10.0, zero_hz = 50.0 }
 "#;
 
-const GRADE: [&str; 4] = ["grade", "91-step", "mine.rhai", "--practice"];
-
 const STEP: &str = "fn control(observation) { [0.0, 0.5] }\n";
 
-fn bed() -> TestBed {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    bed.write("labs/91-step/lab.toml", LAB);
-    bed
+fn own_lab() -> OwnLab {
+    OwnLab::new("91-step", LAB)
 }
 
 /// The lab with the motors in the student's hands: the lab's servo is gone, and chatter is judged whatever the joint did.
-fn effort_bed() -> TestBed {
-    let bed = bed();
-    bed.edit(
-        "labs/91-step/lab.toml",
-        "mode = \"position\"",
-        "mode = \"effort\"",
-    );
-    bed.edit(
-        "labs/91-step/lab.toml",
-        "servo = { kp = [1000.0, 100.0], kd = [100.0, 10.0], derivative = \"velocity\", gravity_compensation = true,",
+fn effort_lab() -> OwnLab {
+    let lab = own_lab();
+    lab.edit("mode = \"position\"", "mode = \"effort\"");
+    lab.edit("servo = { kp = [1000.0, 100.0], kd = [100.0, 10.0], derivative = \"velocity\", gravity_compensation = true,",
         "servo = {",
     );
-    bed.edit(
-        "labs/91-step/lab.toml",
-        "needs = [\"rise\"]\nchatter",
-        "chatter",
-    );
-    bed
-}
-
-/// Grades a submission; its task as the record has it, after the report was verified.
-fn graded(bed: &TestBed, submission: &str, code: i32) -> Json {
-    bed.write("mine.rhai", submission);
-    let ran = bed.run(&GRADE);
-    assert_eq!(ran.code, Some(code), "{ran:?}");
-    let verified = bed.run(&["verify", "out"]);
-    assert_eq!(verified.code, Some(0), "{verified:?}");
-    let text = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
-    let record: Json = serde_json::from_str(&text).expect("JSON");
-    record["tasks"][0].clone()
-}
-
-fn check<'a>(task: &'a Json, name: &str) -> &'a Json {
-    let checks = task["checks"].as_array().expect("checks");
-    let found = checks.iter().find(|check| check["name"] == name);
-    found.unwrap_or_else(|| panic!("no check {name}"))
-}
-
-fn message(check: &Json) -> &str {
-    let message = check["evidence"][0]["message"].as_str();
-    message.unwrap_or_else(|| panic!("no evidence: {check}"))
-}
-
-fn value(task: &Json, name: &str) -> f64 {
-    let value = check(task, name)["measure"]["value"].as_f64();
-    value.unwrap_or_else(|| panic!("no value of {name}: {task}"))
+    lab.edit("needs = [\"rise\"]\nchatter", "chatter");
+    lab
 }
 
 #[test]
 fn a_step_has_full_marks_and_its_prediction_beside_it() {
-    let bed = bed();
-    let task = graded(&bed, STEP, 0);
+    let lab = own_lab();
+    let task = lab.graded(STEP, 0);
     assert_eq!(task["points"], 12.0, "{task}");
     // real poles at 11.4 and 52.8 1/s: about the rise of the slow one, ln 9 / 11.4 s; the shoulder gives way a little
     let rise_s = value(&task, "rise");
@@ -161,8 +116,7 @@ fn a_step_has_full_marks_and_its_prediction_beside_it() {
             ["linear prediction", "within 2 % of the final value"],
         ),
     ] {
-        let svg = bed.path(&format!("out/plots/step-check-{name}.svg"));
-        let svg = std::fs::read_to_string(&svg).unwrap_or_else(|_| panic!("{svg:?}"));
+        let svg = lab.written(&format!("plots/step-check-{name}.svg"));
         for word in words {
             assert!(svg.contains(word), "{name}: no {word:?}");
         }
@@ -171,7 +125,7 @@ fn a_step_has_full_marks_and_its_prediction_beside_it() {
 
 #[test]
 fn an_arm_that_stays_earns_nothing() {
-    let task = graded(&bed(), "fn control(observation) { [0.0, 0.0] }\n", 1);
+    let task = own_lab().graded("fn control(observation) { [0.0, 0.0] }\n", 1);
     assert_eq!(task["points"], 0.0, "{task}");
     assert_eq!(
         message(check(&task, "rise")),
@@ -184,9 +138,9 @@ fn an_arm_that_stays_earns_nothing() {
 
 #[test]
 fn gravity_is_what_a_proportional_gain_leaves() {
-    let bed = bed();
-    bed.edit("labs/91-step/lab.toml", "gravity_compensation = true, ", "");
-    let task = graded(&bed, STEP, 1);
+    let lab = own_lab();
+    lab.edit("gravity_compensation = true, ", "");
+    let task = lab.graded(STEP, 1);
     let exact = check(&task, "exact");
     let told = message(exact);
     // 0.5 kg at half a metre, half a radian from upright: -1.18 N m, and the error that gives it
@@ -202,8 +156,7 @@ fn gravity_is_what_a_proportional_gain_leaves() {
 #[test]
 fn a_feedback_too_strong_for_its_period_is_explained() {
     // a velocity gain that turns the motion round within a control period: kd T / J = 2.4 > 2
-    let task = graded(
-        &effort_bed(),
+    let task = effort_lab().graded(
         "fn control(observation) {
     let e = 0.5 - observation.q[1];
     [-400.0 * observation.q[0] - 40.0 * observation.qd[0], 100.0 * e - 40.0 * observation.qd[1]]
@@ -277,16 +230,5 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
         ),
         ("full_j = 20.0", "full_j = 90.0", "lab::band", "at or below"),
     ];
-    for (from, to, code, words) in cases {
-        let bed = bed();
-        bed.write("mine.rhai", STEP);
-        bed.edit("labs/91-step/lab.toml", from, to);
-        let ran = bed.run(&GRADE);
-        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
-        // the report may break a line between words
-        let plain = ran.stderr.replace("\n  │", "").replace('\n', " ");
-        for word in [code, words, "lab.toml:"] {
-            assert!(plain.contains(word), "{to}: no {word:?} in\n{}", ran.stderr);
-        }
-    }
+    own_lab().is_refused(STEP, &cases);
 }
