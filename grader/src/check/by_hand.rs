@@ -16,7 +16,10 @@ pub(super) struct HandRow {
     pub(super) effort: [f64; 2],
 }
 
-struct OneLab(String);
+/// A lab and its robot.
+struct OneLab(String, String);
+
+const ARM: &str = include_str!("../../../labs/robots/rrbot.toml");
 
 impl Files for OneLab {
     fn name(&self) -> String {
@@ -26,7 +29,7 @@ impl Files for OneLab {
     fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
         Ok(match path {
             "by-hand/lab.toml" => Some(self.0.clone().into_bytes()),
-            "robots/rrbot.toml" => Some(include_bytes!("../../../labs/robots/rrbot.toml").to_vec()),
+            "robots/rrbot.toml" => Some(self.1.clone().into_bytes()),
             _ => None,
         })
     }
@@ -43,12 +46,29 @@ impl Files for OneLab {
 
 /// What the check `kind = {...}` finds in the run that `row` gives at each time \[s\], in a task with the keys of `motion`.
 pub(super) fn judged(motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
+    found(ARM, motion, kind, row)
+}
+
+/// The same of an arm whose elbow does not turn but slides, along the upper arm.
+pub(super) fn judged_sliding(motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
+    let (before, elbow) = ARM.split_once("name = \"elbow\"").expect("an elbow");
+    let elbow = elbow.replacen("revolute", "prismatic", 1).replacen(
+        "axis = [0.0, 1.0, 0.0]",
+        "axis = [0.0, 0.0, 1.0]",
+        1,
+    );
+    let arm = format!("{before}name = \"elbow\"{elbow}");
+    found(&arm, motion, kind, row)
+}
+
+fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
     let text = format!(
         "format = 1\nname = \"by-hand\"\ntitle = \"By hand\"\nrobot = \"rrbot\"\nframe = \"lab\"\n\
          [[tasks]]\nname = \"step\"\ntitle = \"Step\"\n[tasks.motion]\n{motion}\n\
          [[tasks.checks]]\nname = \"check\"\ntitle = \"Check\"\npoints = 1.0\n{kind}\n"
     );
-    let lab = Lab::load(&OneLab(text), "by-hand").unwrap_or_else(|error| panic!("{error:?}"));
+    let lab = Lab::load(&OneLab(text, arm.to_owned()), "by-hand")
+        .unwrap_or_else(|error| panic!("{error:?}"));
     let task = &lab.tasks[0];
     let TaskWork::Motion(motion) = &task.work else {
         panic!("a motion task");

@@ -21,18 +21,18 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
     let (worst, value) = facts.worst_joint(joint, peak);
     let tick = peak_tick(worst).unwrap_or(0);
     let score = band.score(value);
-    let name = facts.joint_name(worst);
+    let (name, unit) = (facts.joint_name(worst), facts.units(worst).effort());
     let mut evidence = Vec::new();
     if score < 1.0 {
         let message = format!(
-            "the effort of joint `{name}` is {} N m at {}, its greatest",
+            "the effort of joint `{name}` is {} {unit} at {}, its greatest",
             trimmed(trace.effort.at(tick)[worst], 3),
             seconds(facts.time_s(tick)),
         );
         evidence.push(Evidence {
             value: value.is_finite().then_some(value),
             limit: Some(band.full),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             ..facts.evidence(message, format!("effort[{worst}]"), tick)
         });
     }
@@ -42,7 +42,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         measure: Some(Measure {
             quantity: format!("greatest effort of joint `{name}`"),
             value: value.is_finite().then_some(value),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             full: band.full,
             zero: band.zero,
         }),
@@ -51,7 +51,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         curve: Some(Curve {
             check: check.to_owned(),
             title: format!("size of the effort of joint `{name}`"),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             t_s: (0..applied).map(|tick| facts.time_s(tick)).collect(),
             values: (0..applied).map(|tick| size(tick, worst)).collect(),
             full: Some(band.full),

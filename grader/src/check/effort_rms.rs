@@ -29,17 +29,17 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         of_joint(joint).last().copied().unwrap_or(0.0)
     });
     let score = band.score(value);
-    let name = facts.joint_name(worst);
+    let (name, unit) = (facts.joint_name(worst), facts.units(worst).effort());
     let mut evidence = Vec::new();
     if score < 1.0 {
         let message = format!(
-            "the effort of joint `{name}` has a root mean square of {} N m over the run",
+            "the effort of joint `{name}` has a root mean square of {} {unit} over the run",
             trimmed(value, 3),
         );
         evidence.push(Evidence {
             value: value.is_finite().then_some(value),
             limit: Some(band.full),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             ..facts.evidence(message, format!("effort[{worst}]"), applied)
         });
     }
@@ -49,7 +49,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         measure: Some(Measure {
             quantity: format!("root mean square effort of joint `{name}`"),
             value: value.is_finite().then_some(value),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             full: band.full,
             zero: band.zero,
         }),
@@ -58,7 +58,7 @@ pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &
         curve: Some(Curve {
             check: check.to_owned(),
             title: format!("root mean square effort of joint `{name}` so far"),
-            unit: "N m".to_owned(),
+            unit: unit.to_owned(),
             t_s: (0..applied).map(|tick| facts.time_s(tick)).collect(),
             values: of_joint(worst),
             full: Some(band.full),

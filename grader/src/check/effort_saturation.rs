@@ -46,13 +46,14 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
     if let (Some((tick, joint)), true) = (breach, score < 1.0) {
         let started = first.map_or(tick, |(tick, _)| tick);
         let message = format!(
-            "efforts are at their limit for {} in all, first at {}; the {} allowed are used up at {} by joint `{}` at {} N m",
+            "efforts are at their limit for {} in all, first at {}; the {} allowed are used up at {} by joint `{}` at {} {}",
             seconds(value),
             seconds(facts.time_s(started)),
             seconds(band.full),
             seconds(facts.time_s(tick)),
             facts.joint_name(joint),
             trimmed(trace.effort.at(tick)[joint], 3),
+            facts.units(joint).effort(),
         );
         evidence.push(Evidence {
             value: Some(value),

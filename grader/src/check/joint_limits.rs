@@ -2,6 +2,7 @@
 
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
+use crate::lab::joint_units::JointUnits;
 use crate::lab::model::Band;
 use crate::quantity::{seconds, trimmed};
 
@@ -24,11 +25,12 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
         }
     }
     let (value, tick, joint) = worst;
+    let unit = facts.units(joint).position();
     let score = band.score(value);
     let mut evidence = Vec::new();
     if let (Some((first, first_joint)), true) = (breach, score < 1.0) {
         let message = format!(
-            "joint `{}` leaves its limits at {}; joint `{}` is {} rad beyond at its worst, at {}",
+            "joint `{}` leaves its limits at {}; joint `{}` is {} {unit} beyond at its worst, at {}",
             facts.joint_name(first_joint),
             seconds(facts.time_s(first)),
             facts.joint_name(joint),
@@ -38,7 +40,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
         evidence.push(Evidence {
             value: Some(trace.q.at(first)[first_joint]),
             limit: Some(band.full),
-            unit: "rad".to_owned(),
+            unit: facts.units(first_joint).position().to_owned(),
             ..facts.evidence(message, format!("q[{first_joint}]"), first)
         });
     }
@@ -48,13 +50,18 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {
         measure: Some(Measure {
             quantity: "way beyond a joint's limits (negative inside)".to_owned(),
             value: value.is_finite().then_some(value),
-            unit: "rad".to_owned(),
+            unit: unit.to_owned(),
             full: band.full,
             zero: band.zero,
         }),
         evidence,
-        next_step: "Take angles between the limits: `wrap_pi` brings an angle into (-pi, pi]."
-            .to_owned(),
+        next_step: match facts.units(joint) {
+            JointUnits::Sliding => "Take positions between the limits.",
+            JointUnits::Turning | JointUnits::Mixed => {
+                "Take angles between the limits: `wrap_pi` brings an angle into (-pi, pi]."
+            }
+        }
+        .to_owned(),
         curve: None,
     }
 }

@@ -1,6 +1,6 @@
 //! joint-reached: a joint stands at a position for the last part of the run.
 //!
-//! Measured is the greatest distance from the position over the last `hold_s` \[rad\]; the band makes the score of it.
+//! Measured is the greatest distance from the position over the last `hold_s` \[rad or m\]; the band makes the score of it.
 
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
@@ -18,7 +18,7 @@ pub fn judge(
     check: &str,
 ) -> Finding {
     let trace = facts.trace;
-    let name = facts.joint_name(joint);
+    let (name, unit) = (facts.joint_name(joint), facts.units(joint).position());
     let last = trace.len().saturating_sub(1);
     let first = last.saturating_sub(hold_ticks as usize);
     let error_at = |tick: usize| (trace.q.at(tick)[joint] - position).abs();
@@ -34,13 +34,13 @@ pub fn judge(
         let is_to_move = (position - started).abs() > 1e-3;
         let message = if is_to_move && (at_end - started).abs() < 1e-3 {
             format!(
-                "joint `{name}` did not move: it stands at {} rad, {} rad was asked for",
+                "joint `{name}` did not move: it stands at {} {unit}, {} {unit} was asked for",
                 trimmed(at_end, 4),
                 trimmed(position, 4)
             )
         } else {
             format!(
-                "joint `{name}` is {} rad from {} rad at {}, within the last {} that count",
+                "joint `{name}` is {} {unit} from {} {unit} at {}, within the last {} that count",
                 trimmed(value, 4),
                 trimmed(position, 4),
                 seconds(facts.time_s(worst)),
@@ -50,7 +50,7 @@ pub fn judge(
         evidence.push(Evidence {
             value: Some(trace.q.at(worst)[joint]),
             limit: Some(position),
-            unit: "rad".to_owned(),
+            unit: unit.to_owned(),
             ..facts.evidence(message, format!("q[{joint}]"), worst)
         });
     }
@@ -59,11 +59,11 @@ pub fn judge(
         score,
         measure: Some(Measure {
             quantity: format!(
-                "distance of joint `{name}` from {} rad",
+                "distance of joint `{name}` from {} {unit}",
                 trimmed(position, 4)
             ),
             value: Some(value),
-            unit: "rad".to_owned(),
+            unit: unit.to_owned(),
             full: band.full,
             zero: band.zero,
         }),
@@ -75,7 +75,7 @@ pub fn judge(
         curve: Some(Curve {
             check: check.to_owned(),
             title: format!("distance of joint `{name}` from its target"),
-            unit: "rad".to_owned(),
+            unit: unit.to_owned(),
             t_s: (0..trace.len()).map(|tick| facts.time_s(tick)).collect(),
             values: (0..trace.len()).map(error_at).collect(),
             full: Some(band.full),

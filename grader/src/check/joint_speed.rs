@@ -3,6 +3,7 @@
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
 use crate::graded::Curve;
+use crate::lab::joint_units::JointUnits;
 use crate::lab::model::Band;
 use crate::quantity::{seconds, trimmed};
 
@@ -31,11 +32,16 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         fastest.push(here);
     }
     let (value, tick, joint) = worst;
+    let units = facts.units(joint);
+    let (unit, moves) = match units {
+        JointUnits::Sliding => (units.speed(), "slides"),
+        JointUnits::Turning | JointUnits::Mixed => (units.speed(), "turns"),
+    };
     let score = band.score(value);
     let mut evidence = Vec::new();
     if let (Some(first), true) = (first_above, score < 1.0) {
         let message = format!(
-            "joint `{}` turns at {} rad/s at {}; {} rad/s are first passed at {}",
+            "joint `{}` {moves} at {} {unit} at {}; {} {unit} are first passed at {}",
             facts.joint_name(joint),
             trimmed(value, 3),
             seconds(facts.time_s(tick)),
@@ -45,7 +51,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         evidence.push(Evidence {
             value: value.is_finite().then_some(value),
             limit: Some(band.full),
-            unit: "rad/s".to_owned(),
+            unit: unit.to_owned(),
             ..facts.evidence(message, format!("qd[{joint}]"), tick)
         });
     }
@@ -55,7 +61,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         measure: Some(Measure {
             quantity: "greatest speed of a joint".to_owned(),
             value: value.is_finite().then_some(value),
-            unit: "rad/s".to_owned(),
+            unit: unit.to_owned(),
             full: band.full,
             zero: band.zero,
         }),
@@ -65,7 +71,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
         curve: Some(Curve {
             check: check.to_owned(),
             title: "speed of the fastest joint".to_owned(),
-            unit: "rad/s".to_owned(),
+            unit: JointUnits::of_all(facts.robot).speed().to_owned(),
             t_s: (0..facts.trace.len()).map(|tick| facts.time_s(tick)).collect(),
             values: fastest,
             full: Some(band.full),

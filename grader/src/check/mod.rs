@@ -31,6 +31,8 @@ pub mod rise_time;
 pub mod road;
 pub mod robustness;
 pub mod settling_time;
+#[cfg(test)]
+mod sliding;
 pub mod stay;
 pub mod steady_error;
 pub mod step_overshoot;
@@ -45,6 +47,7 @@ use nalgebra::Vector3;
 use crate::event_words::Names;
 use crate::grade::{Evidence, Measure};
 use crate::graded::{Curve, TcpPath};
+use crate::lab::joint_units::JointUnits;
 use crate::lab::model::{Band, Case, Check, CheckKind, Function, MotionTask};
 use robustness::RungFacts;
 use stay::Stay;
@@ -108,6 +111,11 @@ impl MotionFacts<'_> {
     pub fn joint_name(&self, joint: usize) -> &str {
         let found = self.robot.moving_joints().nth(joint);
         found.map_or("?", |joint| joint.name.as_str())
+    }
+
+    /// The units of a joint by its index in `q`.
+    fn units(&self, joint: usize) -> JointUnits {
+        JointUnits::of(self.robot, joint)
     }
 
     /// The joint `asked`, or that with the greatest value, and its value; one that is no number is the greatest of all.

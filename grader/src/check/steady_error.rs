@@ -1,4 +1,4 @@
-//! steady-error: how far from its target a joint comes to rest \[rad or rad/s\].
+//! steady-error: how far from its target a joint comes to rest, in the unit of its signal.
 //!
 //! Measured is the distance of the mean over the last `last_s` (0.5 s where the lab does not say) from the target. A joint that
 //! hardly moved, or that in this time goes further from the mean than 5 % of the way to the target or than the band's
@@ -42,7 +42,7 @@ fn number(value: f64) -> String {
 fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
     let (facts, asked) = (response.facts, response.asked);
     let (trace, motion) = (facts.trace, facts.motion);
-    let (joint, unit) = (asked.joint, asked.unit());
+    let (joint, unit, force) = (asked.joint, asked.unit(), asked.units.effort());
     let error = target - response.end;
     let last = trace.len().checked_sub(1)?;
     // the efforts of the last row are never applied
@@ -97,7 +97,7 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
         } else if error.abs() > 1e-9 {
             (
                 format!(
-                    "{reason}; the motor gives {} N m with {} {unit} of error: as a proportional gain of {} would",
+                    "{reason}; the motor gives {} {force} with {} {unit} of error: as a proportional gain of {} would",
                     number(given.abs()),
                     number(error.abs()),
                     number((given / error).abs())
@@ -119,7 +119,7 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
             let limit = gains.effort_limit;
             if given.abs() >= 0.99 * limit {
                 return Some((
-                    format!("the motor is at its limit of {} N m", number(limit)),
+                    format!("the motor is at its limit of {} {force}", number(limit)),
                     "Ask for less: the motor must have some effort left to correct with."
                         .to_owned(),
                 ));
@@ -131,7 +131,7 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
             }
             proportional(
                 gravity,
-                format!("gravity takes {} N m there", number(gravity.abs())),
+                format!("gravity takes {} {force} there", number(gravity.abs())),
             )
         }
         Fed::Velocity => {
@@ -140,7 +140,7 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
             }
             proportional(
                 given,
-                format!("keeping it takes {} N m", number(given.abs())),
+                format!("keeping it takes {} {force}", number(given.abs())),
             )
         }
     };

@@ -120,7 +120,7 @@ fn table(lab: &Lab) -> String {
     for task in &lab.tasks {
         for check in &task.checks {
             total += check.points;
-            let (full, zero) = match (&check.kind, check.kind.band()) {
+            let (full, zero) = match (&check.kind, check.kind.band(&lab.robot)) {
                 (CheckKind::IkReach(band) | CheckKind::IkBranches(band), _) => (
                     format!("every target within {}", with_unit(band.full, "m")),
                     format!("every target {} off", with_unit(band.zero, "m")),

@@ -6,6 +6,7 @@ pub mod copies;
 pub mod draw;
 pub mod file;
 pub mod files;
+pub mod joint_units;
 pub mod ladder;
 mod ladder_tables;
 pub mod load;

@@ -9,6 +9,7 @@ use kinemark_sim::source::Source;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 
+use super::joint_units::JointUnits;
 use super::ladder::Ladder;
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;
@@ -482,10 +483,13 @@ impl CheckKind {
         matches!(self, Self::TrajectoryMatch { span, .. } if *span == run)
     }
 
-    /// Its band with the unit of its values, where it has one.
-    pub fn band(&self) -> Option<(Band, &'static str)> {
+    /// Its band with the unit of its values on `robot`, where it has one.
+    pub fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
         match self {
-            Self::JointReached { band, .. } | Self::JointLimits(band) => Some((*band, "rad")),
+            Self::JointReached { joint, band, .. } => {
+                Some((*band, JointUnits::of(robot, *joint).position()))
+            }
+            Self::JointLimits(band) => Some((*band, JointUnits::of_all(robot).position())),
             Self::FkError(band)
             | Self::IkReach(band)
             | Self::IkBranches(band)
@@ -505,10 +509,14 @@ impl CheckKind {
             Self::RiseTime { band, .. } | Self::SettlingTime { band, .. } => Some((*band, "s")),
             Self::StepOvershoot { band, .. } => Some((*band, "")),
             Self::SteadyError { band, response, .. } => Some((*band, response.unit())),
-            Self::EffortPeak { band, .. } | Self::EffortRms { band, .. } => Some((*band, "N m")),
+            Self::EffortPeak { joint, band } | Self::EffortRms { joint, band } => {
+                let all = || JointUnits::of_all(robot);
+                let units = joint.map_or_else(all, |joint| JointUnits::of(robot, joint));
+                Some((*band, units.effort()))
+            }
             Self::Energy(band) => Some((*band, "J")),
             Self::Jerk(band) => Some((*band, "m/s³")),
-            Self::JointSpeed(band) => Some((*band, "rad/s")),
+            Self::JointSpeed(band) => Some((*band, JointUnits::of_all(robot).speed())),
             Self::Chatter { band, .. } => Some((*band, "Hz")),
         }
     }

@@ -12,6 +12,7 @@ use crate::lab::file::step::{
     SteadyErrorTable, StepKeys, StepOvershootTable,
 };
 use crate::lab::file::{CheckTable, NumberAt};
+use crate::lab::joint_units::JointUnits;
 use crate::lab::model::{Band, CheckKind, TaskWork};
 use crate::lab::problem::LabError;
 use crate::lab::step::StepResponse;
@@ -294,6 +295,7 @@ impl Reader<'_> {
         }
         Ok(StepResponse {
             joint,
+            units: JointUnits::of(self.robot, joint),
             of,
             target: target.as_ref().map(|number| *number.get_ref()),
             final_ticks: self.final_ticks(keys.last, absent_s, at, work)?,
