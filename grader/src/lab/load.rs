@@ -3,11 +3,13 @@
 
 mod checks;
 mod free_function;
+mod functions;
 mod grants;
 mod ladder;
 mod motion;
 mod path_checks;
 mod prediction;
+mod reading;
 mod run_checks;
 mod step_checks;
 mod target;
@@ -17,24 +19,21 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::{Source, suggest};
-use serde::de::DeserializeOwned;
+use kinemark_sim::source::suggest;
 use toml::Spanned;
 
-use super::file::{
-    BudgetTable, CaseTable, FunctionTable, LabTable, NumberAt, SceneTable, TaskTable,
-};
+use super::file::{BudgetTable, LabTable, NumberAt, SceneTable, TaskTable};
 use super::files::Files;
-use super::model::{
-    Case, Check, Function, FunctionTask, Given, Lab, ReferencePaths, Rows, Task, TaskWork,
-};
-use super::parameters::{self, refused};
-use super::problem::{LabError, LabProblem, LoadError};
+use super::model::{Check, Lab, ReferencePaths, Task, TaskWork};
+use super::parameters;
+use super::problem::{LabError, LoadError};
 use super::robot::{LabRobot, robot_names};
 use super::scene::{LabScene, scene_names};
 use super::variant::{self, Variant};
 use crate::controller::Budgets;
 use crate::graded::TcpPath;
+
+pub(super) use reading::{Reporter, read, refuse_not_finite, tables};
 
 /// Names of the labs in `files`: folders that hold a `lab.toml`.
 pub fn lab_names(files: &dyn Files) -> Vec<String> {
@@ -46,97 +45,6 @@ pub fn lab_names(files: &dyn Files) -> Vec<String> {
         )
     });
     names
-}
-
-/// Reads a file as a [`Source`] whose name is its path.
-pub(super) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
-    match files.read(path) {
-        Ok(text) => Ok(text.map(|text| Source::new(path, text))),
-        Err(why) => Err(LoadError::Unreadable {
-            path: format!("{}/{path}", files.name()),
-            why,
-        }),
-    }
-}
-
-/// Reads TOML into its tables.
-pub(super) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
-    refuse_not_finite(source)?;
-    toml::from_str(source.text()).map_err(|error| refused(source, &error))
-}
-
-/// Refuses `nan` and `inf`, which no number of a lab may be.
-pub(super) fn refuse_not_finite(source: &Source) -> Result<(), LabError> {
-    match not_finite(source.text()) {
-        None => Ok(()),
-        Some(at) => Reporter { source }.err(
-            at,
-            "lab::not_finite",
-            "a lab's numbers are finite".to_owned(),
-            "not a finite number",
-            Some("leave a limit out to have none".to_owned()),
-        ),
-    }
-}
-
-/// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
-fn not_finite(text: &str) -> Option<Range<usize>> {
-    use toml::de::{DeTable, DeValue};
-    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
-        match value.get_ref() {
-            DeValue::Float(number) => {
-                let word = number.as_str().trim_start_matches(['+', '-']);
-                let parsed = word.replace('_', "").parse::<f64>();
-                (!parsed.is_ok_and(f64::is_finite)).then(|| value.span())
-            }
-            DeValue::Array(items) => items.iter().find_map(within),
-            DeValue::Table(table) => table.values().find_map(within),
-            _ => None,
-        }
-    }
-    DeTable::parse(text)
-        .ok()?
-        .get_ref()
-        .values()
-        .find_map(within)
-}
-
-/// Where problems of one text are reported.
-#[derive(Clone, Copy)]
-pub(super) struct Reporter<'a> {
-    pub(super) source: &'a Source,
-}
-
-impl Reporter<'_> {
-    pub(super) fn err<T>(
-        &self,
-        at: Range<usize>,
-        code: &'static str,
-        message: String,
-        label: &str,
-        help: Option<String>,
-    ) -> Result<T, LabError> {
-        let problem = LabProblem {
-            message,
-            code,
-            label: label.to_owned(),
-            help,
-        };
-        Err(LabError::new(problem, self.source, at))
-    }
-
-    pub(super) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
-        match *format.get_ref() {
-            1 => Ok(()),
-            found => self.err(
-                format.span(),
-                "lab::unknown_format",
-                format!("format {found} is not known"),
-                "this version reads format 1",
-                Some("write `format = 1`".to_owned()),
-            ),
-        }
-    }
 }
 
 impl Lab {
@@ -548,124 +456,6 @@ impl Reader<'_> {
             "out of range",
             None,
         )
-    }
-
-    fn function(&self, table: &FunctionTable) -> Result<FunctionTask, LabError> {
-        let function = match table.call.get_ref().as_str() {
-            "forward_kinematics" => Function::ForwardKinematics,
-            "inverse_kinematics" => Function::InverseKinematics,
-            "jacobian" => Function::Jacobian(self.rows(table.rows.as_ref())?),
-            _ => self.free_function(&table.call)?,
-        };
-        if let (Some(rows), false) = (&table.rows, matches!(function, Function::Jacobian(_))) {
-            return self.report.err(
-                rows.span(),
-                "lab::rows",
-                format!("`{}` has no `rows`", function.name()),
-                "rows of what?",
-                Some("`rows` are those of `jacobian`: remove them here".to_owned()),
-            );
-        }
-        if table.cases.is_empty() {
-            return self.report.err(
-                table.call.span(),
-                "lab::no_cases",
-                format!("`{}` has no visible cases", function.name()),
-                "this function",
-                Some("add [[tasks.function.cases]]: students practise on them".to_owned()),
-            );
-        }
-        let cases: Result<Vec<Case>, LabError> = match &function {
-            Function::Free(_) => self.free_cases(table),
-            function => {
-                let cases = table.cases.iter();
-                cases.map(|case| self.case(function, case)).collect()
-            }
-        };
-        Ok(FunctionTask {
-            grants: self.grants(&table.grants, Some(&function))?,
-            function,
-            cases: cases?,
-        })
-    }
-
-    /// The rows of a Jacobian: the linear ones where none are named.
-    fn rows(&self, typed: Option<&Spanned<Vec<String>>>) -> Result<Rows, LabError> {
-        let Some(typed) = typed else {
-            return Ok(Rows::LINEAR);
-        };
-        match Rows::named(typed.get_ref().iter().map(String::as_str)) {
-            Some(rows) => Ok(rows),
-            None => self.report.err(
-                typed.span(),
-                "lab::rows",
-                format!(
-                    "`rows` names some of {}, each once and in this order",
-                    Rows::NAMES.join(", ")
-                ),
-                "not such rows",
-                Some("write `rows = [\"x\", \"y\"]` for motion in a plane".to_owned()),
-            ),
-        }
-    }
-
-    fn case(&self, function: &Function, table: &Spanned<CaseTable>) -> Result<Case, LabError> {
-        let case = table.get_ref();
-        let name = case.name.get_ref().clone();
-        let dimensions: Vec<_> = case
-            .dimensions
-            .iter()
-            .map(|(name, value)| (name.clone(), value.clone()))
-            .collect();
-        if let Err(error) = self.robot_file.build(&dimensions) {
-            return self.report.err(
-                table.span(),
-                "lab::case_dimensions",
-                format!("case `{name}`: {error}"),
-                "this case",
-                Some(suggest(
-                    "",
-                    "dimensions",
-                    self.robot_file.dimensions().names(),
-                )),
-            );
-        }
-        let own = case.given.is_none() && case.expected.is_none();
-        let given = match (function, &case.q_rad, case.position_m) {
-            (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) if own => {
-                self.counted(q, "q_rad")?;
-                Given::Q(q.get_ref().clone())
-            }
-            (Function::InverseKinematics, None, Some(position_m)) if own => Given::Position {
-                position_m,
-                branches: case.branches.as_ref().map_or(2, |branches| {
-                    u32::try_from(*branches.get_ref()).unwrap_or(2)
-                }),
-            },
-            _ => {
-                let wanted = match function {
-                    Function::ForwardKinematics | Function::Jacobian(_) => "`q_rad`",
-                    Function::InverseKinematics => "`position_m`",
-                    Function::Free(_) => "`given`",
-                };
-                return self.report.err(
-                    table.span(),
-                    "lab::case_input",
-                    format!(
-                        "case `{name}` of `{}` is given by {wanted}",
-                        function.name()
-                    ),
-                    "this case",
-                    Some(format!("give {wanted} and nothing else")),
-                );
-            }
-        };
-        Ok(Case {
-            name,
-            hidden_class: None,
-            dimensions,
-            given,
-        })
     }
 
     fn counted<T>(&self, list: &Spanned<Vec<T>>, what: &str) -> Result<(), LabError> {

@@ -1,15 +1,18 @@
 //! What staff have beside the lab: hidden cases, known mistakes, the reference solution. Never in what students get.
 
-use kinemark_sim::robot::Dimension;
+mod draws;
+mod hidden_runs;
+
 use kinemark_sim::source::{Source, suggest};
 use toml::Spanned;
 
-use super::draw::{Draw, Drawn, parameters};
-use super::file::{DrawTable, HiddenRunsTable, HiddenTable, MutantsTable, Ranges, RangesTable};
+use super::file::{HiddenTable, MutantsTable, RangesTable};
 use super::files::Files;
 use super::load::{Reporter, read, tables};
-use super::model::{Case, Function, FunctionTask, Given, Lab, TaskWork};
+use super::model::{Case, Lab, TaskWork};
 use super::problem::{LabError, LoadError};
+use draws::{checked, expect};
+use hidden_runs::hidden_runs;
 
 /// The staff's part of a lab.
 #[derive(Debug, Clone)]
@@ -258,142 +261,6 @@ fn all_rising(
     all.try_for_each(|(name, at)| rising(report, code, at.span(), name, at.get_ref().all()))
 }
 
-/// Lets the solution answer the cases of a free function: what it says is what is expected, entry by entry as in visible cases.
-fn expect(lab: &Lab, task: &str, cases: &mut [Case], solution: &Source) -> Result<(), String> {
-    let mut tasks = lab.tasks.iter();
-    let Some(task) = tasks.find(|known| known.name == task) else {
-        return Ok(());
-    };
-    let TaskWork::Function(FunctionTask {
-        function: function @ Function::Free(_),
-        cases: visible,
-        ..
-    }) = &task.work
-    else {
-        return Ok(());
-    };
-    let Some(Given::Values {
-        expected: names, ..
-    }) = visible.first().map(|case| &case.given)
-    else {
-        return Ok(());
-    };
-    let answers = crate::grading::answers(lab, task, function, cases, solution)?;
-    for (case, answer) in cases.iter_mut().zip(answers) {
-        if let Given::Values { expected, .. } = &mut case.given {
-            *expected = crate::answer::named_entries(&answer, names)
-                .map_err(|what| format!("`{}` of the solution returned {what}", function.name()))?;
-        }
-    }
-    Ok(())
-}
-
-/// The runs of one `[[runs]]` table, each a lab of its own.
-fn hidden_runs(
-    report: Reporter<'_>,
-    lab: &Lab,
-    salt: &str,
-    spanned: &Spanned<HiddenRunsTable>,
-) -> Result<Vec<HiddenRun>, LabError> {
-    let table = spanned.get_ref();
-    let refuse = |message: String, help: &str| {
-        let help = Some(help.to_owned());
-        report.err(spanned.span(), "staff::runs", message, "these runs", help)
-    };
-    let TaskWork::Motion(_) = known_task(report, lab, &table.task)? else {
-        return refuse(
-            format!("task `{}` is no motion task", table.task.get_ref()),
-            "hidden cases of function tasks are [[draws]]",
-        );
-    };
-    if table.count == 0 || table.count > MOST_RUNS {
-        return refuse(
-            format!(
-                "there are 1 to {MOST_RUNS} hidden runs of a class, got {}",
-                table.count
-            ),
-            "change `count`",
-        );
-    }
-    let task = lab
-        .tasks
-        .iter()
-        .find(|task| task.name == *table.task.get_ref());
-    let mut checks = task.into_iter().flat_map(|task| &task.checks);
-    if let Some(check) = checks.find(|check| check.kind.follows_one_path()) {
-        return refuse(
-            format!(
-                "check `{}` compares with one path, and every run has its own",
-                check.name
-            ),
-            "judge the task by goals or a path of its own instead",
-        );
-    }
-    named(report, "staff::runs", &table.class)?;
-    let ranges = table.parameters.get_ref();
-    if ranges.is_empty() {
-        return report.err(
-            table.parameters.span(),
-            "staff::runs",
-            "a hidden run without other numbers is the visible run again".to_owned(),
-            "nothing is drawn",
-            Some("give parameters, such as { can_y = [0.95, 1.05] }".to_owned()),
-        );
-    }
-    all_rising(report, "staff::runs", ranges)?;
-    for (name, ranges) in ranges {
-        let fits = match (lab.parameters.get(name), ranges.get_ref()) {
-            (Some(Dimension::Number(_)), Ranges::One(_)) => true,
-            (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
-            (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
-            (None, _) => {
-                return refuse(
-                    format!("lab `{}` has no parameter `{name}`", lab.name),
-                    &suggest(name, "parameters", lab.parameters.names()),
-                );
-            }
-        };
-        if !fits {
-            return refuse(
-                format!("the ranges of `{name}` do not fit its shape"),
-                "give [low, high] for one number, and a list of such ranges for a list",
-            );
-        }
-    }
-    let with = |parameters: Vec<(String, Dimension)>| {
-        lab.with_parameters(&parameters).or_else(|error| {
-            report.err(
-                spanned.span(),
-                "staff::runs",
-                error.to_string(),
-                "these runs",
-                Some("change the ranges of `parameters`".to_owned()),
-            )
-        })
-    };
-    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
-    for end in [0, 1] {
-        let all = ranges.iter();
-        with(
-            all.map(|(name, ranges)| (name.clone(), ranges.get_ref().end(end)))
-                .collect(),
-        )?;
-    }
-    let class = table.class.get_ref();
-    (0..table.count)
-        .map(|number| {
-            let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
-            Ok(HiddenRun {
-                class: class.clone(),
-                lab: with(drawn)?,
-            })
-        })
-        .collect()
-}
-
-/// A run costs about as much as the visible one; a class of students is to be graded in minutes.
-const MOST_RUNS: u32 = 20;
-
 fn known_task<'l>(
     report: Reporter<'_>,
     lab: &'l Lab,
@@ -413,140 +280,4 @@ fn known_task<'l>(
             )),
         ),
     }
-}
-
-fn checked(
-    report: Reporter<'_>,
-    lab: &Lab,
-    spanned: &Spanned<DrawTable>,
-) -> Result<Draw, LabError> {
-    let table = spanned.get_ref();
-    let refuse = |message: String, help: &str| {
-        report.err(
-            spanned.span(),
-            "staff::draw",
-            message,
-            "this draw",
-            Some(help.to_owned()),
-        )
-    };
-    let TaskWork::Function(task) = known_task(report, lab, &table.task)? else {
-        return refuse(
-            format!("task `{}` is no function task", table.task.get_ref()),
-            "hidden cases are drawn for function tasks",
-        );
-    };
-    if table.count == 0 || table.count > 1000 {
-        return refuse(
-            format!("a draw has 1 to 1000 cases, got {}", table.count),
-            "change `count`",
-        );
-    }
-    let code = "staff::draw";
-    named(report, code, &table.class)?;
-    all_rising(report, code, &table.dimensions)?;
-    if let Some(given) = &table.given {
-        all_rising(report, code, given)?;
-    }
-    if let Some(at) = &table.position_m {
-        rising(report, code, at.span(), "position_m", at.get_ref())?;
-    }
-    if let Some(at) = &table.q_rad {
-        rising(report, code, at.span(), "q_rad", at.get_ref())?;
-    }
-    let joints = lab.robot.n();
-    let q_ranges = match &table.q_rad {
-        Some(ranges) if ranges.get_ref().len() != joints => {
-            return refuse(
-                format!(
-                    "`q_rad` has {} ranges for {joints} joints",
-                    ranges.get_ref().len()
-                ),
-                "give one [low, high] per joint that moves",
-            );
-        }
-        Some(ranges) => Some(ranges.get_ref().clone()),
-        None => None,
-    };
-    let free = matches!(task.function, Function::Free(_));
-    if free != table.given.is_some() || (free && !table.dimensions.is_empty()) {
-        return refuse(
-            format!(
-                "a draw for `{}` {} `given`",
-                task.function.name(),
-                if free { "is of" } else { "has no" }
-            ),
-            "a function of the lab's own is drawn by `given`, and nothing else is",
-        );
-    }
-    let position_m = table.position_m.as_ref().map(|at| *at.get_ref());
-    let what = match (&task.function, q_ranges, position_m) {
-        (Function::Free(_), None, None) => {
-            let ranges: Vec<(String, Ranges)> = table
-                .given
-                .iter()
-                .flatten()
-                .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
-                .collect();
-            let drawn: Vec<&str> = ranges.iter().map(|(name, _)| name.as_str()).collect();
-            let of_cases: Vec<&str> = match task.cases.first().map(|case| &case.given) {
-                Some(Given::Values { given, .. }) => {
-                    given.iter().map(|(name, _)| name.as_str()).collect()
-                }
-                _ => Vec::new(),
-            };
-            if drawn != of_cases {
-                return refuse(
-                    format!(
-                        "this draw gives {}, the visible cases give {}",
-                        drawn.join(", "),
-                        of_cases.join(", ")
-                    ),
-                    "give the same names",
-                );
-            }
-            Drawn::Values(ranges)
-        }
-        (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => Drawn::Q(q),
-        (Function::InverseKinematics, Some(q), None) => {
-            Drawn::PositionOf(q, table.branches.unwrap_or(2))
-        }
-        (Function::InverseKinematics, None, Some(position)) => match table.branches {
-            Some(branches) => Drawn::Position(position, branches),
-            None => {
-                return refuse(
-                    "a draw of positions must say how many `branches` reach them".to_owned(),
-                    "write `branches = 0` for positions out of reach",
-                );
-            }
-        },
-        _ => {
-            return refuse(
-                "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`".to_owned(),
-                "give one of the two",
-            );
-        }
-    };
-    let dimensions: Vec<(String, Ranges)> = table
-        .dimensions
-        .iter()
-        .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
-        .collect();
-    // what can be built at the low ends can be built between: expressions are monotone in practice, and both ends are tried
-    for end in [0, 1] {
-        let changed: Vec<(String, Dimension)> = dimensions
-            .iter()
-            .map(|(name, ranges)| (name.clone(), ranges.end(end)))
-            .collect();
-        if let Err(error) = lab.robot_file.build(&changed) {
-            return refuse(error.to_string(), "change the ranges of `dimensions`");
-        }
-    }
-    Ok(Draw {
-        task: table.task.get_ref().clone(),
-        class: table.class.get_ref().clone(),
-        count: table.count,
-        what,
-        dimensions,
-    })
 }

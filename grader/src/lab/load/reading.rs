@@ -1,0 +1,102 @@
+//! Reading a lab's texts: a file as a source, its TOML as tables with finite numbers, and problems at their place in it.
+
+use std::ops::Range;
+
+use kinemark_sim::source::Source;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+
+use crate::lab::files::Files;
+use crate::lab::parameters::refused;
+use crate::lab::problem::{LabError, LabProblem, LoadError};
+
+/// Reads a file as a [`Source`] whose name is its path.
+pub(in crate::lab) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
+    match files.read(path) {
+        Ok(text) => Ok(text.map(|text| Source::new(path, text))),
+        Err(why) => Err(LoadError::Unreadable {
+            path: format!("{}/{path}", files.name()),
+            why,
+        }),
+    }
+}
+
+/// Reads TOML into its tables.
+pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
+    refuse_not_finite(source)?;
+    toml::from_str(source.text()).map_err(|error| refused(source, &error))
+}
+
+/// Refuses `nan` and `inf`, which no number of a lab may be.
+pub(in crate::lab) fn refuse_not_finite(source: &Source) -> Result<(), LabError> {
+    match not_finite(source.text()) {
+        None => Ok(()),
+        Some(at) => Reporter { source }.err(
+            at,
+            "lab::not_finite",
+            "a lab's numbers are finite".to_owned(),
+            "not a finite number",
+            Some("leave a limit out to have none".to_owned()),
+        ),
+    }
+}
+
+/// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
+fn not_finite(text: &str) -> Option<Range<usize>> {
+    use toml::de::{DeTable, DeValue};
+    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+        match value.get_ref() {
+            DeValue::Float(number) => {
+                let word = number.as_str().trim_start_matches(['+', '-']);
+                let parsed = word.replace('_', "").parse::<f64>();
+                (!parsed.is_ok_and(f64::is_finite)).then(|| value.span())
+            }
+            DeValue::Array(items) => items.iter().find_map(within),
+            DeValue::Table(table) => table.values().find_map(within),
+            _ => None,
+        }
+    }
+    DeTable::parse(text)
+        .ok()?
+        .get_ref()
+        .values()
+        .find_map(within)
+}
+
+/// Where problems of one text are reported.
+#[derive(Clone, Copy)]
+pub(in crate::lab) struct Reporter<'a> {
+    pub(in crate::lab) source: &'a Source,
+}
+
+impl Reporter<'_> {
+    pub(in crate::lab) fn err<T>(
+        &self,
+        at: Range<usize>,
+        code: &'static str,
+        message: String,
+        label: &str,
+        help: Option<String>,
+    ) -> Result<T, LabError> {
+        let problem = LabProblem {
+            message,
+            code,
+            label: label.to_owned(),
+            help,
+        };
+        Err(LabError::new(problem, self.source, at))
+    }
+
+    pub(in crate::lab) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
+        match *format.get_ref() {
+            1 => Ok(()),
+            found => self.err(
+                format.span(),
+                "lab::unknown_format",
+                format!("format {found} is not known"),
+                "this version reads format 1",
+                Some("write `format = 1`".to_owned()),
+            ),
+        }
+    }
+}
