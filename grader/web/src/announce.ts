@@ -1,0 +1,17 @@
+// What a screen reader is told: moments and events that were sought, never every frame.
+
+import { element } from "./dom";
+
+export class Announcer {
+  readonly element = element("div", { class: "unseen", "aria-live": "polite", role: "status" });
+  private timer = 0;
+
+  say(text: string): void {
+    // a region that was just emptied and filled again is told even where the words are the same
+    clearTimeout(this.timer);
+    this.element.textContent = "";
+    this.timer = window.setTimeout(() => {
+      this.element.textContent = text;
+    }, 60);
+  }
+}

@@ -1,0 +1,142 @@
+// The one time of a task: every picture of it looks here, and every control writes here.
+
+import type { Replay, RunEvent } from "./data";
+import { onFrame, stopFrames } from "./frames";
+
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
+
+/** What happened: the time moved; it came to rest (paused or sought); play, speed or loop changed. */
+export type Change = "moved" | "rested" | "changed";
+
+export class Cursor {
+  /** Moment that is shown \[s\]. */
+  t: number;
+  readonly start: number;
+  readonly end: number;
+  playing = false;
+  speed = 1;
+  loop = false;
+  private readonly listeners: Record<Change, Array<() => void>> = { moved: [], rested: [], changed: [] };
+  private last = 0;
+
+  constructor(private readonly replay: Replay) {
+    const { ticks, stepS } = replay;
+    this.start = ticks[0] * stepS;
+    this.end = ticks[ticks.length - 1] * stepS;
+    this.t = this.start;
+  }
+
+  on(change: Change, listener: () => void): void {
+    this.listeners[change].push(listener);
+  }
+
+  private tell(change: Change): void {
+    for (const listener of this.listeners[change]) listener();
+  }
+
+  get tick(): number {
+    return Math.round(this.t / this.replay.stepS);
+  }
+
+  /** Time of a tick \[s\]; a whole rate is divided by, so that the time is the nearest number to its decimal. */
+  timeOf(tick: number): number {
+    const rate = Math.round(1 / this.replay.stepS);
+    return Math.abs(rate * this.replay.stepS - 1) < 1e-9 ? tick / rate : tick * this.replay.stepS;
+  }
+
+  private put(t: number): void {
+    this.t = Math.min(this.end, Math.max(this.start, t));
+    this.tell("moved");
+  }
+
+  /** Goes to the tick nearest to a moment \[s\]; what is no number changes nothing. */
+  seek(t: number): void {
+    if (Number.isNaN(t)) return;
+    const inside = Math.min(this.end, Math.max(this.start, t));
+    this.put(this.timeOf(Math.round(inside / this.replay.stepS)));
+    this.tell("rested");
+  }
+
+  /** Goes to a tick. */
+  seekTick(tick: number): void {
+    this.seek(this.timeOf(tick));
+  }
+
+  /** Stops and goes `frames` frames on, or back where negative. */
+  step(frames: number): void {
+    this.pause();
+    const ticks = this.replay.ticks;
+    const tick = this.tick;
+    let low = 0;
+    let high = ticks.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (ticks[middle] < tick) low = middle + 1;
+      else high = middle;
+    }
+    // between two frames a step back leads to the one before, a step on to the one after
+    const here = low < ticks.length && ticks[low] === tick ? low : frames < 0 ? low : low - 1;
+    this.seekTick(ticks[Math.min(ticks.length - 1, Math.max(0, here + frames))]);
+  }
+
+  /** The next event after this moment, or the last before it. */
+  event(direction: 1 | -1): RunEvent | undefined {
+    const { events } = this.replay;
+    const tick = this.tick;
+    if (direction > 0) return events.find((event) => event.tick > tick);
+    for (let i = events.length - 1; i >= 0; i--) if (events[i].tick < tick) return events[i];
+    return undefined;
+  }
+
+  /** What happens at this tick. */
+  now(): readonly RunEvent[] {
+    const tick = this.tick;
+    return this.replay.events.filter((event) => event.tick === tick);
+  }
+
+  play(): void {
+    if (this.playing || this.end <= this.start) return;
+    if (this.t >= this.end) this.put(this.start);
+    this.playing = true;
+    this.last = 0;
+    onFrame(this.advance);
+    this.tell("changed");
+  }
+
+  pause(): void {
+    if (!this.playing) return;
+    this.playing = false;
+    stopFrames(this.advance);
+    this.tell("changed");
+    // a run is told in whole ticks, so it rests on one
+    this.seek(this.t);
+  }
+
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  setSpeed(speed: number): void {
+    this.speed = speed;
+    this.tell("changed");
+  }
+
+  setLoop(loop: boolean): void {
+    this.loop = loop;
+    this.tell("changed");
+  }
+
+  private readonly advance = (now: number): void => {
+    // a page that was asleep goes on where it was
+    const passed = this.last === 0 ? 0 : Math.min(0.1, (now - this.last) / 1000);
+    this.last = now;
+    const t = this.t + passed * this.speed;
+    if (t < this.end) this.put(t);
+    else if (this.loop) this.put(this.start + ((t - this.end) % (this.end - this.start)));
+    else {
+      this.t = this.end;
+      this.pause();
+    }
+  };
+}

@@ -1,0 +1,290 @@
+// What the page says of a run: the replay's JSON, checked once, so that nothing behind it meets a missing number.
+
+import { bytes, column, track, type Track } from "./track";
+
+export type Vector = readonly number[];
+/** Position in m and quaternion: x, y, z, w, qx, qy, qz. */
+export type Pose = readonly number[];
+
+export type Solid =
+  | { readonly kind: "box"; readonly size: Vector }
+  | { readonly kind: "cylinder" | "capsule"; readonly radius: number; readonly length: number }
+  | { readonly kind: "sphere"; readonly radius: number }
+  | { readonly kind: "mesh"; readonly mesh: number };
+
+export interface Shape {
+  readonly solid: Solid;
+  readonly pose: Pose;
+}
+
+export const NODE_KINDS = ["link", "fixed", "driven", "free", "ghost"] as const;
+export type NodeKind = (typeof NODE_KINDS)[number];
+
+export interface SceneNode {
+  readonly name: string;
+  readonly kind: NodeKind;
+  readonly shapes: readonly Shape[];
+  /** Where it stands in the world if it never moves. */
+  readonly pose: Pose | null;
+  /** Index of its track where it moves. */
+  readonly track: number;
+}
+
+export interface Mesh {
+  readonly vertices: Float32Array;
+  readonly triangles: Uint32Array;
+}
+
+export interface Frame {
+  readonly name: string;
+  readonly node: number | null;
+  readonly pose: Pose;
+}
+
+/** Radii in m within which all points and some points are earned. */
+export interface Tolerance {
+  readonly full: number | null;
+  readonly zero: number | null;
+}
+
+export interface Goal extends Tolerance {
+  readonly position: Vector;
+}
+
+export interface Path extends Tolerance {
+  readonly name: string;
+  readonly points: readonly Vector[];
+}
+
+export interface Contact {
+  readonly from: number;
+  readonly to: number;
+  readonly first: string;
+  readonly second: string;
+  readonly point: Vector;
+  readonly impulse: number;
+}
+
+export const EVENT_KINDS = ["contact", "limit", "saturation", "breach", "fell", "stop", "other"] as const;
+export type EventKind = (typeof EVENT_KINDS)[number];
+
+export interface RunEvent {
+  readonly tick: number;
+  readonly kind: EventKind;
+  readonly text: string;
+}
+
+export interface Joint {
+  readonly name: string;
+  readonly unit: string;
+}
+
+export interface Replay {
+  readonly task: string;
+  readonly title: string;
+  readonly stepS: number;
+  readonly ticks: Float64Array;
+  readonly lab: Frame;
+  readonly nodes: readonly SceneNode[];
+  readonly meshes: readonly Mesh[];
+  readonly frames: readonly Frame[];
+  readonly tcp: Track;
+  readonly q: Track;
+  readonly joints: readonly Joint[];
+  readonly tracks: readonly Track[];
+  readonly reference: { readonly periodS: number; readonly path: Track } | null;
+  readonly goals: readonly Goal[];
+  readonly paths: readonly Path[];
+  readonly contacts: readonly Contact[];
+  readonly events: readonly RunEvent[];
+  readonly ghostLabel: string | null;
+  readonly mainLabel: string | null;
+  readonly ended: string | null;
+}
+
+/** A value of the JSON with the way to it, for what is said when it is not what it should be. */
+class Value {
+  constructor(
+    private readonly value: unknown,
+    private readonly where: string,
+  ) {}
+
+  private wrong(expected: string): Error {
+    return new Error(`${this.where || "the data"} is not ${expected}`);
+  }
+
+  get missing(): boolean {
+    return this.value === null || this.value === undefined;
+  }
+
+  of(key: string): Value {
+    if (typeof this.value !== "object" || this.value === null) throw this.wrong("a record");
+    return new Value((this.value as Record<string, unknown>)[key], this.where ? `${this.where}.${key}` : key);
+  }
+
+  number(): number {
+    if (typeof this.value !== "number" || !Number.isFinite(this.value)) throw this.wrong("a number");
+    return this.value;
+  }
+
+  positive(): number {
+    const value = this.number();
+    if (!(value > 0)) throw this.wrong("a positive number");
+    return value;
+  }
+
+  index(length: number): number {
+    const value = this.number();
+    if (!Number.isInteger(value) || value < 0 || value >= length) throw this.wrong(`one of ${length}`);
+    return value;
+  }
+
+  text(): string {
+    if (typeof this.value !== "string") throw this.wrong("a text");
+    return this.value;
+  }
+
+  list<T>(read: (value: Value) => T): T[] {
+    if (!Array.isArray(this.value)) throw this.wrong("a list");
+    return this.value.map((item, i) => read(new Value(item, `${this.where}[${i}]`)));
+  }
+
+  numbers(length: number): number[] {
+    const values = this.list((value) => value.number());
+    if (values.length !== length) throw this.wrong(`${length} numbers`);
+    return values;
+  }
+
+  pose(): Pose {
+    const values = this.numbers(7);
+    if (!(Math.hypot(values[3], values[4], values[5], values[6]) > 1e-6)) throw this.wrong("a pose");
+    return values;
+  }
+
+  /** Reads what may be missing. */
+  maybe<T>(read: (value: Value) => T): T | null {
+    return this.missing ? null : read(this);
+  }
+
+  one<T extends string>(names: readonly T[], otherwise: T): T {
+    const found = names.find((name) => name === this.value);
+    return found ?? otherwise;
+  }
+
+  track(width: number, frames: number | null): Track {
+    const quanta = this.of("quanta").numbers(this.of("width").number());
+    if (quanta.length !== width) throw this.wrong(`${width} columns`);
+    const count = this.of("count").number();
+    if (!Number.isInteger(count) || count < 0) throw this.wrong("a track: its count is no count");
+    if (frames !== null && count !== frames) throw this.wrong(`a track of ${frames} frames`);
+    return this.decoded(() => track(this.of("data").text(), quanta, count));
+  }
+
+  decoded<T>(read: () => T): T {
+    try {
+      return read();
+    } catch (error) {
+      throw new Error(`${this.where}: ${error instanceof Error ? error.message : "unreadable"}`);
+    }
+  }
+}
+
+function solid(value: Value, meshes: number): Solid {
+  const box = value.of("box");
+  if (!box.missing) return { kind: "box", size: box.numbers(3) };
+  for (const kind of ["cylinder", "capsule"] as const) {
+    const round = value.of(kind);
+    if (!round.missing) return { kind, radius: round.of("radius").number(), length: round.of("length").number() };
+  }
+  const sphere = value.of("sphere");
+  if (!sphere.missing) return { kind: "sphere", radius: sphere.of("radius").number() };
+  return { kind: "mesh", mesh: value.of("mesh").index(meshes) };
+}
+
+function mesh(value: Value): Mesh {
+  const raw = (key: string): ArrayBuffer => {
+    const part = value.of(key);
+    const data = part.decoded(() => bytes(part.text()));
+    if (data.length % 12 !== 0) throw new Error(`a mesh's ${key} do not come in threes`);
+    return data.slice().buffer;
+  };
+  const vertices = new Float32Array(raw("vertices"));
+  const triangles = new Uint32Array(raw("triangles"));
+  const count = vertices.length / 3;
+  for (const corner of triangles) if (corner >= count) throw new Error("a mesh's triangle names a vertex that is not there");
+  for (const coordinate of vertices) if (!Number.isFinite(coordinate)) throw new Error("a mesh's vertex is not a number");
+  return { vertices, triangles };
+}
+
+const tolerance = (value: Value): Tolerance => ({
+  full: value.of("full").maybe((v) => v.number()),
+  zero: value.of("zero").maybe((v) => v.number()),
+});
+
+/** Reads a replay. Throws with a sentence that says what is wrong with it. */
+export function read(json: string): Replay {
+  const root = new Value(JSON.parse(json), "");
+  const format = root.of("format").text();
+  if (format !== "kinemark-replay/1") throw new Error(`its format is ${format}, and this page shows kinemark-replay/1`);
+  const stepS = root.of("stepS").positive();
+  const ticks = root.of("ticks").decoded(() => column(root.of("ticks").text()));
+  if (ticks.length === 0) throw new Error("it has no frame: the run ended before its first step");
+  for (let i = 1; i < ticks.length; i++) if (!(ticks[i] > ticks[i - 1])) throw new Error("its frames are not in order of time");
+  const frames = ticks.length;
+  const meshes = root.of("meshes").maybe((list) => list.list(mesh)) ?? [];
+  const tracks = root.of("tracks").list((value) => value.track(7, frames));
+  const nodes = root.of("nodes").list((value): SceneNode => {
+    const at = value.of("track").maybe((v) => v.index(tracks.length));
+    return {
+      name: value.of("name").text(),
+      kind: value.of("kind").one(NODE_KINDS, "fixed"),
+      shapes: value.of("shapes").list((shape) => ({ solid: solid(shape.of("solid"), meshes.length), pose: shape.of("pose").pose() })),
+      pose: at === null ? value.of("pose").pose() : null,
+      track: at ?? -1,
+    };
+  });
+  const frame = (value: Value): Frame => ({
+    name: value.of("name").text(),
+    node: value.of("node").maybe((v) => v.index(nodes.length)),
+    pose: value.of("pose").pose(),
+  });
+  const joints = root.of("joints").list((value) => ({ name: value.of("name").text(), unit: value.of("unit").text() }));
+  const list = <T>(key: string, item: (value: Value) => T): T[] => root.of(key).maybe((value) => value.list(item)) ?? [];
+  return {
+    task: root.of("task").text(),
+    title: root.of("title").text(),
+    stepS,
+    ticks,
+    lab: frame(root.of("lab")),
+    nodes,
+    meshes,
+    frames: list("frames", frame),
+    tcp: root.of("tcp").track(3, frames),
+    q: root.of("q").track(joints.length, frames),
+    joints,
+    tracks,
+    reference: root.of("reference").maybe((value) => ({ periodS: value.of("periodS").positive(), path: value.of("path").track(3, null) })),
+    goals: list("goals", (value) => ({ position: value.of("position").numbers(3), ...tolerance(value) })),
+    paths: list("paths", (value) => ({
+      name: value.of("name").text(),
+      points: value.of("points").list((point) => point.numbers(3)),
+      ...tolerance(value),
+    })),
+    contacts: list("contacts", (value) => ({
+      from: value.of("from").number(),
+      to: value.of("to").number(),
+      first: value.of("first").text(),
+      second: value.of("second").text(),
+      point: value.of("point").numbers(3),
+      impulse: value.of("impulse").number(),
+    })),
+    events: list("events", (value) => ({
+      tick: value.of("tick").number(),
+      kind: value.of("kind").one(EVENT_KINDS, "other"),
+      text: value.of("text").text(),
+    })).sort((a, b) => a.tick - b.tick),
+    ghostLabel: root.of("ghostLabel").maybe((value) => value.text()),
+    mainLabel: root.of("mainLabel").maybe((value) => value.text()),
+    ended: root.of("ended").maybe((value) => value.text()),
+  };
+}

@@ -1,0 +1,242 @@
+// The plots of a task: the cursor in each, the values under the pointer, and a click that seeks.
+
+import type { Cursor } from "./cursor";
+import { drawing, element } from "./dom";
+import { curve, valueAt, type Piece } from "./curve";
+import { fixed, seconds } from "./words";
+import type { World } from "./world";
+
+interface Series {
+  readonly name: string;
+  readonly colour: string;
+}
+
+interface TimePanel {
+  readonly kind: "time";
+  /** left, top, right, bottom in units of the picture. */
+  readonly box: readonly number[];
+  readonly t: readonly number[];
+  readonly y: readonly number[];
+  readonly unit: string;
+  readonly series: readonly Series[];
+}
+
+interface PlanePanel {
+  readonly kind: "plane";
+  readonly box: readonly number[];
+  readonly axes: readonly number[];
+  readonly signs: readonly number[];
+  readonly zero: readonly number[];
+  readonly pixelsPerM: number;
+}
+
+type Panel = TimePanel | PlanePanel;
+
+/** Rows of a box of values. */
+const MOST_ROWS = 12;
+const GAP = 12;
+
+const numbers = (value: unknown, count: number): value is number[] =>
+  Array.isArray(value) && value.length === count && value.every((v) => typeof v === "number" && Number.isFinite(v));
+
+function panels(text: string): Panel[] {
+  const list: unknown = JSON.parse(text);
+  if (!Array.isArray(list)) return [];
+  return list.filter((panel): panel is Panel => {
+    if (!panel || !numbers(panel.box, 4)) return false;
+    if (panel.kind === "time") {
+      return numbers(panel.t, 2) && panel.t[1] > panel.t[0] && numbers(panel.y, 2) && panel.y[1] !== panel.y[0] && Array.isArray(panel.series);
+    }
+    return panel.kind === "plane" && numbers(panel.axes, 2) && numbers(panel.signs, 2) && numbers(panel.zero, 2) && typeof panel.pixelsPerM === "number";
+  });
+}
+
+/** The cursor of one panel. */
+interface Hand {
+  readonly panel: Panel;
+  readonly mark: SVGElement;
+  x: number;
+  y: number;
+}
+
+export class Plot {
+  private readonly hands: Hand[] = [];
+  private readonly curves = new Map<Series, Piece[]>();
+  private readonly box = element("div", { class: "replay-values", "aria-hidden": "true" });
+  private hover: SVGElement | null = null;
+
+  constructor(
+    private readonly figure: HTMLElement,
+    private readonly svg: SVGSVGElement,
+    private readonly cursor: Cursor,
+    private readonly world: World,
+    private readonly stepS: number,
+    private readonly sought: () => void,
+  ) {
+    const overlay = drawing("g", { class: "replay-overlay", "aria-hidden": "true" });
+    for (const panel of panels(figure.dataset.panels ?? "[]")) {
+      const [, top, , bottom] = panel.box;
+      const mark = panel.kind === "time"
+        ? drawing("line", { class: "replay-cursor", x1: "0", x2: "0", y1: String(top), y2: String(bottom) })
+        : drawing("circle", { class: "replay-dot", r: String(0.5 * this.unit()) });
+      overlay.append(mark);
+      this.hands.push({ panel, mark, x: NaN, y: NaN });
+    }
+    if (this.hands.length === 0) return;
+    svg.append(overlay);
+    figure.classList.add("replay-plot");
+    this.box.hidden = true;
+    figure.append(this.box);
+    if (this.hands.some((hand) => hand.panel.kind === "time")) {
+      const line = drawing("line", { class: "replay-hover" });
+      line.style.visibility = "hidden";
+      overlay.append(line);
+      this.hover = line;
+      svg.addEventListener("pointermove", (event) => this.point(event));
+      svg.addEventListener("pointerdown", (event) => this.point(event));
+      figure.addEventListener("pointerleave", () => this.leave());
+      svg.addEventListener("pointercancel", () => this.leave());
+      svg.addEventListener("click", (event) => this.click(event));
+      figure.addEventListener("keydown", (event) => event.key === "Escape" && this.leave());
+    }
+    this.follow();
+  }
+
+  /** Units of the picture in ten pixels as it was drawn. */
+  private unit(): number {
+    const width = Number(this.svg.getAttribute("width")) || 640;
+    return (10 * (this.svg.viewBox.baseVal.width || width)) / width;
+  }
+
+  /** Puts the cursor where the moment is. */
+  follow(): void {
+    for (let i = 0; i < this.hands.length; i++) {
+      const hand = this.hands[i];
+      const panel = hand.panel;
+      let x: number;
+      let y = 0;
+      if (panel.kind === "time") {
+        const [left, , right] = panel.box;
+        const share = (this.cursor.t - panel.t[0]) / (panel.t[1] - panel.t[0]);
+        x = left + Math.min(1, Math.max(0, share)) * (right - left);
+      } else {
+        x = panel.zero[0] + panel.signs[0] * this.world.tcp[panel.axes[0]] * panel.pixelsPerM;
+        y = panel.zero[1] - panel.signs[1] * this.world.tcp[panel.axes[1]] * panel.pixelsPerM;
+      }
+      // a tenth of a unit is no pixel
+      if (Math.abs(x - hand.x) < 0.1 && Math.abs(y - hand.y) < 0.1) continue;
+      hand.x = x;
+      hand.y = y;
+      hand.mark.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+    }
+  }
+
+  /** The panel under the pointer, and where in it, in units of the picture. */
+  private under(event: PointerEvent | MouseEvent): { panel: TimePanel; x: number; y: number } | null {
+    const matrix = this.svg.getScreenCTM();
+    if (!matrix) return null;
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
+    const slack = this.unit();
+    for (const { panel } of this.hands) {
+      const [left, top, right, bottom] = panel.box;
+      if (panel.kind !== "time" || at.x < left - slack || at.x > right + slack || at.y < top - slack || at.y > bottom + slack) continue;
+      return { panel, x: Math.min(right, Math.max(left, at.x)), y: at.y };
+    }
+    return null;
+  }
+
+  private time(panel: TimePanel, x: number): number {
+    const [left, , right] = panel.box;
+    return panel.t[0] + ((x - left) / (right - left)) * (panel.t[1] - panel.t[0]);
+  }
+
+  private click(event: MouseEvent): void {
+    const found = this.under(event);
+    if (!found) return;
+    this.cursor.pause();
+    this.cursor.seek(this.time(found.panel, found.x));
+    this.sought();
+  }
+
+  private leave(): void {
+    this.box.hidden = true;
+    if (this.hover) this.hover.style.visibility = "hidden";
+  }
+
+  private point(event: PointerEvent): void {
+    const found = this.under(event);
+    if (!found || !this.hover) {
+      this.leave();
+      return;
+    }
+    const { panel, x, y } = found;
+    const [, top, , bottom] = panel.box;
+    for (const [name, value] of [["x1", x], ["x2", x], ["y1", top], ["y2", bottom]] as const) this.hover.setAttribute(name, String(value));
+    this.hover.style.visibility = "visible";
+    this.fill(panel, x, y);
+    this.place(x, event.clientY);
+  }
+
+  private fill(panel: TimePanel, x: number, y: number): void {
+    const [, top, , bottom] = panel.box;
+    const perUnit = (panel.y[1] - panel.y[0]) / (bottom - top);
+    const digits = Math.min(6, Math.max(0, Math.ceil(-Math.log10(Math.abs(perUnit) * 2))));
+    const rows: Array<{ series: Series; at: number; text: string }> = [];
+    for (const series of panel.series) {
+      let pieces = this.curves.get(series);
+      if (!pieces) this.curves.set(series, (pieces = curve(this.svg, String(series.colour), panel.box, this.unit())));
+      const at = valueAt(pieces, x);
+      if (at !== null) rows.push({ series, at, text: fixed(panel.y[0] + (bottom - at) * perUnit, digits) });
+    }
+    const more = rows.length - MOST_ROWS;
+    if (more > 0) {
+      // of many, those near the pointer are the ones that are pointed at
+      rows.sort((a, b) => Math.abs(a.at - y) - Math.abs(b.at - y));
+      rows.length = MOST_ROWS;
+    }
+    rows.sort((a, b) => a.at - b.at);
+    const head = element("p", {}, element("b", {}, seconds(this.time(panel, x), this.stepS)));
+    const lines = rows.map(({ series, text }) => {
+      const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3" }));
+      return element("p", {}, swatch, element("bdi", {}, String(series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
+    });
+    this.box.replaceChildren(head, ...lines);
+    if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));
+  }
+
+  /** Beside the line, on the side with room, and inside what is seen of the figure. */
+  private place(x: number, clientY: number): void {
+    const { box, figure, svg } = this;
+    box.hidden = false;
+    box.style.maxWidth = "";
+    const frame = figure.getBoundingClientRect();
+    const matrix = svg.getScreenCTM();
+    if (!matrix) return;
+    const line = x * matrix.a + matrix.e - frame.left - figure.clientLeft;
+    const seen = figure.clientWidth;
+    const right = seen - line - GAP;
+    const left = line - GAP;
+    const onRight = box.offsetWidth <= right || right >= left;
+    box.style.maxWidth = `${Math.max(80, onRight ? right : left)}px`;
+    const at = onRight ? line + GAP : line - GAP - box.offsetWidth;
+    const height = figure.clientHeight;
+    const y = Math.min(height - box.offsetHeight, Math.max(0, clientY - frame.top - 0.5 * box.offsetHeight));
+    box.style.left = `${at + figure.scrollLeft}px`;
+    box.style.top = `${Math.max(0, y) + figure.scrollTop}px`;
+  }
+}
+
+/** The plots of a task on this page. A figure that cannot be read stays a picture. */
+export function plots(task: string, cursor: Cursor, world: World, stepS: number, sought: () => void): Plot[] {
+  const out: Plot[] = [];
+  for (const figure of document.querySelectorAll<HTMLElement>("figure[data-panels]")) {
+    const svg = figure.querySelector("svg");
+    if (figure.dataset.task !== task || !svg) continue;
+    try {
+      out.push(new Plot(figure, svg, cursor, world, stepS, sought));
+    } catch {
+      // the picture itself is there
+    }
+  }
+  return out;
+}

@@ -1,0 +1,77 @@
+// The moment in numbers: time, tick, TCP and joints, as text that can be copied.
+
+import type { Replay } from "./data";
+import { element } from "./dom";
+import { decimals, fixed } from "./words";
+import type { World } from "./world";
+
+/** While it plays the numbers change this often \[ms\]: faster than one reads, slower than the screen. */
+const PACE_MS = 80;
+const DEGREES = 180 / Math.PI;
+
+export class Readout {
+  readonly element: HTMLElement;
+  private readonly t = element("span");
+  private readonly tick = element("span", { "data-readout": "tick" });
+  private readonly tcp: HTMLElement[] = [];
+  private readonly q: HTMLElement[] = [];
+  private readonly inDegrees: Array<HTMLElement | null> = [];
+  private written = 0;
+
+  constructor(
+    private readonly replay: Replay,
+    private readonly world: World,
+  ) {
+    const time = element("p", { class: "replay-clock" });
+    time.append(element("b", { "data-readout": "t" }, this.t, " s"), " ", element("span", { class: "quiet" }, "tick ", this.tick));
+
+    const tcp = element("table", { "data-readout": "tcp" }, element("caption", {}, `TCP in the frame ${replay.lab.name}`));
+    const joints = element("table", { "data-readout": "q" }, element("caption", {}, "Joints"));
+    const row = (table: HTMLElement, name: string, ...cells: Array<HTMLElement | string>): void => {
+      table.append(element("tr", {}, element("th", { scope: "row" }, element("bdi", {}, name)), ...cells.map((cell) => element("td", {}, cell))));
+    };
+    const number = (into: HTMLElement[], name: string, index: number): HTMLElement => {
+      const made = element("span", { [name]: String(index) });
+      into.push(made);
+      return made;
+    };
+    ["x", "y", "z"].forEach((axis, i) => {
+      const value = number(this.tcp, "data-axis", i);
+      row(tcp, axis, value, "m");
+    });
+    replay.joints.forEach((joint, i) => {
+      const value = number(this.q, "data-joint", i);
+      if (joint.unit === "rad") {
+        const degrees = element("span");
+        this.inDegrees.push(degrees);
+        const cell = element("span", { class: "quiet" }, degrees, "°");
+        row(joints, joint.name, value, joint.unit, cell);
+      } else {
+        this.inDegrees.push(null);
+        row(joints, joint.name, value, joint.unit, "");
+      }
+    });
+    this.element = element("div", { class: "replay-readout" }, time, tcp);
+    if (replay.joints.length > 0) this.element.append(element("div", { class: "replay-joints", ...(replay.joints.length > 8 ? { tabindex: "0", role: "group", "aria-label": "Joints" } : {}) }, joints));
+    this.write();
+  }
+
+  /** Writes the numbers, at most as often as one reads them. */
+  follow(): void {
+    const now = performance.now();
+    if (now - this.written >= PACE_MS) this.write(now);
+  }
+
+  write(now = performance.now()): void {
+    this.written = now;
+    const { world, replay } = this;
+    this.t.textContent = world.t.toFixed(Math.max(2, decimals(replay.stepS)));
+    this.tick.textContent = String(Math.round(world.t / replay.stepS));
+    for (let i = 0; i < 3; i++) this.tcp[i].textContent = fixed(world.tcp[i], 4);
+    for (let i = 0; i < this.q.length; i++) {
+      this.q[i].textContent = fixed(world.q[i], 4);
+      const degrees = this.inDegrees[i];
+      if (degrees) degrees.textContent = fixed(DEGREES * world.q[i], 2);
+    }
+  }
+}

@@ -1,0 +1,237 @@
+// One task's replay: its picture, controls, numbers and plots, all at one moment.
+
+import { Announcer } from "./announce";
+import { Controls } from "./controls";
+import { Cursor } from "./cursor";
+import type { Replay as Data, RunEvent } from "./data";
+import { element } from "./dom";
+import { extent, type Extent } from "./extent";
+import { mark } from "./icon";
+import { listen } from "./keys";
+import { Address, copy, format } from "./links";
+import { reducedMotion } from "./motion";
+import { plots, type Plot } from "./plots";
+import { Readout } from "./readout";
+import { Scrubber } from "./scrubber";
+import { Side } from "./side";
+import { Stage } from "./stage";
+import type { Part, View } from "./view";
+import { moment, seconds, told } from "./words";
+import { World } from "./world";
+
+/** What a test sees of a replay. */
+export interface Shown {
+  readonly t: number;
+  readonly tick: number;
+  readonly tcp: number[];
+  readonly q: number[];
+  readonly nodes: Record<string, number[]>;
+}
+
+export class Replay {
+  readonly cursor: Cursor;
+  private readonly world: World;
+  private readonly extent: Extent;
+  private readonly announcer = new Announcer();
+  private readonly scrubber: Scrubber;
+  private readonly controls: Controls;
+  private readonly readout: Readout;
+  private readonly plots: Plot[];
+  private readonly note = element("p", { class: "replay-note" });
+  private readonly shared = element("p", { class: "replay-shared" });
+  private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
+  private view: View;
+  private picture: HTMLImageElement | null = null;
+
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly data: Data,
+    private readonly address: Address,
+  ) {
+    this.cursor = new Cursor(data);
+    this.world = new World(data);
+    this.extent = extent(data);
+    this.view = this.open();
+    this.scrubber = new Scrubber(data, this.cursor, (event) => this.goTo(event));
+    this.readout = new Readout(data, this.world);
+    this.controls = new Controls(data, this.cursor, {
+      event: (direction) => this.event(direction),
+      copyLink: () => void this.copyLink(),
+      view: () => this.view,
+      show: (part, on) => {
+        this.parts[part] = on;
+        this.view.show(part, on);
+      },
+    });
+    this.note.hidden = true;
+    this.shared.hidden = true;
+    const ended = data.ended ? [element("p", { class: "replay-ended" }, `The run ended early: ${data.ended}`)] : [];
+    root.append(
+      this.view.element,
+      element("div", { class: "replay-beside" }, this.readout.element, this.legend()),
+      element("div", { class: "replay-below" }, this.note, this.scrubber.element, this.controls.element, this.shared, ...ended),
+      this.announcer.element,
+    );
+    root.setAttribute("role", "group");
+    root.setAttribute("aria-label", `Replay: ${data.title}`);
+    root.tabIndex = -1;
+    listen(root, this.cursor, (direction) => this.event(direction));
+    this.plots = plots(data.task, this.cursor, this.world, data.stepS, () => this.announcer.say(this.here()));
+    this.cursor.on("moved", () => this.follow());
+    this.cursor.on("rested", () => this.rest());
+    root.classList.add("on");
+    if (this.view instanceof Side) this.sayFlat("This browser shows no WebGL");
+  }
+
+  get task(): string {
+    return this.data.task;
+  }
+
+  private open(): View {
+    const label = `The run in 3D. Arrow keys turn the view, plus and minus zoom.`;
+    if (!webgl()) return this.side();
+    return new Stage(this.data, this.world, this.extent, label, () => this.fall());
+  }
+
+  private side(): Side {
+    return new Side(this.data, this.world, this.extent, "The run, seen from the side");
+  }
+
+  /** Takes the flat picture where the other one can no longer be had. */
+  private fall(): void {
+    if (this.view instanceof Side) return;
+    const before = this.view.element;
+    const focused = before.contains(document.activeElement);
+    this.view = this.side();
+    for (const part of ["frames", "ghost"] as const) this.view.show(part, this.parts[part]);
+    before.replaceWith(this.view.element);
+    if (focused) this.view.element.focus({ preventScroll: true });
+    this.sayFlat("The 3D view was lost");
+  }
+
+  private sayFlat(why: string): void {
+    this.note.textContent = `${why}, so the run is drawn flat, seen from the side.`;
+    this.note.hidden = false;
+    this.controls.flat(true);
+  }
+
+  /** What is drawn, with its colour and its kind of line. */
+  private legend(): HTMLElement {
+    const { data } = this;
+    const items: HTMLElement[] = [];
+    const item = (name: string, text: string): void => {
+      items.push(element("li", {}, element("i", { class: `replay-swatch-${name}`, "aria-hidden": "true" }), text));
+    };
+    if (data.mainLabel) item("main", `run ${data.mainLabel}`);
+    if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", data.ghostLabel === "reference" || !data.ghostLabel ? "the reference's arm" : `run ${data.ghostLabel}`);
+    item("trail", "path of the TCP, faint where it is still to come");
+    if (data.reference && data.reference.path.count > 1) item("reference", data.ghostLabel && data.ghostLabel !== "reference" ? `path of run ${data.ghostLabel}` : "the reference's path");
+    if (data.goals.length) item("goal", data.goals.length > 1 ? "goals" : "goal");
+    if (data.paths.length) item("path", "path to follow, and how far off still counts");
+    const list = element("ul", { class: "replay-legend" }, ...items);
+    for (const meaning of this.scrubber.meanings()) list.append(meaning);
+    if (data.contacts.length && !data.events.some((event) => event.kind === "contact")) list.append(element("li", {}, mark("contact"), "contact"));
+    return list;
+  }
+
+  private follow(): void {
+    this.world.at(this.cursor.t);
+    this.view.invalidate();
+    this.readout.follow();
+    for (let i = 0; i < this.plots.length; i++) this.plots[i].follow();
+  }
+
+  private rest(): void {
+    this.world.at(this.cursor.t);
+    this.readout.write();
+    this.shared.hidden = true;
+    this.address.write(this.link());
+  }
+
+  link(): string {
+    return format(this.data.task, moment(this.cursor.t, this.data.stepS));
+  }
+
+  /** The moment and what happens in it, in words. */
+  private here(): string {
+    const now = this.cursor.now().slice(0, 2).map(told);
+    return [seconds(this.cursor.t, this.data.stepS), ...now].join(", ");
+  }
+
+  private event(direction: 1 | -1): void {
+    const event = this.cursor.event(direction);
+    if (event) this.goTo(event);
+    else this.announcer.say(direction > 0 ? "no later event" : "no earlier event");
+  }
+
+  private goTo(event: RunEvent): void {
+    this.cursor.pause();
+    this.cursor.seekTick(event.tick);
+    this.announcer.say(this.here());
+  }
+
+  /** Goes to the moment of a link, and brings the replay where it can be seen. */
+  visit(t: number | null): void {
+    this.cursor.pause();
+    if (t !== null) this.cursor.seek(t);
+    this.root.scrollIntoView({ block: this.root.offsetHeight < innerHeight ? "center" : "start", behavior: reducedMotion() ? "auto" : "smooth" });
+    this.root.focus({ preventScroll: true });
+    this.announcer.say(this.here());
+  }
+
+  private async copyLink(): Promise<void> {
+    this.cursor.pause();
+    this.address.write(this.link());
+    this.address.flush();
+    const link = location.href.replace(/#.*$/, "") + this.link();
+    const done = await copy(link);
+    const words = done ? "Link copied" : "Copy this link";
+    this.shared.replaceChildren(`${words}: `, element("code", {}, link));
+    this.shared.hidden = false;
+    this.announcer.say(words);
+  }
+
+  /** Puts a picture of the moment in the place of what does not print. */
+  toPaper(): void {
+    if (this.picture) return;
+    const url = this.view.picture?.();
+    if (!url) return;
+    this.picture = element("img", { class: "replay-print", src: url, alt: `The run at ${this.here()}` });
+    this.view.element.append(this.picture);
+  }
+
+  toScreen(): void {
+    this.picture?.remove();
+    this.picture = null;
+  }
+
+  shown(): Shown {
+    const { world, data, cursor } = this;
+    const nodes: Record<string, number[]> = {};
+    data.nodes.forEach((node, n) => {
+      // a ghost has the names of the arm it is the ghost of
+      if (!(node.name in nodes)) nodes[node.name] = [...world.poses.subarray(7 * n, 7 * n + 7)];
+    });
+    return { t: cursor.t, tick: cursor.tick, tcp: [...world.tcp], q: [...world.q], nodes };
+  }
+
+  frameTimes(): number[] {
+    return this.view instanceof Stage ? this.view.frameTimes() : [];
+  }
+}
+
+let able: boolean | null = null;
+
+/** Whether there is WebGL, asked once and given back at once, since contexts are few. */
+function webgl(): boolean {
+  if (able === null) {
+    try {
+      const context = document.createElement("canvas").getContext("webgl2");
+      able = context !== null;
+      context?.getExtension("WEBGL_lose_context")?.loseContext();
+    } catch {
+      able = false;
+    }
+  }
+  return able;
+}

@@ -1,0 +1,269 @@
+// The run as things to draw: nodes, trail, reference, goals, tolerances, contacts and frames, all in the world with z up.
+
+import {
+  AmbientLight,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  Object3D,
+  OctahedronGeometry,
+  PlaneGeometry,
+  Scene,
+  ShadowMaterial,
+  SphereGeometry,
+  Vector3,
+} from "three";
+import type { NodeKind, Replay } from "./data";
+import type { Extent } from "./extent";
+import { Grid } from "./ground";
+import { Line } from "./line";
+import { geometry, tube } from "./shapes";
+import { colourOf, type Theme } from "./theme";
+import type { Part } from "./view";
+import type { World } from "./world";
+
+/** Contacts that are marked. */
+const MOST_CONTACTS = 200;
+
+type Glass = MeshBasicMaterial;
+
+export class RunScene {
+  readonly scene = new Scene();
+  private readonly lab = new Group();
+  private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshStandardMaterial>; index: number; kind: NodeKind; order: number }> = [];
+  private readonly moving: Array<{ object: Object3D; index: number }> = [];
+  private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; from: number; to: number }> = [];
+  private readonly lines: Array<{ line: Line; colour: keyof Theme }> = [];
+  private readonly glasses: Array<{ material: Glass; colour: keyof Theme }> = [];
+  private readonly trail: Line;
+  private readonly dot: Mesh;
+  private readonly referenceDot: Mesh | null = null;
+  private readonly axes: Array<{ line: Line; node: number | null }> = [];
+  private readonly grid: Grid;
+  private readonly sun = new DirectionalLight();
+  private readonly sky = new HemisphereLight();
+  private readonly fill = new AmbientLight();
+  private readonly floor: Mesh<PlaneGeometry, ShadowMaterial>;
+  private readonly spot = new Float64Array(7);
+
+  constructor(
+    private readonly replay: Replay,
+    private readonly world: World,
+    extent: Extent,
+    theme: Theme,
+  ) {
+    const { scene, lab } = this;
+    const unit = extent.radius;
+    scene.matrixAutoUpdate = false;
+    lab.matrixAutoUpdate = false;
+    scene.add(lab);
+
+    this.sun.position.set(extent.centre[0] - 0.9 * unit, extent.centre[1] - 1.6 * unit, extent.centre[2] + 2.6 * unit);
+    this.sun.target.position.set(...extent.centre);
+    this.sun.castShadow = true;
+    const shadow = this.sun.shadow;
+    shadow.mapSize.set(2048, 2048);
+    const reach = 1.6 * unit;
+    Object.assign(shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * unit, far: 6.5 * unit });
+    shadow.bias = -0.0004;
+    shadow.normalBias = 0.004 * unit;
+    this.sky.position.set(0, 0, 1);
+    scene.add(this.sun, this.sun.target, this.sky, this.fill);
+
+    this.grid = new Grid(extent.centre[0], extent.centre[1], extent.ground, unit);
+    this.floor = new Mesh(new PlaneGeometry(8 * unit, 8 * unit), new ShadowMaterial({ depthWrite: false }));
+    this.floor.position.set(extent.centre[0], extent.centre[1], extent.ground - 0.001 * unit);
+    this.floor.receiveShadow = true;
+    this.floor.renderOrder = -3;
+    scene.add(this.grid, this.floor);
+
+    let order = 0;
+    let ghosts = 0;
+    replay.nodes.forEach((node, index) => {
+      const shape = geometry(node, replay.meshes);
+      if (!shape) return;
+      const ghost = node.kind === "ghost";
+      const material = new MeshStandardMaterial({ roughness: 0.72, metalness: 0.02 });
+      if (ghost) Object.assign(material, { transparent: true, opacity: 0.34, depthWrite: false });
+      const mesh = new Mesh(shape, material);
+      mesh.castShadow = !ghost;
+      mesh.receiveShadow = !ghost;
+      mesh.matrixAutoUpdate = false;
+      if (ghost) mesh.renderOrder = 5 + 0.01 * ghosts++;
+      this.nodes.push({ mesh, index, kind: node.kind, order: node.kind === "link" ? order++ : 0 });
+      if (node.track >= 0) this.moving.push({ object: mesh, index });
+      this.put(mesh, index);
+      scene.add(mesh);
+    });
+
+    const glass = (colour: keyof Theme, opacity: number): Glass => {
+      const material = new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false });
+      this.glasses.push({ material, colour });
+      return material;
+    };
+    const add = (parent: Object3D, shape: BufferGeometry, material: Glass, layer: number): Mesh<BufferGeometry, Glass> => {
+      const mesh = new Mesh(shape, material);
+      mesh.renderOrder = layer;
+      mesh.matrixAutoUpdate = false;
+      parent.add(mesh);
+      return mesh;
+    };
+    const draw = (line: Line, colour: keyof Theme, layer: number): Line => {
+      line.renderOrder = layer;
+      line.matrixAutoUpdate = false;
+      this.lines.push({ line, colour });
+      return line;
+    };
+
+    for (const path of replay.paths) {
+      if (path.zero !== null && path.zero > 0) add(lab, tube(path.points, path.zero), glass("path", 0.07), 1);
+      if (path.full !== null && path.full > 0) add(lab, tube(path.points, path.full), glass("path", 0.2), 2);
+      if (path.points.length > 1) lab.add(draw(new Line(path.points.flat(), { width: 1.5, opacity: 0.8 }), "path", 3));
+    }
+    const speck = new SphereGeometry(0.011 * unit, 16, 12);
+    for (const goal of replay.goals) {
+      const [x, y, z] = goal.position;
+      if (goal.zero !== null && goal.zero > 0) add(lab, new SphereGeometry(goal.zero, 32, 24).translate(x, y, z), glass("goal", 0.1), 1);
+      if (goal.full !== null && goal.full > 0) add(lab, new SphereGeometry(goal.full, 24, 18).translate(x, y, z), glass("goal", 0.35), 2);
+      add(lab, speck.clone().translate(x, y, z), glass("goal", 0.9), 3);
+    }
+    const reference = replay.reference?.path;
+    if (reference && reference.count > 1) {
+      lab.add(draw(new Line(reference.values, { width: 2, dash: 0.035 * unit, opacity: 0.95 }), "reference", 4));
+      this.referenceDot = add(lab, speck, glass("reference", 1), 6);
+    }
+    this.trail = draw(new Line(replay.tcp.values, { width: 3, future: 0.28 }), "trail", 6);
+    lab.add(this.trail);
+    this.dot = add(lab, speck, glass("trail", 1), 7);
+
+    const mark = new OctahedronGeometry(0.026 * unit);
+    const strongest = [...replay.contacts].sort((a, b) => b.impulse - a.impulse).slice(0, MOST_CONTACTS);
+    for (const contact of strongest) {
+      const material = glass("contact", 1);
+      material.depthTest = false;
+      const mesh = add(scene, mark, material, 8);
+      mesh.matrix.setPosition(contact.point[0], contact.point[1], contact.point[2]);
+      mesh.matrixWorldNeedsUpdate = true;
+      this.contacts.push({ mesh, from: contact.from, to: contact.to });
+    }
+
+    const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(0.16 * unit));
+    for (const frame of this.frames()) {
+      const points = tips.flatMap((tip) => [0, 0, 0, ...tip.toArray()]);
+      const line = new Line(points, { width: 2.5 }, true, theme.axes.map((axis) => new Color(axis)));
+      line.material.depthTest = false;
+      line.renderOrder = 9;
+      line.matrixAutoUpdate = false;
+      line.visible = false;
+      scene.add(line);
+      this.axes.push({ line, node: frame.node });
+    }
+    this.colour(theme);
+    this.pose();
+  }
+
+  /** The named frames, the lab's among them. */
+  frames(): Replay["frames"] {
+    const { frames, lab } = this.replay;
+    return frames.some((frame) => frame.name === lab.name) ? frames : [lab, ...frames];
+  }
+
+  private put(object: Object3D, index: number): void {
+    this.write(object, this.world.poses, 7 * index);
+  }
+
+  private write(object: Object3D, p: Float64Array, o: number): void {
+    const [w, x, y, z] = [p[o + 3], p[o + 4], p[o + 5], p[o + 6]];
+    object.matrix.set(
+      1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), p[o],
+      2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), p[o + 1],
+      2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), p[o + 2],
+      0, 0, 0, 1,
+    );
+    object.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Puts everything where the world has it. */
+  pose(): void {
+    const { world } = this;
+    for (let i = 0; i < this.moving.length; i++) this.put(this.moving[i].object, this.moving[i].index);
+    this.write(this.lab, world.lab, 0);
+    this.trail.now = world.progress;
+    this.dot.matrix.setPosition(world.tcp[0], world.tcp[1], world.tcp[2]);
+    this.dot.matrixWorldNeedsUpdate = true;
+    const reference = this.replay.reference;
+    if (reference && this.referenceDot) {
+      const { values, count } = reference.path;
+      const at = Math.min(count - 1, Math.max(0, world.t / reference.periodS));
+      const i = Math.floor(at);
+      const k = Math.min(count - 1, i + 1);
+      const f = at - i;
+      this.referenceDot.matrix.setPosition(
+        values[3 * i] + f * (values[3 * k] - values[3 * i]),
+        values[3 * i + 1] + f * (values[3 * k + 1] - values[3 * i + 1]),
+        values[3 * i + 2] + f * (values[3 * k + 2] - values[3 * i + 2]),
+      );
+      this.referenceDot.matrixWorldNeedsUpdate = true;
+    }
+    const tick = world.t / this.replay.stepS + 0.5;
+    for (let i = 0; i < this.contacts.length; i++) {
+      const { mesh, from, to } = this.contacts[i];
+      mesh.visible = tick >= from;
+      // what is over is still told, more quietly
+      mesh.material.opacity = tick <= to + 1 ? 1 : 0.45;
+    }
+    if (this.axes.length && this.axes[0].line.visible) {
+      const frames = this.frames();
+      for (let i = 0; i < this.axes.length; i++) {
+        world.frame(this.spot, frames[i].node, frames[i].pose);
+        this.write(this.axes[i].line, this.spot, 0);
+      }
+    }
+  }
+
+  resize(width: number, height: number): void {
+    for (const { line } of this.lines) line.resize(width, height);
+    for (const { line } of this.axes) line.resize(width, height);
+  }
+
+  show(part: Part, on: boolean): void {
+    if (part === "frames") for (const { line } of this.axes) line.visible = on;
+    else if (part === "shadows") {
+      this.sun.castShadow = on;
+      this.floor.visible = on;
+    } else for (const { mesh, kind } of this.nodes) if (kind === "ghost") mesh.visible = on;
+  }
+
+  colour(theme: Theme): void {
+    for (const { mesh, kind, order } of this.nodes) mesh.material.color.set(colourOf(theme, kind, order));
+    for (const { line, colour } of this.lines) line.colour = theme[colour] as string;
+    for (const { material, colour } of this.glasses) material.color.set(theme[colour] as string);
+    for (const { line } of this.axes) {
+      const tint = line.geometry.getAttribute("tint");
+      theme.axes.forEach((axis, i) => {
+        const { r, g, b } = new Color(axis);
+        tint.setXYZ(i, r, g, b);
+      });
+      tint.needsUpdate = true;
+    }
+    this.grid.colour = theme.grid;
+    this.sky.color.set(theme.sky);
+    this.sky.groundColor.set(theme.earth);
+    this.sky.intensity = theme.light[0];
+    this.fill.intensity = 0.25;
+    this.sun.intensity = theme.light[1];
+    this.floor.material.opacity = theme.shadow;
+  }
+
+  /** Gives back what belongs to a context that is gone. */
+  forget(): void {
+    this.sun.shadow.map?.dispose();
+    this.sun.shadow.map = null;
+  }
+}
+

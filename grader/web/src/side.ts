@@ -1,0 +1,221 @@
+// The run from the side, drawn flat: what takes the place of the 3D view where there is no WebGL.
+
+import { balls, type Balls } from "./balls";
+import { drawing, element } from "./dom";
+import type { Replay } from "./data";
+import type { Extent } from "./extent";
+import { nextFrame } from "./frames";
+import { pitchFor } from "./ground";
+import { place } from "./pose";
+import type { Part, View } from "./view";
+import type { World } from "./world";
+
+/** Points of a circle that stands for a ball. */
+const ROUND = 20;
+
+/** The outline of points in the plane, x and y in turn, by Andrew's monotone chain. */
+export function hull(points: ReadonlyArray<readonly [number, number]>): Array<readonly [number, number]> {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  if (sorted.length < 3) return sorted;
+  const half = (list: typeof sorted): typeof sorted => {
+    const out: typeof sorted = [];
+    for (const p of list) {
+      while (out.length > 1) {
+        const [a, b] = [out[out.length - 2], out[out.length - 1]];
+        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
+        out.pop();
+      }
+      out.push(p);
+    }
+    out.pop();
+    return out;
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+interface Outline {
+  readonly path: SVGPathElement;
+  readonly node: number;
+  readonly balls: Balls;
+  readonly moves: boolean;
+}
+
+export class Side implements View {
+  readonly element: HTMLElement;
+  private readonly svg: SVGSVGElement;
+  private readonly outlines: Outline[] = [];
+  private readonly marks: Array<{ mark: SVGElement; from: number; to: number }> = [];
+  private readonly past: SVGPolylineElement;
+  private readonly dot: SVGCircleElement;
+  private readonly frames: Array<{ group: SVGGElement; node: number | null; pose: readonly number[] }> = [];
+  private readonly labFixed: boolean;
+  private readonly still: SVGGElement;
+  private readonly trail: string[] = [];
+  private readonly spot = new Float64Array(7);
+  private readonly across: 0 | 1;
+  private readonly up: 1 | 2;
+  private readonly sign: number;
+  private readonly unit: number;
+  private first = true;
+
+  constructor(
+    private readonly replay: Replay,
+    private readonly world: World,
+    extent: Extent,
+    label: string,
+  ) {
+    this.across = extent.side === 0 ? 1 : 0;
+    this.up = extent.side === 2 ? 1 : 2;
+    this.sign = extent.flipped ? -1 : 1;
+    this.unit = extent.radius;
+    this.labFixed = replay.lab.node === null;
+    const [low, high] = this.bounds(extent.hull);
+    const margin = 0.06 * Math.max(high[0] - low[0], high[1] - low[1], 1e-3);
+    const box = [low[0] - margin, low[1] - margin, high[0] - low[0] + 2 * margin, high[1] - low[1] + 2 * margin];
+    const g = (name: string): SVGGElement => drawing("g", { class: name });
+    const grid = g("side-grid");
+    const fixed = g("side-fixed");
+    const ghosts = g("side-ghost");
+    const arm = g("side-arm");
+    this.still = g("side-lab");
+    const marks = g("side-marks");
+    const frames = g("side-frames");
+    frames.style.display = "none";
+    this.svg = drawing("svg", { viewBox: box.map((v) => v.toFixed(5)).join(" "), class: "replay-side", role: "img", "aria-label": label, preserveAspectRatio: "xMidYMid meet" }, grid, fixed, this.still, arm, ghosts, marks, frames);
+    this.element = element("div", { class: "replay-stage flat", tabindex: "0", role: "group", "aria-label": label });
+    this.element.append(this.svg);
+
+    const pitch = pitchFor(extent.radius);
+    const reach = 2 * extent.radius;
+    for (let i = Math.ceil((box[0] - reach) / pitch); i * pitch < box[0] + box[2] + reach; i++) grid.append(this.line(i * pitch, box[1] - reach, i * pitch, box[1] + box[3] + reach));
+    for (let i = Math.ceil((box[1] - reach) / pitch); i * pitch < box[1] + box[3] + reach; i++) grid.append(this.line(box[0] - reach, i * pitch, box[0] + box[2] + reach, i * pitch));
+
+    let order = 0;
+    replay.nodes.forEach((node, index) => {
+      const turn = node.kind === "link" ? (order === 0 ? "base" : order % 2 ? "odd" : "even") : node.kind;
+      if (node.kind === "link") order++;
+      for (const shape of node.shapes) {
+        const path = drawing("path", { class: `side-shape ${turn}` });
+        (node.kind === "ghost" ? ghosts : node.kind === "fixed" ? fixed : arm).append(path);
+        this.outlines.push({ path, node: index, balls: balls(shape, replay.meshes), moves: node.track >= 0 });
+      }
+    });
+    this.past = drawing("polyline", { class: "side-trail" });
+    this.dot = drawing("circle", { class: "side-tcp", r: String(0.012 * this.unit) });
+    this.drawLab();
+    const strongest = [...replay.contacts].sort((a, b) => b.impulse - a.impulse).slice(0, 100);
+    for (const contact of strongest) {
+      const [x, y] = this.flat(contact.point);
+      const r = 0.025 * this.unit;
+      const mark = drawing("path", { class: "side-contact", d: `M${x - r} ${y}L${x} ${y - r}L${x + r} ${y}L${x} ${y + r}Z` });
+      marks.append(mark);
+      this.marks.push({ mark, from: contact.from, to: contact.to });
+    }
+    for (const frame of replay.frames) {
+      const name = drawing("text", { "font-size": String(0.06 * this.unit), x: String(0.02 * this.unit), y: String(-0.02 * this.unit) });
+      name.textContent = frame.name;
+      const group = drawing("g", {}, drawing("circle", { r: String(0.012 * this.unit) }), name);
+      frames.append(group);
+      this.frames.push({ group, node: frame.node, pose: frame.pose });
+    }
+    this.draw();
+  }
+
+  private bounds(points: Float64Array): [number[], number[]] {
+    const low = [Infinity, Infinity];
+    const high = [-Infinity, -Infinity];
+    for (let i = 0; i < points.length; i += 4) {
+      this.flat(points, i).forEach((value, c) => {
+        low[c] = Math.min(low[c], value - points[i + 3]);
+        high[c] = Math.max(high[c], value + points[i + 3]);
+      });
+    }
+    return [low, high];
+  }
+
+  /** A point of the world in the picture, whose y points down. */
+  private flat(p: ArrayLike<number>, o = 0): [number, number] {
+    return [this.sign * p[o + this.across], -p[o + this.up]];
+  }
+
+  private fromLab(p: ArrayLike<number>, o = 0): [number, number] {
+    place(this.spot, 0, this.world.lab, 0, p[o], p[o + 1], p[o + 2]);
+    return this.flat(this.spot);
+  }
+
+  private line(x1: number, y1: number, x2: number, y2: number): SVGLineElement {
+    return drawing("line", { x1: String(x1), y1: String(y1), x2: String(x2), y2: String(y2) });
+  }
+
+  private points(values: ArrayLike<number>): string[] {
+    const out: string[] = [];
+    for (let i = 0; i + 2 < values.length; i += 3) out.push(this.fromLab(values, i).map((v) => v.toFixed(5)).join(","));
+    return out;
+  }
+
+  /** What is told in the lab frame: goals, paths, reference and trail. */
+  private drawLab(): void {
+    const { replay, still, unit } = this;
+    still.replaceChildren();
+    for (const path of replay.paths) {
+      const points = this.points(path.points.flat()).join(" ");
+      for (const [radius, name] of [[path.zero, "side-zero"], [path.full, "side-full"]] as const) {
+        if (radius !== null && radius > 0) still.append(drawing("polyline", { class: `${name} side-tube`, points, "stroke-width": String(2 * radius) }));
+      }
+      still.append(drawing("polyline", { class: "side-path", points }));
+    }
+    for (const goal of replay.goals) {
+      const [x, y] = this.fromLab(goal.position);
+      for (const [radius, name] of [[goal.zero, "side-zero"], [goal.full, "side-full"], [0.01 * unit, "side-goal"]] as const) {
+        if (radius !== null && radius > 0) still.append(drawing("circle", { class: name, cx: String(x), cy: String(y), r: String(radius) }));
+      }
+    }
+    if (replay.reference) still.append(drawing("polyline", { class: "side-reference", points: this.points(replay.reference.path.values).join(" ") }));
+    this.trail.length = 0;
+    this.trail.push(...this.points(replay.tcp.values));
+    still.append(drawing("polyline", { class: "side-future", points: this.trail.join(" ") }), this.past, this.dot);
+  }
+
+  invalidate(): void {
+    nextFrame(this.draw);
+  }
+
+  show(part: Part, on: boolean): void {
+    const name = part === "frames" ? ".side-frames" : part === "ghost" ? ".side-ghost" : null;
+    const group = name ? this.svg.querySelector<SVGGElement>(name) : null;
+    if (group) group.style.display = on ? "" : "none";
+  }
+
+  private readonly draw = (): void => {
+    const { world } = this;
+    if (!this.labFixed && !this.first) this.drawLab();
+    for (const outline of this.outlines) if (this.first || outline.moves) outline.path.setAttribute("d", this.outline(outline));
+    this.first = false;
+    const [x, y] = this.flat(world.tcpInWorld);
+    this.past.setAttribute("points", this.trail.slice(0, Math.floor(world.progress) + 1).join(" ") + ` ${x.toFixed(5)},${y.toFixed(5)}`);
+    this.dot.setAttribute("cx", x.toFixed(5));
+    this.dot.setAttribute("cy", y.toFixed(5));
+    const tick = world.t / this.replay.stepS + 0.5;
+    for (const { mark, from, to } of this.marks) {
+      mark.style.visibility = tick >= from ? "visible" : "hidden";
+      mark.style.opacity = tick <= to + 1 ? "1" : "0.45";
+    }
+    for (const { group, node, pose } of this.frames) {
+      world.frame(this.spot, node, pose);
+      const [fx, fy] = this.flat(this.spot);
+      group.setAttribute("transform", `translate(${fx.toFixed(5)} ${fy.toFixed(5)})`);
+    }
+  };
+
+  private outline({ node, balls: own }: Outline): string {
+    const points: Array<[number, number]> = [];
+    for (let i = 0; i < own.length; i += 4) {
+      place(this.spot, 0, this.world.poses, 7 * node, own[i], own[i + 1], own[i + 2]);
+      const [x, y] = this.flat(this.spot);
+      const r = own[i + 3];
+      if (r === 0) points.push([x, y]);
+      else for (let k = 0; k < ROUND; k++) points.push([x + r * Math.cos((2 * Math.PI * k) / ROUND), y + r * Math.sin((2 * Math.PI * k) / ROUND)]);
+    }
+    return "M" + hull(points).map(([x, y]) => `${x.toFixed(5)} ${y.toFixed(5)}`).join("L") + "Z";
+  }
+}

@@ -1,0 +1,74 @@
+// The colours of the replay, for light and dark; those of lines are the plots' own, so that a colour means one thing on the page.
+
+export interface Theme {
+  readonly link: readonly [base: string, odd: string, even: string];
+  readonly fixed: string;
+  readonly driven: string;
+  readonly free: string;
+  readonly ghost: string;
+  readonly trail: string;
+  readonly reference: string;
+  readonly goal: string;
+  readonly contact: string;
+  readonly path: string;
+  readonly axes: readonly [x: string, y: string, z: string];
+  readonly grid: string;
+  readonly sky: string;
+  readonly earth: string;
+  /** Strength of the light from everywhere, and of the sun. */
+  readonly light: readonly [everywhere: number, sun: number];
+  readonly shadow: number;
+}
+
+export const LIGHT: Theme = {
+  link: ["#5d6b7d", "#8ba4c0", "#c6d2df"],
+  fixed: "#c3b297",
+  driven: "#86aa9d",
+  free: "#e0b040",
+  ghost: "#9e4a80",
+  trail: "#006cae",
+  reference: "#9e4a80",
+  goal: "#007e5c",
+  contact: "#c65200",
+  path: "#007e5c",
+  axes: ["#c8102e", "#007e3a", "#1f4fd8"],
+  grid: "#8a96a5",
+  sky: "#ffffff",
+  earth: "#b9b2a8",
+  light: [1.9, 2.0],
+  shadow: 0.2,
+};
+
+export const DARK: Theme = {
+  link: ["#5f6d80", "#7d9ac0", "#b6c4d4"],
+  fixed: "#8f8069",
+  driven: "#5f8f80",
+  free: "#d2a338",
+  ghost: "#e69cc8",
+  trail: "#62b8f0",
+  reference: "#e69cc8",
+  goal: "#38c89c",
+  contact: "#ff9452",
+  path: "#38c89c",
+  axes: ["#ff7a85", "#5fd38a", "#86a8ff"],
+  grid: "#5b6675",
+  sky: "#e6eefc",
+  earth: "#2a2f38",
+  light: [1.3, 2.0],
+  shadow: 0.45,
+};
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+export const theme = (): Theme => (dark.matches ? DARK : LIGHT);
+
+/** Calls when the page turns light or dark. */
+export function onTheme(listener: () => void): void {
+  dark.addEventListener("change", listener);
+}
+
+/** Colour of a node: the links take turns, so that each is told from the next. */
+export function colourOf(theme: Theme, kind: "link" | "fixed" | "driven" | "free" | "ghost", order: number): string {
+  if (kind !== "link") return theme[kind];
+  return order === 0 ? theme.link[0] : order % 2 === 1 ? theme.link[1] : theme.link[2];
+}

@@ -1,0 +1,81 @@
+// Where everything is at a moment: the poses of the trace, and between two frames the straight way from one to the other.
+
+import type { Replay } from "./data";
+import { between, compose, normalize, place } from "./pose";
+
+export class World {
+  /** Pose of every node in the world, seven numbers each. */
+  readonly poses: Float64Array;
+  /** Pose of the lab frame in the world. */
+  readonly lab = new Float64Array(7);
+  /** TCP in the lab frame \[m\]. */
+  readonly tcp = new Float64Array(3);
+  /** TCP in the world \[m\]. */
+  readonly tcpInWorld = new Float64Array(3);
+  readonly q: Float64Array;
+  /** Moment that is shown \[s\]. */
+  t = 0;
+  /** Frames that have passed, with the fraction of the one under way. */
+  progress = 0;
+  private row = 0;
+
+  constructor(readonly replay: Replay) {
+    this.poses = new Float64Array(7 * replay.nodes.length);
+    this.q = new Float64Array(replay.joints.length);
+    replay.nodes.forEach((node, n) => {
+      if (node.pose === null) return;
+      this.poses.set(node.pose, 7 * n);
+      normalize(this.poses, 7 * n);
+    });
+    this.at(replay.ticks[0] * replay.stepS);
+  }
+
+  /** The last frame at or before a moment. */
+  private find(tick: number): number {
+    const ticks = this.replay.ticks;
+    const last = ticks.length - 1;
+    let row = Math.min(this.row, last);
+    // while it plays, the frame is the one of before or the next
+    if (ticks[row] <= tick && (row === last || tick < ticks[row + 1])) return row;
+    if (row < last && ticks[row + 1] <= tick && (row + 1 === last || tick < ticks[row + 2])) return row + 1;
+    let low = 0;
+    let high = last;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (ticks[middle] <= tick) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /** Puts everything where it is at `t` \[s\]. */
+  at(t: number): void {
+    const { ticks, stepS, nodes, tracks, tcp, q, lab } = this.replay;
+    // a time read from a link may miss its tick by a rounding
+    const exact = t / stepS;
+    const tick = Math.abs(exact - Math.round(exact)) < 1e-6 ? Math.round(exact) : exact;
+    const i = (this.row = this.find(tick));
+    const k = Math.min(i + 1, ticks.length - 1);
+    const f = k > i ? Math.min(1, Math.max(0, (tick - ticks[i]) / (ticks[k] - ticks[i]))) : 0;
+    this.t = t;
+    this.progress = i + f;
+    for (let n = 0; n < nodes.length; n++) {
+      const at = nodes[n].track;
+      if (at >= 0) between(this.poses, 7 * n, tracks[at].values, i, k, f);
+    }
+    for (let c = 0; c < 3; c++) this.tcp[c] = tcp.values[3 * i + c] + f * (tcp.values[3 * k + c] - tcp.values[3 * i + c]);
+    const width = this.q.length;
+    for (let c = 0; c < width; c++) {
+      this.q[c] = q.values[width * i + c] + f * (q.values[width * k + c] - q.values[width * i + c]);
+    }
+    this.frame(this.lab, lab.node, lab.pose);
+    place(this.tcpInWorld, 0, this.lab, 0, this.tcp[0], this.tcp[1], this.tcp[2]);
+  }
+
+  /** Writes the pose in the world of a frame that stands on a node, or in the world where `node` is null. */
+  frame(out: Float64Array, node: number | null, pose: readonly number[]): void {
+    if (node === null) out.set(pose);
+    else compose(out, 0, this.poses, 7 * node, pose, 0);
+    normalize(out, 0);
+  }
+}
