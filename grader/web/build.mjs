@@ -11,14 +11,19 @@ import { build } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 const licence = (await readFile(join(here, "node_modules/three/LICENSE"), "utf8")).trim().replace(/\s*\n\s*/g, "\n");
 
-// the shaders of three are text with indents and comments, which esbuild cannot shorten
+// the shaders of three are text with indents and comments, which esbuild cannot shorten; in what begins with # a blank has a meaning
+function short(line) {
+  const code = line.replace(/\\t/g, " ").replace(/\/\/.*$/, "").trim();
+  return code.startsWith("#") ? code : code.replace(/ *([=*,;{}()?:<>&|]) */g, "$1");
+}
+
 const shaders = {
   name: "shaders",
   setup(build) {
     build.onLoad({ filter: /three\.(module|core)\.js$/ }, async ({ path }) => {
       const text = await readFile(path, "utf8");
       const shorter = text.replace(/"(?:[^"\\\n]|\\.)*"/g, (string) =>
-        string.includes("\\n") ? string.replace(/(\\n)(?:\\n|\\t)*/g, "$1").replace(/\/\/(?:(?!\\n).)*(?=\\n)/g, "") : string,
+        string.includes("\\n") ? string.slice(1, -1).split("\\n").map(short).filter((line) => line !== "").join("\\n").replace(/^|$/g, '"') : string,
       );
       return { contents: shorter, loader: "js" };
     });

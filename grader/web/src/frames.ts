@@ -13,8 +13,21 @@ function ask(): void {
   requestAnimationFrame(frame);
 }
 
+/** Frames whose time is remembered. */
+const REMEMBERED = 600;
+const times = new Float64Array(REMEMBERED);
+let counted = 0;
+
+/** What the last frames took while something played \[ms\]: all of this page's code in them. */
+export function frameTimes(): number[] {
+  const count = Math.min(counted, REMEMBERED);
+  return Array.from({ length: count }, (_, i) => times[(counted - count + i) % REMEMBERED]);
+}
+
 function frame(now: number): void {
   asked = false;
+  const began = performance.now();
+  const plays = lasting.size > 0;
   for (const listener of lasting) listener(now);
   // two lists take turns, so that no frame makes one
   const due = once;
@@ -22,6 +35,7 @@ function frame(now: number): void {
   running = due;
   for (let i = 0; i < due.length; i++) due[i](now);
   due.length = 0;
+  if (plays) times[counted++ % REMEMBERED] = performance.now() - began;
   if (lasting.size > 0 || once.length > 0) ask();
 }
 

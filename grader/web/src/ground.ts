@@ -1,6 +1,7 @@
 // The ground: a grid that fades into the distance.
 
 import { Color, DoubleSide, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from "three";
+import { pitchFor } from "./pitch";
 
 const VERTEX = `
 varying vec2 place;
@@ -25,19 +26,11 @@ float lines(float every) {
 }
 void main() {
   float fade = 1.0 - smoothstep(0.35, 1.0, length(place - middle) / reach);
-  float alpha = max(0.35 * lines(pitch), 0.7 * lines(5.0 * pitch)) * fade;
+  float alpha = max(0.22 * lines(pitch), 0.5 * lines(5.0 * pitch)) * fade;
   if (alpha < 0.004) discard;
   gl_FragColor = vec4(colour, alpha);
   #include <colorspace_fragment>
 }`;
-
-/** A pitch of 1, 2 or 5 times a power of ten \[m\] that gives a run of this radius some ten lines. */
-export function pitchFor(radius: number): number {
-  const wanted = radius / 6;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const rest = wanted / power;
-  return (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10) * power;
-}
 
 export class Grid extends Mesh<PlaneGeometry, ShaderMaterial> {
   constructor(x: number, y: number, z: number, radius: number) {

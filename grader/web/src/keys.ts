@@ -7,7 +7,9 @@ const PRESSED = "button, select, a, summary, input:not([type=range]), textarea";
 
 export function listen(root: HTMLElement, cursor: Cursor, event: (direction: 1 | -1) => void): void {
   root.addEventListener("keydown", (key) => {
-    if (key.ctrlKey || key.metaKey || key.altKey || key.defaultPrevented) return;
+    // many keyboards have the brackets behind AltGr, which counts as both others
+    const plain = !(key.ctrlKey || key.metaKey || key.altKey) || key.getModifierState("AltGraph");
+    if (!plain || key.defaultPrevented) return;
     const target = key.target instanceof Element ? key.target : root;
     const many = key.shiftKey ? 10 : 1;
     const acts: Record<string, () => void> = {

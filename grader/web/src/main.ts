@@ -20,10 +20,10 @@ function start(root: HTMLElement): void {
   }
 }
 
-function visit(moment: Moment | null): boolean {
+function visit(moment: Moment | null, atOnce = false): boolean {
   const replay = moment && replays.find((one) => one.task === moment.task);
   if (!replay) return false;
-  replay.visit(moment.t);
+  replay.visit(moment.t, atOnce);
   return true;
 }
 
@@ -51,7 +51,7 @@ addEventListener("beforeprint", () => replays.forEach((replay) => replay.toPaper
 addEventListener("afterprint", () => replays.forEach((replay) => replay.toScreen()));
 addEventListener("pagehide", () => address.flush());
 // once the page has its size, so that it scrolls to where the replay is
-requestAnimationFrame(() => visit(parse(location.hash)));
+requestAnimationFrame(() => visit(parse(location.hash), true));
 
 Object.assign(window, {
   kinemark: {

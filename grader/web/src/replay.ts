@@ -6,6 +6,7 @@ import { Cursor } from "./cursor";
 import type { Replay as Data, RunEvent } from "./data";
 import { element } from "./dom";
 import { extent, type Extent } from "./extent";
+import { frameTimes } from "./frames";
 import { mark } from "./icon";
 import { listen } from "./keys";
 import { Address, copy, format } from "./links";
@@ -143,6 +144,7 @@ export class Replay {
 
   private rest(): void {
     this.world.at(this.cursor.t);
+    this.view.rest();
     this.readout.write();
     this.shared.hidden = true;
     this.address.write(this.link());
@@ -171,10 +173,10 @@ export class Replay {
   }
 
   /** Goes to the moment of a link, and brings the replay where it can be seen. */
-  visit(t: number | null): void {
+  visit(t: number | null, atOnce = false): void {
     this.cursor.pause();
     if (t !== null) this.cursor.seek(t);
-    this.root.scrollIntoView({ block: this.root.offsetHeight < innerHeight ? "center" : "start", behavior: reducedMotion() ? "auto" : "smooth" });
+    this.root.scrollIntoView({ block: this.root.offsetHeight < innerHeight ? "center" : "start", behavior: atOnce || reducedMotion() ? "auto" : "smooth" });
     this.root.focus({ preventScroll: true });
     this.announcer.say(this.here());
   }
@@ -216,7 +218,7 @@ export class Replay {
   }
 
   frameTimes(): number[] {
-    return this.view instanceof Stage ? this.view.frameTimes() : [];
+    return frameTimes();
   }
 }
 

@@ -9,7 +9,7 @@ import {
   HemisphereLight,
   Mesh,
   MeshBasicMaterial,
-  MeshStandardMaterial,
+  MeshLambertMaterial,
   Object3D,
   OctahedronGeometry,
   PlaneGeometry,
@@ -34,8 +34,10 @@ type Glass = MeshBasicMaterial;
 
 export class RunScene {
   readonly scene = new Scene();
+  /** Length of a frame's axes \[m\]. */
+  readonly axis: number;
   private readonly lab = new Group();
-  private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshStandardMaterial>; index: number; kind: NodeKind; order: number }> = [];
+  private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshLambertMaterial>; index: number; kind: NodeKind; order: number }> = [];
   private readonly moving: Array<{ object: Object3D; index: number }> = [];
   private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; from: number; to: number }> = [];
   private readonly lines: Array<{ line: Line; colour: keyof Theme }> = [];
@@ -59,6 +61,7 @@ export class RunScene {
   ) {
     const { scene, lab } = this;
     const unit = extent.radius;
+    this.axis = 0.16 * unit;
     scene.matrixAutoUpdate = false;
     lab.matrixAutoUpdate = false;
     scene.add(lab);
@@ -67,7 +70,7 @@ export class RunScene {
     this.sun.target.position.set(...extent.centre);
     this.sun.castShadow = true;
     const shadow = this.sun.shadow;
-    shadow.mapSize.set(2048, 2048);
+    shadow.mapSize.set(1536, 1536);
     const reach = 1.6 * unit;
     Object.assign(shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * unit, far: 6.5 * unit });
     shadow.bias = -0.0004;
@@ -88,7 +91,7 @@ export class RunScene {
       const shape = geometry(node, replay.meshes);
       if (!shape) return;
       const ghost = node.kind === "ghost";
-      const material = new MeshStandardMaterial({ roughness: 0.72, metalness: 0.02 });
+      const material = new MeshLambertMaterial();
       if (ghost) Object.assign(material, { transparent: true, opacity: 0.34, depthWrite: false });
       const mesh = new Mesh(shape, material);
       mesh.castShadow = !ghost;
@@ -152,7 +155,7 @@ export class RunScene {
       this.contacts.push({ mesh, from: contact.from, to: contact.to });
     }
 
-    const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(0.16 * unit));
+    const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(this.axis));
     for (const frame of this.frames()) {
       const points = tips.flatMap((tip) => [0, 0, 0, ...tip.toArray()]);
       const line = new Line(points, { width: 2.5 }, true, theme.axes.map((axis) => new Color(axis)));

@@ -5,33 +5,14 @@ import { drawing, element } from "./dom";
 import type { Replay } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
-import { pitchFor } from "./ground";
+import { hull } from "./hull";
+import { pitchFor } from "./pitch";
 import { place } from "./pose";
 import type { Part, View } from "./view";
 import type { World } from "./world";
 
 /** Points of a circle that stands for a ball. */
 const ROUND = 20;
-
-/** The outline of points in the plane, x and y in turn, by Andrew's monotone chain. */
-export function hull(points: ReadonlyArray<readonly [number, number]>): Array<readonly [number, number]> {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  if (sorted.length < 3) return sorted;
-  const half = (list: typeof sorted): typeof sorted => {
-    const out: typeof sorted = [];
-    for (const p of list) {
-      while (out.length > 1) {
-        const [a, b] = [out[out.length - 2], out[out.length - 1]];
-        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
-        out.pop();
-      }
-      out.push(p);
-    }
-    out.pop();
-    return out;
-  };
-  return [...half(sorted), ...half(sorted.reverse())];
-}
 
 interface Outline {
   readonly path: SVGPathElement;
@@ -112,7 +93,7 @@ export class Side implements View {
       this.marks.push({ mark, from: contact.from, to: contact.to });
     }
     for (const frame of replay.frames) {
-      const name = drawing("text", { "font-size": String(0.06 * this.unit), x: String(0.02 * this.unit), y: String(-0.02 * this.unit) });
+      const name = drawing("text", { "font-size": String(0.045 * this.unit), x: String(0.02 * this.unit), y: String(-0.02 * this.unit) });
       name.textContent = frame.name;
       const group = drawing("g", {}, drawing("circle", { r: String(0.012 * this.unit) }), name);
       frames.append(group);
@@ -178,6 +159,10 @@ export class Side implements View {
 
   invalidate(): void {
     nextFrame(this.draw);
+  }
+
+  rest(): void {
+    this.invalidate();
   }
 
   show(part: Part, on: boolean): void {

@@ -6,15 +6,22 @@ import type { Replay } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { listen } from "./gestures";
+import { place } from "./pose";
 import { Orbit, type Preset } from "./orbit";
 import { RunScene } from "./scene";
 import { LIGHT, onTheme, theme } from "./theme";
 import type { Part, View } from "./view";
 import type { World } from "./world";
 
-/** Frames whose time is remembered. */
-const REMEMBERED = 600;
+/** Pixels of the picture in a pixel of the page, at most and at least. */
 const MOST_PIXELS = 2;
+const LEAST_PIXELS = 0.6;
+/** Frames whose axes have letters; of more one would see letters only. */
+const MOST_LETTERED = 6;
+/** A picture that comes later than this after the one before is late \[ms\]. */
+const LATE_MS = 45;
+/** So many late pictures in a row make the next ones coarser, until it rests. */
+const MOST_LATE = 6;
 
 export class Stage implements View {
   readonly element: HTMLElement;
@@ -22,16 +29,16 @@ export class Stage implements View {
   private readonly orbit: Orbit;
   private readonly scene: RunScene;
   private readonly labels = element("div", { class: "replay-labels", "aria-hidden": "true" });
-  private readonly names: HTMLElement[];
+  private readonly names: Array<{ label: HTMLElement; frame: number; tip: number }> = [];
   private renderer: WebGLRenderer | null = null;
-  private readonly times = new Float64Array(REMEMBERED);
-  private drawn = 0;
   private last = 0;
+  private late = 0;
+  private coarseness = 1;
   private width = 0;
   private height = 0;
-  private releasing = false;
   private readonly point = new Vector3();
   private readonly spot = new Float64Array(7);
+  private readonly tip = new Float64Array(3);
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
 
   constructor(
@@ -44,8 +51,11 @@ export class Stage implements View {
   ) {
     this.element = element("div", { class: "replay-stage", tabindex: "0", role: "application", "aria-roledescription": "3D view", "aria-label": label });
     this.scene = new RunScene(replay, world, extent, theme());
-    this.names = this.scene.frames().map((frame) => element("span", {}, frame.name));
-    this.labels.append(...this.names);
+    this.scene.frames().forEach((frame, i) => {
+      this.name(frame.name, i, -1);
+      // letters tell the axes apart without their colours
+      if (this.scene.frames().length <= MOST_LETTERED) ["x", "y", "z"].forEach((axis, c) => this.name(axis, i, c));
+    });
     this.labels.hidden = true;
     this.element.append(this.labels);
     this.orbit = new Orbit(extent, () => this.invalidate());
@@ -64,10 +74,10 @@ export class Stage implements View {
     new IntersectionObserver(([seen]) => !seen.isIntersecting && this.release(), { rootMargin: "2500px" }).observe(this.element);
   }
 
-  /** Times of the last pictures: what this code took, in ms. */
-  frameTimes(): number[] {
-    const count = Math.min(this.drawn, REMEMBERED);
-    return Array.from({ length: count }, (_, i) => this.times[(this.drawn - count + i) % REMEMBERED]);
+  private name(text: string, frame: number, tip: number): void {
+    const label = element("span", tip < 0 ? {} : { class: "replay-axis" }, text);
+    this.labels.append(label);
+    this.names.push({ label, frame, tip });
   }
 
   private open(): void {
@@ -83,7 +93,8 @@ export class Stage implements View {
     renderer.shadowMap.type = PCFShadowMap;
     renderer.setClearAlpha(0);
     renderer.domElement.addEventListener("webglcontextlost", () => {
-      if (!this.releasing) this.lost();
+      // the one that was given back tells of its end, too
+      if (this.renderer === renderer) this.lost();
     });
     renderer.domElement.setAttribute("aria-hidden", "true");
     this.element.prepend(renderer.domElement);
@@ -94,13 +105,11 @@ export class Stage implements View {
   private release(): void {
     const renderer = this.renderer;
     if (!renderer) return;
-    this.releasing = true;
     this.renderer = null;
     this.scene.forget();
     renderer.dispose();
     renderer.forceContextLoss();
     renderer.domElement.remove();
-    this.releasing = false;
   }
 
   private resize(): void {
@@ -108,8 +117,7 @@ export class Stage implements View {
     if (!this.renderer || clientWidth === 0 || clientHeight === 0) return;
     this.width = clientWidth;
     this.height = clientHeight;
-    this.renderer.setPixelRatio(Math.min(MOST_PIXELS, devicePixelRatio));
-    this.renderer.setSize(clientWidth, clientHeight);
+    this.sharpen(1);
     this.scene.resize(clientWidth, clientHeight);
     this.orbit.resize(clientWidth, clientHeight);
     // a canvas is empty once its size changed, so it is not left so until the next frame
@@ -123,34 +131,55 @@ export class Stage implements View {
     this.invalidate();
   }
 
+  /** Draws every so many pixels; a machine that cannot keep up moves coarsely rather than by jumps. */
+  private sharpen(coarseness: number): void {
+    this.coarseness = coarseness;
+    this.late = 0;
+    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, devicePixelRatio) / coarseness);
+    this.renderer?.setPixelRatio(ratio);
+    this.renderer?.setSize(this.width, this.height);
+  }
+
+  private pace(now: number): void {
+    const passed = now - this.last;
+    this.last = now;
+    // a picture long after the last one is the first of a new motion, not a late one
+    this.late = passed > LATE_MS && passed < 1000 ? this.late + 1 : 0;
+    if (this.late >= MOST_LATE && this.coarseness < 4) this.sharpen(1.5 * this.coarseness);
+  }
+
+  rest(): void {
+    if (this.coarseness > 1) this.sharpen(1);
+    this.invalidate();
+  }
+
   invalidate(): void {
     if (this.renderer) nextFrame(this.draw);
   }
 
   private readonly draw = (now: number): void => {
     if (!this.renderer) return;
-    const began = performance.now();
     if (this.orbit.ease(Math.min(50, now - this.last))) nextFrame(this.draw);
-    this.last = now;
+    this.pace(now);
     this.scene.pose();
     this.renderer.render(this.scene.scene, this.orbit.camera);
     if (this.parts.frames) this.label();
-    this.times[this.drawn++ % REMEMBERED] = performance.now() - began;
   };
 
   private label(): void {
     const frames = this.scene.frames();
-    for (let i = 0; i < frames.length; i++) {
-      this.world.frame(this.spot, frames[i].node, frames[i].pose);
-      this.point.set(this.spot[0], this.spot[1], this.spot[2]).project(this.orbit.camera);
-      const style = this.names[i].style;
-      if (this.point.z > 1) style.visibility = "hidden";
-      else {
-        style.visibility = "visible";
-        const x = 0.5 * (1 + this.point.x) * this.width;
-        const y = 0.5 * (1 - this.point.y) * this.height;
-        style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
-      }
+    const { spot, tip: end, point } = this;
+    for (const { label, frame, tip } of this.names) {
+      if (tip <= 0) this.world.frame(spot, frames[frame].node, frames[frame].pose);
+      const reach = 1.1 * this.scene.axis;
+      if (tip < 0) end.set(spot.subarray(0, 3));
+      else place(end, 0, spot, 0, tip === 0 ? reach : 0, tip === 1 ? reach : 0, tip === 2 ? reach : 0);
+      point.set(end[0], end[1], end[2]).project(this.orbit.camera);
+      const style = label.style;
+      style.visibility = point.z > 1 ? "hidden" : "visible";
+      const x = 0.5 * (1 + point.x) * this.width;
+      const y = 0.5 * (1 - point.y) * this.height;
+      style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
     }
   }
 

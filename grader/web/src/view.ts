@@ -9,6 +9,8 @@ export interface View {
   readonly element: HTMLElement;
   /** Says that the moment or anything else changed; the picture is drawn at the next frame. */
   invalidate(): void;
+  /** Says that nothing will move for a while. */
+  rest(): void;
   show(part: Part, on: boolean): void;
   /** Puts the camera to a view, or turns and zooms it, where there is a camera. */
   camera?: { view(preset: Preset): void; turn(azimuth: number, elevation: number): void; zoom(factor: number): void };

@@ -1,0 +1,142 @@
+// Reading a run: what is written comes back, and what is broken is said in a sentence.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { encode, encodeColumns, replay, truth } from "./fixture.mjs";
+import { load } from "./modules.mjs";
+
+const { column, track } = await load("track.ts");
+const { read } = await load("data.ts");
+const { World } = await load("world.ts");
+const { parse, format } = await load("links.ts");
+const { hull } = await load("hull.ts");
+const { pitchFor } = await load("pitch.ts");
+const { moment, fixed } = await load("words.ts");
+const { valueAt } = await load("curve.ts");
+const { balls } = await load("balls.ts");
+
+test("a column worked by hand", () => {
+  // 5, 7, 8 are 5, then +2, then +1: a difference of differences of -1; zigzag 10, 4, 1
+  assert.equal(encodeColumns([[5, 7, 8]]), Buffer.from([10, 4, 1]).toString("base64"));
+  assert.deepEqual([...column(Buffer.from([10, 4, 1]).toString("base64"))], [5, 7, 8]);
+});
+
+test("whole numbers of every size come back", () => {
+  const numbers = [0, -1, 1, 63, -64, 64, 127, 128, -129, 2 ** 20, -(2 ** 31), 2 ** 31, 2 ** 40, -(2 ** 45), 0, 0, 0];
+  assert.deepEqual([...column(encodeColumns([numbers]))], numbers);
+});
+
+test("a track comes back row by row", () => {
+  const rows = Array.from({ length: 50 }, (_, i) => [Math.sin(i / 5), Math.cos(i / 7), i]);
+  const coded = encode(rows, [1e-5, 1e-5, 1]);
+  const { values } = track(coded.data, coded.quanta, coded.count);
+  rows.flat().forEach((value, i) => assert.ok(Math.abs(values[i] - value) <= 0.51e-5, `${i}: ${values[i]} and ${value}`));
+});
+
+test("bytes that are too few or too many are told", () => {
+  const coded = encode([[1], [2], [3]], [1]);
+  assert.throws(() => track(coded.data, [1], 4), /hold no 1 columns of 4|ends after/);
+  assert.throws(() => track(coded.data, [1], 2), /more than/);
+  assert.throws(() => column(Buffer.from([0x80]).toString("base64")), /ends before/);
+  assert.throws(() => column(Buffer.from(Array(12).fill(0xff)).toString("base64")), /longer|ends/);
+});
+
+test("a false count costs no memory", () => {
+  assert.throws(() => track("AA==", Array(7).fill(1), 1e9), /bytes hold no/);
+});
+
+test("everything bad in a replay is a sentence", () => {
+  const broken = (change) => {
+    const data = replay({ seconds: 0.5 });
+    change(data);
+    return JSON.stringify(data);
+  };
+  const cases = [
+    [(d) => (d.format = "kinemark-replay/9"), /kinemark-replay\/9/],
+    [(d) => (d.stepS = 0), /stepS is not a positive number/],
+    [(d) => (d.ticks = ""), /no frame/],
+    [(d) => (d.ticks = encodeColumns([[3, 2, 1]])), /order of time/],
+    [(d) => (d.nodes[1].track = 99), /nodes\[1\]\.track is not one of/],
+    [(d) => (d.nodes[0].pose = [0, 0, 0, 0, 0, 0, 0]), /nodes\[0\]\.pose is not a pose/],
+    [(d) => (d.tcp.count = 3), /tcp is not a track of/],
+    [(d) => (d.meshes[0].triangles = Buffer.from(new Uint32Array([0, 1, 9]).buffer).toString("base64")), /vertex that is not there/],
+    [(d) => (d.q = null), /q/],
+    [(d) => delete d.nodes, /nodes is not a list/],
+  ];
+  for (const [change, says] of cases) assert.throws(() => read(broken(change)), says);
+  assert.throws(() => read("{"), SyntaxError);
+});
+
+test("the world at a tick is the run's, between ticks near it", () => {
+  const data = read(JSON.stringify(replay()));
+  const world = new World(data);
+  for (const tick of [0, 1, 10, 505, 812, 2350, 2355, 3999, 4000]) {
+    world.at(tick / 1000);
+    const { q, tcp } = truth(tick);
+    // frames every 10 ms of a motion of some 5 rad/s^2: 5 * 0.01^2 / 8 and the quanta
+    q.forEach((value, j) => assert.ok(Math.abs(world.q[j] - value) < 1e-4, `q${j} at ${tick}: ${world.q[j]}, not ${value}`));
+    tcp.forEach((value, c) => assert.ok(Math.abs(world.tcpInWorld[c] - value) < 2e-4, `tcp ${c} at ${tick}`));
+  }
+  // backwards and far, as a reader jumps
+  world.at(4);
+  world.at(0);
+  assert.ok(Math.abs(world.q[1] - truth(0).q[1]) < 2e-5);
+});
+
+test("a lab frame that is turned changes what is told, not where things are", () => {
+  const turned = [0.3, -0.2, 1, Math.SQRT1_2, 0, Math.SQRT1_2, 0];
+  const world = new World(read(JSON.stringify(replay({ lab: turned }))));
+  world.at(1);
+  truth(1000).tcp.forEach((value, c) => assert.ok(Math.abs(world.tcpInWorld[c] - value) < 1e-4));
+});
+
+test("25 joints over 60 s are read in less than 50 ms", () => {
+  const text = JSON.stringify(replay({ seconds: 60, joints: 25 }));
+  read(text);
+  const times = [1, 2, 3, 4, 5].map(() => {
+    const began = performance.now();
+    read(text);
+    return performance.now() - began;
+  });
+  console.log(`${(text.length / 1e6).toFixed(2)} MB read in ${Math.min(...times).toFixed(1)} ms`);
+  assert.ok(Math.min(...times) < 50, `${times}`);
+});
+
+test("links to a moment", () => {
+  assert.deepEqual(parse("#task=move&t=2.35"), { task: "move", t: 2.35 });
+  assert.deepEqual(parse("#task=a%26b&t=0"), { task: "a&b", t: 0 });
+  assert.deepEqual(parse("#task=move"), { task: "move", t: null });
+  assert.deepEqual(parse("#task=move&t=soon"), { task: "move", t: null });
+  assert.equal(parse("#task-3"), null);
+  assert.equal(parse("#task=%E0%A4%A"), null);
+  assert.equal(parse(""), null);
+  assert.deepEqual(parse(format("a&b=c", "1")), { task: "a&b=c", t: 1 });
+});
+
+test("numbers as they are told", () => {
+  assert.equal(moment(2.35, 0.001), "2.35");
+  assert.equal(moment(0.1 + 0.2, 0.001), "0.3");
+  assert.equal(fixed(-0.00001, 4), "0.0000");
+});
+
+test("the value of a drawn line", () => {
+  const piece = { x: Float64Array.of(0, 10, 10, 20), y: Float64Array.of(0, 10, 50, 60) };
+  assert.equal(valueAt([piece], 5), 5);
+  assert.equal(valueAt([piece], 10), 50);
+  assert.equal(valueAt([piece], 20), 60);
+  assert.equal(valueAt([piece], 21), null);
+});
+
+test("a box is hulled by its corners", () => {
+  const own = balls({ solid: { kind: "box", size: [2, 4, 6] }, pose: [1, 0, 0, 1, 0, 0, 0] }, []);
+  assert.equal(own.length, 32);
+  assert.equal(Math.max(...own.filter((_, i) => i % 4 === 0)), 2);
+});
+
+test("the outline of a square with a point in it is the square", () => {
+  assert.deepEqual(hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).length, 4);
+});
+
+test("a grid has round pitches", () => {
+  for (const [radius, pitch] of [[1, 0.2], [0.3, 0.05], [6, 1], [12, 2]]) assert.ok(Math.abs(pitchFor(radius) - pitch) < 1e-12);
+});
