@@ -44,7 +44,7 @@ const style = await build({ ...common, entryPoints: ["src/viewer.css"], target: 
 
 const js = script.outputFiles[0].text.trimEnd();
 const css = style.outputFiles[0].text.trimEnd();
-for (const [name, text, ends] of [["viewer.js", js, /<\/script|<!--/i], ["viewer.css", css, /<\/style|<!--/i]]) {
+for (const [name, text, ends] of [["viewer.js", js, /<\/?script|<!--/i], ["viewer.css", css, /<\/style|<!--/i]]) {
   if (ends.test(text)) throw new Error(`${name} holds what would end or break the element it is put into: ${ends}`);
 }
 const digest = createHash("sha256").update(js, "utf8").digest("base64");

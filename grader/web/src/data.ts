@@ -26,6 +26,8 @@ export interface SceneNode {
   readonly shapes: readonly Shape[];
   /** Where it stands in the world if it never moves. */
   readonly pose: Pose | null;
+  /** The node its joint hangs on, where the data tell. */
+  readonly parent: number | null;
   /** Index of its track where it moves. */
   readonly track: number;
 }
@@ -101,6 +103,8 @@ export interface Replay {
   readonly mainLabel: string | null;
   readonly ended: string | null;
 }
+
+const MOST_NODES = 1e6;
 
 /** A value of the JSON with the way to it, for what is said when it is not what it should be. */
 class Value {
@@ -240,9 +244,11 @@ export function read(json: string): Replay {
       kind: value.of("kind").one(NODE_KINDS, "fixed"),
       shapes: value.of("shapes").list((shape) => ({ solid: solid(shape.of("solid"), meshes.length), pose: shape.of("pose").pose() })),
       pose: at === null ? value.of("pose").pose() : null,
+      parent: value.of("parent").maybe((v) => v.index(MOST_NODES)),
       track: at ?? -1,
     };
   });
+  for (const node of nodes) if (node.parent !== null && node.parent >= nodes.length) throw new Error(`${node.name} hangs on a node that is not there`);
   const frame = (value: Value): Frame => ({
     name: value.of("name").text(),
     node: value.of("node").maybe((v) => v.index(nodes.length)),

@@ -1,12 +1,15 @@
 // How much room a run takes in the world, and in which plane most of it happens.
 
 import { balls, farthest } from "./balls";
+import { bones, reach } from "./bones";
 import { place } from "./pose";
 import { World } from "./world";
 import type { Replay } from "./data";
 
 /** Moments at which the run is looked at. */
 const MOMENTS = 32;
+/** Points of a path that are looked at. */
+const MOST_POINTS = 1500;
 
 export interface Extent {
   /** Balls (x, y, z, radius in m) that hull everything worth seeing. */
@@ -50,6 +53,7 @@ export function extent(replay: Replay): Extent {
   const local = nodes.map((node) => node.shapes.map((shape) => balls(shape, meshes)));
   const core: number[] = [];
   const other: number[] = [];
+  const sticks = bones(replay);
   const tcp = new Box();
   const links = new Box();
   const spot = new Float64Array(3);
@@ -72,13 +76,22 @@ export function extent(replay: Replay): Extent {
         }
       }
     });
-    core.push(...world.tcpInWorld, 0);
+    for (const bone of sticks) {
+      const at = 7 * bone.from;
+      core.push(world.poses[at], world.poses[at + 1], world.poses[at + 2], 0);
+      reach(spot, world, bone);
+      core.push(spot[0], spot[1], spot[2], 0);
+      links.add(spot);
+    }
     tcp.add(world.tcpInWorld);
     for (const goal of replay.goals) inLab(goal.position, 0, goal.full ?? 0);
     if (m === 0 || replay.lab.node !== null) {
       for (const path of replay.paths) for (const point of path.points) inLab(point, 0, path.full ?? 0);
       const reference = replay.reference?.path;
-      if (reference) for (let i = 0; i < reference.count; i++) inLab(reference.values, 3 * i, 0);
+      for (const track of reference ? [replay.tcp, reference] : [replay.tcp]) {
+        const stride = Math.ceil(track.count / MOST_POINTS);
+        for (let i = 0; i < track.count; i += stride) inLab(track.values, 3 * i, 0);
+      }
     }
   }
   const box = new Box();

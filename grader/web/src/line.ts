@@ -46,27 +46,25 @@ void main() {
 const FRAGMENT = `
 uniform vec3 colour;
 uniform float tinted;
-uniform float opacity;
-uniform float future;
 uniform float now;
 uniform float dash;
 varying float vAlong;
 varying float vOrder;
 varying vec3 vTint;
 void main() {
-  if (dash > 0.0 && fract(vAlong / dash) > 0.55) discard;
-  gl_FragColor = vec4(mix(colour, vTint, tinted), vOrder <= now ? opacity : opacity * future);
+  if (vOrder > now || (dash > 0.0 && fract(vAlong / dash) > 0.55)) discard;
+  gl_FragColor = vec4(mix(colour, vTint, tinted), 1.0);
   #include <colorspace_fragment>
 }`;
+
+/** More points than any line has. */
+const EVER = 1e9;
 
 export interface LineStyle {
   /** Width \[px\]. */
   readonly width: number;
-  readonly opacity?: number;
   /** Length of a dash and its gap \[m\]. */
   readonly dash?: number;
-  /** Strength of what has not passed yet. */
-  readonly future?: number;
 }
 
 /** A line through points, or pieces of two points each where `pieces`. */
@@ -123,21 +121,18 @@ export class Line extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
           width: { value: style.width },
           colour: { value: new Color() },
           tinted: { value: tints ? 1 : 0 },
-          opacity: { value: style.opacity ?? 1 },
-          future: { value: style.future ?? 1 },
-          now: { value: Infinity },
+          now: { value: EVER },
           dash: { value: style.dash ?? 0 },
         },
       }),
     );
-    this.material.uniforms.now.value = 1e9;
   }
 
   set colour(colour: string) {
     this.material.uniforms.colour.value.set(colour);
   }
 
-  /** How far along the points the present is. */
+  /** How far along the points it is drawn. */
   set now(order: number) {
     this.material.uniforms.now.value = order;
   }

@@ -18,6 +18,10 @@ interface TimePanel {
   readonly t: readonly number[];
   readonly y: readonly number[];
   readonly unit: string;
+  /** Whether equal ways up are equal ratios. */
+  readonly log?: boolean;
+  /** What stands above it. */
+  readonly name?: string;
   readonly series: readonly Series[];
 }
 
@@ -45,7 +49,7 @@ function panels(text: string): Panel[] {
   return list.filter((panel): panel is Panel => {
     if (!panel || !numbers(panel.box, 4)) return false;
     if (panel.kind === "time") {
-      return numbers(panel.t, 2) && panel.t[1] > panel.t[0] && numbers(panel.y, 2) && panel.y[1] !== panel.y[0] && Array.isArray(panel.series);
+      return numbers(panel.t, 2) && panel.t[1] > panel.t[0] && numbers(panel.y, 2) && panel.y[1] !== panel.y[0] && (!panel.log || (panel.y[0] > 0 && panel.y[1] > 0)) && Array.isArray(panel.series);
     }
     return panel.kind === "plane" && numbers(panel.axes, 2) && numbers(panel.signs, 2) && numbers(panel.zero, 2) && typeof panel.pixelsPerM === "number";
   });
@@ -179,14 +183,22 @@ export class Plot {
 
   private fill(panel: TimePanel, x: number, y: number): void {
     const [, top, , bottom] = panel.box;
-    const perUnit = (panel.y[1] - panel.y[0]) / (bottom - top);
-    const digits = Math.min(6, Math.max(0, Math.ceil(-Math.log10(Math.abs(perUnit) * 2))));
+    const [low, high] = panel.y;
+    const value = (at: number): number => {
+      const share = (bottom - at) / (bottom - top);
+      return panel.log ? low * (high / low) ** share : low + share * (high - low);
+    };
+    // as many digits as the drawing tells: a step of two units
+    const told = (at: number): string => {
+      const step = Math.abs(value(at) - value(at + 2));
+      return fixed(value(at), Math.min(9, Math.max(0, Math.ceil(-Math.log10(Math.max(step, 1e-12))))));
+    };
     const rows: Array<{ series: Series; at: number; text: string }> = [];
     for (const series of panel.series) {
       let pieces = this.curves.get(series);
       if (!pieces) this.curves.set(series, (pieces = curve(this.svg, String(series.colour), panel.box, this.unit())));
       const at = valueAt(pieces, x);
-      if (at !== null) rows.push({ series, at, text: fixed(panel.y[0] + (bottom - at) * perUnit, digits) });
+      if (at !== null) rows.push({ series, at, text: told(at) });
     }
     const more = rows.length - MOST_ROWS;
     if (more > 0) {
@@ -195,10 +207,10 @@ export class Plot {
       rows.length = MOST_ROWS;
     }
     rows.sort((a, b) => a.at - b.at);
-    const head = element("p", {}, element("b", {}, seconds(this.time(panel, x), this.stepS)));
+    const head = element("p", { class: "replay-when" }, element("b", {}, seconds(this.time(panel, x), this.stepS)));
     const lines = rows.map(({ series, text }) => {
       const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3" }));
-      return element("p", {}, swatch, element("bdi", {}, String(series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
+      return element("p", {}, swatch, element("bdi", {}, String(series.name === "value" && panel.name ? panel.name : series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
     });
     this.box.replaceChildren(head, ...lines);
     if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));

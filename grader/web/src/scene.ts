@@ -4,6 +4,7 @@ import {
   AmbientLight,
   BufferGeometry,
   Color,
+  CylinderGeometry,
   DirectionalLight,
   Group,
   HemisphereLight,
@@ -18,6 +19,7 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
+import { bones, reach, type Bone } from "./bones";
 import type { NodeKind, Replay } from "./data";
 import type { Extent } from "./extent";
 import { Grid } from "./ground";
@@ -34,11 +36,14 @@ type Glass = MeshBasicMaterial;
 
 export class RunScene {
   readonly scene = new Scene();
+  /** The named frames, the lab's among them. */
+  readonly frames: Replay["frames"];
   /** Length of a frame's axes \[m\]. */
   readonly axis: number;
   private readonly lab = new Group();
   private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshLambertMaterial>; index: number; kind: NodeKind; order: number }> = [];
   private readonly moving: Array<{ object: Object3D; index: number }> = [];
+  private readonly sticks: Array<{ bone: Bone; stick: Mesh; ball: Mesh }> = [];
   private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; from: number; to: number }> = [];
   private readonly lines: Array<{ line: Line; colour: keyof Theme }> = [];
   private readonly glasses: Array<{ material: Glass; colour: keyof Theme }> = [];
@@ -52,6 +57,9 @@ export class RunScene {
   private readonly fill = new AmbientLight();
   private readonly floor: Mesh<PlaneGeometry, ShadowMaterial>;
   private readonly spot = new Float64Array(7);
+  private readonly along = new Vector3();
+  private readonly across = new Vector3();
+  private readonly beside = new Vector3();
 
   constructor(
     private readonly replay: Replay,
@@ -60,6 +68,7 @@ export class RunScene {
     theme: Theme,
   ) {
     const { scene, lab } = this;
+    this.frames = replay.frames.some((frame) => frame.name === replay.lab.name) ? replay.frames : [replay.lab, ...replay.frames];
     const unit = extent.radius;
     this.axis = 0.16 * unit;
     scene.matrixAutoUpdate = false;
@@ -104,6 +113,25 @@ export class RunScene {
       scene.add(mesh);
     });
 
+    const sticks = bones(replay);
+    if (sticks.length > 0) {
+      // from the origin to 1 along z, with a ball at its end
+      const stick = new CylinderGeometry(0.014 * unit, 0.014 * unit, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+      const ball = new SphereGeometry(0.024 * unit, 18, 12);
+      sticks.forEach((bone, i) => {
+        const material = new MeshLambertMaterial(bone.ghost ? { transparent: true, opacity: 0.34, depthWrite: false } : {});
+        const made = [stick, ball].map((shape) => {
+          const mesh = new Mesh<BufferGeometry, MeshLambertMaterial>(shape, material);
+          mesh.matrixAutoUpdate = false;
+          mesh.castShadow = !bone.ghost;
+          scene.add(mesh);
+          this.nodes.push({ mesh, index: bone.to, kind: bone.ghost ? "ghost" : "link", order: i });
+          return mesh;
+        });
+        this.sticks.push({ bone, stick: made[0], ball: made[1] });
+      });
+    }
+
     const glass = (colour: keyof Theme, opacity: number): Glass => {
       const material = new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false });
       this.glasses.push({ material, colour });
@@ -126,7 +154,7 @@ export class RunScene {
     for (const path of replay.paths) {
       if (path.zero !== null && path.zero > 0) add(lab, tube(path.points, path.zero), glass("path", 0.07), 1);
       if (path.full !== null && path.full > 0) add(lab, tube(path.points, path.full), glass("path", 0.2), 2);
-      if (path.points.length > 1) lab.add(draw(new Line(path.points.flat(), { width: 1.5, opacity: 0.8 }), "path", 3));
+      if (path.points.length > 1) lab.add(draw(new Line(path.points.flat(), { width: 1.5 }), "path", 3));
     }
     const speck = new SphereGeometry(0.011 * unit, 16, 12);
     for (const goal of replay.goals) {
@@ -137,10 +165,12 @@ export class RunScene {
     }
     const reference = replay.reference?.path;
     if (reference && reference.count > 1) {
-      lab.add(draw(new Line(reference.values, { width: 2, dash: 0.035 * unit, opacity: 0.95 }), "reference", 4));
+      lab.add(draw(new Line(reference.values, { width: 2, dash: 0.035 * unit }), "reference", 5));
       this.referenceDot = add(lab, speck, glass("reference", 1), 6);
     }
-    this.trail = draw(new Line(replay.tcp.values, { width: 3, future: 0.28 }), "trail", 6);
+    // in two, so that what has passed lies on top of what is to come; and pale rather than clear, which would show every joint
+    lab.add(draw(new Line(replay.tcp.values, { width: 2.5 }), "future", 4));
+    this.trail = draw(new Line(replay.tcp.values, { width: 3.5 }), "trail", 6);
     lab.add(this.trail);
     this.dot = add(lab, speck, glass("trail", 1), 7);
 
@@ -156,7 +186,7 @@ export class RunScene {
     }
 
     const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(this.axis));
-    for (const frame of this.frames()) {
+    for (const frame of this.frames) {
       const points = tips.flatMap((tip) => [0, 0, 0, ...tip.toArray()]);
       const line = new Line(points, { width: 2.5 }, true, theme.axes.map((axis) => new Color(axis)));
       line.material.depthTest = false;
@@ -170,18 +200,13 @@ export class RunScene {
     this.pose();
   }
 
-  /** The named frames, the lab's among them. */
-  frames(): Replay["frames"] {
-    const { frames, lab } = this.replay;
-    return frames.some((frame) => frame.name === lab.name) ? frames : [lab, ...frames];
-  }
 
   private put(object: Object3D, index: number): void {
     this.write(object, this.world.poses, 7 * index);
   }
 
   private write(object: Object3D, p: Float64Array, o: number): void {
-    const [w, x, y, z] = [p[o + 3], p[o + 4], p[o + 5], p[o + 6]];
+    const w = p[o + 3], x = p[o + 4], y = p[o + 5], z = p[o + 6];
     object.matrix.set(
       1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), p[o],
       2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), p[o + 1],
@@ -195,6 +220,7 @@ export class RunScene {
   pose(): void {
     const { world } = this;
     for (let i = 0; i < this.moving.length; i++) this.put(this.moving[i].object, this.moving[i].index);
+    for (let i = 0; i < this.sticks.length; i++) this.stretch(this.sticks[i].bone, this.sticks[i].stick, this.sticks[i].ball);
     this.write(this.lab, world.lab, 0);
     this.trail.now = world.progress;
     this.dot.matrix.setPosition(world.tcp[0], world.tcp[1], world.tcp[2]);
@@ -221,12 +247,29 @@ export class RunScene {
       mesh.material.opacity = tick <= to + 1 ? 1 : 0.45;
     }
     if (this.axes.length && this.axes[0].line.visible) {
-      const frames = this.frames();
+      const { frames } = this;
       for (let i = 0; i < this.axes.length; i++) {
         world.frame(this.spot, frames[i].node, frames[i].pose);
         this.write(this.axes[i].line, this.spot, 0);
       }
     }
+  }
+
+  /** Lays a stick from where it begins to where it ends. */
+  private stretch(bone: Bone, stick: Mesh, ball: Mesh): void {
+    const { poses } = this.world;
+    const o = 7 * bone.from;
+    reach(this.spot, this.world, bone);
+    const { along, across, beside } = this;
+    along.set(this.spot[0] - poses[o], this.spot[1] - poses[o + 1], this.spot[2] - poses[o + 2]);
+    const length = along.length();
+    across.set(Math.abs(along.z) < 0.9 * length ? 0 : 1, 0, Math.abs(along.z) < 0.9 * length ? 1 : 0);
+    beside.crossVectors(along, across).normalize();
+    across.crossVectors(beside, along).normalize();
+    stick.matrix.makeBasis(across, beside, along).setPosition(poses[o], poses[o + 1], poses[o + 2]);
+    stick.matrixWorldNeedsUpdate = true;
+    ball.matrix.setPosition(this.spot[0], this.spot[1], this.spot[2]);
+    ball.matrixWorldNeedsUpdate = true;
   }
 
   resize(width: number, height: number): void {

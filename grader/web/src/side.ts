@@ -1,6 +1,7 @@
 // The run from the side, drawn flat: what takes the place of the 3D view where there is no WebGL.
 
 import { balls, type Balls } from "./balls";
+import { bones, reach, type Bone } from "./bones";
 import { drawing, element } from "./dom";
 import type { Replay } from "./data";
 import type { Extent } from "./extent";
@@ -25,6 +26,7 @@ export class Side implements View {
   readonly element: HTMLElement;
   private readonly svg: SVGSVGElement;
   private readonly outlines: Outline[] = [];
+  private readonly sticks: Array<{ bone: Bone; line: SVGLineElement }> = [];
   private readonly marks: Array<{ mark: SVGElement; from: number; to: number }> = [];
   private readonly past: SVGPolylineElement;
   private readonly dot: SVGCircleElement;
@@ -81,6 +83,11 @@ export class Side implements View {
         this.outlines.push({ path, node: index, balls: balls(shape, replay.meshes), moves: node.track >= 0 });
       }
     });
+    for (const bone of bones(replay)) {
+      const line = drawing("line", { class: `side-bone${bone.ghost ? " ghost" : ""}` });
+      (bone.ghost ? ghosts : arm).append(line);
+      this.sticks.push({ bone, line });
+    }
     this.past = drawing("polyline", { class: "side-trail" });
     this.dot = drawing("circle", { class: "side-tcp", r: String(0.012 * this.unit) });
     this.drawLab();
@@ -176,6 +183,12 @@ export class Side implements View {
     if (!this.labFixed && !this.first) this.drawLab();
     for (const outline of this.outlines) if (this.first || outline.moves) outline.path.setAttribute("d", this.outline(outline));
     this.first = false;
+    for (const { bone, line } of this.sticks) {
+      const [x1, y1] = this.flat(world.poses, 7 * bone.from);
+      reach(this.spot, world, bone);
+      const [x2, y2] = this.flat(this.spot);
+      for (const [name, value] of [["x1", x1], ["y1", y1], ["x2", x2], ["y2", y2]] as const) line.setAttribute(name, value.toFixed(5));
+    }
     const [x, y] = this.flat(world.tcpInWorld);
     this.past.setAttribute("points", this.trail.slice(0, Math.floor(world.progress) + 1).join(" ") + ` ${x.toFixed(5)},${y.toFixed(5)}`);
     this.dot.setAttribute("cx", x.toFixed(5));

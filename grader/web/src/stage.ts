@@ -21,7 +21,8 @@ const MOST_LETTERED = 6;
 /** A picture that comes later than this after the one before is late \[ms\]. */
 const LATE_MS = 45;
 /** So many late pictures in a row make the next ones coarser, until it rests. */
-const MOST_LATE = 6;
+const MOST_LATE = 10;
+const COARSER = 2;
 
 export class Stage implements View {
   readonly element: HTMLElement;
@@ -33,7 +34,7 @@ export class Stage implements View {
   private renderer: WebGLRenderer | null = null;
   private last = 0;
   private late = 0;
-  private coarseness = 1;
+  private coarse = false;
   private width = 0;
   private height = 0;
   private readonly point = new Vector3();
@@ -51,10 +52,10 @@ export class Stage implements View {
   ) {
     this.element = element("div", { class: "replay-stage", tabindex: "0", role: "application", "aria-roledescription": "3D view", "aria-label": label });
     this.scene = new RunScene(replay, world, extent, theme());
-    this.scene.frames().forEach((frame, i) => {
+    this.scene.frames.forEach((frame, i) => {
       this.name(frame.name, i, -1);
       // letters tell the axes apart without their colours
-      if (this.scene.frames().length <= MOST_LETTERED) ["x", "y", "z"].forEach((axis, c) => this.name(axis, i, c));
+      if (this.scene.frames.length <= MOST_LETTERED) ["x", "y", "z"].forEach((axis, c) => this.name(axis, i, c));
     });
     this.labels.hidden = true;
     this.element.append(this.labels);
@@ -117,7 +118,7 @@ export class Stage implements View {
     if (!this.renderer || clientWidth === 0 || clientHeight === 0) return;
     this.width = clientWidth;
     this.height = clientHeight;
-    this.sharpen(1);
+    this.sharpen(false);
     this.scene.resize(clientWidth, clientHeight);
     this.orbit.resize(clientWidth, clientHeight);
     // a canvas is empty once its size changed, so it is not left so until the next frame
@@ -132,10 +133,10 @@ export class Stage implements View {
   }
 
   /** Draws every so many pixels; a machine that cannot keep up moves coarsely rather than by jumps. */
-  private sharpen(coarseness: number): void {
-    this.coarseness = coarseness;
+  private sharpen(coarse: boolean): void {
+    this.coarse = coarse;
     this.late = 0;
-    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, devicePixelRatio) / coarseness);
+    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, devicePixelRatio) / (coarse ? COARSER : 1));
     this.renderer?.setPixelRatio(ratio);
     this.renderer?.setSize(this.width, this.height);
   }
@@ -145,12 +146,21 @@ export class Stage implements View {
     this.last = now;
     // a picture long after the last one is the first of a new motion, not a late one
     this.late = passed > LATE_MS && passed < 1000 ? this.late + 1 : 0;
-    if (this.late >= MOST_LATE && this.coarseness < 4) this.sharpen(1.5 * this.coarseness);
+    if (this.late < MOST_LATE || this.coarse) return;
+    this.coarse = true;
+    // a change of size waits for the graphics card, which no frame should
+    setTimeout(() => {
+      if (!this.coarse) return;
+      this.sharpen(true);
+      this.draw(performance.now());
+    });
   }
 
   rest(): void {
-    if (this.coarseness > 1) this.sharpen(1);
-    this.invalidate();
+    if (this.coarse) {
+      this.sharpen(false);
+      this.draw(performance.now());
+    } else this.invalidate();
   }
 
   invalidate(): void {
@@ -167,7 +177,7 @@ export class Stage implements View {
   };
 
   private label(): void {
-    const frames = this.scene.frames();
+    const frames = this.scene.frames;
     const { spot, tip: end, point } = this;
     for (const { label, frame, tip } of this.names) {
       if (tip <= 0) this.world.frame(spot, frames[frame].node, frames[frame].pose);

@@ -7,6 +7,8 @@ export interface Theme {
   readonly free: string;
   readonly ghost: string;
   readonly trail: string;
+  /** The trail where it is still to come. */
+  readonly future: string;
   readonly reference: string;
   readonly goal: string;
   readonly contact: string;
@@ -27,6 +29,7 @@ export const LIGHT: Theme = {
   free: "#e0b040",
   ghost: "#9e4a80",
   trail: "#006cae",
+  future: "#a3c6df",
   reference: "#9e4a80",
   goal: "#007e5c",
   contact: "#c65200",
@@ -46,6 +49,7 @@ export const DARK: Theme = {
   free: "#d2a338",
   ghost: "#e69cc8",
   trail: "#62b8f0",
+  future: "#35586f",
   reference: "#e69cc8",
   goal: "#38c89c",
   contact: "#ff9452",

@@ -19,7 +19,7 @@ export function bytes(text: string): Uint8Array {
 
 /** Reads varints of seven bits each, lowest first; the lowest bit of the number is its sign. */
 class Differences {
-  private at = 0;
+  at = 0;
 
   constructor(private readonly data: Uint8Array) {}
 
@@ -78,8 +78,14 @@ export function track(text: string, quanta: readonly number[], count: number): T
     let value = 0;
     let step = 0;
     for (let i = 0, at = c; i < count; i++, at += width) {
-      if (numbers.done) throw new Error(`column ${c + 1} of ${width} ends after ${i} of ${count} numbers`);
-      const next = numbers.next();
+      if (numbers.at >= data.length) throw new Error(`column ${c + 1} of ${width} ends after ${i} of ${count} numbers`);
+      // most numbers are a byte, which is worth a way of its own
+      const byte = data[numbers.at];
+      let next: number;
+      if (byte < 0x80) {
+        numbers.at++;
+        next = (byte >> 1) ^ -(byte & 1);
+      } else next = numbers.next();
       if (i === 0) value = next;
       else {
         step += next;

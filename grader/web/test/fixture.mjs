@@ -75,7 +75,7 @@ function armAt([q1, q2]) {
 }
 
 /** A run by the contract. */
-export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, lab = null, period = 0.01 } = {}) {
+export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, lab = null, period = 0.01, bare = false } = {}) {
   const stepS = 0.001;
   const last = Math.round(seconds / stepS);
   const events = [
@@ -129,6 +129,13 @@ export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, 
       { name: "upper arm", kind: "ghost", shapes: bar(L1, 0.1), track: track((k) => pose([0, 0, BASE], reference(k).first)) },
       { name: "forearm", kind: "ghost", shapes: bar(L2 - 0.05, 0.08), track: track((k) => pose(reference(k).elbow, reference(k).second)) },
     );
+  }
+  if (bare) {
+    // an arm told by its joints alone
+    nodes.forEach((node, n) => {
+      if (node.kind === "link") Object.assign(node, { shapes: [], parent: n > 0 ? (n < 3 ? n - 1 : undefined) : undefined });
+      else if (node.kind === "ghost") Object.assign(node, { shapes: [], parent: node.name === "forearm" ? n - 1 : undefined });
+    });
   }
   const periods = Array.from({ length: Math.round(seconds / 0.01) + 1 }, (_, i) => i * 10);
   const path = Array.from({ length: 30 }, (_, i) => inLab(reference(Math.round((0.75 * last * i) / 29)).tcp));

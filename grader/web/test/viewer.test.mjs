@@ -113,7 +113,7 @@ test("the keys do what they say, and only while the replay has focus", async () 
   assert.equal(await page.getByRole("button", { name: "Loop" }).getAttribute("aria-pressed"), "true");
   await page.keyboard.press(" ");
   assert.equal(await page.getByRole("button", { name: "Pause" }).count(), 1);
-  await page.waitForTimeout(500);
+  await page.waitForFunction(() => window.kinemark.replays[0].shown().tick > 0);
   await page.keyboard.press(" ");
   const rested = await shown(page);
   assert.ok(rested.tick > 0 && rested.t === rested.tick / 1000, JSON.stringify(rested.t));
