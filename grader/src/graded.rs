@@ -49,6 +49,8 @@ pub struct TaskRun {
     pub curves: Vec<Curve>,
     /// Where it first differs from the reference solution's, where that is told.
     pub divergence: Option<Divergence>,
+    /// The reference solution's run, where staff asked for it to be shown: its joint motion is the answer.
+    pub ghost: Option<Trace>,
 }
 
 impl TaskRun {

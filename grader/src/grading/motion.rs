@@ -239,6 +239,7 @@ impl Grader<'_> {
                 .collect(),
             curves,
             divergence: differs,
+            ghost: None,
             trace,
         };
         Ok((grade, run))

@@ -1,8 +1,9 @@
-//! The report: one file with everything in it, that asks nothing of the network and runs no code.
+//! The report: one file with everything in it, that asks nothing of the network and runs no code but the viewer's of its replays.
 
 mod band;
 mod head;
 mod task;
+pub(crate) mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -10,11 +11,9 @@ use self::head::{facts, head, scores};
 use crate::graded::GradedRun;
 use crate::quantity::points;
 use crate::report::plot::Plot;
+use crate::report::replay::Replay;
 use crate::report::theme::plot_css;
 use crate::report::visible::visible;
-
-/// What a browser may load for the page: its own styles and nothing else.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
 
 /// The page of a graded run. `plots` holds the plots of each of its runs, in the same order.
 ///
@@ -29,6 +28,12 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
             plots.get(at).map_or(&[][..], Vec::as_slice),
         ))
     };
+    let replays: Vec<(usize, String)> = grade
+        .tasks
+        .iter()
+        .enumerate()
+        .filter_map(|(i, task)| Some((i, Replay::of(drawn(&task.name)?.0, Some(task)).json())))
+        .collect();
     let title = format!(
         "{}: {} of {} points",
         visible(&grade.lab.name),
@@ -40,13 +45,13 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(viewer::policy(!replays.is_empty()));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
                 meta name="generator" content=(visible(&grade.engine));
                 title { (title) }
-                style { (PreEscaped(include_str!("html/page.css"))) (PreEscaped(plot_css())) }
+                style { (PreEscaped(include_str!("html/page.css"))) (PreEscaped(plot_css())) (viewer::style(!replays.is_empty())) }
             }
             body {
                 a class="skip" href="#scores" { "Skip to the scores" }
@@ -58,6 +63,8 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
                     }
                 }
                 (facts(grade))
+                @for (i, json) in &replays { (viewer::data(*i, json)) }
+                @if !replays.is_empty() { (viewer::script()) }
             }
         }
     };
@@ -101,27 +108,80 @@ mod tests {
         assert_eq!(page(&sample::graded()), page(&sample::graded()));
     }
 
+    /// The page but for the viewer's code: what comes from the grade.
+    fn own(page: &str) -> String {
+        let (head, tail) = page.rsplit_once("<script>").expect("the viewer");
+        let (_, tail) = tail.split_once("</script>").expect("its end");
+        format!("{head}{tail}")
+    }
+
     #[test]
     fn hostile_text_is_text() {
-        let page = page(&sample::graded());
-        assert!(!page.contains("<script"), "a script was written");
+        let mut graded = sample::graded();
+        let hostile = "</script><script>alert(1)</script><!--<img src=x>\u{2028}\u{202E}\u{1b}[2J";
+        graded.grade.tasks[3].title = hostile.to_owned();
+        graded.grade.tasks[3].checks[3].evidence[0].message = hostile.to_owned();
+        graded.runs[0].trace.log[0].text = hostile.to_owned();
+        let page = own(&page(&graded));
+        // the data of one replay is the only script element but the viewer's
+        assert_eq!(page.matches("<script").count(), 1);
+        assert_eq!(page.matches("</script").count(), 1);
+        assert!(!page.contains("<!--"), "a comment was opened");
         assert!(!page.contains("<img"), "an image was written");
         assert!(
             !page.contains("<b>reached"),
             "markup of a log line was written"
         );
         assert!(page.contains("&lt;b&gt;reached"));
-        assert!(!page.contains('\u{1b}') && !page.contains('\u{202E}'));
+        assert!(!page.contains(['\u{1b}', '\u{202E}', '\u{2028}']));
     }
 
     #[test]
     fn nothing_is_loaded() {
-        let page = page(&sample::graded()).replace("http://www.w3.org/2000/svg", "");
+        let page = own(&page(&sample::graded())).replace("http://www.w3.org/2000/svg", "");
+        for word in ["http:", "https:", " src=\"", "<link", "url(", "@import"] {
+            assert!(!page.contains(word), "{word}");
+        }
+    }
+
+    #[test]
+    fn a_report_without_a_run_has_no_script() {
+        let mut graded = sample::graded();
+        graded.runs.clear();
+        let page = page(&graded);
         for word in [
-            "http:", "https:", " src=\"", "<link", "url(", "@import", "<script",
+            "<script",
+            "script-src",
+            "data-replay",
+            "class=\"seek\"",
+            "blob:",
         ] {
             assert!(!page.contains(word), "{word}");
         }
+    }
+
+    #[test]
+    fn a_motion_task_has_its_replay_and_links_into_it() {
+        let page = page(&sample::graded());
+        for part in [
+            "<div class=\"replay\" data-replay=\"replay-4\" data-task=\"move\"></div>",
+            "<script type=\"application/json\" id=\"replay-4\">{\"format\":\"kinemark-replay/1\",\"task\":\"move\"",
+            "<a class=\"seek\" href=\"#task=move&amp;t=3.71\">3.71 s</a>",
+            "<a class=\"seek\" href=\"#task=move&amp;t=2.4\">2.400 s</a>",
+        ] {
+            assert!(page.contains(part), "{part}");
+        }
+        // data first, code last
+        assert!(page.rfind("</script></body>").is_some());
+        assert!(page.find("id=\"replay-4\"") < page.rfind("<script>"));
+    }
+
+    #[test]
+    fn a_run_of_ten_seconds_stays_small() {
+        let graded = sample::graded();
+        let size = own(&page(&graded)).len();
+        // eight seconds of two joints, with all plots
+        assert!(size < 300_000, "{size} bytes");
     }
 
     #[test]

@@ -3,8 +3,10 @@
 pub mod brief_page;
 pub(crate) mod goal;
 pub mod html;
+pub mod moment;
 mod number;
 pub mod plot;
+pub mod replay;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod text;

@@ -164,6 +164,7 @@ pub(crate) fn task_run() -> TaskRun {
         paths: Vec::new(),
         curves,
         divergence: None,
+        ghost: None,
     }
 }
 
@@ -250,6 +251,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
         paths: Vec::new(),
         curves: Vec::new(),
         divergence: None,
+        ghost: None,
         robot,
     }
 }

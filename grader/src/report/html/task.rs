@@ -4,6 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::band::{gauge, outcome, told};
 use super::head::{anchor, earned, meaning, verdict};
+use super::viewer::{place, seek};
 use super::{foreign, prose};
 use crate::grade::{
     CaseGrade, CheckGrade, ContactRecord, Diagnosis, Divergence, EventRecord, Evidence,
@@ -26,6 +27,11 @@ const MOST_CASES: usize = 200;
 pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[Plot])>) -> Markup {
     let id = anchor(index);
     let plots = run.map_or(&[][..], |(_, plots)| plots);
+    let of = Of {
+        name: &task.name,
+        kind: task.kind,
+        run: run.map(|(run, _)| run),
+    };
     html! {
         section class="task" id=(id) aria-labelledby={ (id) "-title" } {
             div class="title" {
@@ -33,12 +39,13 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                 p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
             }
             p class="lead" { (meaning(task.verdict)) }
-            @if let Some(stop) = &task.stopped { (stopped(stop)) }
+            @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
-            @if let Some(differs) = &task.divergence { (differing(differs)) }
+            @if let Some(differs) = &task.divergence { (differing(differs, &of)) }
+            @if run.is_some() { (place(index, &task.name)) }
             @if !task.checks.is_empty() {
                 h3 { "Checks" }
-                ul class="checks" { @for check in &task.checks { li { (checked(check)) } } }
+                ul class="checks" { @for check in &task.checks { li { (checked(check, &of)) } } }
             }
             @if !task.cases.is_empty() { (cases(&task.cases)) }
             @if !task.hidden.is_empty() { (hidden(&task.hidden, task.kind)) }
@@ -50,15 +57,43 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                     }
                 }
             }
-            @if !task.events.is_empty() { (events(&task.events)) }
-            @if !task.contacts.is_empty() { (contacts(&task.contacts, run.map(|(run, _)| run))) }
-            @if !task.log.is_empty() { (log(task, run.map(|(run, _)| run))) }
+            @if !task.events.is_empty() { (events(&task.events, &of)) }
+            @if !task.contacts.is_empty() { (contacts(&task.contacts, &of)) }
+            @if !task.log.is_empty() { (log(task, &of)) }
+        }
+    }
+}
+
+/// The task that something is told of.
+struct Of<'a> {
+    name: &'a str,
+    kind: TaskKind,
+    run: Option<&'a TaskRun>,
+}
+
+impl Of<'_> {
+    /// Words that lead to a moment, where there is a replay to lead to.
+    fn moment(&self, time_s: f64, words: &str) -> Markup {
+        match self.run {
+            Some(_) => seek(self.name, time_s, words),
+            None => html! { (words) },
+        }
+    }
+
+    /// A tick as its time, where that is known.
+    fn tick(&self, tick: u64) -> Markup {
+        match self.run {
+            Some(run) => {
+                let time_s = tick as f64 * run.trace.step_s;
+                seek(self.name, time_s, &format!("{time_s:.3} s"))
+            }
+            None => html! { "tick " (tick) },
         }
     }
 }
 
 /// What stopped the submission, with the line it happened in.
-fn stopped(stop: &Stopped) -> Markup {
+fn stopped(stop: &Stopped, of: &Of<'_>) -> Markup {
     html! {
         div class="note bad" {
             h3 { "What stopped it" }
@@ -67,7 +102,7 @@ fn stopped(stop: &Stopped) -> Markup {
                 @if let Some(line) = stop.line {
                     span { "line " (line) @if let Some(column) = stop.column { ", column " (column) } }
                 }
-                @if let Some(t_s) = stop.time_s { span { "at " (seconds(t_s)) } }
+                @if let Some(t_s) = stop.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
                 @if let Some(tick) = stop.tick { span { "tick " (tick) } }
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
@@ -121,13 +156,13 @@ fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
 }
 
 /// Where to look first; no statement that anything is wrong there.
-fn differing(differs: &Divergence) -> Markup {
+fn differing(differs: &Divergence, of: &Of<'_>) -> Markup {
     html! {
         div class="note hint" {
             h3 { "Where it first differs" }
             p { (prose(&differs.message)) }
             p class="where" {
-                span { "at " (seconds(differs.time_s)) }
+                span { "at " (of.moment(differs.time_s, &seconds(differs.time_s))) }
                 span { "tick " (differs.tick) }
                 span { "signal " code { (foreign(&differs.signal)) } }
                 span { "told from " (visible(&with_unit(differs.tolerance, &differs.unit))) }
@@ -137,7 +172,7 @@ fn differing(differs: &Divergence) -> Markup {
     }
 }
 
-fn checked(check: &CheckGrade) -> Markup {
+fn checked(check: &CheckGrade, of: &Of<'_>) -> Markup {
     html! {
         article class="check" {
             div class="title" {
@@ -158,18 +193,18 @@ fn checked(check: &CheckGrade) -> Markup {
                 p class="quiet" { "Not judged: the run stopped before, or a check it needs earned nothing." }
             }
             @if !check.evidence.is_empty() {
-                ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact)) } } }
+                ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact, of)) } } }
             }
             @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
         }
     }
 }
 
-fn evidence(fact: &Evidence) -> Markup {
+fn evidence(fact: &Evidence, of: &Of<'_>) -> Markup {
     html! {
         p { (prose(&fact.message)) }
         p class="where" {
-            @if let Some(t_s) = fact.time_s { span { "at " (seconds(t_s)) } }
+            @if let Some(t_s) = fact.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
             @if let Some(tick) = fact.tick { span { "tick " (tick) } }
             @if let Some(case) = &fact.case { span { "case " (foreign(case)) } }
             @if !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
@@ -237,7 +272,7 @@ fn hidden(classes: &[HiddenClass], kind: TaskKind) -> Markup {
     }
 }
 
-fn events(events: &[EventRecord]) -> Markup {
+fn events(events: &[EventRecord], of: &Of<'_>) -> Markup {
     html! {
         details class="log" {
             summary { "What happened: " (events.len()) @if events.len() == 1 { " event" } @else { " events" } }
@@ -247,7 +282,7 @@ fn events(events: &[EventRecord]) -> Markup {
                     tbody {
                         @for event in events {
                             tr {
-                                td class="number" { (format!("{:.3} s", event.time_s)) }
+                                td class="number" { (of.moment(event.time_s, &format!("{:.3} s", event.time_s))) }
                                 td { (visible(&event.event)) }
                                 td { (prose(&event.message)) }
                             }
@@ -259,11 +294,7 @@ fn events(events: &[EventRecord]) -> Markup {
     }
 }
 
-fn contacts(contacts: &[ContactRecord], run: Option<&TaskRun>) -> Markup {
-    let at = |tick: u64| match run {
-        Some(run) => format!("{:.3} s", tick as f64 * run.trace.step_s),
-        None => format!("tick {tick}"),
-    };
+fn contacts(contacts: &[ContactRecord], of: &Of<'_>) -> Markup {
     html! {
         details class="log" {
             summary { "Contact: " (contacts.len()) @if contacts.len() == 1 { " time" } @else { " times" } }
@@ -282,8 +313,8 @@ fn contacts(contacts: &[ContactRecord], run: Option<&TaskRun>) -> Markup {
                         @for contact in contacts {
                             tr {
                                 th scope="row" { (foreign(&contact.parties[0])) " and " (foreign(&contact.parties[1])) }
-                                td class="number" { (at(contact.first_tick)) }
-                                td class="number" { (at(contact.last_tick)) }
+                                td class="number" { (of.tick(contact.first_tick)) }
+                                td class="number" { (of.tick(contact.last_tick)) }
                                 td class="number" { (format!("{:.3} N", contact.peak_force_n)) }
                                 td class="number" { (format!("{:.4} N s", contact.impulse_n_s)) }
                             }
@@ -295,13 +326,15 @@ fn contacts(contacts: &[ContactRecord], run: Option<&TaskRun>) -> Markup {
     }
 }
 
-fn log(task: &TaskGrade, run: Option<&TaskRun>) -> Markup {
-    let all = run.map_or(0, |run| run.trace.log.len()).max(task.log.len());
+fn log(task: &TaskGrade, of: &Of<'_>) -> Markup {
+    let all = of
+        .run
+        .map_or(0, |run| run.trace.log.len())
+        .max(task.log.len());
     let shown = task.log.len().min(MOST_LINES);
-    let at = |entry: &LogEntry| match (task.kind, run) {
-        (TaskKind::Motion, Some(run)) => format!("{:.3} s", entry.at as f64 * run.trace.step_s),
-        (TaskKind::Motion, None) => format!("tick {}", entry.at),
-        (TaskKind::Function, _) => format!("case {}", entry.at),
+    let at = |entry: &LogEntry| match of.kind {
+        TaskKind::Motion => of.tick(entry.at),
+        TaskKind::Function => html! { "case " (entry.at) },
     };
     html! {
         details class="log" {
