@@ -36,6 +36,7 @@ pub mod controller;
 pub mod diagnose;
 pub mod divergence;
 pub mod event_words;
+pub mod ghost;
 pub mod grade;
 pub mod graded;
 pub mod grading;

@@ -119,6 +119,10 @@ pub(crate) struct GradeArgs {
     /// Run the submission in this process: for profiling trusted code
     #[arg(long)]
     pub(crate) in_process: bool,
+    /// Show the reference solution's motion beside the run, in the report and its logs: for staff. Its joint motion is the answer;
+    /// do not hand such a report to students
+    #[arg(long, conflicts_with = "practice")]
+    pub(crate) ghost: bool,
     #[command(flatten)]
     pub(crate) places: PlaceArgs,
     #[command(flatten)]

@@ -16,6 +16,8 @@ use crate::output;
 
 /// The record's file; a folder that has it is a report of ours.
 pub(crate) const RECORD: &str = "grade.json";
+/// The page.
+pub(crate) const PAGE: &str = "report.html";
 /// The copy of the submission.
 pub(crate) const SUBMISSION: &str = "submission.rhai";
 /// The copy of lab and robot, in the shape of a labs folder.
@@ -111,7 +113,7 @@ pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
 
 /// Something in `out` that no earlier report put there: replacing the folder would lose it.
 fn foreign_entry(out: &Path) -> Option<String> {
-    let mut ours = vec![RECORD, "report.html", SUBMISSION, LABS, "plots"];
+    let mut ours = vec![RECORD, PAGE, SUBMISSION, LABS, "plots"];
     let record = std::fs::read(out.join(RECORD)).ok();
     let record: Option<Grade> = record.and_then(|text| serde_json::from_slice(&text).ok());
     match &record {
@@ -141,7 +143,7 @@ pub(crate) fn files(
     let plots: Vec<Vec<Plot>> = graded.runs.iter().map(report::plot::plots).collect();
     let mut files = vec![
         OutFile::new(RECORD, record.as_bytes()),
-        OutFile::new("report.html", report::html::html(graded, &plots)),
+        OutFile::new(PAGE, report::html::html(graded, &plots)),
         OutFile::new(SUBMISSION, submission.text()),
     ];
     for (path, bytes) in lab.copies().iter() {
@@ -192,6 +194,8 @@ pub(crate) struct Report {
     pub(crate) grade: Grade,
     pub(crate) submission: Source,
     pub(crate) labs: PathBuf,
+    /// Whether the reference solution's motion stands in it.
+    pub(crate) shows_reference: bool,
 }
 
 /// Reads the folder of an earlier report.
@@ -220,7 +224,12 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
         )
     })?;
     let text = disk::read(&folder.join(SUBMISSION), "the submission", 64 << 20)?;
+    // only the writer of replays leaves quotes as they are
+    let page = std::fs::read(folder.join(PAGE)).unwrap_or_default();
+    let sign = br#""ghostLabel":"reference""#;
+    let shows_reference = page.windows(sign.len()).any(|part| part == sign);
     Ok(Report {
+        shows_reference,
         submission: Source::new(grade.submission.name.as_str(), text.text()),
         labs: folder.join(LABS),
         grade,

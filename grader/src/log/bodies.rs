@@ -3,13 +3,13 @@
 use kinemark_sim::trace::Trace;
 
 use super::message::{FrameTransform, FrameTransforms, Pose, Time};
-use super::names::{WORLD, body_frame};
+use super::names::{REFERENCE, WORLD, body_frame};
 use crate::graded::TaskRun;
 
 /// Every body of the scene of a run: those that stand where they stand, the others where the trace says.
 pub(super) struct Bodies {
-    /// Names of frames, and the pose of a body that never moves.
-    frames: Vec<(String, Option<Pose>)>,
+    /// Indices in the scene, names of frames, and the pose of a body that never moves.
+    frames: Vec<(usize, String, Option<Pose>)>,
 }
 
 impl Bodies {
@@ -18,10 +18,24 @@ impl Bodies {
         let frame = |(index, body): (usize, &kinemark_sim::scene::SceneBody)| {
             let moves = run.trace.moving_bodies.contains(&index);
             let stands = (!moves).then(|| Pose::new(&body.world_from_body));
-            (body_frame(&body.name), stands)
+            (index, body_frame(&body.name), stands)
         };
         Self {
             frames: bodies.enumerate().map(frame).collect(),
+        }
+    }
+
+    /// The bodies that moved in the reference solution's run, as its own.
+    pub(super) fn of_reference(run: &TaskRun, trace: &Trace) -> Self {
+        let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
+        let moving = bodies.enumerate();
+        let moving = moving.filter(|(index, _)| trace.moving_bodies.contains(index));
+        let frame = |(index, body): (usize, &kinemark_sim::scene::SceneBody)| {
+            let name = format!("{REFERENCE}{}", body_frame(&body.name));
+            (index, name, None)
+        };
+        Self {
+            frames: moving.map(frame).collect(),
         }
     }
 
@@ -33,8 +47,8 @@ impl Bodies {
         timestamp: Time,
         to: &mut FrameTransforms<'a>,
     ) {
-        for (index, (name, stands)) in self.frames.iter().enumerate() {
-            let pose = match (stands, trace.world_from_body(index, tick)) {
+        for (index, name, stands) in &self.frames {
+            let pose = match (stands, trace.world_from_body(*index, tick)) {
                 (Some(pose), _) => *pose,
                 (None, Some(pose)) if pose.translation.vector.iter().all(|x| x.is_finite()) => {
                     Pose::new(&pose)

@@ -35,7 +35,8 @@ pub enum LogError {
 
 /// Writes the log of `run`, with the digests of `grade` as metadata and `attachments` beside the messages.
 ///
-/// Topics: `/tf`, `/tcp` and `/joint_states` at 60 Hz, first and last tick included; `/scene` and `/reference/scene` once;
+/// Topics: `/tf`, `/tcp` and `/joint_states` at 60 Hz, first and last tick included; `/scene` and `/reference/scene` once; `/reference/tf`, where the run brings the
+/// reference solution's motion, at 60 Hz;
 /// `/signals`, `/sensors` and `/errors` at 100 Hz; `/plots` what the submission drew; `/checks/...` what checks judged; `/log` events and
 /// printed lines. Messages are JSON; poses are rounded to nanometres, all else is as it was computed. The same run gives the same bytes.
 ///
@@ -189,6 +190,72 @@ mod tests {
             (1, 1)
         );
         assert!(!summary.chunk_indexes.is_empty());
+    }
+
+    #[test]
+    fn the_reference_is_a_ghost_with_frames_of_its_own() {
+        let topics = |run: &TaskRun| {
+            let mut topics: Vec<String> = read(&written(run))
+                .into_iter()
+                .map(|message| message.0)
+                .collect();
+            topics.sort();
+            topics.dedup();
+            topics
+        };
+        let mut run = sample::task_run();
+        assert!(!topics(&run).contains(&"/reference/tf".to_owned()));
+        run.ghost = Some(sample::stopped_after(700).trace);
+        let messages = read(&written(&run));
+        let of = |topic: &str| {
+            messages
+                .iter()
+                .filter(|message| message.0 == topic)
+                .map(|message| &message.3)
+                .collect::<Vec<_>>()
+        };
+        let poses = of("/reference/tf");
+        assert_eq!(poses.len(), 481);
+        let children: Vec<&str> = poses[480]["transforms"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|t| t["child_frame_id"].as_str().unwrap())
+            .collect();
+        assert_eq!(
+            children,
+            [
+                "reference/base",
+                "reference/upper",
+                "reference/forearm",
+                "reference/tcp",
+                "reference/lab"
+            ]
+        );
+        // its root hangs on the world, and it stands still once it ended
+        assert_eq!(poses[480]["transforms"][0]["parent_frame_id"], "world");
+        assert_eq!(
+            poses[480]["transforms"][2]["rotation"],
+            poses[50]["transforms"][2]["rotation"]
+        );
+        let scene = &of("/reference/scene")[0]["entities"];
+        let frames: Vec<&str> = scene
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|e| e["frame_id"].as_str().unwrap())
+            .collect();
+        assert_eq!(
+            frames,
+            [
+                "lab",
+                "reference/base",
+                "reference/upper",
+                "reference/forearm"
+            ]
+        );
+        let alpha = scene[1]["cubes"][0]["color"]["a"].as_f64().unwrap();
+        assert!(alpha < 0.5, "{alpha}");
     }
 
     #[test]

@@ -7,6 +7,9 @@ use crate::report::visible::shortened;
 /// The fixed root of every log.
 pub(super) const WORLD: &str = "world";
 
+/// What stands before the frames of the reference solution's motion.
+pub(super) const REFERENCE: &str = "reference/";
+
 /// A frame's name in the log. `world` is the root, and viewers take `base_link`, `odom`, `map` and `earth` for a fixed ground: a
 /// robot's frame of such a name is put under the robot's own.
 pub(super) fn frame_id(robot: &Robot, frame: &Frame) -> String {

@@ -1,13 +1,15 @@
 //! What stands still in its frame: the shapes of the links, the goals, and the reference path.
 
 use kinemark_sim::robot::inertia::Solid;
+use kinemark_sim::robot::model::Shape;
 use kinemark_sim::scene::{BodyKind, SceneBody};
 use serde::Serialize;
 
 use super::message::{Pose, Time, Vector};
-use super::names::{body_frame, frame_id, frame_id_of};
-use crate::graded::{Goal, TaskRun};
+use super::names::{REFERENCE as REFERENCE_FRAMES, body_frame, frame_id, frame_id_of};
+use crate::graded::{Goal, TaskRun, TcpPath};
 use kinemark_sim::spatial::{Pose as Isometry, pose};
+use kinemark_sim::trace::Trace;
 use nalgebra::{Matrix3, Vector3};
 
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -34,6 +36,7 @@ const FREE: Colour = colour(0.84, 0.37, 0.0, 1.0);
 const FULL: Colour = colour(0.0, 0.62, 0.45, 0.6);
 const ZERO: Colour = colour(0.84, 0.37, 0.0, 0.2);
 const REFERENCE: Colour = colour(0.8, 0.47, 0.65, 0.5);
+const GHOST: Colour = colour(0.8, 0.47, 0.65, 0.35);
 
 #[derive(Debug, Clone, Serialize)]
 struct Solid3 {
@@ -240,9 +243,58 @@ fn goal_entity(index: usize, goal: &Goal, lab: &str) -> Entity {
     entity
 }
 
-/// The reference path as a line, if there is one.
+/// What is shown of the reference, if anything: its path, and where its motion is to be seen its links and what it moved.
 pub(super) fn reference(run: &TaskRun) -> Option<SceneUpdate> {
-    let path = run.reference_tcp.as_ref()?;
+    let path = run
+        .reference_tcp
+        .as_ref()
+        .map(|path| path_entity(run, path));
+    let mut entities: Vec<Entity> = path.into_iter().collect();
+    if let Some(trace) = &run.ghost {
+        entities.extend(ghost_entities(run, trace));
+    }
+    (!entities.is_empty()).then_some(SceneUpdate {
+        deletions: [],
+        entities,
+    })
+}
+
+/// Translucent links, and bodies that can move, in frames of their own.
+fn ghost_entities(run: &TaskRun, trace: &Trace) -> Vec<Entity> {
+    let robot = &run.robot;
+    let mut entities = Vec::new();
+    let mut ghost = |id: String, frame: String, shapes: &[Shape]| {
+        let mut entity = Entity::new(
+            format!("reference {id}"),
+            format!("{REFERENCE_FRAMES}{frame}"),
+        );
+        for shape in shapes {
+            entity.solid(&shape.solid, &shape.link_from_shape, GHOST);
+        }
+        entities.push(entity);
+    };
+    for (link, frame) in robot.links().iter().zip(robot.frames()) {
+        ghost(
+            format!("link {}", link.name),
+            frame_id(robot, frame),
+            &link.shapes,
+        );
+    }
+    let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
+    for (index, body) in bodies.enumerate() {
+        if trace.moving_bodies.contains(&index) {
+            ghost(
+                format!("body {}", body.name),
+                body_frame(&body.name),
+                &body.shapes,
+            );
+        }
+    }
+    entities
+}
+
+/// The reference path as a line.
+fn path_entity(run: &TaskRun, path: &TcpPath) -> Entity {
     let mut entity = Entity::new(
         "reference path".to_owned(),
         frame_id_of(&run.robot, &run.seen_from),
@@ -258,8 +310,5 @@ pub(super) fn reference(run: &TaskRun) -> Option<SceneUpdate> {
         colors: [],
         indices: [],
     });
-    Some(SceneUpdate {
-        deletions: [],
-        entities: vec![entity],
-    })
+    entity
 }

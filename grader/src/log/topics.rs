@@ -12,7 +12,7 @@ use super::mcap::LogError;
 use super::message::{
     Flat, JointState, JointStates, Level, Log, Pose, PoseInFrame, Quaternion, Time, Vector,
 };
-use super::names::{fields, frame_id_of};
+use super::names::{REFERENCE, fields, frame_id_of};
 use super::tree::Tree;
 use super::{scene, schema};
 use crate::graded::TaskRun;
@@ -53,6 +53,7 @@ impl<'a> Messages<'a> {
         let mut log = Self::new(run);
         log.scenes()?;
         log.motion()?;
+        log.ghost()?;
         log.signals()?;
         log.sensors()?;
         log.errors()?;
@@ -154,7 +155,7 @@ impl<'a> Messages<'a> {
             "foxglove.JointStates",
             schema::joint_states(),
         );
-        let tree = Tree::new(&run.robot);
+        let tree = Tree::new(&run.robot, "");
         let bodies = Bodies::new(run);
         let lab = frame_id_of(&run.robot, &run.seen_from);
         let mut poses = FramePoses::new(&run.robot);
@@ -200,6 +201,35 @@ impl<'a> Messages<'a> {
                 joints: joints.collect(),
             };
             self.message(states, ns, &message)?;
+        }
+        Ok(())
+    }
+
+    /// The reference solution's motion, where it is to be shown: its links, and what of the scene can move.
+    fn ghost(&mut self) -> Result<(), LogError> {
+        let run = self.run;
+        let Some(trace) = &run.ghost else {
+            return Ok(());
+        };
+        let tf = self.topic(
+            "/reference/tf",
+            "foxglove.FrameTransforms",
+            schema::frame_transforms(),
+        );
+        let tree = Tree::new(&run.robot, REFERENCE);
+        let bodies = Bodies::of_reference(run, trace);
+        let mut poses = FramePoses::new(&run.robot);
+        for tick in self.ticks(POSE_RATE_HZ) {
+            // a run that goes on longer than the reference's shows how that ended
+            let Some(at) = trace.len().checked_sub(1).map(|last| tick.min(last)) else {
+                break;
+            };
+            let ns = self.ns(tick as u64);
+            let timestamp = Time::from_ns(ns);
+            poses.update(&run.robot, trace.q.at(at));
+            let mut transforms = tree.transforms(&poses, timestamp);
+            bodies.add(trace, at, timestamp, &mut transforms);
+            self.message(tf, ns, &transforms)?;
         }
         Ok(())
     }

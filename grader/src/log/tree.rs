@@ -15,7 +15,8 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(super) fn new(robot: &'a Robot) -> Self {
+    /// The tree of a robot; `prefix` stands before the name of every frame.
+    pub(super) fn new(robot: &'a Robot, prefix: &str) -> Self {
         let links = robot.links().len();
         let hangs_on = |(i, frame): (usize, &Frame)| {
             let parent = if i < links {
@@ -27,7 +28,7 @@ impl<'a> Tree<'a> {
             } else {
                 Some(frame.link)
             };
-            (frame_id(robot, frame), parent)
+            (format!("{prefix}{}", frame_id(robot, frame)), parent)
         };
         Self {
             robot,

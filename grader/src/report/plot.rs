@@ -6,6 +6,7 @@ mod canvas;
 mod joints;
 mod path;
 mod plane;
+mod reading;
 mod scenery;
 mod signals;
 mod thin;
@@ -15,6 +16,7 @@ mod view;
 use kinemark_sim::control::Mode;
 
 use self::joints::Of;
+use self::reading::Axes;
 use crate::graded::TaskRun;
 use crate::report::visible::{file_stem, shortened};
 
@@ -27,6 +29,8 @@ pub struct Plot {
     pub title: String,
     /// The whole SVG file.
     pub svg: String,
+    /// Where its axes lie and what its lines are called, as JSON, for a viewer that reads values off.
+    pub axes: String,
 }
 
 impl Plot {
@@ -45,8 +49,8 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
         stem: file_stem(&run.task),
         made: Vec::new(),
     };
-    if let Some((svg, title)) = path::path(run) {
-        plots.add("path", title, svg);
+    if let Some((svg, title, axes)) = path::path(run) {
+        plots.add("path", title, svg, &axes);
     }
     let mut pictures: Vec<(String, timeline::Timeline)> = Vec::new();
     pictures.extend(signals::error(run).map(|picture| ("error".to_owned(), picture)));
@@ -72,7 +76,8 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
             .map(|picture| ("signals".to_owned(), picture)),
     );
     for (name, picture) in pictures {
-        plots.add(&name, picture.title.clone(), picture.draw());
+        let (svg, axes) = picture.draw();
+        plots.add(&name, picture.title, svg, &axes);
     }
     plots.made
 }
@@ -84,7 +89,7 @@ struct Plots {
 }
 
 impl Plots {
-    fn add(&mut self, name: &str, title: String, svg: String) {
+    fn add(&mut self, name: &str, title: String, svg: String, axes: &[Axes]) {
         let wanted = format!("{}-{name}", self.stem);
         let taken = |name: &str| self.made.iter().any(|plot| plot.name == name);
         let mut name = wanted.clone();
@@ -94,7 +99,13 @@ impl Plots {
             number += 1;
         }
         let title = shortened(&title, 120);
-        self.made.push(Plot { name, title, svg });
+        let axes = reading::json(axes);
+        self.made.push(Plot {
+            name,
+            title,
+            svg,
+            axes,
+        });
     }
 }
 
@@ -151,6 +162,76 @@ mod tests {
             "signals",
         ];
         assert_eq!(names, expected.map(|name| format!("move-{name}")));
+    }
+
+    /// Values read off a picture are those of the run.
+    #[test]
+    fn axes_tell_where_values_lie() {
+        let run = sample::task_run();
+        let plots = plots(&run);
+        let axes = |name: &str| -> serde_json::Value {
+            let plot = plots.iter().find(|plot| plot.name == name);
+            serde_json::from_str(&plot.expect("the plot").axes).expect("JSON")
+        };
+        let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+        let joints = axes("move-joints");
+        let elbow = &joints[1];
+        assert_eq!(elbow["kind"], "time");
+        assert_eq!(elbow["unit"], "rad");
+        assert_eq!(elbow["name"], "elbow, q[1]");
+        let names: Vec<_> = elbow["series"]
+            .as_array()
+            .expect("series")
+            .iter()
+            .map(|s| s["name"].clone())
+            .collect();
+        assert_eq!(names, ["command", "measured"]);
+        assert_eq!(number(&elbow["t"][1]), 8.0);
+        // the last point of the measured line
+        let svg = &plots
+            .iter()
+            .find(|plot| plot.name == "move-joints")
+            .expect("the plot")
+            .svg;
+        let bottom = number(&elbow["box"][3]);
+        let (top, (low, high)) = (
+            number(&elbow["box"][1]),
+            (number(&elbow["y"][0]), number(&elbow["y"][1])),
+        );
+        let right = number(&elbow["box"][2]);
+        let ends: Vec<f64> = svg
+            .lines()
+            .filter(|line| line.contains("<polyline") && line.contains("stroke=\"#006CAE\""))
+            .filter_map(|line| {
+                line.split("points=\"")
+                    .nth(1)?
+                    .split('"')
+                    .next()?
+                    .split_whitespace()
+                    .last()
+            })
+            .filter_map(|point| point.split_once(','))
+            .map(|(x, y)| (x.parse::<f64>().expect("x"), y.parse::<f64>().expect("y")))
+            .filter(|(x, y)| (x - right).abs() < 1.0 && *y >= top && *y <= bottom)
+            .map(|(_, y)| low + (bottom - y) / (bottom - top) * (high - low))
+            .collect();
+        let q = run.trace.q.at(8000)[1];
+        assert!(
+            ends.iter().any(|end| (end - q).abs() < 2e-3 * (high - low)),
+            "{ends:?} {q}"
+        );
+        let error = axes("move-error");
+        assert_eq!(error[0]["log"], true);
+        // the path: y of the lab to the right, x up; the goals' close looks after it
+        let path = axes("move-path");
+        assert_eq!(path[0]["axes"], serde_json::json!([1, 0]));
+        assert_eq!(path[0]["signs"], serde_json::json!([1, 1]));
+        assert_eq!(path.as_array().map(Vec::len), Some(3));
+        let across =
+            |view: &serde_json::Value| number(&view["zero"][0]) + 1.4 * number(&view["pixelsPerM"]);
+        // goal 1, at y = 1.4 m, lies in the middle of its close look
+        let middle = 0.5 * (number(&path[1]["box"][0]) + number(&path[1]["box"][2]));
+        assert!((across(&path[1]) - middle).abs() < 2.0);
     }
 
     #[test]

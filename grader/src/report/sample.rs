@@ -87,10 +87,16 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
 
 /// A motion task on the course's arm with two goals.
 pub(crate) fn task_run() -> TaskRun {
+    task_run_of(8)
+}
+
+/// The same motion task, of so many seconds, six at least.
+pub(crate) fn task_run_of(seconds: u32) -> TaskRun {
+    let ticks = 1000 * seconds;
     let robot = arm();
-    let mut trace_of_run = trace(&robot, 8000, 1.0);
-    let reference = trace(&robot, 8000, 1.1);
-    let points_m = (0..=800).map(|i| {
+    let mut trace_of_run = trace(&robot, ticks.into(), 1.0);
+    let reference = trace(&robot, ticks.into(), 1.1);
+    let points_m = (0..=ticks as usize / 10).map(|i| {
         let p = reference.tcp_position(i * 10);
         [p.x, p.y, p.z]
     });
@@ -106,7 +112,7 @@ pub(crate) fn task_run() -> TaskRun {
         zero_m: 0.02,
         stay,
     });
-    let samples = (0..800u64).map(|i| (i * 10, libm::sin(i as f64 * 0.02) * 0.3));
+    let samples = (0..u64::from(ticks) / 10).map(|i| (i * 10, libm::sin(i as f64 * 0.02) * 0.3));
     trace_of_run.plots = vec![
         PlotSignal {
             name: "elbow error".to_owned(),
@@ -129,7 +135,7 @@ pub(crate) fn task_run() -> TaskRun {
         text: (*text).to_owned(),
     })
     .collect();
-    let off_line = (0..=8000usize).map(|tick| {
+    let off_line = (0..=ticks as usize).map(|tick| {
         let p = trace_of_run.tcp_position(tick);
         let r = reference.tcp_position(tick);
         (p - r).norm()
@@ -139,7 +145,7 @@ pub(crate) fn task_run() -> TaskRun {
         check: "trajectory-match".to_owned(),
         title: "distance to the reference path".to_owned(),
         unit: "m".to_owned(),
-        t_s: (0..=8000).map(|tick| f64::from(tick) / 1000.0).collect(),
+        t_s: (0..=ticks).map(|tick| f64::from(tick) / 1000.0).collect(),
         values,
         full: Some(0.05),
         zero: Some(0.25),

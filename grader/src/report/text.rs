@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use owo_colors::OwoColorize as _;
 
+use super::moment::fragment;
 use super::visible::visible;
 use crate::grade::{
     CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade, TaskKind,
@@ -76,7 +77,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
         ),
     );
     if let Some(stopped) = &task.stopped {
-        push_stopped(out, stopped, file);
+        push_stopped(out, stopped, file, &task.name);
     }
     for diagnosis in &task.diagnoses {
         line(
@@ -106,12 +107,18 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
                 "first differs".cyan(),
                 seconds(differs.time_s),
                 visible(&differs.message),
-                format!("[tick {}, {}]", differs.tick, differs.signal).dimmed()
+                format!(
+                    "[tick {}, {}] {}",
+                    differs.tick,
+                    differs.signal,
+                    fragment(&task.name, differs.time_s)
+                )
+                .dimmed()
             ),
         );
     }
     for check in &task.checks {
-        push_check(out, check);
+        push_check(out, check, &task.name);
     }
     let lost: Vec<String> = task
         .hidden
@@ -137,14 +144,15 @@ fn hidden_word(kind: TaskKind) -> &'static str {
     }
 }
 
-fn push_stopped(out: &mut String, stopped: &Stopped, file: &str) {
+fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
     let mut where_ = String::new();
     if let Some(time_s) = stopped.time_s {
         let _ = write!(
             where_,
-            " (at {}, tick {})",
+            " (at {}, tick {}) {}",
             seconds(time_s),
-            stopped.tick.unwrap_or(0)
+            stopped.tick.unwrap_or(0),
+            fragment(task, time_s).dimmed()
         );
     }
     if let Some(case) = &stopped.case {
@@ -183,7 +191,7 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str) {
     }
 }
 
-fn push_check(out: &mut String, check: &CheckGrade) {
+fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
     let (mark, word) = match check.outcome {
         Outcome::Full => ("+".green().to_string(), ""),
         Outcome::Partial => ("~".yellow().to_string(), ""),
@@ -199,7 +207,7 @@ fn push_check(out: &mut String, check: &CheckGrade) {
         );
     }
     for evidence in &check.evidence {
-        line(out, &format!("               {}", told(evidence)));
+        line(out, &format!("               {}", told(evidence, task)));
     }
     if let Some(next) = &check.next_step {
         line(out, &format!("               {} {next}", "next:".cyan()));
@@ -232,13 +240,14 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     text
 }
 
-fn told(evidence: &Evidence) -> String {
+fn told(evidence: &Evidence, task: &str) -> String {
     let message = visible(&evidence.message).into_owned();
     match (evidence.tick, evidence.time_s) {
-        (Some(tick), Some(_)) => {
+        (Some(tick), Some(time_s)) => {
+            let link = fragment(task, time_s);
             format!(
                 "{message} {}",
-                format!("[tick {tick}, {}]", evidence.signal).dimmed()
+                format!("[tick {tick}, {}] {link}", evidence.signal).dimmed()
             )
         }
         _ => message,

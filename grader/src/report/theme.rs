@@ -80,7 +80,8 @@ const ALL: [Colour; 14] = [
     RED,
 ];
 
-fn hex((r, g, b): (u8, u8, u8)) -> String {
+/// A colour as pictures write it.
+pub(crate) fn hex((r, g, b): (u8, u8, u8)) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 

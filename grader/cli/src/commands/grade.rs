@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use kinemark_grader::ghost;
 use kinemark_grader::grading::{self, Host, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::report;
@@ -33,6 +34,15 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
         Some(reference) => staff_of(reference, &lab, args)?,
         None => None,
     };
+    if args.ghost && staff.is_none() {
+        return Err(Failure::usage(
+            format!(
+                "--ghost shows the reference solution, and none of lab `{}` is here",
+                lab.name
+            ),
+            "name the staff's folder with --reference DIR, or leave --ghost out",
+        ));
+    }
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
         note = Some("no variant: everybody's numbers of lab.toml".to_owned());
     }
@@ -51,7 +61,10 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     workers.finish();
     // a worker's processor is for workers alone
     drop(workers);
-    let graded = graded.map_err(|_| Failure::interrupted())?;
+    let mut graded = graded.map_err(|_| Failure::interrupted())?;
+    if let Some(staff) = staff.as_ref().filter(|_| args.ghost) {
+        ghost::show_reference(&lab, staff, &mut graded);
+    }
 
     // the grade is told before anything is written: a full disk must not lose it
     if args.json {
@@ -65,7 +78,11 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     report_folder::write(&args.out, &lab, &submission, &graded)?;
     if !args.json {
         let report = args.out.join("report.html");
-        output::print(&format!("report: {}\n", report.display()))?;
+        let report = report.display();
+        output::print(&format!("report: {report}\n"))?;
+        if let Some(moment) = report::moment::first_loss(&graded.grade) {
+            output::print(&format!("first lost point: {report}{moment}\n"))?;
+        }
     }
     Ok(exit_code(graded.grade.verdict))
 }

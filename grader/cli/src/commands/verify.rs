@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use kinemark_grader::ghost;
 use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::grading;
 use kinemark_grader::lab::variant::VARIANT_FILE;
@@ -72,7 +73,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     };
     let mut host = WorkerHost::new(None);
     let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
-    let graded = graded.map_err(|_| Failure::interrupted())?;
+    let mut graded = graded.map_err(|_| Failure::interrupted())?;
+    if let Some(staff) = staff.as_ref().filter(|_| report.shows_reference) {
+        ghost::show_reference(&lab, staff, &mut graded);
+    }
     let mut comparison = compare(&report.grade, &graded.grade)?;
     if comparison.differences.is_empty() && comparison.not_compared.is_empty() {
         for file in report_folder::files(&lab, &report.submission, &graded)? {

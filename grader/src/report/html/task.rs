@@ -53,7 +53,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
                 h3 { "Plots" }
                 div class="plots" {
                     @for plot in plots {
-                        figure tabindex="0" aria-label=(plot.title) { @for part in plot.inline() { (PreEscaped(part)) } }
+                        figure class="plot" tabindex="0" aria-label=(plot.title) data-task=(visible(&task.name)) data-panels=(plot.axes) { @for part in plot.inline() { (PreEscaped(part)) } }
                     }
                 }
             }

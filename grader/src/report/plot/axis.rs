@@ -59,6 +59,11 @@ impl Axis {
         }
     }
 
+    /// Whether equal ways along it are equal ratios.
+    pub(super) fn is_logarithmic(&self) -> bool {
+        self.logarithmic
+    }
+
     /// Whether a number lies between the ends.
     pub(super) fn holds(&self, value: f64) -> bool {
         self.min <= value && value <= self.max

@@ -164,6 +164,8 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
     let axis = Axis::around(values(&lines).chain(levels.iter().copied()), 0.025);
     Panel {
         heading,
+        name: format!("{}, {symbol}[{i}]", shortened(&joint.name, 40)),
+        unit: unit.to_owned(),
         axis,
         lines,
         levels: levels

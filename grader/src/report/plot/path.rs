@@ -8,6 +8,7 @@ use super::asked::Asked;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
 use super::plane::Plane;
+use super::reading::Axes;
 use super::scenery::{Scenery, clipped};
 use super::signals::{differs, stopped_s};
 use super::thin::in_plane;
@@ -30,8 +31,8 @@ const MOST_CLOSE_LOOKS: usize = 6;
 /// Goals that are drawn.
 const MOST_GOALS: usize = 200;
 
-/// Draws the picture; `None` where there is nothing to draw.
-pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
+/// The picture, its title and where its axes lie; `None` where there is nothing to draw.
+pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>)> {
     let positions = |tick: usize| {
         let p = run.trace.tcp_position(tick);
         [p.x, p.y, p.z]
@@ -69,7 +70,8 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String)> {
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
     let title = format!("TCP path in the frame {}", shortened(&run.seen_from, 40));
-    Some((drawn.draw(&title), title))
+    let (svg, axes) = drawn.draw(&title);
+    Some((svg, title, axes))
 }
 
 /// The frame the path is told in, as it stands at home.
@@ -135,7 +137,7 @@ struct Drawn<'a> {
 }
 
 impl Drawn<'_> {
-    fn draw(&self, title: &str) -> String {
+    fn draw(&self, title: &str) -> (String, Vec<Axes>) {
         let legend = self.legend();
         let mut top = 0.0;
         picture("", 1.0, |canvas| top = canvas.legend(&legend, 20.0, 50.0));
@@ -151,7 +153,8 @@ impl Drawn<'_> {
         let rows = close.len().div_ceil(columns) as f64;
         let size = if columns < 3 { 210.0 } else { 140.0 };
         let height = below + rows * (size + CLOSE_WORDS);
-        picture(title, height, |canvas| {
+        let mut axes = vec![Axes::in_plane(&view, &self.plane)];
+        let svg = picture(title, height, |canvas| {
             canvas.title(title, (20.0, 24.0));
             canvas.legend(&legend, 20.0, 50.0);
             canvas.heading(&self.plane.up.label("m"), (20.0, top + 8.0));
@@ -173,15 +176,17 @@ impl Drawn<'_> {
                     .position(|g| std::ptr::eq(g, *goal))
                     .unwrap_or(i)
                     + 1;
-                self.close_look(
+                let view = self.close_look(
                     canvas,
                     goal,
                     number,
                     (left, below + (size + CLOSE_WORDS) * (i / columns) as f64),
                     size,
                 );
+                axes.push(Axes::in_plane(&view, &self.plane));
             }
-        })
+        });
+        (svg, axes)
     }
 
     fn legend(&self) -> Vec<Entry> {
@@ -360,7 +365,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// The surroundings of a goal, offsets in millimetres.
+    /// The surroundings of a goal, offsets in millimetres, and their view.
     fn close_look(
         &self,
         canvas: &mut Canvas<'_>,
@@ -368,7 +373,7 @@ impl Drawn<'_> {
         number: usize,
         (left, top): (f64, f64),
         size: f64,
-    ) {
+    ) -> View {
         let half_m = 1.35 * goal.zero_m;
         let centre = self.plane.flat(&goal.position_m);
         let view = View {
@@ -391,7 +396,7 @@ impl Drawn<'_> {
             .filter(|(_, distance)| distance.is_finite())
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((nearest, distance_m)) = nearest else {
-            return;
+            return view;
         };
         // the end of the judged stay, else the nearest the TCP came
         let tick = goal
@@ -414,6 +419,7 @@ impl Drawn<'_> {
             Align::Middle,
             MUTED,
         );
+        view
     }
 }
 

@@ -172,6 +172,8 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
     }
     let panel = Panel {
         heading: "distance of the TCP to the goal [m], logarithmic".to_owned(),
+        name: "distance to the goal".to_owned(),
+        unit: "m".to_owned(),
         axis,
         lines,
         levels: bands
@@ -275,6 +277,8 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
     let title = shortened(&curve.title, 70);
     let panel = Panel {
         heading: format!("{title} [{}]{word}", visible(unit)),
+        name: title,
+        unit: unit.to_owned(),
         axis,
         lines,
         levels,
@@ -319,6 +323,8 @@ pub(super) fn own(run: &TaskRun) -> Vec<Timeline> {
             let lines = vec![line(points.collect(), BLUE, false)];
             Panel {
                 heading: format!("{} [as plotted]", shortened(&signal.name, 60)),
+                name: shortened(&signal.name, 60),
+                unit: String::new(),
                 axis: Axis::around(values(&lines), 0.0),
                 lines,
                 levels: Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, UNITS, WIDTH, picture};
+use super::reading::Axes;
 use super::thin::over_time;
 use crate::quantity::seconds;
 use crate::report::theme::{Colour, FRAME, GRID, MUTED, MUTED_DASHED, RED};
@@ -22,6 +23,10 @@ pub(super) struct Line {
 pub(super) struct Panel {
     /// What the vertical axis shows, with its unit.
     pub(super) heading: String,
+    /// What it shows, short and without its unit.
+    pub(super) name: String,
+    /// Unit of the vertical axis; empty where it has none.
+    pub(super) unit: String,
     pub(super) axis: Axis,
     pub(super) lines: Vec<Line>,
     /// Values drawn as lines across.
@@ -57,8 +62,9 @@ const SHORT_LINE: usize = 300;
 const MOST_MARKS: usize = 6;
 
 impl Timeline {
-    /// Draws it.
-    pub(super) fn draw(&self) -> String {
+    /// Draws it, and tells where its axes lie.
+    pub(super) fn draw(&self) -> (String, Vec<Axes>) {
+        let mut axes = Vec::new();
         let panel_height = match self.panels.len() {
             0 | 1 => 210.0,
             2 => 150.0,
@@ -79,7 +85,7 @@ impl Timeline {
         let numbers = if self.marks.is_empty() { 0.0 } else { 24.0 };
         let pitch = panel_height + 30.0;
         let height = top + numbers + pitch * self.panels.len() as f64 + 42.0;
-        picture(&self.title, height, |canvas| {
+        let svg = picture(&self.title, height, |canvas| {
             canvas.title(&self.title, (20.0, 24.0));
             canvas.legend(&legend, 20.0, 50.0);
             let time = Axis::exact(0.0, self.end_s);
@@ -113,11 +119,14 @@ impl Timeline {
                     canvas.text(&words, (x, heading_y), align, RED);
                 }
                 self.panel(canvas, panel, &place, last);
+                let edges = [LEFT, place.top, RIGHT, place.bottom];
+                axes.push(Axes::over_time(panel, &self.legend, time.max, edges));
                 if i == 0 {
                     self.numbers(canvas, &place, heading_y + 19.0);
                 }
             }
-        })
+        });
+        (svg, axes)
     }
 
     fn panel(&self, canvas: &mut Canvas<'_>, panel: &Panel, place: &Place, last: bool) {
