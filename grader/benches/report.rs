@@ -1,10 +1,10 @@
-//! How long a graded run takes to be shown: all plots and the page, and the log, of an eight second motion task.
+//! How long a graded run takes to be shown: its plots, its replay, the page, the log, and all of it, of a ten second motion task.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::log::{Attachment, mcap};
-use kinemark_grader::report::{html::html, plot::plots};
+use kinemark_grader::report::{html::html, plot::plots, replay::Replay};
 use kinemark_grader::{grade, graded, verdict};
 
 #[path = "../src/report/sample.rs"]
@@ -12,10 +12,20 @@ use kinemark_grader::{grade, graded, verdict};
 mod sample;
 
 fn report(criterion: &mut Criterion) {
-    let graded = sample::graded();
+    let mut graded = sample::graded();
+    graded.runs = vec![sample::task_run_of(10)];
     let run = &graded.runs[0];
     criterion.bench_function("plots of a run", |bencher| {
         bencher.iter(|| plots(black_box(run)))
+    });
+    criterion.bench_function("replay of a run", |bencher| {
+        bencher.iter(|| Replay::of(black_box(run), graded.grade.tasks.last()).json())
+    });
+    let many = sample::chain(25, 10_001, |tick, joint| {
+        libm::sin(0.001 * (tick * (1 + joint as u64)) as f64)
+    });
+    criterion.bench_function("replay of 25 joints", |bencher| {
+        bencher.iter(|| Replay::of(black_box(&many), None).json())
     });
     let drawn = vec![plots(run)];
     criterion.bench_function("page", |bencher| {
@@ -28,6 +38,13 @@ fn report(criterion: &mut Criterion) {
     }];
     criterion.bench_function("log of a run", |bencher| {
         bencher.iter(|| mcap(black_box(run), &graded.grade, &attachments));
+    });
+    criterion.bench_function("plots, page and log of a run", |bencher| {
+        bencher.iter(|| {
+            let drawn = vec![plots(black_box(run))];
+            let page = html(&graded, &drawn);
+            (page, mcap(run, &graded.grade, &attachments))
+        });
     });
 }
 

@@ -24,6 +24,7 @@ mod lab_truths;
 mod mesh_labs;
 mod own_lab;
 mod path_checks;
+mod report;
 mod robot_docs;
 mod robot_files;
 mod run_diagnoses;

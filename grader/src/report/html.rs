@@ -32,14 +32,40 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
         .tasks
         .iter()
         .enumerate()
-        .filter_map(|(i, task)| Some((i, Replay::of(drawn(&task.name)?.0, Some(task)).json())))
+        .filter_map(|(i, task)| {
+            let replay = Replay::of(drawn(&task.name)?.0, Some(task));
+            (!replay.is_empty()).then(|| (i, replay.json()))
+        })
         .collect();
+    let has_replay = |index: usize| replays.iter().any(|(i, _)| *i == index);
     let title = format!(
         "{}: {} of {} points",
         visible(&grade.lab.name),
         points(grade.points),
         points(grade.max_points)
     );
+    let body = html! {
+        a class="skip" href="#scores" { "Skip to the scores" }
+        (head(grade))
+        main {
+            (scores(grade))
+            @for (i, task) in grade.tasks.iter().enumerate() {
+                (task::section(i, task, drawn(&task.name), has_replay(i)))
+            }
+        }
+        (facts(grade))
+    };
+    page(&title, &grade.engine, &body, &replays)
+}
+
+/// A whole page with its styles, and with the viewer where it has replays: their numbers, by which [`viewer::place`] names the places
+/// where they are shown, and their data.
+pub(crate) fn page(
+    title: &str,
+    engine: &str,
+    body: &Markup,
+    replays: &[(usize, String)],
+) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -49,21 +75,13 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
-                meta name="generator" content=(visible(&grade.engine));
+                meta name="generator" content=(visible(engine));
                 title { (title) }
                 style { (PreEscaped(include_str!("html/page.css"))) (PreEscaped(plot_css())) (viewer::style(!replays.is_empty())) }
             }
             body {
-                a class="skip" href="#scores" { "Skip to the scores" }
-                (head(grade))
-                main {
-                    (scores(grade))
-                    @for (i, task) in grade.tasks.iter().enumerate() {
-                        (task::section(i, task, drawn(&task.name)))
-                    }
-                }
-                (facts(grade))
-                @for (i, json) in &replays { (viewer::data(*i, json)) }
+                (body)
+                @for (i, json) in replays { (viewer::data(*i, json)) }
                 @if !replays.is_empty() { (viewer::script()) }
             }
         }

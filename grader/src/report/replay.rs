@@ -81,6 +81,11 @@ impl<'a> Replay<'a> {
         }
     }
 
+    /// Whether there is nothing to show: the run has no row, or its first is not finite.
+    pub fn is_empty(&self) -> bool {
+        sound_ticks(&self.run.trace) == 0
+    }
+
     /// The replay as JSON without a `<`, so that nothing in it can end the element it stands in. The same run gives the same bytes.
     pub fn json(&self) -> String {
         let record = self.record();
@@ -91,9 +96,13 @@ impl<'a> Replay<'a> {
 
     fn record(&self) -> Record<'_> {
         let run = self.run;
-        let events = events(run, self.task);
-        let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let ticks = sound_ticks(&run.trace);
+        let mut events = events(run, self.task);
+        for event in &mut events {
+            // what ended a run has no row of its own
+            event.tick = event.tick.min(ticks.saturating_sub(1) as u64);
+        }
+        let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let step_s = run.trace.step_s;
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
         let most = (tens * MOST_CHARACTERS as f64) as usize;

@@ -190,7 +190,6 @@ pub(crate) fn stopped_after(ticks: u64) -> TaskRun {
 }
 
 /// Rows of `n` joints as a function of the tick gives them, on a chain of `n` links.
-#[cfg(test)]
 pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> TaskRun {
     use kinemark_sim::run::{Recorder as _, Row};
     let mut text = "format = 1\nname = \"chain\"\n[[links]]\nname = \"l0\"\ninertia = { mass_kg = 1.0, com_m = [0.0, 0.0, 0.1], tensor_kg_m2 = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0] }\n".to_owned();

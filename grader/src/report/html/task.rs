@@ -24,13 +24,19 @@ const MOST_CHARACTERS: usize = 1000;
 const MOST_CASES: usize = 200;
 
 /// The section of a task.
-pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[Plot])>) -> Markup {
+pub(super) fn section(
+    index: usize,
+    task: &TaskGrade,
+    run: Option<(&TaskRun, &[Plot])>,
+    has_replay: bool,
+) -> Markup {
     let id = anchor(index);
     let plots = run.map_or(&[][..], |(_, plots)| plots);
     let of = Of {
         name: &task.name,
         kind: task.kind,
         run: run.map(|(run, _)| run),
+        has_replay,
     };
     html! {
         section class="task" id=(id) aria-labelledby={ (id) "-title" } {
@@ -42,7 +48,7 @@ pub(super) fn section(index: usize, task: &TaskGrade, run: Option<(&TaskRun, &[P
             @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
             @if let Some(differs) = &task.divergence { (differing(differs, &of)) }
-            @if run.is_some() { (place(index, &task.name)) }
+            @if has_replay { (place(index, &task.name)) }
             @if !task.checks.is_empty() {
                 h3 { "Checks" }
                 ul class="checks" { @for check in &task.checks { li { (checked(check, &of)) } } }
@@ -69,14 +75,16 @@ struct Of<'a> {
     name: &'a str,
     kind: TaskKind,
     run: Option<&'a TaskRun>,
+    has_replay: bool,
 }
 
 impl Of<'_> {
     /// Words that lead to a moment, where there is a replay to lead to.
     fn moment(&self, time_s: f64, words: &str) -> Markup {
-        match self.run {
-            Some(_) => seek(self.name, time_s, words),
-            None => html! { (words) },
+        if self.has_replay {
+            seek(self.name, time_s, words)
+        } else {
+            html! { (words) }
         }
     }
 
@@ -85,7 +93,7 @@ impl Of<'_> {
         match self.run {
             Some(run) => {
                 let time_s = tick as f64 * run.trace.step_s;
-                seek(self.name, time_s, &format!("{time_s:.3} s"))
+                self.moment(time_s, &format!("{time_s:.3} s"))
             }
             None => html! { "tick " (tick) },
         }

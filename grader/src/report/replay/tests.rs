@@ -178,6 +178,7 @@ fn runs_without_sound_rows_are_shown_at_home() {
         sample::chain(2, 5, |_, _| f64::NAN),
     ] {
         let record = record(Replay::of(&run, None));
+        assert!(Replay::of(&run, None).is_empty());
         assert_eq!(record["tcp"]["count"].as_u64(), Some(0));
         assert_eq!(record["ticks"], "");
         for node in record["nodes"].as_array().expect("nodes") {
