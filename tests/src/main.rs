@@ -14,6 +14,7 @@ mod errors;
 mod eval;
 mod eval_golden;
 mod eval_operations;
+mod export;
 mod free_function_task;
 mod grade;
 mod grants;
@@ -38,7 +39,9 @@ mod targets;
 mod testbed;
 mod variants;
 mod verify;
+mod view;
 mod wasm;
+mod watch;
 
 /// A file that no `mod` names would be a test that never runs.
 #[test]

@@ -1,8 +1,12 @@
 //! Where tests run the binary: a folder of their own that goes away, and a fresh build of the same profile.
 
+use std::io::{BufRead as _, BufReader, Read, Write as _};
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
 
 use kinemark_grader::graded::GradedRun;
 use kinemark_grader::grading::{self, InProcess};
@@ -126,6 +130,118 @@ impl TestBed {
         let text = std::fs::read_to_string(&path).expect("file");
         assert!(text.contains(from), "{name} has no {from:?}");
         std::fs::write(path, text.replacen(from, to, 1)).expect("file");
+    }
+}
+
+/// Far above what anything here takes: the end of a test that would hang.
+const LONGEST: Duration = Duration::from_secs(300);
+
+/// A command that serves a report, as long as this lives.
+pub(crate) struct Serving {
+    child: Child,
+    lines: Receiver<String>,
+    /// Such as `127.0.0.1:4711`.
+    pub(crate) host: String,
+}
+
+/// What a server answered.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    pub(crate) code: u16,
+    /// The lines before the content, in lower case.
+    pub(crate) head: String,
+    pub(crate) body: String,
+}
+
+impl Serving {
+    /// Starts a command and waits for the line with its address; returns the lines before it, too.
+    pub(crate) fn start(bed: &TestBed, args: &[&str]) -> (Self, Vec<String>) {
+        let mut command = bed.command(args);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the binary runs");
+        let (tell, lines) = channel();
+        let outputs: [Box<dyn Read + Send>; 2] = [
+            Box::new(child.stdout.take().expect("standard output")),
+            Box::new(child.stderr.take().expect("standard error")),
+        ];
+        for output in outputs {
+            let tell = tell.clone();
+            std::thread::spawn(move || {
+                for line in BufReader::new(output).lines().map_while(Result::ok) {
+                    if tell.send(line).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        let mut serving = Self {
+            child,
+            lines,
+            host: String::new(),
+        };
+        let mut before = Vec::new();
+        loop {
+            let line = serving.line();
+            if let Some((_, address)) = line.split_once(" is open at http://") {
+                serving.host = address.trim_end_matches('/').to_owned();
+                return (serving, before);
+            }
+            before.push(line);
+        }
+    }
+
+    /// The next line that it prints.
+    pub(crate) fn line(&self) -> String {
+        self.lines.recv_timeout(LONGEST).expect("another line")
+    }
+
+    /// The next line with `words` in it.
+    pub(crate) fn line_with(&self, words: &str) -> String {
+        loop {
+            let line = self.line();
+            if line.contains(words) {
+                return line;
+            }
+        }
+    }
+
+    pub(crate) fn get(&self, path: &str) -> Answer {
+        self.ask(&format!("GET {path} HTTP/1.1\r\nHost: {}\r\n", self.host))
+    }
+
+    /// Sends a request, given without its end.
+    pub(crate) fn ask(&self, request: &str) -> Answer {
+        let mut stream = TcpStream::connect(&self.host).expect("a connection");
+        stream.set_read_timeout(Some(LONGEST)).expect("a socket");
+        let request = format!("{request}Connection: close\r\n\r\n");
+        stream.write_all(request.as_bytes()).expect("sent");
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).expect("an answer");
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let (head, body) = text.split_once("\r\n\r\n").expect("a head");
+        let code = head.split(' ').nth(1).and_then(|code| code.parse().ok());
+        Answer {
+            code: code.expect("a code"),
+            head: head.to_ascii_lowercase(),
+            body: body.to_owned(),
+        }
+    }
+
+    /// Presses Ctrl-C and returns the exit code.
+    #[cfg(unix)]
+    pub(crate) fn stop(mut self) -> Option<i32> {
+        let id = self.child.id().to_string();
+        let sent = Command::new("kill").args(["-INT", &id]).status();
+        assert!(sent.expect("kill runs").success());
+        self.child.wait().expect("it ends").code()
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        // it may have ended by itself
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 

@@ -77,6 +77,9 @@ pub(crate) struct VariantArgs {
 pub(crate) enum Command {
     Grade(GradeArgs),
     Verify(VerifyArgs),
+    View(ViewArgs),
+    Watch(WatchArgs),
+    Export(ExportArgs),
     Labs(LabsArgs),
     New(NewArgs),
     Variant(VariantCommandArgs),
@@ -147,6 +150,75 @@ pub(crate) struct VerifyArgs {
     pub(crate) places: PlaceArgs,
     #[command(flatten)]
     pub(crate) staff: StaffArgs,
+}
+
+/// Where a report is served.
+#[derive(Debug, Clone, ClapArgs)]
+pub(crate) struct ServeArgs {
+    /// Port of this machine to serve it on [default: a free one]
+    #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) port: Option<u16>,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+}
+
+/// Open a report in the browser
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n\n\
+    Serves the folder to this machine alone, read only, until Ctrl-C. A folder of several reports is listed with what each earned.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder holds no report, 4 the address cannot be served."
+)]
+pub(crate) struct ViewArgs {
+    /// The output folder of `kinemark grade` or `kinemark compare`, or a folder of several
+    #[arg(default_value = "out")]
+    pub(crate) folder: PathBuf,
+    #[command(flatten)]
+    pub(crate) serve: ServeArgs,
+}
+
+/// Grade on every save, and keep the report open
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Example:\n  kinemark watch 01-kinematics submission.rhai\n\n\
+    Grades at once, and again when the submission is saved, or the lab where it comes from a folder. The report opens in the browser \
+    and loads itself anew, at the moment and the place that are looked at. With --json each grade is one line.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
+)]
+pub(crate) struct WatchArgs {
+    #[command(flatten)]
+    pub(crate) grade: GradeArgs,
+    #[command(flatten)]
+    pub(crate) serve: ServeArgs,
+}
+
+/// Write a log as tables
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Examples:\n  kinemark export out/move/run.mcap --csv\n  \
+    kinemark export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
+    Writes a CSV file per topic to the folder run-csv beside the log, with export.json, which lists them; an earlier export there is \
+    replaced.\n\
+    Reads every MCAP log with JSON messages. See docs/watch-and-compare.md.\n\
+    Exit codes: 0 written, 2 usage, 3 the log is broken, 4 the tables cannot be written."
+)]
+pub(crate) struct ExportArgs {
+    /// The log, such as out/move/run.mcap
+    pub(crate) log: PathBuf,
+    /// Write comma-separated values, which every spreadsheet reads
+    #[arg(long, required = true)]
+    pub(crate) csv: bool,
+    /// Only this topic; without --out it is printed
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) topic: Option<String>,
+    /// Folder to write to; an earlier export there is replaced [default: the log's name with -csv, beside it]
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// List the labs

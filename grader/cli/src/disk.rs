@@ -26,6 +26,11 @@ impl Folder {
         Self { path }
     }
 
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The file at `path`, if there is one; names in lab files stay inside the folder.
     fn inside(&self, path: &str) -> Option<PathBuf> {
         let plain = Path::new(path)

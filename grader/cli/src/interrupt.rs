@@ -14,3 +14,11 @@ pub(crate) fn listen() {
 pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
+
+/// Starts to listen, and tells `also` each time.
+pub(crate) fn listen_and(mut also: impl FnMut() + Send + 'static) {
+    let _ = ctrlc::set_handler(move || {
+        ASKED.store(true, Ordering::Relaxed);
+        also();
+    });
+}

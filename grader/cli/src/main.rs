@@ -14,7 +14,9 @@ mod output;
 mod places;
 mod report_folder;
 mod robot_source;
+mod saves;
 mod scene_source;
+mod serve;
 mod variants;
 mod worker;
 

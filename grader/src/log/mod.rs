@@ -1,14 +1,21 @@
-//! A run, written down for other tools: an MCAP log with everything that moved, and a layout to open it with.
+//! A run, written down for other tools: an MCAP log with everything that moved, a layout to open it with, and any such log as
+//! tables.
 
 mod bodies;
+mod columns;
+mod csv;
+mod json;
 mod layout;
 mod mcap;
 mod message;
 mod names;
+mod read;
 mod scene;
 mod schema;
 mod topics;
 mod tree;
 
+pub use csv::{Table, Tables, tables, write_csv};
 pub use layout::layout;
 pub use mcap::{Attachment, LogError, mcap};
+pub use read::ReadError;

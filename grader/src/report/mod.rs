@@ -11,4 +11,4 @@ pub mod replay;
 pub(crate) mod sample;
 pub mod text;
 mod theme;
-pub(crate) mod visible;
+pub mod visible;

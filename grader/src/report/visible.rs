@@ -28,7 +28,7 @@ fn is_combining(c: char) -> bool {
 const MAX_COMBINING: usize = 3;
 
 /// `text` with control, direction and invisible characters written out as `⟨U+202E⟩`; tabs become spaces.
-pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+pub fn visible(text: &str) -> Cow<'_, str> {
     if text.bytes().all(|b| (b' '..=b'~').contains(&b)) {
         return Cow::Borrowed(text);
     }

@@ -3,10 +3,12 @@
 use std::process::ExitCode;
 
 use kinemark_grader::ghost;
+use kinemark_grader::graded::GradedRun;
 use kinemark_grader::grading::{self, Host, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::report;
 use kinemark_grader::verdict::Verdict;
+use kinemark_sim::source::Source;
 
 use crate::args::GradeArgs;
 use crate::failure::{FAULT, Failure, LOST};
@@ -17,9 +19,48 @@ use crate::{disk, interrupt, output, places, report_folder};
 /// A submission larger than this is not read; its own budget, which is counted, is far below.
 const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
 
+/// A submission, graded.
+pub(crate) struct Work {
+    lab: Lab,
+    submission: Source,
+    pub(crate) graded: GradedRun,
+    /// What was taken that nobody named.
+    pub(crate) note: Option<String>,
+}
+
 /// Grades, writes the folder, prints.
 pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    let work = work(args)?;
+    let grade = &work.graded.grade;
+    // the grade is told before anything is written: a full disk must not lose it
+    if args.json {
+        output::print_json(grade)?;
+    } else {
+        if let Some(note) = &work.note {
+            output::print(&format!("{note}\n"))?;
+        }
+        output::print(&report::text::text(grade))?;
+    }
+    write(args, &work)?;
+    if !args.json {
+        let report = args.out.join("report.html");
+        let report = report.display();
+        output::print(&format!("report: {report}\n"))?;
+        if let Some(moment) = report::moment::first_loss(grade) {
+            output::print(&format!("first lost point: {report}{moment}\n"))?;
+        }
+    }
+    Ok(exit_code(grade.verdict))
+}
+
+/// Writes the folder.
+pub(crate) fn write(args: &GradeArgs, work: &Work) -> Result<(), Failure> {
+    report_folder::write(&args.out, &work.lab, &work.submission, &work.graded)
+}
+
+/// Reads what was named, and grades.
+pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     let (files, labs_folder) = places::labs(&args.places)?;
     let reference = places::reference(&args.staff, labs_folder.as_deref())?;
     let Chosen { lab, mut note } = variants::choose(
@@ -65,26 +106,12 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     if let Some(staff) = staff.as_ref().filter(|_| args.ghost) {
         ghost::show_reference(&lab, staff, &mut graded);
     }
-
-    // the grade is told before anything is written: a full disk must not lose it
-    if args.json {
-        output::print_json(&graded.grade)?;
-    } else {
-        if let Some(note) = &note {
-            output::print(&format!("{note}\n"))?;
-        }
-        output::print(&report::text::text(&graded.grade))?;
-    }
-    report_folder::write(&args.out, &lab, &submission, &graded)?;
-    if !args.json {
-        let report = args.out.join("report.html");
-        let report = report.display();
-        output::print(&format!("report: {report}\n"))?;
-        if let Some(moment) = report::moment::first_loss(&graded.grade) {
-            output::print(&format!("first lost point: {report}{moment}\n"))?;
-        }
-    }
-    Ok(exit_code(graded.grade.verdict))
+    Ok(Work {
+        lab,
+        submission,
+        graded,
+        note,
+    })
 }
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &GradeArgs) -> Result<Option<Staff>, Failure> {

@@ -3,6 +3,7 @@
 mod completions;
 mod convert;
 mod eval;
+mod export;
 mod grade;
 mod lab_check;
 mod labs;
@@ -11,6 +12,8 @@ mod scene_check;
 mod show;
 mod variant;
 mod verify;
+mod view;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -23,6 +26,9 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::View(args) => view::run(&args),
+        Command::Watch(args) => watch::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Labs(args) => labs::run(&args),
         Command::New(args) => new::run(&args),
         Command::Variant(args) => variant::run(&args),

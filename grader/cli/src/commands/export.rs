@@ -1,0 +1,362 @@
+//! `kinemark export`: a log as tables, in a folder that is whole or not there, or one of them on standard output.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use kinemark_grader::log::{ReadError, Table, Tables, tables, write_csv};
+use kinemark_grader::report::visible::visible;
+use serde::{Deserialize, Serialize};
+
+use crate::args::ExportArgs;
+use crate::disk::{self, plain};
+use crate::failure::Failure;
+use crate::output;
+
+/// A log larger than this is not read.
+const MOST_LOG_BYTES: u64 = 512 << 20;
+/// The list of what was exported; a folder that has it is an export of ours.
+const LIST: &str = "export.json";
+/// What the list says it is.
+const FORMAT: &str = "kinemark-export/1";
+
+/// What was exported.
+#[derive(Debug, Serialize, Deserialize)]
+struct Export {
+    format: String,
+    files: Vec<Exported>,
+    /// Topics that are not JSON.
+    not_exported: Vec<NotExported>,
+}
+
+/// One table.
+#[derive(Debug, Serialize, Deserialize)]
+struct Exported {
+    file: String,
+    topic: String,
+    rows: u64,
+    columns: usize,
+}
+
+/// One topic that is no table.
+#[derive(Debug, Serialize, Deserialize)]
+struct NotExported {
+    topic: String,
+    encoding: String,
+}
+
+/// Reads the log and writes its tables.
+pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+    let log = read(&args.log)?;
+    let broken = |error: ReadError| broken(&args.log, &error);
+    let found = tables(&log).map_err(broken)?;
+    let wanted = |table: &Table| {
+        args.topic
+            .as_ref()
+            .is_none_or(|topic| *topic == table.topic)
+    };
+    if let Some(topic) = &args.topic
+        && !found.tables.iter().any(wanted)
+    {
+        return Err(no_topic(&args.log, topic, &found));
+    }
+    if args.topic.is_some() && args.out.is_none() {
+        if args.json {
+            return Err(Failure::usage(
+                "--json with --topic needs --out: one topic alone is printed".to_owned(),
+                "add --out DIR, or leave --json out",
+            ));
+        }
+        print(&log, &found.tables, wanted).or_else(|error| match error {
+            // a reader that has gone away is no failure
+            ReadError::Write(why) if why.kind() == ErrorKind::BrokenPipe => Ok(()),
+            other => Err(broken(other)),
+        })?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let out = args.out.clone().unwrap_or_else(|| beside(&args.log));
+    refuse_foreign(&out)?;
+    let export = write(&log, &found, wanted, &out).map_err(|why| match why {
+        Why::Log(error) => broken(error),
+        Why::Disk(error) => Failure::fault(
+            format!(
+                "the tables cannot be written to `{}`: {}",
+                out.display(),
+                plain(&error)
+            ),
+            "free some space or choose another folder with --out; nothing half-written is left",
+        ),
+        Why::Other(failure) => failure,
+    })?;
+    if args.json {
+        output::print_json(&export)?;
+    } else {
+        output::print(&text(&export, &out))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What a log holds, where the path is one.
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let shown = path.display();
+    if path.is_dir() {
+        return Err(Failure::usage(
+            format!("`{shown}` is a folder, not a log"),
+            "name the log itself, such as out/TASK/run.mcap",
+        ));
+    }
+    if !path.is_file() {
+        return Err(Failure::usage(
+            format!("there is no file `{shown}`"),
+            "`kinemark grade` writes one per motion task, such as out/TASK/run.mcap",
+        ));
+    }
+    disk::bytes_of(path, MOST_LOG_BYTES).map_err(|why| {
+        Failure::broken(
+            format!("`{shown}` cannot be read: {why}"),
+            "cut out a part of a longer log: `mcap filter LOG -o PART -s 0 -e 10`",
+        )
+    })
+}
+
+fn broken(log: &Path, error: &ReadError) -> Failure {
+    let message = format!("`{}`: {}", log.display(), visible(&error.to_string()));
+    match error {
+        ReadError::Write(_) => Failure::fault(message, error.way_out()),
+        _ => Failure::broken(message, error.way_out()),
+    }
+}
+
+fn no_topic(log: &Path, topic: &str, found: &Tables) -> Failure {
+    let has: Vec<String> = found
+        .tables
+        .iter()
+        .map(|table| visible(&table.topic).into_owned())
+        .collect();
+    let foreign = found.foreign.iter().find(|(name, _)| name == topic);
+    let message = match foreign {
+        Some((_, encoding)) => format!(
+            "topic `{}` of `{}` is `{}`, not JSON",
+            visible(topic),
+            log.display(),
+            visible(encoding)
+        ),
+        None => format!("`{}` has no topic `{}`", log.display(), visible(topic)),
+    };
+    Failure::usage(message, &format!("its topics: {}", has.join(", ")))
+}
+
+/// The folder beside a log: `run-csv` for `run.mcap`.
+fn beside(log: &Path) -> PathBuf {
+    let mut name: OsString = log.file_stem().unwrap_or_default().to_owned();
+    name.push("-csv");
+    log.with_file_name(name)
+}
+
+/// Prints the tables that are wanted.
+fn print(log: &[u8], all: &[Table], wanted: impl Fn(&Table) -> bool) -> Result<(), ReadError> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut at = Some(&mut out);
+    let writers = all
+        .iter()
+        .map(|table| wanted(table).then(|| at.take()).flatten());
+    let writers = writers.collect();
+    write_csv(log, all, writers)?;
+    out.flush().map_err(ReadError::Write)
+}
+
+/// Why a folder was not written.
+enum Why {
+    Log(ReadError),
+    Disk(std::io::Error),
+    Other(Failure),
+}
+
+/// Writes the folder under another name, then renames it.
+fn write(
+    log: &[u8],
+    found: &Tables,
+    wanted: impl Fn(&Table) -> bool,
+    out: &Path,
+) -> Result<Export, Why> {
+    let parent = match out.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(parent).map_err(Why::Disk)?;
+    // removed when dropped, whatever happens
+    let fresh = tempfile::Builder::new()
+        .prefix(".kinemark-")
+        .tempdir_in(parent)
+        .map_err(Why::Disk)?;
+    let folder = fresh.path().join("export");
+    std::fs::create_dir(&folder).map_err(Why::Disk)?;
+    let mut export = Export {
+        format: FORMAT.to_owned(),
+        files: Vec::new(),
+        not_exported: Vec::new(),
+    };
+    let mut files = Vec::new();
+    for table in &found.tables {
+        if !wanted(table) {
+            files.push(None);
+            continue;
+        }
+        let name = file_name(&table.topic, &export.files);
+        let file = File::create(folder.join(&name)).map_err(Why::Disk)?;
+        files.push(Some(BufWriter::new(file)));
+        export.files.push(Exported {
+            file: name,
+            topic: table.topic.clone(),
+            rows: table.rows,
+            columns: table.columns.len() + 1,
+        });
+    }
+    let foreign = found.foreign.iter().map(|(topic, encoding)| NotExported {
+        topic: topic.clone(),
+        encoding: encoding.clone(),
+    });
+    export.not_exported = foreign.collect();
+    write_csv(log, &found.tables, files).map_err(Why::Log)?;
+    let list = output::json(&export).map_err(Why::Other)?;
+    output::write_file(&folder.join(LIST), list.as_bytes()).map_err(Why::Disk)?;
+    let old = fresh.path().join("old");
+    if out.exists() {
+        std::fs::rename(out, &old).map_err(Why::Disk)?;
+    }
+    std::fs::rename(&folder, out).map_err(|error| {
+        // put the earlier export back; what went wrong is told either way
+        let _ = std::fs::rename(&old, out);
+        Why::Disk(error)
+    })?;
+    Ok(export)
+}
+
+/// Checks that `out` is free, empty, or an earlier export.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    let help = "choose another folder with --out";
+    if out.symlink_metadata().is_ok() && !out.is_dir() {
+        return Err(Failure::usage(
+            format!("`{}` is there and is not a folder", out.display()),
+            help,
+        ));
+    }
+    let list = disk::bytes_of(&out.join(LIST), 16 << 20).ok();
+    let list: Option<Export> = list.and_then(|text| serde_json::from_slice(&text).ok());
+    let ours = |name: &str| {
+        list.as_ref().is_some_and(|list| {
+            name == LIST || list.files.iter().any(|exported| exported.file == name)
+        })
+    };
+    let entries = std::fs::read_dir(out).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    match names.iter().find(|name| !ours(name)) {
+        None => Ok(()),
+        Some(name) => Err(Failure::usage(
+            format!(
+                "`{}` holds `{}`, which is no part of an earlier export",
+                out.display(),
+                visible(name)
+            ),
+            help,
+        )),
+    }
+}
+
+/// A file name for a topic that every system takes, and that no topic before has.
+fn file_name(topic: &str, before: &[Exported]) -> String {
+    let plain: String = topic
+        .trim_start_matches('/')
+        .chars()
+        .take(100)
+        .map(|c| match c {
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '_' | '-' => c,
+            '/' => '.',
+            _ => '_',
+        })
+        .collect();
+    // a name with a dot before is hidden, and some systems have devices called con or nul
+    let stem = match plain.split('.').next() {
+        None | Some("") => format!("topic{plain}"),
+        Some(first) if is_device(first) => format!("topic.{plain}"),
+        Some(_) => plain,
+    };
+    let taken = |name: &str| {
+        before
+            .iter()
+            .any(|exported| exported.file.eq_ignore_ascii_case(name))
+    };
+    let mut name = format!("{stem}.csv");
+    let mut number = 2;
+    while taken(&name) {
+        name = format!("{stem}-{number}.csv");
+        number += 1;
+    }
+    name
+}
+
+/// Whether Windows takes a name for a device.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let numbered = |kind: &str| {
+        let number = name.strip_prefix(kind);
+        number.is_some_and(|number| number.len() == 1 && number.as_bytes()[0].is_ascii_digit())
+    };
+    matches!(name.as_str(), "con" | "prn" | "aux" | "nul") || numbered("com") || numbered("lpt")
+}
+
+fn text(export: &Export, out: &Path) -> String {
+    let mut text = String::new();
+    for exported in &export.files {
+        text += &format!(
+            "{}: {} rows, {} columns of `{}`\n",
+            out.join(&exported.file).display(),
+            exported.rows,
+            exported.columns,
+            visible(&exported.topic)
+        );
+    }
+    for topic in &export.not_exported {
+        text += &format!(
+            "not exported: `{}` is `{}`, not JSON\n",
+            visible(&topic.topic),
+            visible(&topic.encoding)
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_topic_has_a_file_of_its_own() {
+        let mut before = Vec::new();
+        for (topic, expected) in [
+            ("/joint_states", "joint_states.csv"),
+            ("/reference/tf", "reference.tf.csv"),
+            ("/../../etc/passwd", "__.__.etc.passwd.csv"),
+            ("", "topic.csv"),
+            ("/", "topic-2.csv"),
+            ("/CON", "topic.CON.csv"),
+            ("/com1/x", "topic.com1.x.csv"),
+            ("/Joint_States", "Joint_States-2.csv"),
+            ("/a b=é", "a_b__.csv"),
+        ] {
+            let name = file_name(topic, &before);
+            assert_eq!(name, expected, "{topic}");
+            before.push(Exported {
+                file: name,
+                topic: topic.to_owned(),
+                rows: 0,
+                columns: 0,
+            });
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! `kinemark watch`: a submission graded on every save, with its report open beside it.
+
+use std::io::Write as _;
+use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use kinemark_grader::grade::{Grade, TaskGrade};
+use kinemark_grader::quantity::points;
+use kinemark_grader::report::visible::visible;
+use tokio::sync::watch;
+
+use super::grade::{self, Work};
+use crate::args::WatchArgs;
+use crate::failure::Failure;
+use crate::saves::{Saves, Told};
+use crate::serve::{self, Server};
+use crate::{interrupt, output};
+
+/// How long nothing must happen after a save: editors write, rename and write again.
+const QUIET: Duration = Duration::from_millis(100);
+/// Happenings that are waited out at most: something that never ends must not keep a grade away.
+const MOST_HAPPENINGS: usize = 1_000;
+
+/// Grades at once and on every save, until Ctrl-C.
+pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
+    let (tell, told) = channel();
+    let (stop, stopped) = watch::channel(false);
+    let on_stop = tell.clone();
+    interrupt::listen_and(move || {
+        // nobody listening any more is the end, too
+        let _ = stop.send(true);
+        let _ = on_stop.send(Told::Stop);
+    });
+    // listened to before the first grade: what is saved while it runs counts
+    let _saves = Saves::listen(&args.grade, tell)?;
+    let first = match grade::work(&args.grade) {
+        Ok(work) => work,
+        Err(_) if interrupt::asked() => return Ok(ExitCode::SUCCESS),
+        Err(failure) => return Err(failure),
+    };
+    let (count, changes) = watch::channel(0_u64);
+    publish(args, &first, &count)?;
+    let server = Server::bind(&args.grade.out, args.serve.port, Some(changes))?;
+    let address = server.address();
+    say(
+        args,
+        &format!(
+            "{} is open at {address}\ngraded again on every save; end with Ctrl-C\n",
+            args.grade.out.display()
+        ),
+    )?;
+    if !args.serve.no_open {
+        serve::open(&address);
+    }
+    std::thread::scope(|threads| {
+        let serving = threads.spawn(|| server.run(stopped));
+        follow(args, &told, &count)?;
+        // it ended by the same Ctrl-C
+        serving.join().unwrap_or(Ok(()))
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Grades whenever something was saved.
+fn follow(
+    args: &WatchArgs,
+    told: &Receiver<Told>,
+    count: &watch::Sender<u64>,
+) -> Result<(), Failure> {
+    let mut is_gone = false;
+    loop {
+        // it lasts as long as whoever tells of saves
+        let Ok(mut what) = told.recv() else {
+            return Ok(());
+        };
+        for _ in 0..MOST_HAPPENINGS {
+            if what == Told::Stop {
+                return Ok(());
+            }
+            match told.recv_timeout(QUIET) {
+                Ok(next) => what = next,
+                Err(_) => break,
+            }
+        }
+        if !args.grade.submission.exists() {
+            if !is_gone {
+                let name = args.grade.submission.display();
+                tell(&format!("{name} is gone; graded again when it is back\n"));
+            }
+            is_gone = true;
+            continue;
+        }
+        is_gone = false;
+        let graded = grade::work(&args.grade);
+        match graded.and_then(|work| publish(args, &work, count)) {
+            Ok(()) => {}
+            Err(_) if interrupt::asked() => return Ok(()),
+            // a lab that is broken for the moment, a variant that is half typed, a full disk
+            Err(failure) => {
+                failure.report();
+            }
+        }
+    }
+}
+
+/// Tells a grade in a line, writes the folder, and lets open pages know.
+fn publish(args: &WatchArgs, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
+    let grade = &work.graded.grade;
+    if args.grade.json {
+        let text = serde_json::to_string(grade).map_err(|error| {
+            Failure::fault(
+                format!("a value could not be written as JSON: {error}"),
+                "please report this",
+            )
+        })?;
+        output::print(&(text + "\n"))?;
+    } else {
+        output::print(&line(grade, work.note.as_deref()))?;
+    }
+    grade::write(&args.grade, work)?;
+    count.send_modify(|count| *count += 1);
+    Ok(())
+}
+
+/// What is for people alone stands beside the JSON.
+fn say(args: &WatchArgs, text: &str) -> Result<(), Failure> {
+    if args.grade.json {
+        tell(text);
+        return Ok(());
+    }
+    output::print(text)
+}
+
+fn tell(text: &str) {
+    // a reader that has gone away is no failure
+    let _ = anstream::stderr().write_all(text.as_bytes());
+}
+
+/// A grade in a line: points, verdict, and where the first points were lost.
+fn line(grade: &Grade, note: Option<&str>) -> String {
+    let mut line = format!(
+        "{} of {} points, {}",
+        points(grade.points),
+        points(grade.max_points),
+        grade.verdict.name()
+    );
+    if let Some(lost) = grade.tasks.iter().find_map(first_lost) {
+        line += &format!("; {lost}");
+    }
+    if let Some(note) = note {
+        line += &format!(" ({note})");
+    }
+    line + "\n"
+}
+
+/// Where a task lost its first points, in words.
+fn first_lost(task: &TaskGrade) -> Option<String> {
+    if let Some(stopped) = &task.stopped {
+        let place = stopped
+            .line
+            .map_or(String::new(), |line| format!(", line {line}"));
+        return Some(format!(
+            "{}{place}: {}",
+            task.name,
+            visible(&stopped.message)
+        ));
+    }
+    let check = task
+        .checks
+        .iter()
+        .find(|check| check.points < check.max_points)?;
+    let why = match check.evidence.first() {
+        Some(evidence) => visible(&evidence.message),
+        None => visible(&check.title),
+    };
+    Some(format!(
+        "{}, {}: {}/{}, {why}",
+        task.name,
+        check.name,
+        points(check.points),
+        points(check.max_points)
+    ))
+}

@@ -1,0 +1,209 @@
+//! Which saves concern a grade: those of the submission, of the variant beside it, and of the lab and the staff's part where they
+//! come from folders.
+
+use std::path::{Component, Path, PathBuf};
+use std::sync::mpsc::Sender;
+
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use notify::{EventKind, RecursiveMode, Watcher as _};
+
+use crate::args::GradeArgs;
+use crate::disk::plain;
+use crate::failure::Failure;
+use crate::places;
+
+/// What is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Told {
+    /// Something that is graded with may be another.
+    Saved,
+    /// Ctrl-C.
+    Stop,
+}
+
+/// Listens as long as it lives.
+pub(crate) struct Saves {
+    _watcher: notify::RecommendedWatcher,
+}
+
+impl Saves {
+    /// Starts to tell `told` of every save that concerns the grade asked for.
+    pub(crate) fn listen(args: &GradeArgs, told: Sender<Told>) -> Result<Self, Failure> {
+        let concerns = Concerns::of(args)?;
+        let trees = concerns.trees.clone();
+        // folders and not files: editors put another file in a file's place
+        let folders = concerns.files.iter().map(|file| parent(file).to_owned());
+        let mut folders: Vec<PathBuf> = folders.collect();
+        folders.sort();
+        folders.dedup();
+        let mut watcher =
+            notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+                let saved = match event {
+                    Ok(event) => concerns.event(&event),
+                    // what was missed is not known: better once too often
+                    Err(_) => true,
+                };
+                if saved {
+                    // the other side being gone is the end
+                    let _ = told.send(Told::Saved);
+                }
+            })
+            .map_err(|error| unheard(&error))?;
+        let all = folders
+            .iter()
+            .map(|folder| (folder, RecursiveMode::NonRecursive));
+        let all = all.chain(trees.iter().map(|tree| (tree, RecursiveMode::Recursive)));
+        for (folder, how) in all {
+            watcher
+                .watch(folder, how)
+                .map_err(|error| unheard(&error))?;
+        }
+        Ok(Self { _watcher: watcher })
+    }
+}
+
+fn unheard(error: &notify::Error) -> Failure {
+    let why = match &error.kind {
+        notify::ErrorKind::Io(error) => plain(error),
+        notify::ErrorKind::MaxFilesWatch => "too many files are watched already".to_owned(),
+        other => format!("{other:?}"),
+    };
+    Failure::fault(
+        format!("this system does not tell of saves: {why}"),
+        "use `kinemark grade` after each change",
+    )
+}
+
+/// What a grade rests on.
+#[derive(Debug)]
+struct Concerns {
+    /// Files that count: the submission, and the variant beside it or given.
+    files: Vec<PathBuf>,
+    /// Folders in which everything counts.
+    trees: Vec<PathBuf>,
+    /// The report, which is written by ourselves.
+    out: PathBuf,
+}
+
+impl Concerns {
+    fn of(args: &GradeArgs) -> Result<Self, Failure> {
+        let mut files = vec![
+            real(&args.submission)?,
+            real(&args.submission.with_file_name(VARIANT_FILE))?,
+        ];
+        if let Some(variant) = &args.variant.variant {
+            files.push(real(variant)?);
+        }
+        let (_, labs) = places::labs(&args.places)?;
+        let mut trees = Vec::new();
+        // any other text names no folder of the labs; grading says so
+        let mut parts = Path::new(&args.lab).components();
+        let is_name = matches!(
+            (parts.next(), parts.next()),
+            (Some(Component::Normal(_)), None)
+        );
+        if let (Some(labs), true) = (&labs, is_name) {
+            let parts = ["robots", "scenes", &args.lab];
+            trees.extend(parts.map(|part| labs.join(part)));
+            if let Some(reference) = places::reference(&args.staff, Some(labs))? {
+                trees.push(reference.path().join(&args.lab));
+            }
+        }
+        // where links lead, as events name it; what is not there cannot be listened to
+        let trees = trees
+            .into_iter()
+            .filter_map(|tree| tree.canonicalize().ok());
+        let out = parent(&args.out).canonicalize().unwrap_or_default();
+        Ok(Self {
+            files,
+            trees: trees.collect(),
+            out: out.join(args.out.file_name().unwrap_or_default()),
+        })
+    }
+
+    /// Whether something happened to what a grade rests on.
+    fn event(&self, event: &notify::Event) -> bool {
+        // grading reads these files itself
+        if matches!(event.kind, EventKind::Access(_)) {
+            return false;
+        }
+        event.need_rescan() || event.paths.iter().any(|path| self.path(path))
+    }
+
+    fn path(&self, path: &Path) -> bool {
+        if self.files.iter().any(|file| file == path) {
+            return true;
+        }
+        let inside = self
+            .trees
+            .iter()
+            .find_map(|tree| path.strip_prefix(tree).ok());
+        // what editors put beside a file while it is open
+        let is_passing = |part: Component<'_>| {
+            let name = part.as_os_str().as_encoded_bytes();
+            name.starts_with(b".") || name.ends_with(b"~")
+        };
+        inside.is_some_and(|inside| {
+            !path.starts_with(&self.out) && !inside.components().any(is_passing)
+        })
+    }
+}
+
+/// A file that may be there, by the folder that links lead to: as events name it.
+fn real(file: &Path) -> Result<PathBuf, Failure> {
+    let folder = parent(file).canonicalize().ok();
+    match (folder, file.file_name()) {
+        (Some(folder), Some(name)) => Ok(folder.join(name)),
+        _ => Err(Failure::usage(
+            format!("there is no file `{}`", file.display()),
+            "check the path",
+        )),
+    }
+}
+
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn saves_of_what_is_graded_with_count_and_others_do_not() {
+        let concerns = Concerns {
+            files: vec!["/work/mine.rhai".into(), "/work/variant.toml".into()],
+            trees: vec!["/labs/one".into(), "/labs/robots".into()],
+            out: "/labs/one/out".into(),
+        };
+        for path in [
+            "/work/mine.rhai",
+            "/work/variant.toml",
+            "/labs/one/lab.toml",
+            "/labs/robots/a/b.stl",
+        ] {
+            assert!(concerns.path(Path::new(path)), "{path}");
+        }
+        for path in [
+            "/work/mine.rhai~",
+            "/work/out/mine.rhai",
+            "/work",
+            "/labs/two/lab.toml",
+            "/labs/one/.lab.toml.swp",
+            "/labs/one/lab.toml~",
+            "/labs/one/out/report.html",
+            "/labs/one/.kinemark-x/report/report.html",
+        ] {
+            assert!(!concerns.path(Path::new(path)), "{path}");
+        }
+        let read = notify::Event::new(EventKind::Access(notify::event::AccessKind::Any))
+            .add_path("/work/mine.rhai".into());
+        assert!(!concerns.event(&read));
+        let written = notify::Event::new(EventKind::Modify(notify::event::ModifyKind::Any))
+            .add_path("/work/mine.rhai".into());
+        assert!(concerns.event(&written));
+    }
+}

@@ -1,0 +1,131 @@
+//! Which file of the folder a path of the address names, and what kind it is.
+
+use std::path::{Path, PathBuf};
+
+use crate::disk;
+
+/// A page.
+pub(super) const HTML: &str = "text/html; charset=utf-8";
+/// A picture of lines.
+pub(super) const SVG: &str = "image/svg+xml";
+
+/// A log of a long run is far below.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// Why a file is not served.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Unread {
+    Absent,
+    TooLarge,
+}
+
+/// What the file at `path` below `folder` holds.
+pub(super) fn read(folder: &Path, path: &str) -> Result<Vec<u8>, Unread> {
+    let file = find(folder, path).ok_or(Unread::Absent)?;
+    let size = file.metadata().map_err(|_| Unread::Absent)?.len();
+    if size > MOST_BYTES {
+        return Err(Unread::TooLarge);
+    }
+    disk::bytes_of(&file, MOST_BYTES).map_err(|_| Unread::Absent)
+}
+
+/// The plain file at `path`, if it lies in `folder` once every link is followed, and no part of its way is hidden.
+fn find(folder: &Path, path: &str) -> Option<PathBuf> {
+    let is_plain = |part: &str| {
+        let strange = |c: char| c.is_control() || matches!(c, '\\' | ':');
+        !part.is_empty() && !part.starts_with('.') && !part.contains(strange)
+    };
+    if !path.split('/').all(is_plain) {
+        return None;
+    }
+    // the folder is looked up each time: a report that is written again is another folder of the same name
+    let folder = folder.canonicalize().ok()?;
+    let file = folder.join(path).canonicalize().ok()?;
+    let inside = file.strip_prefix(&folder).ok()?;
+    let is_hidden =
+        |part: std::path::Component<'_>| part.as_os_str().as_encoded_bytes().starts_with(b".");
+    (file.is_file() && !inside.components().any(is_hidden)).then_some(file)
+}
+
+/// The media type of a file by its name. What could run and is no page of ours is text.
+pub(super) fn media_type(path: &str) -> &'static str {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    match ending.to_ascii_lowercase().as_str() {
+        "html" => HTML,
+        "svg" => SVG,
+        "png" => "image/png",
+        "webp" => "image/webp",
+        "json" => "application/json",
+        "csv" => "text/csv; charset=utf-8",
+        "rhai" | "toml" | "md" | "txt" | "urdf" | "js" | "css" => "text/plain; charset=utf-8",
+        _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_plain_files_of_the_folder_are_found() {
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().join("out");
+        std::fs::create_dir_all(folder.join("plots")).unwrap();
+        std::fs::create_dir_all(folder.join(".git")).unwrap();
+        for name in [
+            "out/report.html",
+            "out/plots/a.svg",
+            "out/.env",
+            "out/.git/config",
+            "secret",
+        ] {
+            std::fs::write(bed.path().join(name), name).unwrap();
+        }
+        assert_eq!(read(&folder, "report.html").unwrap(), b"out/report.html");
+        assert_eq!(read(&folder, "plots/a.svg").unwrap(), b"out/plots/a.svg");
+        for other in [
+            "",
+            ".",
+            "..",
+            "plots",
+            "plots/",
+            "plots/..",
+            "../secret",
+            "plots/../../secret",
+            "/report.html",
+            "plots//a.svg",
+            "..\\secret",
+            ".env",
+            ".git/config",
+            "report.html\0",
+            "C:report.html",
+            "nothing",
+        ] {
+            assert_eq!(read(&folder, other), Err(Unread::Absent), "{other}");
+        }
+        assert_eq!(
+            read(&folder, &bed.path().join("secret").display().to_string()),
+            Err(Unread::Absent)
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_nowhere_else() {
+        use std::os::unix::fs::symlink;
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().join("out");
+        std::fs::create_dir_all(&folder).unwrap();
+        for name in ["secret", "out/.env", "out/report.html"] {
+            std::fs::write(bed.path().join(name), name).unwrap();
+        }
+        symlink("../secret", folder.join("file")).unwrap();
+        symlink("..", folder.join("up")).unwrap();
+        symlink(".env", folder.join("env")).unwrap();
+        symlink("report.html", folder.join("same.html")).unwrap();
+        for other in ["file", "up/secret", "env"] {
+            assert_eq!(read(&folder, other), Err(Unread::Absent), "{other}");
+        }
+        assert_eq!(read(&folder, "same.html").unwrap(), b"out/report.html");
+    }
+}

@@ -1,0 +1,284 @@
+//! A log as tables for spreadsheets: a CSV file per topic, a row per message, numbers with all their digits.
+
+use std::collections::HashMap;
+use std::io::Write;
+
+use super::columns::{Columns, MOST_COLUMNS, MOST_NAME, TooWide, walk};
+use super::json::Json;
+use super::read::{ReadError, Seen, messages};
+
+/// A table larger than this opens nowhere.
+const MOST_TABLE_BYTES: u64 = 2 << 30;
+/// Topics of a log, each of which becomes a file.
+const MOST_TOPICS: usize = 1_000;
+
+/// The table of one topic.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    /// The topic, as the log names it.
+    pub topic: String,
+    /// Its messages.
+    pub rows: u64,
+    /// Its columns after the first, which is `time_s`: the way to each value, with dots between.
+    pub columns: Vec<String>,
+}
+
+/// What a log holds.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Tables {
+    /// Topics whose messages are JSON, in the order of their first messages.
+    pub tables: Vec<Table>,
+    /// Topics whose messages are not, each with its encoding.
+    pub foreign: Vec<(String, String)>,
+}
+
+/// Reads a log through: which tables it makes, each with its rows and columns.
+///
+/// # Errors
+/// [`ReadError`] for a log that is damaged, cut off, no log, too large, or without a JSON message.
+pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
+    let mut found: Vec<(Table, Columns)> = Vec::new();
+    let mut foreign: Vec<(String, String)> = Vec::new();
+    messages(log, &mut |message| {
+        let topic = message.channel.topic.as_str();
+        if !is_json(&message) {
+            let encoding = message.channel.message_encoding.as_str();
+            if !foreign
+                .iter()
+                .any(|(known, with)| known == topic && with == encoding)
+            {
+                bounded(found.len() + foreign.len())?;
+                foreign.push((topic.to_owned(), encoding.to_owned()));
+            }
+            return Ok(());
+        }
+        let at = match found.iter().position(|(table, _)| table.topic == topic) {
+            Some(at) => at,
+            None => {
+                bounded(found.len() + foreign.len())?;
+                let table = Table {
+                    topic: topic.to_owned(),
+                    rows: 0,
+                    columns: Vec::new(),
+                };
+                found.push((table, Columns::default()));
+                found.len() - 1
+            }
+        };
+        let (table, columns) = &mut found[at];
+        table.rows += 1;
+        let value = parse(&message, table.rows)?;
+        columns.learn(&value).map_err(|why| too_wide(topic, why))
+    })?;
+    if found.is_empty() {
+        let topics = foreign
+            .iter()
+            .map(|(topic, encoding)| format!("`{topic}` is `{encoding}`"));
+        let topics: Vec<String> = topics.collect();
+        return Err(if topics.is_empty() {
+            ReadError::NoMessages
+        } else {
+            ReadError::NoJson { topics }
+        });
+    }
+    let tables = found.into_iter().map(|(mut table, columns)| {
+        table.columns = columns.names();
+        table
+    });
+    Ok(Tables {
+        tables: tables.collect(),
+        foreign,
+    })
+}
+
+/// Writes the tables of a log for which there is something to write to: `out` goes with `tables`, the log's own.
+///
+/// The first column is `time_s`, the message's time. What a message does not have is an empty field. Text that a spreadsheet would
+/// take for a formula begins with an apostrophe, and every text stands in quotes.
+///
+/// # Errors
+/// [`ReadError`] as for [`tables`], and where the output does not take it.
+pub fn write_csv<W: Write>(
+    log: &[u8],
+    tables: &[Table],
+    out: Vec<Option<W>>,
+) -> Result<(), ReadError> {
+    let mut writers = Vec::new();
+    for (table, out) in tables.iter().zip(out) {
+        let Some(out) = out else { continue };
+        // a text with `;` or a tab in it would be two fields where these stand between fields
+        let writer = csv::WriterBuilder::new()
+            .quote_style(csv::QuoteStyle::NonNumeric)
+            .from_writer(Bounded {
+                out,
+                topic: &table.topic,
+                left: MOST_TABLE_BYTES,
+            });
+        let mut writer = Rows {
+            table,
+            writer,
+            at: table.columns.iter().map(String::as_str).zip(1..).collect(),
+            row: vec![String::new(); table.columns.len() + 1],
+            written: 0,
+        };
+        writer.head()?;
+        writers.push(writer);
+    }
+    messages(log, &mut |message| {
+        let topic = message.channel.topic.as_str();
+        match writers.iter_mut().find(|rows| rows.table.topic == topic) {
+            Some(rows) if is_json(&message) => rows.row(&message),
+            _ => Ok(()),
+        }
+    })?;
+    writers.iter_mut().try_for_each(|rows| {
+        let flushed = rows.writer.flush();
+        flushed.map_err(ReadError::Write)
+    })
+}
+
+/// One table being written.
+struct Rows<'a, W: Write> {
+    table: &'a Table,
+    writer: csv::Writer<Bounded<'a, W>>,
+    /// Where each column is in the row.
+    at: HashMap<&'a str, usize>,
+    /// The row being written, used again for the next.
+    row: Vec<String>,
+    written: u64,
+}
+
+impl<W: Write> Rows<'_, W> {
+    fn head(&mut self) -> Result<(), ReadError> {
+        let names = self.table.columns.iter().map(|name| harmless(name));
+        let head = std::iter::once("time_s".to_owned()).chain(names);
+        self.writer.write_record(head).map_err(unwritten)
+    }
+
+    fn row(&mut self, message: &Seen<'_>) -> Result<(), ReadError> {
+        self.written += 1;
+        let value = parse(message, self.written)?;
+        self.row.iter_mut().for_each(String::clear);
+        self.row[0] = time_s(message.log_time_ns);
+        let (at, row) = (&self.at, &mut self.row);
+        let placed = walk(&value, &mut |name, leaf| {
+            if let Some(field) = at.get(name).and_then(|at| row.get_mut(*at)) {
+                *field = written(leaf);
+            }
+            Ok(())
+        });
+        placed.map_err(|why| too_wide(&self.table.topic, why))?;
+        self.writer.write_record(&self.row).map_err(unwritten)
+    }
+}
+
+/// A writer that has an end.
+struct Bounded<'a, W> {
+    out: W,
+    topic: &'a str,
+    left: u64,
+}
+
+impl<W: Write> Write for Bounded<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.left = self.left.checked_sub(bytes.len() as u64).ok_or_else(|| {
+            std::io::Error::other(format!(
+                "the table of `{}` is larger than {} GiB",
+                self.topic,
+                MOST_TABLE_BYTES >> 30
+            ))
+        })?;
+        self.out.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.out.flush()
+    }
+}
+
+fn is_json(message: &Seen<'_>) -> bool {
+    message.channel.message_encoding == "json"
+}
+
+fn parse(message: &Seen<'_>, number: u64) -> Result<Json, ReadError> {
+    Json::parse(message.data).map_err(|error| ReadError::Json {
+        topic: message.channel.topic.clone(),
+        number,
+        why: error.to_string(),
+    })
+}
+
+fn bounded(topics: usize) -> Result<(), ReadError> {
+    if topics < MOST_TOPICS {
+        return Ok(());
+    }
+    Err(ReadError::TooLarge {
+        what: format!("it has more than {MOST_TOPICS} topics"),
+    })
+}
+
+fn too_wide(topic: &str, why: TooWide) -> ReadError {
+    ReadError::TooLarge {
+        what: match why {
+            TooWide::Columns => {
+                format!(
+                    "topic `{topic}` has more than {MOST_COLUMNS} columns, the most a spreadsheet has"
+                )
+            }
+            TooWide::Name => {
+                format!(
+                    "a column of topic `{topic}` has a name of more than {MOST_NAME} characters"
+                )
+            }
+        },
+    }
+}
+
+fn unwritten(error: csv::Error) -> ReadError {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => ReadError::Write(error),
+        // rows have as many fields as the head, and nothing is read
+        other => ReadError::Write(std::io::Error::other(format!("{other:?}"))),
+    }
+}
+
+/// A time in seconds, to the nanosecond, without zeros at its end.
+fn time_s(ns: u64) -> String {
+    let text = format!("{}.{:09}", ns / 1_000_000_000, ns % 1_000_000_000);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// What stands in a field. Numbers have as many digits as tell them from every other.
+fn written(value: &Json) -> String {
+    match value {
+        Json::Null => String::new(),
+        Json::Bool(value) => value.to_string(),
+        Json::Number(value) => value.to_string(),
+        Json::Text(text) => harmless(text),
+        // only what holds nothing is a field
+        Json::List(_) => "[]".to_owned(),
+        Json::Object(_) => "{}".to_owned(),
+    }
+}
+
+/// Text that a spreadsheet does not take for a formula.
+///
+/// Source: OWASP, *CSV Injection*: fields that begin with `=`, `+`, `-`, `@`, a tab, a carriage return, a line feed, or the
+/// full-width forms of the signs begin with an apostrophe instead.
+fn harmless(text: &str) -> String {
+    let is_formula = |c: char| {
+        matches!(
+            c,
+            '=' | '+' | '-' | '@' | '\t' | '\r' | '\n' | '＝' | '＋' | '－' | '＠'
+        )
+    };
+    if text.starts_with(is_formula) {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,193 @@
+//! The messages of any MCAP log, with every checksum looked at and every size bounded.
+
+use std::sync::Arc;
+
+use ::mcap::records::Record;
+use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use ::mcap::{Channel, McapError, parse_record};
+
+/// One record, unpacked.
+const MOST_RECORD_BYTES: usize = 64 << 20;
+/// All records together, unpacked: a small file can unpack to any size.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// A log that cannot be read, or not as a table.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// It has no byte.
+    #[error("it is empty")]
+    Empty,
+    /// It does not begin as an MCAP file.
+    #[error("it is no MCAP log: it does not begin as one")]
+    Foreign,
+    /// It ends too early.
+    #[error("it ends in the middle, after {messages} messages: it was cut off")]
+    CutOff {
+        /// Messages before the end.
+        messages: u64,
+    },
+    /// Its bytes contradict each other.
+    #[error("it is damaged after {messages} messages: {why}")]
+    Damaged {
+        /// Messages before the damage.
+        messages: u64,
+        /// What is wrong.
+        why: String,
+    },
+    /// Its chunks are packed in a way that is not read.
+    #[error("its chunks are compressed with `{name}`; zstd and uncompressed ones are read")]
+    Compression {
+        /// The name of the compression.
+        name: String,
+    },
+    /// It unpacks to more than makes sense.
+    #[error("it is too large: {what}")]
+    TooLarge {
+        /// What is too large.
+        what: String,
+    },
+    /// It holds no message.
+    #[error("it holds no messages")]
+    NoMessages,
+    /// No topic of it is written as JSON.
+    #[error("none of its topics is JSON: {}", .topics.join(", "))]
+    NoJson {
+        /// Its topics with their encodings.
+        topics: Vec<String>,
+    },
+    /// A message is not what its channel says.
+    #[error("message {number} of topic `{topic}` is no JSON: {why}")]
+    Json {
+        /// Its topic.
+        topic: String,
+        /// Which message of the topic, from one.
+        number: u64,
+        /// What is wrong.
+        why: String,
+    },
+    /// A table could not be written.
+    #[error("a table cannot be written: {0}")]
+    Write(std::io::Error),
+}
+
+impl ReadError {
+    /// What to do about it.
+    pub fn way_out(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::Foreign => {
+                "name a log such as out/TASK/run.mcap, which `kinemark grade` writes"
+            }
+            Self::CutOff { .. } | Self::Damaged { .. } => {
+                "copy it again or grade the submission again; `mcap recover` saves what is left of other logs"
+            }
+            Self::Compression { .. } => {
+                "pack it anew: `mcap compress --compression zstd LOG -o NEW`"
+            }
+            Self::TooLarge { .. } => "cut out a part of it: `mcap filter LOG -o PART -s 0 -e 10`",
+            Self::NoMessages => "name a log of a run; this one has nothing to export",
+            Self::NoJson { .. } => {
+                "only JSON messages become tables; convert others with the tools of their format"
+            }
+            Self::Json { .. } => "export another topic with --topic, or write the log anew",
+            Self::Write(_) => "free some space, or choose another place with --out",
+        }
+    }
+}
+
+/// One message of a log.
+pub(super) struct Seen<'a> {
+    pub(super) channel: &'a Arc<Channel<'static>>,
+    /// \[ns\]
+    pub(super) log_time_ns: u64,
+    pub(super) data: &'a [u8],
+}
+
+/// Calls `each` with every message of a log, in the order in which they are written.
+///
+/// # Errors
+/// What is wrong with the log, and what `each` finds.
+pub(super) fn messages(
+    log: &[u8],
+    each: &mut dyn FnMut(Seen<'_>) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    if log.is_empty() {
+        return Err(ReadError::Empty);
+    }
+    let magic = ::mcap::MAGIC;
+    if !log.starts_with(&magic[..magic.len().min(log.len())]) {
+        return Err(ReadError::Foreign);
+    }
+    let options = LinearReaderOptions::default()
+        .with_record_length_limit(MOST_RECORD_BYTES)
+        .with_validate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true);
+    let mut reader = LinearReader::new_with_options(options);
+    let mut channels = ::mcap::read::ChannelAccumulator::default();
+    let mut rest = log;
+    let mut count = 0;
+    let mut unpacked = 0_u64;
+    while let Some(event) = reader.next_event() {
+        let event = event.map_err(|error| told(error, count))?;
+        let (opcode, data) = match event {
+            LinearReadEvent::ReadRequest(need) => {
+                let (now, later) = rest.split_at(need.min(rest.len()));
+                reader.insert(now.len()).copy_from_slice(now);
+                reader.notify_read(now.len());
+                rest = later;
+                continue;
+            }
+            LinearReadEvent::Record { opcode, data } => (opcode, data),
+        };
+        unpacked += data.len() as u64;
+        if unpacked > MOST_BYTES {
+            return Err(ReadError::TooLarge {
+                what: format!("it unpacks to more than {} GiB", MOST_BYTES >> 30),
+            });
+        }
+        let record = parse_record(opcode, data).map_err(|error| told(error, count))?;
+        let known = match record {
+            Record::Schema { header, data } => channels.add_schema_from_slice(header, &data),
+            Record::Channel(channel) => channels.add_channel(channel),
+            Record::Message { header, data } => {
+                let Some(channel) = channels.get(header.channel_id) else {
+                    return Err(ReadError::Damaged {
+                        messages: count,
+                        why: format!(
+                            "a message names channel {}, which it has not",
+                            header.channel_id
+                        ),
+                    });
+                };
+                each(Seen {
+                    channel: &channel,
+                    log_time_ns: header.log_time,
+                    data: &data,
+                })?;
+                count += 1;
+                Ok(())
+            }
+            _ => Ok(()),
+        };
+        known.map_err(|error| told(error, count))?;
+    }
+    Ok(())
+}
+
+/// The reader's errors, in words.
+fn told(error: McapError, messages: u64) -> ReadError {
+    match error {
+        McapError::UnexpectedEof => ReadError::CutOff { messages },
+        McapError::UnsupportedCompression(name) => ReadError::Compression { name },
+        McapError::RecordTooLarge { len, .. } | McapError::ChunkTooLarge(len) => {
+            ReadError::TooLarge {
+                what: format!("a record of {len} bytes, at most {MOST_RECORD_BYTES} are read"),
+            }
+        }
+        other => ReadError::Damaged {
+            messages,
+            why: other.to_string(),
+        },
+    }
+}

@@ -1,0 +1,90 @@
+//! `kinemark export`: logs as tables, through the binary.
+
+use crate::testbed::{TestBed, files_below, root};
+
+/// A bed with a report of lab 1 in `out`, graded as a student does.
+fn graded() -> TestBed {
+    let bed = TestBed::new();
+    let submission = root().join("tests/submissions/01-kinematics/good/submission.rhai");
+    std::fs::copy(submission, bed.path("mine.rhai")).expect("copied");
+    let ran = bed.run(&["grade", "01-kinematics", "mine.rhai"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    bed
+}
+
+#[test]
+fn a_log_becomes_a_folder_of_tables_and_one_topic_a_stream() {
+    let bed = graded();
+    let ran = bed.run(&["export", "out/move/run.mcap", "--csv"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let signals =
+        std::fs::read_to_string(bed.path("out/move/run-csv/signals.csv")).expect("a table");
+    assert!(
+        signals.starts_with("\"time_s\",\"q_shoulder\",\"q_elbow\",\"qd_shoulder\""),
+        "{}",
+        &signals[..100]
+    );
+    // a topic alone is printed, the same bytes
+    let ran = bed.run(&[
+        "export",
+        "out/move/run.mcap",
+        "--csv",
+        "--topic",
+        "/signals",
+    ]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout == signals);
+
+    // again: the earlier export is replaced, with the same bytes
+    let before = files_below(&bed.path("out/move/run-csv"));
+    let ran = bed.run(&["export", "out/move/run.mcap", "--csv", "--json"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(before == files_below(&bed.path("out/move/run-csv")));
+    let list: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(list["format"], "kinemark-export/1");
+    for exported in list["files"].as_array().expect("files") {
+        let file = exported["file"].as_str().expect("a name");
+        let text =
+            std::fs::read_to_string(bed.path("out/move/run-csv").join(file)).expect("a table");
+        let rows = text.lines().count() as u64 - 1;
+        assert_eq!(exported["rows"].as_u64(), Some(rows), "{file}");
+    }
+
+    // a folder with something of somebody's own stays as it is
+    bed.write("out/move/run-csv/notes.txt", "mine");
+    let ran = bed.run(&["export", "out/move/run.mcap", "--csv"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("holds `notes.txt`"), "{ran:?}");
+    assert!(bed.path("out/move/run-csv/notes.txt").is_file());
+}
+
+#[test]
+fn what_is_no_log_is_told_with_its_code() {
+    let bed = TestBed::new();
+    bed.write("empty.mcap", "");
+    bed.write("text.mcap", "time,q\n0,1\n");
+    bed.write("cut.mcap", b"\x89MCAP0\r\n\x01");
+    for (name, code, words) in [
+        ("nowhere.mcap", 2, "there is no file"),
+        (".", 2, "is a folder"),
+        ("empty.mcap", 3, "it is empty"),
+        ("text.mcap", 3, "it is no MCAP log"),
+        ("cut.mcap", 3, "it was cut off"),
+    ] {
+        let ran = bed.run(&["export", name, "--csv"]);
+        assert_eq!(ran.code, Some(code), "{ran:?}");
+        assert!(ran.stderr.contains(words), "{ran:?}");
+        assert!(ran.stderr.contains("help:"), "{ran:?}");
+    }
+    assert_eq!(bed.run(&["export", "text.mcap"]).code, Some(2));
+    assert_eq!(bed.path("text-csv").exists(), false);
+}
+
+#[test]
+fn a_topic_that_is_not_there_is_told_with_those_that_are() {
+    let bed = graded();
+    let ran = bed.run(&["export", "out/move/run.mcap", "--csv", "--topic", "/signal"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("has no topic `/signal`"), "{ran:?}");
+    assert!(ran.stderr.contains("/joint_states"), "{ran:?}");
+}

@@ -1,0 +1,135 @@
+//! `kinemark view`: a report over HTTP, for this machine alone.
+
+use crate::testbed::{Serving, TestBed};
+
+/// A bed with the starter of lab 1, graded into `folder`.
+fn graded(folder: &str) -> TestBed {
+    let bed = TestBed::new();
+    assert_eq!(bed.run(&["new", "01-kinematics", "mine"]).code, Some(0));
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "mine/submission.rhai",
+        "--out",
+        folder,
+    ]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    bed
+}
+
+#[test]
+fn a_report_is_served_read_only_and_nothing_beside_it() {
+    let bed = graded("out");
+    bed.write("secret.txt", "secret");
+    bed.write("out/.hidden", "secret");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../secret.txt", bed.path("out/link.txt")).expect("a link");
+    let (serving, _) = Serving::start(&bed, &["view", "out", "--no-open"]);
+
+    let start = serving.get("/");
+    assert_eq!(start.code, 307, "{start:?}");
+    assert!(start.head.contains("location: /report.html"), "{start:?}");
+    let page = serving.get("/report.html");
+    assert_eq!(page.code, 200);
+    for line in [
+        "content-type: text/html; charset=utf-8",
+        "cache-control: no-store",
+        "x-content-type-options: nosniff",
+        "content-security-policy: default-src 'none'",
+    ] {
+        assert!(page.head.contains(line), "{line}: {}", page.head);
+    }
+    let on_disk = std::fs::read_to_string(bed.path("out/report.html")).expect("a report");
+    assert!(page.body == on_disk, "the page is served as it is");
+    for (path, kind) in [
+        ("/grade.json", "application/json"),
+        ("/submission.rhai", "text/plain; charset=utf-8"),
+        ("/move/run.mcap", "application/octet-stream"),
+        ("/plots/move-path.svg", "image/svg+xml"),
+    ] {
+        let answer = serving.get(path);
+        assert_eq!(answer.code, 200, "{path}");
+        assert!(
+            answer.head.contains(&format!("content-type: {kind}")),
+            "{answer:?}"
+        );
+    }
+    for path in [
+        "/nothing",
+        "/.hidden",
+        "/link.txt",
+        "/plots",
+        "/plots/",
+        "/../secret.txt",
+        "/%2e%2e/secret.txt",
+        "/..%2fsecret.txt",
+        "/plots/%2e%2e/%2e%2e/secret.txt",
+        "//etc/passwd",
+        "/%2fetc%2fpasswd",
+        "/..%5csecret.txt",
+        "/report.html%00",
+        "/kinemark/changes",
+    ] {
+        let answer = serving.get(path);
+        assert_eq!(answer.code, 404, "{path} {answer:?}");
+        assert!(!answer.body.contains("secret"), "{path}");
+    }
+
+    // nothing is written, and no other site is answered
+    let host = &serving.host;
+    for method in ["POST", "PUT", "DELETE", "OPTIONS"] {
+        let answer = serving.ask(&format!(
+            "{method} /report.html HTTP/1.1\r\nHost: {host}\r\n"
+        ));
+        assert_eq!(answer.code, 405, "{answer:?}");
+    }
+    let head = serving.ask(&format!("HEAD /report.html HTTP/1.1\r\nHost: {host}\r\n"));
+    assert_eq!((head.code, head.body.as_str()), (200, ""));
+    for name in ["evil.example", "127.0.0.1:1", "localhost.evil.example"] {
+        let answer = serving.ask(&format!("GET /report.html HTTP/1.1\r\nHost: {name}\r\n"));
+        assert_eq!(answer.code, 421, "{answer:?}");
+        assert!(answer.head.contains("nosniff"), "{answer:?}");
+    }
+    let port = host.rsplit(':').next().expect("a port");
+    let answer = serving.ask(&format!(
+        "GET /grade.json HTTP/1.1\r\nHost: localhost:{port}\r\n"
+    ));
+    assert_eq!(answer.code, 200);
+    // a port that is taken is told
+    let ran = bed.run(&["view", "out", "--no-open", "--port", port]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is taken"), "{ran:?}");
+    #[cfg(unix)]
+    assert_eq!(serving.stop(), Some(0));
+}
+
+#[test]
+fn several_reports_are_listed_with_what_they_earned() {
+    let bed = graded("all/s1 <b>");
+    bed.write("all/broken/report.html", "<p>");
+    bed.write("all/other/file", "");
+    let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
+    let list = serving.get("/");
+    assert_eq!(list.code, 200, "{list:?}");
+    assert!(list.body.contains("1 of 24"), "{list:?}");
+    assert!(
+        list.body.contains("href=\"/s1%20%3Cb%3E/report.html\""),
+        "{list:?}"
+    );
+    assert!(
+        !list.body.contains("<b>") && !list.body.contains("other"),
+        "{list:?}"
+    );
+    assert!(list.body.contains("its record cannot be read"), "{list:?}");
+    assert_eq!(serving.get("/s1%20%3Cb%3E/report.html").code, 200);
+}
+
+#[test]
+fn what_holds_no_report_is_told() {
+    let bed = TestBed::new();
+    assert_eq!(bed.run(&["view", "nowhere", "--no-open"]).code, Some(2));
+    bed.write("folder/file", "");
+    let ran = bed.run(&["view", "folder", "--no-open"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    assert!(ran.stderr.contains("holds no report"), "{ran:?}");
+}
