@@ -10,6 +10,7 @@ use mcap::{Compression, WriteOptions};
 use super::topics::Messages;
 use crate::grade::Grade;
 use crate::graded::TaskRun;
+use crate::report::visible::visible;
 
 /// A file that travels inside the log.
 #[derive(Debug, Clone, Copy)]
@@ -113,10 +114,30 @@ fn facts(run: &TaskRun, grade: &Grade) -> BTreeMap<String, String> {
             grade.submission.digest.clone(),
         ),
     ]);
+    facts.insert("seeds".to_owned(), seeds(run));
     if let Some(task) = grade.tasks.iter().find(|task| task.name == run.task) {
         facts.insert("trace_digest".to_owned(), task.digests.all.clone());
     }
     facts
+}
+
+/// The seeds of all that was drawn in the run: `sensor NAME 42, gust 7`, or `none`.
+fn seeds(run: &TaskRun) -> String {
+    let sensors = run.sensors.iter();
+    let mut seeds: Vec<String> = sensors
+        .map(|sensor| format!("sensor {} {}", visible(&sensor.name), sensor.seed))
+        .collect();
+    let wind = run
+        .scene
+        .as_ref()
+        .and_then(|scene| scene.scene.environment.wind.as_ref());
+    if let Some(gust) = wind.and_then(|wind| wind.gust.as_ref()) {
+        seeds.push(format!("gust {}", gust.seed));
+    }
+    if seeds.is_empty() {
+        return "none".to_owned();
+    }
+    seeds.join(", ")
 }
 
 #[cfg(test)]

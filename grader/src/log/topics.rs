@@ -455,7 +455,7 @@ impl<'a> Messages<'a> {
             lines.push((
                 self.ns(line.tick),
                 Level::Info,
-                visible(&line.text),
+                line.text.as_str().into(),
                 "submission",
             ));
         }
@@ -466,14 +466,14 @@ impl<'a> Messages<'a> {
                 .filter(|(t_s, _)| t_s.is_finite() && *t_s >= 0.0)
             {
                 let ns = (t_s * 1e9).round() as u64;
-                lines.push((ns, Level::Info, visible(text), &curve.check));
+                lines.push((ns, Level::Info, text.as_str().into(), &curve.check));
             }
         }
         for (ns, level, message, name) in lines {
             let line = Log {
                 timestamp: Time::from_ns(ns),
                 level,
-                message: &message,
+                message: &visible(&message),
                 name,
                 file: "",
                 line: 0,
