@@ -1,7 +1,7 @@
 // The buttons of a replay.
 
 import { SPEEDS, type Cursor } from "./cursor";
-import type { Replay } from "./data";
+import { isReference, type Replay } from "./data";
 import { element } from "./dom";
 import { icon, setIcon, type Sign } from "./icon";
 import type { Preset } from "./orbit";
@@ -70,7 +70,7 @@ export class Controls {
     this.shadows = toggle("Shadows", "shadows", true);
     this.cameraOnly.push(this.shadows);
     const shown = group("Show", toggle("Frames", "frames", false), this.shadows);
-    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle("Ghost arm", "ghost", true));
+    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Ghost arm" : `Run ${replay.ghostLabel}`, "ghost", true));
 
     const camera = (name: string, preset: Preset): HTMLButtonElement => button(name, null, () => actions.view().camera?.view(preset));
     this.views = group(

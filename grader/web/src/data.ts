@@ -106,6 +106,11 @@ export interface Replay {
 
 const MOST_NODES = 1e6;
 
+/** Whether what is translucent is the reference's motion, and not another run's. */
+export function isReference(replay: Replay): boolean {
+  return replay.ghostLabel === null || replay.ghostLabel === "reference";
+}
+
 /** A value of the JSON with the way to it, for what is said when it is not what it should be. */
 class Value {
   constructor(

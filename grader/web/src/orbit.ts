@@ -69,7 +69,7 @@ export class Orbit {
       turn = -azimuth - Math.PI / 2;
     } else if (preset === "fit") {
       turn = side === 2 ? -0.5 : 0.5;
-      elevation = side === 2 ? 0.85 : 0.36;
+      elevation = side === 2 ? 0.65 : 0.36;
     } else if (side === 2) elevation = Math.PI / 2;
     Object.assign(this.from, this.now);
     const to = this.to;

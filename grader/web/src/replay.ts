@@ -3,7 +3,7 @@
 import { Announcer } from "./announce";
 import { Controls } from "./controls";
 import { Cursor } from "./cursor";
-import type { Replay as Data, RunEvent } from "./data";
+import { isReference, type Replay as Data, type RunEvent } from "./data";
 import { element } from "./dom";
 import { extent, type Extent } from "./extent";
 import { frameTimes } from "./frames";
@@ -124,9 +124,9 @@ export class Replay {
       items.push(element("li", {}, element("i", { class: `replay-swatch-${name}`, "aria-hidden": "true" }), text));
     };
     if (data.mainLabel) item("main", `run ${data.mainLabel}`);
-    if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", data.ghostLabel === "reference" || !data.ghostLabel ? "the reference's arm" : `run ${data.ghostLabel}`);
+    if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", isReference(data) ? "the reference's arm" : `run ${data.ghostLabel}`);
     item("trail", "path of the TCP, faint where it is still to come");
-    if (data.reference && data.reference.path.count > 1) item("reference", data.ghostLabel && data.ghostLabel !== "reference" ? `path of run ${data.ghostLabel}` : "the reference's path");
+    if (data.reference && data.reference.path.count > 1) item("reference", isReference(data) ? "the reference's path" : `path of run ${data.ghostLabel}`);
     if (data.goals.length) item("goal", data.goals.length > 1 ? "goals" : "goal");
     if (data.paths.length) item("path", "path to follow, and how far off still counts");
     const list = element("ul", { class: "replay-legend" }, ...items);

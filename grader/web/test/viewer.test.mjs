@@ -197,6 +197,58 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
   }
 });
 
+test("the link of the moment can be copied", async () => {
+  const { page, close } = await open(one);
+  await page.locator(".replay").focus();
+  await page.keyboard.press("]");
+  await page.getByRole("button", { name: "Copy link" }).click();
+  await page.waitForSelector(".replay-shared code");
+  assert.equal(await page.locator(".replay-shared code").textContent(), `${one}#task=knock&t=0.8`);
+  assert.match(page.url(), /#task=knock&t=0\.8$/);
+  await close();
+});
+
+test("two runs are told by their names", async () => {
+  const { page, close } = await open(write("two.html", html([{ ...replay({ seconds: 0.5 }), mainLabel: "A", ghostLabel: "B" }])));
+  assert.match(await page.locator(".replay-legend").textContent(), /run A.*run B.*path of run B/);
+  await page.getByRole("button", { name: "Run B" }).click();
+  assert.equal(await page.getByRole("button", { name: "Run B" }).getAttribute("aria-pressed"), "false");
+  await close();
+});
+
+test("the whole run is in the picture from every side", async () => {
+  const { page, close } = await open(one);
+  await page.waitForSelector(".replay canvas");
+  for (const view of ["Fit", "Side", "Top"]) {
+    await page.getByRole("button", { name: view, exact: true }).click();
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    // the edge of the picture is ground and grid, which are grey; arm, path and goal have colours
+    const touched = await page.locator(".replay-print").evaluate(async (image) => {
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      const [w, h] = [(canvas.width = image.naturalWidth), (canvas.height = image.naturalHeight)];
+      const context = canvas.getContext("2d");
+      context.drawImage(image, 0, 0);
+      const { data } = context.getImageData(0, 0, w, h);
+      let edge = 0;
+      let inside = 0;
+      for (let y = 0; y < h; y++) {
+        for (let x = 0; x < w; x++) {
+          const i = 4 * (y * w + x);
+          const colourful = Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60;
+          if (!colourful) continue;
+          if (x < 4 || y < 4 || x > w - 5 || y > h - 5) edge++;
+          else inside++;
+        }
+      }
+      return { edge, inside };
+    });
+    await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+    assert.ok(touched.edge === 0 && touched.inside > 300, `${view}: ${JSON.stringify(touched)}`);
+  }
+  await close();
+});
+
 test("an event's mark is named, pressed, and told by shape", async () => {
   const { page, close } = await open(one);
   const marks = page.getByRole("group", { name: "Events" }).getByRole("button");
