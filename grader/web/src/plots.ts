@@ -207,10 +207,11 @@ export class Plot {
       rows.length = MOST_ROWS;
     }
     rows.sort((a, b) => a.at - b.at);
-    const head = element("p", { class: "replay-when" }, element("b", {}, seconds(this.time(panel, x), this.stepS)));
+    const head = element("p", { class: "replay-when" }, element("b", {}, seconds(this.cursor.timeOf(Math.round(this.time(panel, x) / this.stepS)), this.stepS)));
+    if (panel.name) head.append(" ", element("bdi", { class: "quiet" }, String(panel.name)));
     const lines = rows.map(({ series, text }) => {
       const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3" }));
-      return element("p", {}, swatch, element("bdi", {}, String(series.name === "value" && panel.name ? panel.name : series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
+      return element("p", {}, swatch, element("bdi", {}, String(series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
     });
     this.box.replaceChildren(head, ...lines);
     if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));

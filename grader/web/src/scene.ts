@@ -22,6 +22,7 @@ import {
 import { bones, reach, type Bone } from "./bones";
 import type { NodeKind, Replay } from "./data";
 import type { Extent } from "./extent";
+import { hidden } from "./ghosts";
 import { Grid } from "./ground";
 import { Line } from "./line";
 import { geometry, tube } from "./shapes";
@@ -97,7 +98,7 @@ export class RunScene {
     let order = 0;
     let ghosts = 0;
     replay.nodes.forEach((node, index) => {
-      const shape = geometry(node, replay.meshes);
+      const shape = hidden(replay, node) ? null : geometry(node, replay.meshes);
       if (!shape) return;
       const ghost = node.kind === "ghost";
       const material = new MeshLambertMaterial();

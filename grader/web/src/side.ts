@@ -6,6 +6,7 @@ import { drawing, element } from "./dom";
 import type { Replay } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
+import { hidden } from "./ghosts";
 import { hull } from "./hull";
 import { pitchFor } from "./pitch";
 import { place } from "./pose";
@@ -77,7 +78,7 @@ export class Side implements View {
     replay.nodes.forEach((node, index) => {
       const turn = node.kind === "link" ? (order === 0 ? "base" : order % 2 ? "odd" : "even") : node.kind;
       if (node.kind === "link") order++;
-      for (const shape of node.shapes) {
+      for (const shape of hidden(replay, node) ? [] : node.shapes) {
         const path = drawing("path", { class: `side-shape ${turn}` });
         (node.kind === "ghost" ? ghosts : node.kind === "fixed" ? fixed : arm).append(path);
         this.outlines.push({ path, node: index, balls: balls(shape, replay.meshes), moves: node.track >= 0 });

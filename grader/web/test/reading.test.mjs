@@ -14,6 +14,7 @@ const { pitchFor } = await load("pitch.ts");
 const { moment, fixed } = await load("words.ts");
 const { valueAt } = await load("curve.ts");
 const { bones } = await load("bones.ts");
+const { hidden } = await load("ghosts.ts");
 const { balls } = await load("balls.ts");
 
 test("a column worked by hand", () => {
@@ -145,6 +146,14 @@ test("an arm without shapes has sticks from joint to joint, and to its frames", 
   assert.deepEqual(found.slice(0, 2), [[0, 1, 0, 0, 0], [1, 2, 0, 0, 0]]);
   assert.deepEqual(found.at(-1), [2, 2, 0, 0, 0.85]);
   assert.deepEqual(bones(read(JSON.stringify(replay()))), []);
+});
+
+test("a ghost's base that stands in the arm's is not drawn", () => {
+  const run = replay();
+  const base = run.nodes.find((node) => node.name === "base");
+  run.nodes.push({ ...base, name: "reference/base", kind: "ghost" });
+  const data = read(JSON.stringify(run));
+  assert.deepEqual(data.nodes.filter((node) => hidden(data, node)).map((node) => node.name), ["reference/base"]);
 });
 
 test("a grid has round pitches", () => {

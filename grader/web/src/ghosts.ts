@@ -1,0 +1,10 @@
+// What of a ghost is worth drawing: not what stands where the run has the same, which would only tint it.
+
+import type { Replay, SceneNode } from "./data";
+
+/** Whether a ghost's node never moves and a link of the run stands there as well. */
+export function hidden(replay: Replay, node: SceneNode): boolean {
+  const { pose } = node;
+  if (node.kind !== "ghost" || pose === null) return false;
+  return replay.nodes.some((other) => other.kind === "link" && other.pose !== null && other.pose.every((value, i) => Math.abs(value - pose[i]) < 1e-6));
+}
