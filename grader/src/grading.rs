@@ -176,12 +176,14 @@ impl Grader<'_> {
         opening(self.lab, task, submission)
     }
 
-    /// The known mistakes that a task may show: none that a function would show, too, which is right.
+    /// The known mistakes that a task may show: in a run none that a function would show, too, which is right. A function's own
+    /// answers tell of themselves.
     fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
         let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
         let name = task.name.clone();
+        let is_run = matches!(task.work, TaskWork::Motion(_));
         all.iter().filter(move |mutant| {
-            let is_refuted = mutant.tasks.iter().any(|task| self.right.contains(task));
+            let is_refuted = is_run && mutant.tasks.iter().any(|task| self.right.contains(task));
             mutant.tasks.contains(&name) && !is_refuted
         })
     }

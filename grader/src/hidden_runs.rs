@@ -178,7 +178,7 @@ impl HiddenRuns {
     }
 }
 
-const NEXT_STEP: &str = "The task is run with other numbers too: take lengths from `robot` and places from `observation` instead of writing them down.";
+const NEXT_STEP: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, leave more room: the margins of the visible run tell how much there is.";
 
 /// Steps in which a hidden score is told: finer ones could carry a hidden number out in the points.
 const HIDDEN_STEPS: f64 = 20.0;

@@ -192,10 +192,10 @@ impl<'a> Response<'a> {
                 self.told(high),
                 trimmed(0.5 * f64::from(turns) / length_s, 0)
             );
-        }
-        let mut next_step =
-            "Lower the gains or add damping until it comes to rest, or come to rest sooner."
+            next_step = "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
                 .to_owned();
+        }
+        let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
         if let Some((why, help)) = alternation::told(self.facts, self.asked.joint, self.final_tick)
         {
             message = format!("{message}; {why}");

@@ -143,6 +143,13 @@ mod tests {
             message,
             "joint `elbow` never settles: in the last 0.2 s it still goes from 1.8 rad to 2 rad"
         );
+        assert!(finding.next_step.starts_with("Come to rest sooner"));
+        let swings = |t_s: f64| HandRow {
+            q: [0.0, t_s.min(1.0) + 0.2 * libm::sin(50.0 * t_s)],
+            ..HandRow::default()
+        };
+        let next_step = judged(MOTION, kind, swings).next_step;
+        assert!(next_step.starts_with("Damp the swing"), "{next_step}");
         let rattle = |t_s: f64| {
             let call = (t_s * 100.0 + 1e-6) as u64;
             let side = if call.is_multiple_of(2) { 1.0 } else { -1.0 };

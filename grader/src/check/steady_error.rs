@@ -94,6 +94,12 @@ fn reason(response: &Response<'_>, target: f64) -> Option<(String, String)> {
                 ),
                 "More proportional gain makes the error smaller; integral action, or adding that effort yourself, takes it away.",
             )
+        } else if given * error < 0.0 && error.abs() > 1e-9 {
+            // no feedback of the error alone gives that
+            (
+                format!("{reason}, and the motor gives it on the far side of the target"),
+                "Check sign and size of what you add to the feedback: it holds the joint beside its target.",
+            )
         } else if error.abs() > 1e-9 {
             (
                 format!(
@@ -244,6 +250,17 @@ mod tests {
             "joint `elbow` settles at 1.5958 rad, 0.025 rad from 1.5708 rad: gravity takes 2.452 N m there; \
              the motor gives 2.452 N m with 0.025 rad of error: as a proportional gain of 98.08 would"
         );
+    }
+
+    #[test]
+    fn what_pushes_past_the_target_is_no_proportional_gain() {
+        let finding = judged(EFFORT, KIND, at(LEVEL - 0.025, -2.452, -2.452));
+        let message = &finding.evidence[0].message;
+        assert!(
+            message.ends_with("gravity takes 2.452 N m there, and the motor gives it on the far side of the target"),
+            "{message}"
+        );
+        assert!(finding.next_step.starts_with("Check sign and size"));
     }
 
     #[test]
