@@ -274,7 +274,8 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
     } else {
         (Axis::around(shown(), 1e-9), "")
     };
-    let title = shortened(&curve.title, 70);
+    // a picture has no code: its marks are left out
+    let title = shortened(&curve.title.replace('`', ""), 70);
     let panel = Panel {
         heading: format!("{title} [{}]{word}", visible(unit)),
         name: title,
