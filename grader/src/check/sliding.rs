@@ -29,7 +29,7 @@ fn positions_are_in_metres() {
     let finding = judged_sliding(EFFORT, kind, out);
     assert_eq!(
         finding.evidence[0].message,
-        "joint `elbow` is 0.1 m from 0.5 m at 1.5 s, within the last 0.5 s that count"
+        "joint `elbow` is 0.1 m from 0.5 m at 2 s, within the last 0.5 s that count"
     );
     assert_eq!(units(&finding), ["m", "m"]);
     let kind = "joint-limits = { full_rad = 0.0, zero_rad = 1.0 }";
@@ -87,18 +87,18 @@ fn a_step_is_in_metres_and_its_error_has_a_force_for_reason() {
         quantity.quantity.ends_with("its step of 0.4 m"),
         "{quantity:?}"
     );
-    // 0.5 kg straight up takes 4.9 N, as long as the forearm stands on the upper arm
+    // 0.5 kg straight up takes 4.905 N, as long as the forearm stands on the upper arm
     let kind =
         "steady-error = { joint = \"elbow\", target_rad = 0.5, full_rad = 0.0, zero_rad = 1.0 }";
     let held = |t_s: f64| HandRow {
-        effort: [0.0, 4.903325],
+        effort: [0.0, 4.905],
         ..out(t_s)
     };
     let finding = judged_sliding(EFFORT, kind, held);
     assert_eq!(
         finding.evidence[0].message,
-        "joint `elbow` settles at 0.4 m, 0.1 m from 0.5 m: gravity takes 4.903 N there; \
-         the motor gives 4.903 N with 0.1 m of error: as a proportional gain of 49.033 would"
+        "joint `elbow` settles at 0.4 m, 0.1 m from 0.5 m: gravity takes 4.905 N there; \
+         the motor gives 4.905 N with 0.1 m of error: as a proportional gain of 49.05 would"
     );
     assert_eq!(units(&finding), ["m", "m"]);
 }
