@@ -13,6 +13,7 @@
 //! | [`climb`] | the same motion under disturbances |
 //! | [`diagnose`] | known mistakes, recognised |
 //! | [`divergence`] | where a run first differs from the reference solution's |
+//! | [`compare`] | two graded submissions beside each other |
 //! | [`audit`] | the grader of a lab, graded |
 //! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
 //! | [`grade`], [`verdict`] | the record every format is rendered from |
@@ -32,6 +33,7 @@ pub mod blow_up;
 pub mod cases;
 pub mod check;
 pub mod climb;
+pub mod compare;
 pub mod controller;
 pub mod diagnose;
 pub mod divergence;

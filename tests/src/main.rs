@@ -8,6 +8,7 @@
 mod architecture;
 mod brief_pictures;
 mod commands;
+mod compare;
 mod course;
 mod determinism;
 mod errors;

@@ -10,6 +10,15 @@ fn bed() -> TestBed {
     bed
 }
 
+/// Waits for a report after the one seen, and returns its number: a save that a busy machine spreads out may be graded twice.
+fn newer(serving: &Serving, seen: u64) -> u64 {
+    let answer = serving.get(&format!("/kinemark/changes?seen={seen}"));
+    let told: serde_json::Value = serde_json::from_str(&answer.body).expect("JSON");
+    let version = told["version"].as_u64().expect("a number");
+    assert!(version > seen, "{answer:?}");
+    version
+}
+
 #[test]
 fn every_save_is_graded_and_open_pages_are_told() {
     let bed = bed();
@@ -30,35 +39,24 @@ fn every_save_is_graded_and_open_pages_are_told() {
     assert!(page.body.contains("connect-src 'self'"), "no right to ask");
     let on_disk = std::fs::read_to_string(bed.path("out/report.html")).expect("a report");
     assert!(!on_disk.contains("data-seen") && !on_disk.contains("connect-src"));
-    assert_eq!(
-        serving.get("/kinemark/changes?seen=0").body,
-        "{\"version\":1}\n"
-    );
+    assert_eq!(newer(&serving, 0), 1);
     assert_eq!(serving.get("/kinemark/changes?seen=x").code, 400);
 
     // a mistake that does not build: told with its line, and the watch goes on
     let good = std::fs::read_to_string(bed.path("mine.rhai")).expect("a submission");
     bed.write("mine.rhai", good.clone() + "\nfn (");
-    let line = serving.line_with(" points, ");
-    assert!(line.contains("did-not-build; "), "{line}");
-    assert_eq!(
-        serving.get("/kinemark/changes?seen=1").body,
-        "{\"version\":2}\n"
-    );
-    assert!(serving.get("/report.html").body.contains("data-seen=\"2\""));
+    serving.line_with("did-not-build; ");
+    let seen = newer(&serving, 1);
+    let page = serving.get("/report.html").body;
+    assert!(page.contains("data-seen=\"") && !page.contains("data-seen=\"1\""));
 
     // gone, then put in place by renaming, as editors do
     std::fs::remove_file(bed.path("mine.rhai")).expect("removed");
-    let line = serving.line();
-    assert_eq!(line, "mine.rhai is gone; graded again when it is back");
+    serving.line_with("mine.rhai is gone; graded again when it is back");
     bed.write("mine.rhai.new", good.replace("time < 2.5", "time < 2.6"));
     std::fs::rename(bed.path("mine.rhai.new"), bed.path("mine.rhai")).expect("renamed");
-    let line = serving.line_with(" points, ");
-    assert!(line.contains(" of 24 points, "), "{line}");
-    assert_eq!(
-        serving.get("/kinemark/changes?seen=2").body,
-        "{\"version\":3}\n"
-    );
+    serving.line_with(" of 24 points, ");
+    let seen = newer(&serving, seen);
 
     // a lab that breaks for a moment is told, and mended
     let lab = std::fs::read_to_string(bed.path("labs/01-kinematics/lab.toml")).expect("a lab");
@@ -66,10 +64,7 @@ fn every_save_is_graded_and_open_pages_are_told() {
     serving.line_with("lab.toml");
     bed.write("labs/01-kinematics/lab.toml", lab);
     serving.line_with(" points, ");
-    assert_eq!(
-        serving.get("/kinemark/changes?seen=3").body,
-        "{\"version\":4}\n"
-    );
+    newer(&serving, seen);
     #[cfg(unix)]
     assert_eq!(serving.stop(), Some(0));
     let ran = bed.run(&["verify", "out", "--practice"]);

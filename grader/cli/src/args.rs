@@ -79,6 +79,7 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     View(ViewArgs),
     Watch(WatchArgs),
+    Compare(CompareArgs),
     Export(ExportArgs),
     Labs(LabsArgs),
     New(NewArgs),
@@ -192,6 +193,26 @@ pub(crate) struct WatchArgs {
     pub(crate) grade: GradeArgs,
     #[command(flatten)]
     pub(crate) serve: ServeArgs,
+}
+
+/// Hold two reports of a lab beside each other
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example:\n  kinemark compare before after\n\n\
+    Tells the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
+    The runs are made again from the copies in the folders.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is no report, 4 the grader or this machine failed.")]
+pub(crate) struct CompareArgs {
+    /// An output folder of `kinemark grade`
+    pub(crate) a: PathBuf,
+    /// Another, of the same lab
+    pub(crate) b: PathBuf,
+    /// Folder to write to; an earlier comparison there is replaced
+    #[arg(long, short, value_name = "DIR", default_value = "kinemark-compare")]
+    pub(crate) out: PathBuf,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Write a log as tables

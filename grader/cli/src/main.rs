@@ -8,6 +8,7 @@ mod args;
 mod commands;
 mod disk;
 mod failure;
+mod fresh_folder;
 mod interrupt;
 mod one_processor;
 mod output;

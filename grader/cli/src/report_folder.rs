@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 
 use kinemark_grader::grade::Grade;
 use kinemark_grader::graded::{GradedRun, TaskRun};
-use kinemark_grader::lab::Lab;
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::lab::{Files as _, Lab, LoadError, Variant};
 use kinemark_grader::log::{self, Attachment};
 use kinemark_grader::report::{self, plot::Plot};
 use kinemark_sim::source::Source;
 
-use crate::disk::{self, plain};
+use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;
+use crate::fresh_folder::{self, FreshFolder};
 use crate::output;
 
 /// The record's file; a folder that has it is a report of ours.
@@ -59,34 +61,14 @@ pub(crate) fn write(
             "free some space or choose another folder with --out; the grade above stands, and nothing half-written is left",
         )
     };
-    let parent = match out.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    std::fs::create_dir_all(parent).map_err(failed)?;
-    // removed when dropped, whatever happens
-    let fresh = tempfile::Builder::new()
-        .prefix(".kinemark-")
-        .tempdir_in(parent)
-        .map_err(failed)?;
-    let folder = fresh.path().join("report");
+    let fresh = FreshFolder::beside(out).map_err(failed)?;
+    let folder = fresh.path();
     for file in &files {
         let path = folder.join(&file.path);
         std::fs::create_dir_all(path.parent().unwrap_or(&folder)).map_err(failed)?;
         output::write_file(&path, &file.bytes).map_err(failed)?;
     }
-    let old = fresh.path().join("old");
-    if out.exists() {
-        std::fs::rename(out, &old).map_err(failed)?;
-    }
-    match std::fs::rename(&folder, out) {
-        Ok(()) => Ok(()),
-        Err(error) => {
-            // put the earlier report back; what went wrong is told either way
-            let _ = std::fs::rename(&old, out);
-            Err(failed(error))
-        }
-    }
+    fresh.put_in_place().map_err(failed)
 }
 
 /// Checks, before anything is graded, that `out` is free, empty, or an earlier report.
@@ -121,16 +103,7 @@ fn foreign_entry(out: &Path) -> Option<String> {
         // without a record of ours nothing in it is ours
         None => ours.clear(),
     }
-    let mut names: Vec<String> = std::fs::read_dir(out)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    names
-        .into_iter()
-        .find(|name| !ours.contains(&name.as_str()))
+    fresh_folder::foreign_entry(out, |name| ours.contains(&name))
 }
 
 /// Everything the folder holds: a function of lab, submission and graded run alone.
@@ -234,4 +207,25 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
         labs: folder.join(LABS),
         grade,
     })
+}
+
+/// The lab of a report, in its variant, from the copies in its folder; and these.
+pub(crate) fn lab_of(report: &Report) -> Result<(Lab, Folder), Failure> {
+    let name = &report.grade.lab.name;
+    let copies = Folder::new(report.labs.clone());
+    let variant = match copies.read(&format!("{name}/{VARIANT_FILE}")) {
+        Ok(Some(text)) => {
+            let variant = Variant::parse(Source::new(VARIANT_FILE, text));
+            Some(variant.map_err(LoadError::from)?)
+        }
+        Ok(None) => None,
+        Err(why) => {
+            return Err(Failure::broken(
+                format!("{VARIANT_FILE}: {why}"),
+                "grade the submission again",
+            ));
+        }
+    };
+    let lab = Lab::load_variant(&copies, name, variant.as_ref())?;
+    Ok((lab, copies))
 }

@@ -1,12 +1,14 @@
 //! The report: one file with everything in it, that asks nothing of the network and runs no code but the viewer's of its replays.
 
 mod band;
+mod comparison;
 mod head;
 mod task;
 pub(crate) mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+pub use self::comparison::comparison;
 use self::head::{facts, head, scores};
 use crate::graded::GradedRun;
 use crate::quantity::points;

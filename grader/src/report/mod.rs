@@ -1,6 +1,7 @@
 //! The grade, shown: text for a terminal, plots as SVG, and a page that holds everything.
 
 pub mod brief_page;
+pub mod compare_text;
 pub(crate) mod goal;
 pub mod html;
 pub mod moment;

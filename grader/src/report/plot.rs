@@ -3,6 +3,7 @@
 mod asked;
 mod axis;
 mod canvas;
+mod differences;
 mod joints;
 mod path;
 mod plane;
@@ -15,6 +16,7 @@ mod view;
 
 use kinemark_sim::control::Mode;
 
+pub use self::differences::differences;
 use self::joints::Of;
 use self::reading::Axes;
 use crate::graded::TaskRun;

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::args::ExportArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
+use crate::fresh_folder::{FreshFolder, foreign_entry};
 use crate::output;
 
 /// A log larger than this is not read.
@@ -181,18 +182,8 @@ fn write(
     wanted: impl Fn(&Table) -> bool,
     out: &Path,
 ) -> Result<Export, Why> {
-    let parent = match out.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    std::fs::create_dir_all(parent).map_err(Why::Disk)?;
-    // removed when dropped, whatever happens
-    let fresh = tempfile::Builder::new()
-        .prefix(".kinemark-")
-        .tempdir_in(parent)
-        .map_err(Why::Disk)?;
-    let folder = fresh.path().join("export");
-    std::fs::create_dir(&folder).map_err(Why::Disk)?;
+    let fresh = FreshFolder::beside(out).map_err(Why::Disk)?;
+    let folder = fresh.path();
     let mut export = Export {
         format: FORMAT.to_owned(),
         files: Vec::new(),
@@ -222,15 +213,7 @@ fn write(
     write_csv(log, &found.tables, files).map_err(Why::Log)?;
     let list = output::json(&export).map_err(Why::Other)?;
     output::write_file(&folder.join(LIST), list.as_bytes()).map_err(Why::Disk)?;
-    let old = fresh.path().join("old");
-    if out.exists() {
-        std::fs::rename(out, &old).map_err(Why::Disk)?;
-    }
-    std::fs::rename(&folder, out).map_err(|error| {
-        // put the earlier export back; what went wrong is told either way
-        let _ = std::fs::rename(&old, out);
-        Why::Disk(error)
-    })?;
+    fresh.put_in_place().map_err(Why::Disk)?;
     Ok(export)
 }
 
@@ -250,18 +233,13 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
             name == LIST || list.files.iter().any(|exported| exported.file == name)
         })
     };
-    let entries = std::fs::read_dir(out).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    match names.iter().find(|name| !ours(name)) {
+    match foreign_entry(out, ours) {
         None => Ok(()),
         Some(name) => Err(Failure::usage(
             format!(
                 "`{}` holds `{}`, which is no part of an earlier export",
                 out.display(),
-                visible(name)
+                visible(&name)
             ),
             help,
         )),

@@ -1,5 +1,6 @@
 //! One file per subcommand.
 
+mod compare;
 mod completions;
 mod convert;
 mod eval;
@@ -28,6 +29,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Verify(args) => verify::run(&args),
         Command::View(args) => view::run(&args),
         Command::Watch(args) => watch::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Labs(args) => labs::run(&args),
         Command::New(args) => new::run(&args),

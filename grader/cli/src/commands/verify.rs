@@ -5,14 +5,12 @@ use std::process::ExitCode;
 use kinemark_grader::ghost;
 use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::grading;
+use kinemark_grader::lab::Staff;
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_grader::lab::{Files as _, Lab, LoadError, Staff, Variant};
-use kinemark_sim::source::Source;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::args::VerifyArgs;
-use crate::disk::Folder;
 use crate::failure::{Failure, LOST};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output, places, report_folder, variants};
@@ -42,22 +40,7 @@ struct Difference {
 pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let report = report_folder::read(&args.folder)?;
-    let name = &report.grade.lab.name;
-    let copies = Folder::new(report.labs.clone());
-    let variant = match copies.read(&format!("{name}/{VARIANT_FILE}")) {
-        Ok(Some(text)) => {
-            let variant = Variant::parse(Source::new(VARIANT_FILE, text));
-            Some(variant.map_err(LoadError::from)?)
-        }
-        Ok(None) => None,
-        Err(why) => {
-            return Err(Failure::broken(
-                format!("{VARIANT_FILE}: {why}"),
-                "grade the submission again",
-            ));
-        }
-    };
-    let lab = Lab::load_variant(&copies, name, variant.as_ref())?;
+    let (lab, copies) = report_folder::lab_of(&report)?;
     let staff = match report.grade.mode {
         GradeMode::Practice => None,
         GradeMode::Graded => {

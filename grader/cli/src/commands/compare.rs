@@ -1,0 +1,174 @@
+//! `kinemark compare`: two reports beside each other, their runs made again from the copies inside them.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use kinemark_grader::compare::{self, Comparison, Side};
+use kinemark_grader::grade::TaskKind;
+use kinemark_grader::graded::GradedRun;
+use kinemark_grader::grading;
+use kinemark_grader::lab::Lab;
+use kinemark_grader::report;
+
+use crate::args::CompareArgs;
+use crate::disk::{self, plain};
+use crate::failure::Failure;
+use crate::fresh_folder::{FreshFolder, foreign_entry};
+use crate::report_folder::{self, Report};
+use crate::worker::WorkerHost;
+use crate::{interrupt, output};
+
+/// The page.
+const PAGE: &str = "compare.html";
+/// The comparison as JSON; a folder that has it is a comparison of ours.
+const RECORD: &str = "compare.json";
+
+/// A report with its runs.
+struct Again {
+    report: Report,
+    lab: Lab,
+    graded: GradedRun,
+}
+
+/// Compares, writes the folder, prints.
+pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    refuse_foreign(&args.out)?;
+    let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
+    // before anything runs
+    refuse_other_lab(args, &a, &b)?;
+    let (a, b) = (again(a)?, again(b)?);
+    let names = [&args.a, &args.b].map(|folder| folder.display().to_string());
+    let mut notes = changed(&a, "A");
+    notes.extend(changed(&b, "B"));
+    let sides = [(&a, &names[0]), (&b, &names[1])].map(|(again, name)| Side {
+        name: name.as_str(),
+        recorded: &again.report.grade,
+        lab: &again.lab,
+        again: &again.graded,
+    });
+    let mut comparison = compare::compare(&sides[0], &sides[1]).map_err(|error| {
+        Failure::usage(
+            error.to_string(),
+            "name two reports of one lab; `kinemark grade` grades a submission in another",
+        )
+    })?;
+    comparison.notes.extend(notes);
+    // it is told before anything is written: a full disk must not lose it
+    if args.json {
+        output::print_json(&comparison)?;
+    } else {
+        output::print(&report::compare_text::text(&comparison))?;
+    }
+    write(&args.out, &comparison, &a.graded, &b.graded)?;
+    if !args.json {
+        let page = args.out.join(PAGE);
+        output::print(&format!("comparison: {}\n", page.display()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Failure> {
+    let (of_a, of_b) = (&a.grade.lab.name, &b.grade.lab.name);
+    if of_a == of_b {
+        return Ok(());
+    }
+    Err(Failure::usage(
+        format!(
+            "`{}` is of lab `{of_a}` and `{}` of lab `{of_b}`: they have nothing in common",
+            args.a.display(),
+            args.b.display()
+        ),
+        "name two reports of one lab",
+    ))
+}
+
+/// Runs a report's submission again. Hidden cases do not take part: points are those of the record, and what is compared are the
+/// motions that everyone may see.
+fn again(report: Report) -> Result<Again, Failure> {
+    let (lab, _) = report_folder::lab_of(&report)?;
+    let graded = grading::grade(&lab, None, &report.submission, &mut WorkerHost::default());
+    let graded = graded.map_err(|_| Failure::interrupted())?;
+    Ok(Again {
+        report,
+        lab,
+        graded,
+    })
+}
+
+/// What is not as the record says.
+fn changed(again: &Again, name: &str) -> Vec<String> {
+    let (recorded, now) = (&again.report.grade, &again.graded.grade);
+    let mut notes = Vec::new();
+    if recorded.submission.digest != now.submission.digest {
+        notes.push(format!(
+            "the submission in {name} is not the one that was graded: its points are the record's, its motions those of the file"
+        ));
+    }
+    for task in recorded
+        .tasks
+        .iter()
+        .filter(|task| task.kind == TaskKind::Motion)
+    {
+        let made = now.tasks.iter().find(|made| made.name == task.name);
+        let seconds = made.map(|made| &made.digests.seconds);
+        if seconds == Some(&task.digests.seconds) {
+            continue;
+        }
+        let same = seconds.map_or(0, |seconds| {
+            let pairs = seconds.iter().zip(&task.digests.seconds);
+            pairs.take_while(|(now, recorded)| now == recorded).count()
+        });
+        notes.push(format!(
+            "the motion of task `{}` made again from {name} is not the recorded one, from second {same} on; \
+             `kinemark verify` tells more",
+            task.name
+        ));
+    }
+    notes
+}
+
+/// Checks, before anything runs, that `out` is free, empty, or an earlier comparison.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    let help = "choose another folder with --out";
+    if out.symlink_metadata().is_ok() && !out.is_dir() {
+        return Err(Failure::usage(
+            format!("`{}` is there and is not a folder", out.display()),
+            help,
+        ));
+    }
+    let record = disk::bytes_of(&out.join(RECORD), 64 << 20).ok();
+    let record: Option<serde_json::Value> =
+        record.and_then(|text| serde_json::from_slice(&text).ok());
+    let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
+    match foreign_entry(out, |name| is_ours && [PAGE, RECORD].contains(&name)) {
+        None => Ok(()),
+        Some(entry) => Err(Failure::usage(
+            format!(
+                "`{}` holds `{entry}`, which is no part of an earlier comparison",
+                out.display()
+            ),
+            help,
+        )),
+    }
+}
+
+fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Result<(), Failure> {
+    let record = output::json(comparison)?;
+    let page = report::html::comparison(comparison, a, b);
+    let written = FreshFolder::beside(out).and_then(|fresh| {
+        output::write_file(&fresh.path().join(PAGE), page.as_bytes())?;
+        output::write_file(&fresh.path().join(RECORD), record.as_bytes())?;
+        fresh.put_in_place()
+    });
+    written.map_err(|error| {
+        Failure::fault(
+            format!(
+                "the comparison cannot be written to `{}`: {}",
+                out.display(),
+                plain(&error)
+            ),
+            "free some space or choose another folder with --out; the comparison above stands, and nothing half-written is left",
+        )
+    })
+}
