@@ -183,6 +183,7 @@ impl<'a> Response<'a> {
             self.told(low),
             self.told(high),
         );
+        let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
         // a swing passes the middle twice
         if turns >= 3 {
             message = format!(
@@ -192,10 +193,10 @@ impl<'a> Response<'a> {
                 self.told(high),
                 trimmed(0.5 * f64::from(turns) / length_s, 0)
             );
-            next_step = "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
-                .to_owned();
+            next_step =
+                "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
+                    .to_owned();
         }
-        let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
         if let Some((why, help)) = alternation::told(self.facts, self.asked.joint, self.final_tick)
         {
             message = format!("{message}; {why}");
