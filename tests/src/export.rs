@@ -77,7 +77,7 @@ fn what_is_no_log_is_told_with_its_code() {
         assert!(ran.stderr.contains("help:"), "{ran:?}");
     }
     assert_eq!(bed.run(&["export", "text.mcap"]).code, Some(2));
-    assert_eq!(bed.path("text-csv").exists(), false);
+    assert!(!bed.path("text-csv").exists());
 }
 
 #[test]
