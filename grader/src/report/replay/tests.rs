@@ -89,9 +89,9 @@ fn poses_are_those_of_the_trace() {
             }
         }
     }
-    for joint in 0..2 {
+    for (joint, course) in q.iter().enumerate() {
         for (frame, tick) in ticks.iter().enumerate() {
-            assert!((q[joint][frame] - run.trace.q.at(*tick)[joint]).abs() < 0.6 * PLACE);
+            assert!((course[frame] - run.trace.q.at(*tick)[joint]).abs() < 0.6 * PLACE);
         }
     }
 }
