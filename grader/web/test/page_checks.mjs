@@ -108,7 +108,7 @@ export async function poseOfTheTrace(page, index, path) {
     });
   }
   const links = [...framesInWorld(tf[0].content).keys()].length;
-  assert.ok(compared >= 40 && compared >= instants(tf.length, 20).length * Math.min(3, links), `only ${compared} poses were compared`);
+  assert.ok(compared >= instants(tf.length, 20).length * Math.min(3, links), `only ${compared} poses were compared`);
 }
 
 /** A click on any plot over time puts the cursor where it was clicked. */
@@ -126,10 +126,14 @@ export async function plotsSeek(page) {
     const index = tasks.indexOf(task);
     if (!panel || index < 0 || !(await figure.isVisible())) continue;
     const svg = await figure.$("svg");
-    await svg.scrollIntoViewIfNeeded();
+    const [left, top, right, bottom] = panel.box;
+    // a plot of many joints may be taller than the window
+    await svg.evaluate((element, [share]) => {
+      const { top, height } = element.getBoundingClientRect();
+      scrollBy(0, top + share * height - innerHeight / 2);
+    }, [(top + bottom) / 2 / (await svg.evaluate((element) => element.viewBox.baseVal.height))]);
     const box = await svg.boundingBox();
     const scale = box.width / view;
-    const [left, top, right, bottom] = panel.box;
     const [t0, t1] = panel.t;
     for (const share of [0.3, 0.8]) {
       const x = box.x + (left + share * (right - left)) * scale;
@@ -194,6 +198,12 @@ export async function momentsSeek(page, most = 12) {
     clicked += 1;
   }
   return clicked;
+}
+
+/** Clicks on the first moment that is told; one in a folded part is reached by unfolding it. */
+export async function clickMoment(page) {
+  await page.$$eval("details", (list) => list.forEach((one) => (one.open = true)));
+  await page.locator("a.seek").first().click();
 }
 
 /** Opened by the link of a moment, the page shows it, paused and in view. */
