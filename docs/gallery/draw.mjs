@@ -1,64 +1,71 @@
-// Draws pages as pictures: node docs/gallery/draw.mjs PAGE.html NAME [WIDTH] writes docs/gallery/NAME-light.webp and NAME-dark.webp.
+// Draws pages as pictures: node docs/gallery/draw.mjs PAGE.html NAME WIDTH... writes docs/gallery/NAME-WIDTH-light.webp and -dark.webp.
 //
-// Needs Node and Chromium (by its Debian name, or the one in CHROMIUM). `draw.sh` calls it for every lab.
-import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+// Needs Chromium (by its Debian name, or the one in CHROMIUM) and the packages of grader/web (`npm ci` there). `draw.sh` calls it for
+// every lab. Replays show a telling moment: a little after the arm first meets something, else where two fifths of the run are over.
+import { writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-const [page, name, width = "1000"] = process.argv.slice(2);
-if (!name) {
-  console.error("usage: node draw.mjs PAGE.html NAME [WIDTH]");
+const { chromium } = createRequire(new URL("../../grader/web/package.json", import.meta.url))("playwright-core");
+const [path, name, ...widths] = process.argv.slice(2);
+if (widths.length === 0) {
+  console.error("usage: node draw.mjs PAGE.html NAME WIDTH...");
   process.exit(2);
 }
 const gallery = dirname(fileURLToPath(import.meta.url));
-const profile = mkdtempSync(join(tmpdir(), "gallery-"));
-// messages go over a pipe, each ended by a zero byte
-const browser = spawn(process.env.CHROMIUM ?? "chromium", [
-  "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--hide-scrollbars",
-  "--remote-debugging-pipe", `--user-data-dir=${profile}`, "about:blank",
-], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-const ended = new Promise((done) => browser.on("exit", done));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars"],
+});
 
-let asked = 0;
-let session;
-const waiting = new Map();
-const happened = new Map();
-let received = "";
-browser.stdio[4].setEncoding("utf8").on("data", (text) => {
-  const messages = (received + text).split("\0");
-  received = messages.pop();
-  for (const message of messages.map((one) => JSON.parse(one))) {
-    waiting.get(message.id)?.(message.result ?? message);
-    happened.get(message.method)?.();
+/** Runs in the page. */
+function showTellingMoments() {
+  for (const [i, place] of document.querySelectorAll("[data-replay]").entries()) {
+    const replay = window.kinemark?.replays[i];
+    if (!replay) continue;
+    const { events, stepS } = JSON.parse(document.getElementById(place.dataset.replay).textContent);
+    // bodies that stand on each other touch from the first tick on
+    const met = events.find(({ kind, tick }) => kind === "contact" && tick * stepS > 0.1);
+    replay.seek(1e9);
+    replay.seek(met ? met.tick * stepS + 0.15 : 0.4 * replay.shown().t);
   }
-});
-const ask = (method, params = {}) => new Promise((answer) => {
-  waiting.set(++asked, answer);
-  browser.stdio[3].write(JSON.stringify({ id: asked, method, params, sessionId: session }) + "\0");
-});
-const event = (method) => new Promise((done) => happened.set(method, done));
-
-const { targetId } = await ask("Target.createTarget", { url: "about:blank" });
-({ sessionId: session } = await ask("Target.attachToTarget", { targetId, flatten: true }));
-await ask("Page.enable");
-for (const scheme of ["light", "dark"]) {
-  await ask("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
-  await ask("Emulation.setDeviceMetricsOverride", { width: Number(width), height: 800, deviceScaleFactor: 1, mobile: false });
-  const loaded = event("Page.loadEventFired");
-  await ask("Page.navigate", { url: pathToFileURL(resolve(page)).href });
-  await loaded;
-  const { cssContentSize: { height } } = await ask("Page.getLayoutMetrics");
-  // WebP knows no picture taller than 16383 pixels: a longer page is cut off
-  const shown = Math.min(Math.ceil(height), 16383);
-  const { data } = await ask("Page.captureScreenshot", {
-    format: "webp", quality: 60, captureBeyondViewport: true, clip: { x: 0, y: 0, width: Number(width), height: shown, scale: 1 },
-  });
-  if (!data) throw new Error(`${page} could not be drawn`);
-  writeFileSync(join(gallery, `${name}-${scheme}.webp`), Buffer.from(data, "base64"));
 }
-session = undefined;
-browser.stdio[3].write(JSON.stringify({ id: ++asked, method: "Browser.close" }) + "\0");
-await ended;
-rmSync(profile, { recursive: true, force: true });
+
+/** Runs in an empty page: puts pieces of a page (PNG, each with its distance from the top) together as one WebP. */
+async function joined({ pieces, width, height }) {
+  const canvas = Object.assign(document.createElement("canvas"), { width, height });
+  for (const { data, top } of pieces) {
+    const piece = new Image();
+    piece.src = `data:image/png;base64,${data}`;
+    await piece.decode();
+    canvas.getContext("2d").drawImage(piece, 0, top);
+  }
+  return canvas.toDataURL("image/webp", 0.6).split(",")[1];
+}
+
+// WebP knows no picture taller than 16383 pixels: a longer page is cut off. What draws WebGL in software knows no window taller than
+// 8192, so a page is drawn in pieces.
+const tallest = 16383;
+const piece = 4000;
+for (const width of widths.map(Number)) {
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await browser.newPage({ viewport: { width, height: piece }, colorScheme, reducedMotion: "reduce" });
+    await page.goto(pathToFileURL(resolve(path)).href);
+    await page.evaluate(showTellingMoments);
+    const height = Math.min(tallest, await page.evaluate(() => document.documentElement.scrollHeight));
+    const pieces = [];
+    for (let top = 0; top < height; top += piece) {
+      await page.setViewportSize({ width, height: Math.min(piece, height - top) });
+      await page.evaluate((top) => scrollTo(0, top), top);
+      await page.waitForTimeout(1000);
+      const data = (await page.screenshot()).toString("base64");
+      pieces.push({ data, top: await page.evaluate(() => scrollY) });
+    }
+    await page.close();
+    const empty = await browser.newPage();
+    writeFileSync(join(gallery, `${name}-${width}-${colorScheme}.webp`), Buffer.from(await empty.evaluate(joined, { pieces, width, height }), "base64"));
+    await empty.close();
+  }
+}
+await browser.close();

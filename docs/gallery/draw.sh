@@ -1,32 +1,35 @@
 #!/usr/bin/env bash
-# Draws the gallery anew: the brief of every lab, and the report of its good submission, light and dark.
+# Draws the gallery anew: the brief of every lab, and the report of its good submission, light and dark, on a phone and on a desk.
 #
-#     cargo build --release && docs/gallery/draw.sh
+#     cargo build --release && (cd grader/web && npm ci) && docs/gallery/draw.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-kinemark=${CARGO_TARGET_DIR:-target}/release/kinemark
+kinemark=${KINEMARK:-${CARGO_TARGET_DIR:-target}/release/kinemark}
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
+rm -f docs/gallery/*.webp
 {
   echo "# The course in pictures"
   echo
-  echo "The brief of every lab, and the report of a submission with full marks. \`docs/gallery/draw.sh\` draws them anew."
+  echo "The brief of every lab, and the report of a submission with full marks, on a desk and on a phone. The replays stand at a moment"
+  echo "of the run; in the report itself they move. \`docs/gallery/draw.sh\` draws them anew."
 } > docs/gallery/README.md
 
-shown() { # NAME, words: the picture that suits the reader's screen
-  printf '\n<picture><source media="(prefers-color-scheme: dark)" srcset="%s-dark.webp"><img src="%s-light.webp" width="800" alt="%s"></picture>\n' "$1" "$1" "$2"
+shown() { # NAME, width here, words: the picture that suits the reader's screen
+  printf '\n<picture><source media="(prefers-color-scheme: dark)" srcset="%s-dark.webp"><img src="%s-light.webp" width="%s" alt="%s"></picture>\n' "$1" "$1" "$2" "$3"
 }
 
 for folder in labs/[0-9]*/; do
   lab=$(basename "$folder")
   "$kinemark" new "$lab" "$out/$lab" >/dev/null
   "$kinemark" grade "$lab" "tests/submissions/$lab/good/submission.rhai" --out "$out/$lab/out" >/dev/null
-  node docs/gallery/draw.mjs "$out/$lab/brief.html" "$lab-brief"
-  node docs/gallery/draw.mjs "$out/$lab/out/report.html" "$lab-report"
+  node docs/gallery/draw.mjs "$out/$lab/brief.html" "$lab-brief" 1000
+  node docs/gallery/draw.mjs "$out/$lab/out/report.html" "$lab-report" 390 1440
   {
     printf '\n## %s\n' "$lab"
-    shown "$lab-brief" "The brief of lab $lab"
-    shown "$lab-report" "The report of a good submission of lab $lab"
+    shown "$lab-brief-1000" 800 "The brief of lab $lab"
+    shown "$lab-report-1440" 800 "The report of a good submission of lab $lab"
+    shown "$lab-report-390" 300 "The same report on a phone"
   } >> docs/gallery/README.md
 done
