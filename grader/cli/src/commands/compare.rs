@@ -87,7 +87,7 @@ fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Fa
 /// motions that everyone may see.
 fn again(report: Report) -> Result<Again, Failure> {
     let (lab, _) = report_folder::lab_of(&report)?;
-    let graded = grading::grade(&lab, None, &report.submission, &mut WorkerHost::default());
+    let graded = grading::grade(&lab, None, &report.submission, &mut WorkerHost::new(None));
     let graded = graded.map_err(|_| Failure::interrupted())?;
     Ok(Again {
         report,

@@ -110,7 +110,7 @@ pub(super) fn scores(grade: &Grade) -> Markup {
     html! {
         section id="scores" aria-labelledby="scores-title" tabindex="-1" {
             h2 id="scores-title" { "Scores" }
-            div class="wide" {
+            div class="wide" tabindex="0" role="group" aria-label="Points of every check" {
                 table class="scores" role="table" {
                     caption class="unseen" { "Points of every check, with the value measured and the band it was judged by" }
                     thead role="rowgroup" {
@@ -178,7 +178,7 @@ pub(super) fn facts(grade: &Grade) -> Markup {
         footer {
             h2 { "What this grade rests on" }
             p { "The same submission gives the same bits on every machine. " code { "kinemark verify" } " runs it again and compares these digests (BLAKE3)." }
-            div class="wide" {
+            div class="wide" tabindex="0" role="group" aria-label="What took part" {
                 table class="facts" {
                     caption class="unseen" { "Names and digests of all that took part" }
                     thead { tr { th scope="col" { "What" } th scope="col" { "Name" } th scope="col" { "Digest" } } }

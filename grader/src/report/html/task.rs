@@ -226,7 +226,7 @@ fn cases(cases: &[CaseGrade]) -> Markup {
     let tells = cases.iter().any(|case| case.expected.is_some());
     html! {
         h3 { "Visible cases" }
-        div class="wide" tabindex="0" role="region" aria-label="Visible cases" {
+        div class="wide" tabindex="0" role="group" aria-label="Visible cases" {
             table class="cases" {
                 thead {
                     tr {
@@ -263,7 +263,7 @@ fn hidden(classes: &[HiddenClass], kind: TaskKind) -> Markup {
     };
     html! {
         h3 { (what) }
-        div class="wide" {
+        div class="wide" tabindex="0" role="group" aria-label=(what) {
             table class="hidden" {
                 thead { tr { th scope="col" { "Class" } th scope="col" class="number" { "Good" } th scope="col" class="number" { "Of" } } }
                 tbody {
@@ -284,7 +284,7 @@ fn events(events: &[EventRecord], of: &Of<'_>) -> Markup {
     html! {
         details class="log" {
             summary { "What happened: " (events.len()) @if events.len() == 1 { " event" } @else { " events" } }
-            div class="wide" tabindex="0" role="region" aria-label="Events" {
+            div class="wide" tabindex="0" role="group" aria-label="Events" {
                 table {
                     thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Event" } th scope="col" { "What" } } }
                     tbody {
@@ -306,7 +306,7 @@ fn contacts(contacts: &[ContactRecord], of: &Of<'_>) -> Markup {
     html! {
         details class="log" {
             summary { "Contact: " (contacts.len()) @if contacts.len() == 1 { " time" } @else { " times" } }
-            div class="wide" tabindex="0" role="region" aria-label="Contacts" {
+            div class="wide" tabindex="0" role="group" aria-label="Contacts" {
                 table {
                     thead {
                         tr {
@@ -350,7 +350,7 @@ fn log(task: &TaskGrade, of: &Of<'_>) -> Markup {
                 "Printed by the submission: " (all) @if all == 1 { " line" } @else { " lines" }
                 @if all > shown { ", the first " (shown) " shown" }
             }
-            div class="wide" tabindex="0" role="region" aria-label="Printed lines" {
+            div class="wide" tabindex="0" role="group" aria-label="Printed lines" {
                 table {
                     thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Text" } } }
                     tbody {

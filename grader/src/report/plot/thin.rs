@@ -67,8 +67,49 @@ fn push(piece: &mut Vec<(i32, i32)>, point: (i32, i32)) {
     piece.push(point);
 }
 
+/// How far a line may lie beside a point that it leaves out, in units of a picture: a quarter of a pixel.
+const BESIDE: f64 = 2.5;
+
+/// Leaves out the points that a straight line shows as well (Ramer 1972; Douglas and Peucker 1973).
+fn straightened(piece: &[(i32, i32)]) -> Vec<(i32, i32)> {
+    if piece.len() < 3 {
+        return piece.to_vec();
+    }
+    let mut kept = vec![false; piece.len()];
+    kept[0] = true;
+    kept[piece.len() - 1] = true;
+    let mut spans = vec![(0, piece.len() - 1)];
+    while let Some((from, to)) = spans.pop() {
+        let farthest = (from + 1..to)
+            .map(|i| (beside(piece[from], piece[to], piece[i]), i))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((distance, at)) = farthest
+            && distance > BESIDE
+        {
+            kept[at] = true;
+            spans.extend([(from, at), (at, to)]);
+        }
+    }
+    let points = piece.iter().zip(&kept).filter(|(_, kept)| **kept);
+    points.map(|(point, _)| *point).collect()
+}
+
+/// Distance of a point from the segment between two others.
+fn beside(a: (i32, i32), b: (i32, i32), point: (i32, i32)) -> f64 {
+    let from_a = |p: (i32, i32)| (f64::from(p.0 - a.0), f64::from(p.1 - a.1));
+    let ((bx, by), (px, py)) = (from_a(b), from_a(point));
+    let length_squared = bx * bx + by * by;
+    let along = if length_squared > 0.0 {
+        ((px * bx + py * by) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let (dx, dy) = (px - along * bx, py - along * by);
+    (dx * dx + dy * dy).sqrt()
+}
+
 /// Thins points in the order of time to about `most`, over a picture `width` units wide: each column keeps its first, lowest,
-/// highest and last point, so that no peak is lost. `None` breaks the line.
+/// highest and last point, so that no peak is lost, and of these goes what a straight line shows as well. `None` breaks the line.
 pub(super) fn over_time(
     points: impl Iterator<Item = Option<(i32, i32)>>,
     width: i32,
@@ -105,7 +146,7 @@ pub(super) fn over_time(
     if !piece.is_empty() {
         pieces.push(piece);
     }
-    pieces
+    pieces.iter().map(|piece| straightened(piece)).collect()
 }
 
 /// Thins points of a plane to at most `most`: a point nearer to the last kept one than a distance is left out, the distance
@@ -146,6 +187,20 @@ mod tests {
         let count: usize = pieces.iter().map(Vec::len).sum();
         assert!(count <= 1504, "{count}");
         assert!(pieces[0].iter().any(|p| p.1 == -500));
+    }
+
+    #[test]
+    fn a_smooth_line_takes_few_points_and_is_nowhere_far() {
+        let wave = |i: i32| (i, (1000.0 * libm::sin(f64::from(i) * 0.002)) as i32);
+        let pieces = over_time((0..8001).map(|i| Some(wave(i))), 8000, 1500);
+        let kept = &pieces[0];
+        assert!(kept.len() < 80, "{}", kept.len());
+        for i in 0..8001 {
+            let point = wave(i);
+            let mut segments = kept.windows(2);
+            // what a column leaves out lies within it
+            assert!(segments.any(|two| beside(two[0], two[1], point) <= BESIDE + 2.0));
+        }
     }
 
     #[test]
