@@ -1,4 +1,4 @@
-//! The grade, shown: text for a terminal, plots as SVG, and a page that holds everything.
+//! The grade, shown: text for a terminal, plots as SVG and PNG, and a page that holds everything.
 
 pub mod brief_page;
 pub mod compare_text;
@@ -7,6 +7,8 @@ pub mod html;
 pub mod moment;
 mod number;
 pub mod plot;
+#[cfg(not(target_family = "wasm"))]
+pub mod png;
 pub mod replay;
 #[cfg(test)]
 pub(crate) mod sample;
