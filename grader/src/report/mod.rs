@@ -12,6 +12,7 @@ pub mod png;
 pub mod replay;
 #[cfg(test)]
 pub(crate) mod sample;
+pub mod storyboard;
 pub mod text;
 mod theme;
 pub mod visible;
