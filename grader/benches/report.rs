@@ -1,10 +1,13 @@
-//! How long a graded run takes to be shown: its plots, its replay, the page, the log, and all of it, of a ten second motion task.
+//! How long a graded run takes to be shown: its plots, its replay, the page, the log, and all of it, of a ten second motion task;
+//! then a PNG and the storyboard of an eight second one.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::log::{Attachment, mcap};
-use kinemark_grader::report::{html::html, plot::plots, replay::Replay};
+use kinemark_grader::report::{
+    html::html, plot::plots, png::png, replay::Replay, storyboard::storyboard,
+};
 use kinemark_grader::{grade, graded, verdict};
 
 #[path = "../src/report/sample.rs"]
@@ -30,6 +33,15 @@ fn report(criterion: &mut Criterion) {
     let drawn = vec![plots(run)];
     criterion.bench_function("page", |bencher| {
         bencher.iter(|| html(black_box(&graded), &drawn))
+    });
+    // the first picture reads the font
+    criterion.bench_function("png", |bencher| {
+        bencher.iter(|| png(black_box(&drawn[0][0].svg)))
+    });
+    let grade = graded.grade.tasks.iter().find(|task| task.name == run.task);
+    let grade = grade.expect("the task of the run");
+    criterion.bench_function("storyboard", |bencher| {
+        bencher.iter(|| png(&storyboard(black_box(run), grade)));
     });
     let attachments = [Attachment {
         name: "rrbot.toml",

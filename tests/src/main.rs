@@ -26,6 +26,7 @@ mod lab_truths;
 mod mesh_labs;
 mod own_lab;
 mod path_checks;
+mod pictures;
 mod report;
 mod robot_docs;
 mod robot_files;

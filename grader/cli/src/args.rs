@@ -103,7 +103,8 @@ pub(crate) enum Command {
 #[derive(Debug, ClapArgs)]
 #[command(
     after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
-    kinemark grade 01-kinematics submission.rhai --out feedback --json\n\n\
+    kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
+    kinemark grade 01-kinematics submission.rhai --png --storyboard\n\n\
     A file variant.toml beside the submission is taken where neither --variant nor --student is given.\n\
     Neither it nor the submission may be a symbolic link.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
@@ -120,6 +121,12 @@ pub(crate) struct GradeArgs {
     /// Print the grade record as JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Write each plot as PNG, too, beside the SVG
+    #[arg(long)]
+    pub(crate) png: bool,
+    /// Write a storyboard of each motion task: six moments of the run in one picture, TASK/storyboard.png and .svg
+    #[arg(long)]
+    pub(crate) storyboard: bool,
     /// Run the submission in this process: for profiling trusted code
     #[arg(long)]
     pub(crate) in_process: bool,

@@ -25,6 +25,37 @@ pub(crate) const SUBMISSION: &str = "submission.rhai";
 /// The copy of lab and robot, in the shape of a labs folder.
 pub(crate) const LABS: &str = "lab";
 
+/// The storyboard of a motion task, in the task's folder.
+pub(crate) const STORYBOARD: &str = "storyboard.png";
+
+/// Which pictures the folder holds besides the plots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Pictures {
+    /// Each plot as PNG, beside the SVG.
+    pub(crate) png: bool,
+    /// The storyboard of each motion task, as SVG and PNG.
+    pub(crate) storyboard: bool,
+}
+
+impl Pictures {
+    /// Those that a folder was written with.
+    pub(crate) fn of(folder: &Path, record: &Grade) -> Self {
+        let png = |entry: &std::fs::DirEntry| {
+            let path = entry.path();
+            path.extension().is_some_and(|extension| extension == "png")
+        };
+        let plots = std::fs::read_dir(folder.join("plots"));
+        let of_task = |task: &str| folder.join(task).join(STORYBOARD);
+        Self {
+            png: plots.into_iter().flatten().flatten().any(|e| png(&e)),
+            storyboard: record.tasks.iter().any(|task| {
+                let png = of_task(&task.name);
+                png.exists() || png.with_extension("svg").exists()
+            }),
+        }
+    }
+}
+
 /// One file of the folder.
 pub(crate) struct OutFile {
     /// Its path inside the folder.
@@ -48,9 +79,10 @@ pub(crate) fn write(
     lab: &Lab,
     submission: &Source,
     graded: &GradedRun,
+    pictures: Pictures,
 ) -> Result<(), Failure> {
     refuse_foreign(out)?;
-    let files = files(lab, submission, graded)?;
+    let files = files(lab, submission, graded, pictures)?;
     let failed = |error: std::io::Error| {
         Failure::fault(
             format!(
@@ -106,11 +138,12 @@ fn foreign_entry(out: &Path) -> Option<String> {
     fresh_folder::foreign_entry(out, |name| ours.contains(&name))
 }
 
-/// Everything the folder holds: a function of lab, submission and graded run alone.
+/// Everything the folder holds: a function of lab, submission, graded run and the pictures asked for alone.
 pub(crate) fn files(
     lab: &Lab,
     submission: &Source,
     graded: &GradedRun,
+    pictures: Pictures,
 ) -> Result<Vec<OutFile>, Failure> {
     let record = output::json(&graded.grade)?;
     let plots: Vec<Vec<Plot>> = graded.runs.iter().map(report::plot::plots).collect();
@@ -124,7 +157,18 @@ pub(crate) fn files(
     }
     for (run, plots) in graded.runs.iter().zip(plots) {
         for plot in plots {
+            if pictures.png {
+                let path = format!("plots/{}.png", plot.name);
+                files.push(OutFile::new(path, png(&plot.svg)?));
+            }
             files.push(OutFile::new(format!("plots/{}.svg", plot.name), plot.svg));
+        }
+        let task = graded.grade.tasks.iter().find(|t| t.name == run.task);
+        if let Some(task) = task.filter(|_| pictures.storyboard) {
+            let svg = report::storyboard::storyboard(run, task);
+            let path = format!("{}/{STORYBOARD}", run.task);
+            files.push(OutFile::new(path, png(&svg)?));
+            files.push(OutFile::new(format!("{}/storyboard.svg", run.task), svg));
         }
         let log = log_of(run, lab, &graded.grade, &record)?;
         files.push(OutFile::new(format!("{}/run.mcap", run.task), log));
@@ -135,6 +179,10 @@ pub(crate) fn files(
         ));
     }
     Ok(files)
+}
+
+fn png(svg: &str) -> Result<Vec<u8>, Failure> {
+    report::png::png(svg).map_err(|error| Failure::fault(error.to_string(), "please report this"))
 }
 
 fn log_of(run: &TaskRun, lab: &Lab, grade: &Grade, record: &str) -> Result<Vec<u8>, Failure> {

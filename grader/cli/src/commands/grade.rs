@@ -1,5 +1,6 @@
 //! `kinemark grade`: one submission, graded and reported.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use kinemark_grader::ghost;
@@ -12,6 +13,7 @@ use kinemark_sim::source::Source;
 
 use crate::args::GradeArgs;
 use crate::failure::{FAULT, Failure, LOST};
+use crate::report_folder::Pictures;
 use crate::variants::{self, Chosen};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, places, report_folder};
@@ -50,13 +52,26 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
         if let Some(moment) = report::moment::first_loss(grade) {
             output::print(&format!("first lost point: {report}{moment}\n"))?;
         }
+        if args.storyboard {
+            output::print(&storyboards(&args.out, &work.graded))?;
+        }
     }
     Ok(exit_code(grade.verdict))
 }
 
 /// Writes the folder.
 pub(crate) fn write(args: &GradeArgs, work: &Work) -> Result<(), Failure> {
-    report_folder::write(&args.out, &work.lab, &work.submission, &work.graded)
+    let pictures = Pictures {
+        png: args.png,
+        storyboard: args.storyboard,
+    };
+    report_folder::write(
+        &args.out,
+        &work.lab,
+        &work.submission,
+        &work.graded,
+        pictures,
+    )
 }
 
 /// Reads what was named, and grades.
@@ -112,6 +127,18 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
         graded,
         note,
     })
+}
+
+/// Where the storyboards are, a line each.
+fn storyboards(out: &Path, graded: &GradedRun) -> String {
+    if graded.runs.is_empty() {
+        return "storyboard: none, because no motion task ran\n".to_owned();
+    }
+    let lines = graded.runs.iter().map(|run| {
+        let path = out.join(&run.task).join(report_folder::STORYBOARD);
+        format!("storyboard: {}\n", path.display())
+    });
+    lines.collect()
 }
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &GradeArgs) -> Result<Option<Staff>, Failure> {

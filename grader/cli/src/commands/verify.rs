@@ -12,6 +12,7 @@ use serde_json::Value;
 
 use crate::args::VerifyArgs;
 use crate::failure::{Failure, LOST};
+use crate::report_folder::Pictures;
 use crate::worker::WorkerHost;
 use crate::{interrupt, output, places, report_folder, variants};
 
@@ -62,7 +63,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     }
     let mut comparison = compare(&report.grade, &graded.grade)?;
     if comparison.differences.is_empty() && comparison.not_compared.is_empty() {
-        for file in report_folder::files(&lab, &report.submission, &graded)? {
+        let pictures = Pictures::of(&args.folder, &report.grade);
+        for file in report_folder::files(&lab, &report.submission, &graded, pictures)? {
             let there = std::fs::read(args.folder.join(&file.path)).ok();
             if there.as_ref() != Some(&file.bytes) {
                 let digest = |bytes: &[u8]| blake3::hash(bytes).to_hex().to_string();

@@ -1,0 +1,106 @@
+//! `--png` and `--storyboard`: the files are there, the same again, whole, and known to `verify`.
+
+use crate::testbed::{TestBed, files_below, root};
+
+/// Grades the known submission `case` of a lab with `args`, into `out`.
+fn graded(bed: &TestBed, lab: &str, case: &str, args: &[&str], out: &str) -> String {
+    let submission = root().join(format!("tests/submissions/{lab}/{case}/submission.rhai"));
+    std::fs::copy(submission, bed.path("mine.rhai")).expect("copied");
+    let ran = bed.run(&[&["grade", lab, "mine.rhai", "--out", out], args].concat());
+    assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
+    assert_eq!(ran.stderr, "");
+    ran.stdout
+}
+
+/// Width and height that a PNG tells of itself.
+fn size(png: &[u8]) -> (u32, u32) {
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(&png[png.len() - 8..png.len() - 4], b"IEND", "it is whole");
+    let number = |at: usize| u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]);
+    (number(16), number(20))
+}
+
+#[test]
+fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let both = ["--png", "--storyboard"];
+    let told = graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
+    assert!(
+        told.ends_with(
+            "report: out/report.html\nstoryboard: out/warm-up/storyboard.png\nstoryboard: out/move/storyboard.png\n"
+        ),
+        "{told}"
+    );
+    let files = files_below(&bed.path("out"));
+    let of = |wanted: &str| {
+        let found = files.iter().find(|(name, _)| name == wanted);
+        &found.unwrap_or_else(|| panic!("no {wanted}")).1
+    };
+    let mut pictures = 0;
+    for (name, svg) in files.iter().filter(|(name, _)| name.ends_with(".svg")) {
+        if name.starts_with("lab/") {
+            continue;
+        }
+        let (width, height) = size(of(&name.replace(".svg", ".png")));
+        // twice the size that the SVG tells
+        let head = String::from_utf8_lossy(&svg[..400]).into_owned();
+        assert!(head.contains(&format!("width=\"{}\"", width / 2)), "{name}");
+        assert!(head.contains(&format!("height=\"{}", height / 2)), "{name}");
+        pictures += 1;
+    }
+    assert!(pictures > 6, "{pictures}");
+    // the same again, over the earlier report
+    graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
+    assert!(files_below(&bed.path("out")) == files, "other bytes");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    // one that was exchanged is found
+    std::fs::copy(
+        bed.path("out/warm-up/storyboard.png"),
+        bed.path("out/move/storyboard.png"),
+    )
+    .expect("copied");
+    std::fs::remove_file(bed.path("out/plots/move-path.png")).expect("removed");
+    let ran = bed.run(&["verify", "out"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    for file in ["move/storyboard.png", "plots/move-path.png"] {
+        assert!(ran.stdout.contains(&format!("file `{file}`")), "{ran:?}");
+    }
+    // without the options they are gone, and the rest is the same
+    graded(&bed, "01-kinematics", "first-goal-only", &[], "out");
+    let plain = files_below(&bed.path("out"));
+    assert!(!plain.iter().any(|(name, _)| name.ends_with(".png")));
+    assert!(plain.iter().all(|file| files.contains(file)));
+}
+
+#[test]
+fn a_storyboard_tells_where_points_were_lost_and_what_was_touched() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let lab = "03-knock-with-position";
+    graded(&bed, lab, "wrong-side", &["--storyboard"], "out");
+    let svg = std::fs::read_to_string(bed.path("out/knock/storyboard.svg")).expect("there");
+    assert_eq!(svg.matches("<clipPath").count(), 6);
+    assert!(svg.contains("href=\"../report.html#task=knock&amp;t="));
+    assert!(svg.contains("touches"), "contacts are told");
+}
+
+#[test]
+fn a_run_that_stops_at_once_has_a_storyboard() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    bed.write("mine.rhai", "fn control(o) { throw \"no\" }\n");
+    let args = [
+        "grade",
+        "01-kinematics",
+        "mine.rhai",
+        "--storyboard",
+        "--png",
+    ];
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let svg = std::fs::read_to_string(bed.path("out/move/storyboard.svg")).expect("there");
+    assert!(svg.to_lowercase().contains("stopped"), "{svg}");
+    size(&std::fs::read(bed.path("out/move/storyboard.png")).expect("there"));
+}
