@@ -28,7 +28,7 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
     let told = graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
     assert!(
         told.ends_with(
-            "report: out/report.html\nstoryboard: out/warm-up/storyboard.png\nstoryboard: out/move/storyboard.png\n"
+            "\nstoryboard: out/warm-up/storyboard.png\nstoryboard: out/move/storyboard.png\n"
         ),
         "{told}"
     );

@@ -537,7 +537,7 @@ fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
         "{told}"
     );
     assert!(told.contains("hidden runs: nearer places 0/2"), "{told}");
-    assert!(told.contains("run with other numbers too"), "{told}");
+    assert!(told.contains("run with other numbers, too"), "{told}");
     assert_ne!(touch.digests.all, full.tasks[1].digests.all);
     assert_eq!(
         touch.digests.seconds.len(),

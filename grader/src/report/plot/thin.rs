@@ -194,7 +194,7 @@ mod tests {
         let wave = |i: i32| (i, (1000.0 * libm::sin(f64::from(i) * 0.002)) as i32);
         let pieces = over_time((0..8001).map(|i| Some(wave(i))), 8000, 1500);
         let kept = &pieces[0];
-        assert!(kept.len() < 80, "{}", kept.len());
+        assert!(kept.len() < 120, "{}", kept.len());
         for i in 0..8001 {
             let point = wave(i);
             let mut segments = kept.windows(2);

@@ -1,6 +1,6 @@
 //! The moments worth a mark: what happened, who pressed on whom, and where points were lost first.
 
-use kinemark_sim::event::EventKind;
+use kinemark_sim::event::{Event, EventKind};
 use serde::Serialize;
 
 use crate::grade::{Outcome, TaskGrade};
@@ -67,7 +67,9 @@ pub(super) fn events(run: &TaskRun, task: Option<&TaskGrade>) -> Vec<EventMark> 
     let mut breaches = breaches(task);
     let room = MOST_EVENTS - breaches.len();
     let (mut all, mut saturated) = (0, 0);
-    let kept = run.trace.events.iter().filter(|event| {
+    // what lies on another from the start is no news
+    let news = |event: &&Event| event.tick > 0 || !matches!(event.kind, EventKind::Touched { .. });
+    let kept = run.trace.events.iter().filter(news).filter(|event| {
         let counts = !matches!(event.kind, EventKind::Saturated { .. });
         saturated += usize::from(!counts);
         let kept = if counts {
