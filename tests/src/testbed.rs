@@ -38,8 +38,13 @@ pub(crate) fn cargo() -> (Command, PathBuf) {
 
 /// Builds the binary in `profile` (as `--profile` names it) and returns its path.
 pub(crate) fn build(profile: &str) -> PathBuf {
+    build_of(&["--package", "kinemark"], profile)
+}
+
+/// Builds the targets `what` in `profile`, the binary among them, whose path it returns.
+fn build_of(what: &[&str], profile: &str) -> PathBuf {
     let (mut cargo, target) = cargo();
-    cargo.args(["build", "--quiet", "--locked", "--package", "kinemark"]);
+    cargo.args(["build", "--quiet", "--locked"]).args(what);
     cargo.args(["--profile", profile]);
     cargo.arg("--target-dir").arg(&target);
     assert!(
@@ -58,7 +63,10 @@ pub(crate) fn binary() -> &'static Path {
         let here = std::env::current_exe().expect("this test's path");
         let folder = here.ancestors().nth(2).and_then(Path::file_name);
         let folder = folder.expect("the profile's folder").to_string_lossy();
-        build(if folder == "debug" { "dev" } else { &folder })
+        // with the tests beside it, dependencies have the features they were built with a moment ago; alone it would need
+        // most of them once more
+        let what = ["--workspace", "--bins", "--tests"];
+        build_of(&what, if folder == "debug" { "dev" } else { &folder })
     })
 }
 
