@@ -25,7 +25,7 @@ use crate::report::visible::{shortened, visible};
 /// The format and its version.
 const FORMAT: &str = "kinemark-replay/1";
 /// Characters of coded data of a run of ten seconds or less; longer runs may have as much more as they are longer.
-const MOST_CHARACTERS: usize = 200_000;
+const MOST_CHARACTERS: usize = 120_000;
 /// How many periods apart the frames may be, finest first.
 const COARSENESS: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// Frames at events are left out from this coarseness on: of many joints, they are most of the data.

@@ -47,7 +47,8 @@ const inData = (change) => (page) =>
 const moves = 1;
 const log = logsOf(join(folder, lab)).find(({ task }) => task === "move").path;
 const pose = (page) => check.poseOfTheTrace(page, moves, log);
-const slow = async (page) => assert.ok((await check.frameTimes(page, moves, 1000)).median < 4, "slow frames");
+// broken on purpose it takes more than 5 ms, however fast the machine
+const slow = async (page) => assert.ok((await check.frameTimes(page, moves, 1000)).median < 5, "slow frames");
 const opens = (page) => check.opensAt(page, moves, 2.35);
 
 const cases = [
@@ -70,7 +71,7 @@ const cases = [
   ["grey on grey", check.accessible, style("p { color: #999 !important; background: #aaa !important }")],
   ["a page too wide for a phone", check.fits, inBody("<div style='width: 500px'>wide</div>"), { width: 390 }],
   ["keys that do nothing", (page) => check.keysSteer(page, moves), script({ last: "addEventListener('keydown', (event) => { event.preventDefault(); event.stopImmediatePropagation(); }, true)" })],
-  ["a stage that stays black", (page) => check.drawsMotion(page, moves), style("[data-replay] canvas { filter: brightness(0) }")],
+  ["a stage that stays empty", (page) => check.drawsMotion(page, moves), style("[data-replay] canvas { filter: opacity(0) }")],
   ["slow frames", slow, script({ first: "{ const draw = WebGL2RenderingContext.prototype.drawElements; WebGL2RenderingContext.prototype.drawElements = function (...all) { const begin = performance.now(); while (performance.now() - begin < 5); draw.apply(this, all); }; }" }), { width: 390, height: 500 }],
   ["too much code", async (page) => check.small(await check.sizes(page), [3, 8]), script({ first: `/* ${"x".repeat(500_000)} */` })],
   ["too much data", async (page) => check.small(await check.sizes(page), [3, 8]), inData((data) => (data.more = "x".repeat(300_000)))],

@@ -86,6 +86,12 @@ pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas<'_
         canvas.backend.present().ok();
     }
     let drawn = body.split_once(">\n").map_or("", |(_, drawn)| drawn);
+    // what is said of every shape and means nothing; lines that begin otherwise are text
+    let shorter = |line: &str| match line.starts_with('<') {
+        true => line.replacen(" opacity=\"1\"", "", 1) + "\n",
+        false => format!("{line}\n"),
+    };
+    let drawn: String = drawn.lines().map(shorter).collect();
     let title = maud::html! { title { (title) } }.into_string();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{WIDTH}\" height=\"{height}\" \

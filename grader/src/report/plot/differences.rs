@@ -5,7 +5,7 @@ use kinemark_sim::trace::Signal;
 
 use super::axis::Axis;
 use super::canvas::{Entry, Swatch};
-use super::signals::{MOST_PANELS, line, time_s, values};
+use super::signals::{MOST_PANELS, line, most_points, time_s, values};
 use super::timeline::{Panel, Timeline};
 use super::{Plot, Plots, file_stem};
 use crate::compare::FirstDifference;
@@ -118,6 +118,7 @@ impl Both<'_> {
             marks: mark.into_iter().collect(),
             end_s: time_s(self.a, self.ticks.saturating_sub(1) as u64),
             stopped_s: None,
+            most_points: most_points(self.a),
         }
     }
 }

@@ -4,7 +4,7 @@ use kinemark_sim::event::EventKind;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};
-use super::timeline::{Line, Panel, Timeline};
+use super::timeline::{Line, MOST_POINTS, Panel, Timeline};
 use crate::graded::{Curve, Goal, StepBackdrop, TaskRun};
 use crate::report::goal::{current_goal, distances_m};
 use crate::report::number::{joined, shown_unit, significant};
@@ -15,6 +15,8 @@ use crate::report::visible::{shortened, visible};
 
 /// Panels of one picture.
 pub(super) const MOST_PANELS: usize = 6;
+/// Points of all pictures of joints.
+const MOST_POINTS_OF_JOINTS: usize = 4000;
 /// Signals of a submission that are drawn.
 const MOST_SIGNALS: usize = 18;
 /// Goals whose distance is drawn besides the current one's.
@@ -62,7 +64,14 @@ pub(super) fn timeline(
         marks: differs(run).into_iter().collect(),
         end_s: end_s(run),
         stopped_s: stopped_s(run),
+        most_points: most_points(run),
     }
+}
+
+/// Points of a picture: many joints make many pictures, which share what a page has room for.
+pub(super) fn most_points(run: &TaskRun) -> usize {
+    let pictures = 2 * run.robot.n().div_ceil(MOST_PANELS).max(1);
+    (MOST_POINTS_OF_JOINTS / pictures).min(MOST_POINTS)
 }
 
 pub(super) fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line {
@@ -306,6 +315,7 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         marks,
         end_s: last_s.max(end_s(run)),
         stopped_s: stopped_s(run),
+        most_points: most_points(run),
     }
 }
 

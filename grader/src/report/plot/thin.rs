@@ -69,9 +69,13 @@ fn push(piece: &mut Vec<(i32, i32)>, point: (i32, i32)) {
 
 /// How far a line may lie beside a point that it leaves out, in units of a picture: a quarter of a pixel.
 const BESIDE: f64 = 2.5;
+/// And where it would have too many points otherwise: three pixels.
+const FAR_BESIDE: f64 = 30.0;
+/// Points that are looked at for a line, however few it may keep.
+const FINE: usize = 1400;
 
-/// Leaves out the points that a straight line shows as well (Ramer 1972; Douglas and Peucker 1973).
-fn straightened(piece: &[(i32, i32)]) -> Vec<(i32, i32)> {
+/// Leaves out the points that a straight line passes within `beside_most` of (Ramer 1972; Douglas and Peucker 1973).
+fn straightened(piece: &[(i32, i32)], beside_most: f64) -> Vec<(i32, i32)> {
     if piece.len() < 3 {
         return piece.to_vec();
     }
@@ -84,7 +88,7 @@ fn straightened(piece: &[(i32, i32)]) -> Vec<(i32, i32)> {
             .map(|i| (beside(piece[from], piece[to], piece[i]), i))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((distance, at)) = farthest
-            && distance > BESIDE
+            && distance > beside_most
         {
             kept[at] = true;
             spans.extend([(from, at), (at, to)]);
@@ -109,19 +113,40 @@ fn beside(a: (i32, i32), b: (i32, i32), point: (i32, i32)) -> f64 {
 }
 
 /// Thins points in the order of time to about `most`, over a picture `width` units wide: each column keeps its first, lowest,
-/// highest and last point, so that no peak is lost, and of these goes what a straight line shows as well. `None` breaks the line.
+/// highest and last point, so that no peak is lost, and of these goes what a straight line shows as well, to a quarter of a pixel;
+/// where too many are left, to so much more, at most three pixels, as it takes, and then in wider columns. `None` breaks the line.
 pub(super) fn over_time(
     points: impl Iterator<Item = Option<(i32, i32)>>,
     width: i32,
     most: usize,
 ) -> Pieces {
+    let points: Vec<_> = points.collect();
+    let count = |pieces: &Pieces| pieces.iter().map(Vec::len).sum::<usize>();
+    let fine = in_columns(&points, width, FINE);
+    let mut beside_most = BESIDE;
+    while beside_most <= FAR_BESIDE {
+        let straight = fine.iter().map(|piece| straightened(piece, beside_most));
+        let straight: Pieces = straight.collect();
+        if count(&straight) <= most {
+            return straight;
+        }
+        beside_most *= 1.5;
+    }
+    // no line but an area, which wider columns show as well
+    let coarse = in_columns(&points, width, most);
+    let straight = coarse.iter().map(|piece| straightened(piece, BESIDE));
+    straight.collect()
+}
+
+/// The first, lowest, highest and last point of each column; about `most` of them.
+fn in_columns(points: &[Option<(i32, i32)>], width: i32, most: usize) -> Pieces {
     let column_width = (4 * width / most.max(4) as i32).max(1);
     let mut pieces = Pieces::new();
     let mut piece = Vec::new();
     let mut open: Option<Column> = None;
     let mut gap = false;
     for point in points {
-        let Some(point) = point else {
+        let Some(point) = *point else {
             gap = true;
             continue;
         };
@@ -146,7 +171,7 @@ pub(super) fn over_time(
     if !piece.is_empty() {
         pieces.push(piece);
     }
-    pieces.iter().map(|piece| straightened(piece)).collect()
+    pieces
 }
 
 /// Thins points of a plane to at most `most`: a point nearer to the last kept one than a distance is left out, the distance

@@ -48,12 +48,14 @@ pub(super) struct Timeline {
     pub(super) end_s: f64,
     /// Where the run ended before its time \[s\].
     pub(super) stopped_s: Option<f64>,
+    /// Points of all its lines.
+    pub(super) most_points: usize,
 }
 
 const LEFT: f64 = 68.0;
 const RIGHT: f64 = WIDTH - 20.0;
 /// Points of all lines of a picture: with some ten bytes each, a picture stays well below 60 KB.
-const MOST_POINTS: usize = 3600;
+pub(super) const MOST_POINTS: usize = 3600;
 /// Points of one line.
 const MOST_POINTS_OF_A_LINE: usize = 1400;
 /// A line of so few points takes no share of them.
@@ -169,7 +171,7 @@ impl Timeline {
         let lines = self.panels.iter().flat_map(|panel| &panel.lines);
         // short lines are not thinned
         let lines = lines.filter(|line| line.points.len() > SHORT_LINE).count();
-        let most = (MOST_POINTS / lines.max(1)).min(MOST_POINTS_OF_A_LINE);
+        let most = (self.most_points / lines.max(1)).min(MOST_POINTS_OF_A_LINE);
         for line in &panel.lines {
             let width = ((RIGHT - LEFT) * UNITS) as i32;
             for piece in over_time(place.points(line), width, most) {
