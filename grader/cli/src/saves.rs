@@ -175,22 +175,22 @@ mod tests {
     #[test]
     fn saves_of_what_is_graded_with_count_and_others_do_not() {
         let concerns = Concerns {
-            files: vec!["/work/mine.rhai".into(), "/work/variant.toml".into()],
+            files: vec!["/course/mine.rhai".into(), "/course/variant.toml".into()],
             trees: vec!["/labs/one".into(), "/labs/robots".into()],
             out: "/labs/one/out".into(),
         };
         for path in [
-            "/work/mine.rhai",
-            "/work/variant.toml",
+            "/course/mine.rhai",
+            "/course/variant.toml",
             "/labs/one/lab.toml",
             "/labs/robots/a/b.stl",
         ] {
             assert!(concerns.path(Path::new(path)), "{path}");
         }
         for path in [
-            "/work/mine.rhai~",
-            "/work/out/mine.rhai",
-            "/work",
+            "/course/mine.rhai~",
+            "/course/out/mine.rhai",
+            "/course",
             "/labs/two/lab.toml",
             "/labs/one/.lab.toml.swp",
             "/labs/one/lab.toml~",
@@ -200,10 +200,10 @@ mod tests {
             assert!(!concerns.path(Path::new(path)), "{path}");
         }
         let read = notify::Event::new(EventKind::Access(notify::event::AccessKind::Any))
-            .add_path("/work/mine.rhai".into());
+            .add_path("/course/mine.rhai".into());
         assert!(!concerns.event(&read));
         let written = notify::Event::new(EventKind::Modify(notify::event::ModifyKind::Any))
-            .add_path("/work/mine.rhai".into());
+            .add_path("/course/mine.rhai".into());
         assert!(concerns.event(&written));
     }
 }
