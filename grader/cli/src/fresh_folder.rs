@@ -3,7 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
+use kinemark_grader::report::visible::visible;
 use tempfile::TempDir;
+
+use crate::failure::Failure;
 
 /// A folder being written.
 #[derive(Debug)]
@@ -50,12 +53,34 @@ impl FreshFolder {
     }
 }
 
-/// The first entry of a folder that is not `ours`, in the order of names; none where there is no folder.
-pub(crate) fn foreign_entry(folder: &Path, ours: impl Fn(&str) -> bool) -> Option<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+/// Checks that `out` is free, empty, or holds nothing but what is `ours`, `whole` in words: replacing it would lose the rest.
+pub(crate) fn refuse_foreign(
+    out: &Path,
+    whole: &str,
+    ours: impl Fn(&str) -> bool,
+) -> Result<(), Failure> {
+    let help = "choose another folder with --out";
+    // a file, a device, a pipe, a link to nowhere: whatever is there and no folder stays as it is
+    if out.symlink_metadata().is_ok() && !out.is_dir() {
+        return Err(Failure::usage(
+            format!("`{}` is there and is not a folder", out.display()),
+            help,
+        ));
+    }
+    let entries = std::fs::read_dir(out).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    names.into_iter().find(|name| !ours(name))
+    match names.into_iter().find(|name| !ours(name)) {
+        None => Ok(()),
+        Some(name) => Err(Failure::usage(
+            format!(
+                "`{}` holds `{}`, which is no part of {whole}",
+                out.display(),
+                visible(&name)
+            ),
+            help,
+        )),
+    }
 }

@@ -105,28 +105,6 @@ pub(crate) fn write(
 
 /// Checks, before anything is graded, that `out` is free, empty, or an earlier report.
 pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    let help = "choose another folder with --out";
-    // a file, a device, a pipe, a link to nowhere: whatever is there and no folder stays as it is
-    if out.symlink_metadata().is_ok() && !out.is_dir() {
-        return Err(Failure::usage(
-            format!("`{}` is there and is not a folder", out.display()),
-            help,
-        ));
-    }
-    match foreign_entry(out) {
-        None => Ok(()),
-        Some(entry) => Err(Failure::usage(
-            format!(
-                "`{}` holds `{entry}`, which is no part of a Kinemark report",
-                out.display()
-            ),
-            help,
-        )),
-    }
-}
-
-/// Something in `out` that no earlier report put there: replacing the folder would lose it.
-fn foreign_entry(out: &Path) -> Option<String> {
     let mut ours = vec![RECORD, PAGE, SUBMISSION, LABS, "plots"];
     let record = std::fs::read(out.join(RECORD)).ok();
     let record: Option<Grade> = record.and_then(|text| serde_json::from_slice(&text).ok());
@@ -135,7 +113,7 @@ fn foreign_entry(out: &Path) -> Option<String> {
         // without a record of ours nothing in it is ours
         None => ours.clear(),
     }
-    fresh_folder::foreign_entry(out, |name| ours.contains(&name))
+    fresh_folder::refuse_foreign(out, "a Kinemark report", |name| ours.contains(&name))
 }
 
 /// Everything the folder holds: a function of lab, submission, graded run and the pictures asked for alone.

@@ -13,7 +13,7 @@ use kinemark_grader::report;
 use crate::args::CompareArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::fresh_folder::{FreshFolder, foreign_entry};
+use crate::fresh_folder::{self, FreshFolder};
 use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
@@ -130,27 +130,12 @@ fn changed(again: &Again, name: &str) -> Vec<String> {
 
 /// Checks, before anything runs, that `out` is free, empty, or an earlier comparison.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    let help = "choose another folder with --out";
-    if out.symlink_metadata().is_ok() && !out.is_dir() {
-        return Err(Failure::usage(
-            format!("`{}` is there and is not a folder", out.display()),
-            help,
-        ));
-    }
     let record = disk::bytes_of(&out.join(RECORD), 64 << 20).ok();
     let record: Option<serde_json::Value> =
         record.and_then(|text| serde_json::from_slice(&text).ok());
     let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
-    match foreign_entry(out, |name| is_ours && [PAGE, RECORD].contains(&name)) {
-        None => Ok(()),
-        Some(entry) => Err(Failure::usage(
-            format!(
-                "`{}` holds `{entry}`, which is no part of an earlier comparison",
-                out.display()
-            ),
-            help,
-        )),
-    }
+    let ours = |name: &str| is_ours && [PAGE, RECORD].contains(&name);
+    fresh_folder::refuse_foreign(out, "an earlier comparison", ours)
 }
 
 fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Result<(), Failure> {

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::args::ExportArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::fresh_folder::{FreshFolder, foreign_entry};
+use crate::fresh_folder::{self, FreshFolder};
 use crate::output;
 
 /// A log larger than this is not read.
@@ -219,13 +219,6 @@ fn write(
 
 /// Checks that `out` is free, empty, or an earlier export.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    let help = "choose another folder with --out";
-    if out.symlink_metadata().is_ok() && !out.is_dir() {
-        return Err(Failure::usage(
-            format!("`{}` is there and is not a folder", out.display()),
-            help,
-        ));
-    }
     let list = disk::bytes_of(&out.join(LIST), 16 << 20).ok();
     let list: Option<Export> = list.and_then(|text| serde_json::from_slice(&text).ok());
     let ours = |name: &str| {
@@ -233,17 +226,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
             name == LIST || list.files.iter().any(|exported| exported.file == name)
         })
     };
-    match foreign_entry(out, ours) {
-        None => Ok(()),
-        Some(name) => Err(Failure::usage(
-            format!(
-                "`{}` holds `{}`, which is no part of an earlier export",
-                out.display(),
-                visible(&name)
-            ),
-            help,
-        )),
-    }
+    fresh_folder::refuse_foreign(out, "an earlier export", ours)
 }
 
 /// A file name for a topic that every system takes, and that no topic before has.
