@@ -7,7 +7,7 @@ use std::io::Cursor;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions};
 
-use super::topics::Messages;
+use super::messages::Messages;
 use crate::grade::Grade;
 use crate::graded::TaskRun;
 use crate::report::visible::visible;

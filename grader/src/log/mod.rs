@@ -8,11 +8,14 @@ mod json;
 mod layout;
 mod mcap;
 mod message;
+mod messages;
+mod motion;
 mod names;
 mod read;
 mod scene;
 mod schema;
-mod topics;
+mod signals;
+mod told;
 mod tree;
 
 pub use csv::{Table, Tables, tables, write_csv};

@@ -1,23 +1,27 @@
 //! What a viewer needs to show a run again: shapes, poses by frame, and the moments worth a mark, as JSON that can stand in a page.
 
-mod base64;
 mod column;
 mod frames;
 mod moments;
 mod motion;
+mod nodes;
+mod record;
 mod shapes;
 
 use kinemark_sim::robot::Robot;
 use kinemark_sim::scene::{BodyKind, Scene};
 use kinemark_sim::spatial::Pose;
 use kinemark_sim::trace::Trace;
-use serde::Serialize;
 
 use self::column::{Columns, Track};
 use self::frames::{frames, sound_ticks};
-use self::moments::{ContactMark, EventMark, MOST_OF_A_NAME, contacts, events};
-use self::motion::{Course, Motion, PLACE};
-use self::shapes::{MeshRecord, Meshes, ShapeRecord, pose_record};
+use self::moments::{MOST_OF_A_NAME, contacts, events};
+use self::motion::{Motion, PLACE};
+use self::nodes::Nodes;
+use self::record::{
+    Coded, FrameRecord, GoalRecord, JointRecord, PathRecord, Record, ReferencePath,
+};
+use self::shapes::pose_record;
 use crate::grade::TaskGrade;
 use crate::graded::TaskRun;
 use crate::report::visible::{shortened, visible};
@@ -258,194 +262,6 @@ impl<'a> Replay<'a> {
             (None, None) => return None,
         };
         Some(shortened(&words.replace('`', ""), 300))
-    }
-}
-
-/// The whole record.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Record<'a> {
-    format: &'static str,
-    task: String,
-    title: String,
-    step_s: f64,
-    lab: FrameRecord,
-    #[serde(flatten)]
-    coded: Coded,
-    frames: Vec<FrameRecord>,
-    joints: Vec<JointRecord>,
-    reference: Option<ReferencePath>,
-    goals: Vec<GoalRecord>,
-    paths: Vec<PathRecord<'a>>,
-    contacts: Vec<ContactMark>,
-    events: Vec<EventMark>,
-    ghost_label: Option<String>,
-    main_label: Option<String>,
-    ended: Option<String>,
-}
-
-/// What depends on which frames there are.
-#[derive(Debug, Default, Serialize)]
-struct Coded {
-    ticks: String,
-    nodes: Vec<NodeRecord>,
-    meshes: Vec<MeshRecord>,
-    tcp: Track,
-    q: Track,
-    tracks: Vec<Track>,
-}
-
-impl Coded {
-    /// Characters of coded data, meshes apart.
-    fn size(&self) -> usize {
-        let tracks: usize = self.tracks.iter().map(Track::size).sum();
-        self.ticks.len() + self.tcp.size() + self.q.size() + tracks
-    }
-}
-
-#[derive(Debug, Serialize)]
-struct NodeRecord {
-    name: String,
-    kind: &'static str,
-    /// The node of the link that its joint hangs on.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    parent: Option<usize>,
-    shapes: Vec<ShapeRecord>,
-    #[serde(flatten)]
-    place: Place,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Place {
-    /// In the world, if it never moves.
-    Pose([f64; 7]),
-    /// Index of its track.
-    Track(usize),
-}
-
-#[derive(Debug, Serialize)]
-struct FrameRecord {
-    name: String,
-    node: Option<usize>,
-    pose: [f64; 7],
-}
-
-#[derive(Debug, Serialize)]
-struct JointRecord {
-    name: String,
-    unit: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct ReferencePath {
-    #[serde(rename = "periodS")]
-    period_s: f64,
-    path: Track,
-}
-
-#[derive(Debug, Serialize)]
-struct GoalRecord {
-    position: [f64; 3],
-    full: Option<f64>,
-    zero: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct PathRecord<'a> {
-    name: String,
-    points: &'a [[f64; 3]],
-    full: Option<f64>,
-    zero: Option<f64>,
-}
-
-/// Nodes with their tracks and meshes.
-#[derive(Debug, Default)]
-struct Nodes {
-    nodes: Vec<NodeRecord>,
-    tracks: Vec<Track>,
-    meshes: Meshes,
-}
-
-impl Nodes {
-    /// Adds a node that stands at `pose` unless it has a course on which it moves.
-    fn node(
-        &mut self,
-        name: String,
-        kind: &'static str,
-        parent: Option<usize>,
-        shapes: Vec<ShapeRecord>,
-        pose: &Pose,
-        course: Option<&Course>,
-    ) {
-        let place = match course {
-            Some(course) if !course.columns.stands_still() => {
-                self.tracks.push(course.columns.track());
-                Place::Track(self.tracks.len() - 1)
-            }
-            Some(course) => Place::Pose(shapes::rounded(course.start)),
-            None => Place::Pose(pose_record(pose)),
-        };
-        self.nodes.push(NodeRecord {
-            name,
-            kind,
-            parent,
-            shapes,
-            place,
-        });
-    }
-
-    /// Adds the links of a robot, those of a ghost under its label.
-    fn robot(&mut self, robot: &Robot, motion: &Motion, label: Option<&str>) {
-        let first = self.nodes.len();
-        for (i, link) in robot.links().iter().enumerate() {
-            let parent = robot.joints().iter().find(|joint| joint.child == i);
-            let name = shortened(&link.name, MOST_OF_A_NAME);
-            let (name, kind) = match label {
-                Some(label) => (
-                    format!("{}/{name}", shortened(label, MOST_OF_A_NAME)),
-                    "ghost",
-                ),
-                None => (name, "link"),
-            };
-            let shapes = self.meshes.shapes(&link.shapes);
-            self.node(
-                name,
-                kind,
-                parent.map(|joint| first + joint.parent),
-                shapes,
-                &link.attachment.body_from_here,
-                motion.links[i].as_ref(),
-            );
-        }
-    }
-
-    /// Adds a ghost: its robot, and what else went another way than in the run.
-    fn ghost(&mut self, ghost: &Ghost<'_>, run: &TaskRun, main: &Motion, frames: &[usize]) {
-        let motion = Motion::of(ghost.robot, ghost.trace, frames, run.trace.step_s);
-        self.robot(ghost.robot, &motion, Some(ghost.label));
-        let bodies = ghost.scene.map_or(&[][..], |scene| &scene.bodies);
-        for (course, index) in motion.bodies.iter().zip(&ghost.trace.moving_bodies) {
-            let Some(body) = bodies.get(*index) else {
-                continue;
-            };
-            let same = main.bodies.iter().any(|other| other == course);
-            if same || course.columns.stands_still() {
-                continue;
-            }
-            let shapes = self.meshes.shapes(&body.shapes);
-            let (label, name) = (ghost.label, &body.name);
-            let [label, name] = [label, name.as_str()].map(|text| shortened(text, MOST_OF_A_NAME));
-            let name = format!("{label}/{name}");
-            self.node(
-                name,
-                "ghost",
-                None,
-                shapes,
-                &body.world_from_body,
-                Some(course),
-            );
-        }
     }
 }
 
