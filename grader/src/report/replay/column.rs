@@ -1,8 +1,8 @@
 //! Columns of numbers that change slowly, written small: whole multiples of a quantum, told by how their change changes.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-
-use super::base64::base64;
 
 /// What is farther from zero than so many quanta is told as if it were there: all differences stay whole numbers in a script.
 const MOST_QUANTA: f64 = (1u64 << 40) as f64;
@@ -73,7 +73,7 @@ impl Columns {
             width: self.columns.len(),
             count,
             quanta: self.quanta.clone(),
-            data: base64(&bytes),
+            data: STANDARD.encode(&bytes),
         }
     }
 }
@@ -98,20 +98,7 @@ fn write(column: &[i64], bytes: &mut Vec<u8>) {
 /// Reads columns back, as a viewer does.
 #[cfg(test)]
 pub(super) fn read(width: usize, count: usize, quanta: &[f64], data: &str) -> Vec<Vec<f64>> {
-    let letter = |c: u8| match c {
-        b'A'..=b'Z' => u32::from(c - b'A'),
-        b'a'..=b'z' => u32::from(c - b'a') + 26,
-        b'0'..=b'9' => u32::from(c - b'0') + 52,
-        b'+' => 62,
-        _ => 63,
-    };
-    let mut bytes = Vec::new();
-    for four in data.trim_end_matches('=').as_bytes().chunks(4) {
-        let bits = (0..4).fold(0, |bits, i| {
-            bits << 6 | four.get(i).map_or(0, |c| letter(*c))
-        });
-        bytes.extend_from_slice(&bits.to_be_bytes()[1..four.len()]);
-    }
+    let bytes = STANDARD.decode(data).expect("base64");
     let mut bytes = bytes.into_iter();
     let mut columns = Vec::new();
     for quantum in &quanta[..width] {
@@ -152,7 +139,7 @@ mod tests {
         }
         // 100, +10, 0, +1, -11 zigzag to 200 (two bytes), 20, 0, 2, 21
         let bytes = [0xC8, 0x01, 20, 0, 2, 21];
-        assert_eq!(columns.track().data, base64(&bytes));
+        assert_eq!(columns.track().data, STANDARD.encode(&bytes));
         assert!(!columns.stands_still());
     }
 

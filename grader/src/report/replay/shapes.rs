@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use kinemark_sim::robot::inertia::{MeshSolid, Solid};
 use kinemark_sim::robot::mesh::Mesh;
 use kinemark_sim::robot::model::Shape;
@@ -9,8 +11,6 @@ use kinemark_sim::spatial::{Pose, pose};
 use kinemark_sim::trace::pose_numbers;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
-
-use super::base64::base64;
 
 /// Triangles of all meshes of a replay; a mesh beyond them is shown as the box around it. So many take some 4 MB.
 const MOST_TRIANGLES: usize = 200_000;
@@ -114,8 +114,8 @@ impl Meshes {
             let triangles = mesh.triangles().as_flattened().iter();
             let triangles: Vec<u8> = triangles.flat_map(|i| i.to_le_bytes()).collect();
             MeshRecord {
-                vertices: base64(&vertices),
-                triangles: base64(&triangles),
+                vertices: STANDARD.encode(&vertices),
+                triangles: STANDARD.encode(&triangles),
             }
         };
         self.known.iter().map(record).collect()
