@@ -233,7 +233,15 @@ fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
     } else if a.lab.digest != b.lab.digest {
         notes.push("the lab was changed between the two".to_owned());
     }
-    if a.robot.digest != b.robot.digest {
+    if a.robot.name == b.robot.name {
+        // other numbers are told already
+        if a.robot.digest != b.robot.digest && a.variant == b.variant {
+            notes.push(format!(
+                "robot `{}` was changed between the two",
+                a.robot.name
+            ));
+        }
+    } else {
         notes.push(format!(
             "other robots: A has `{}`, B has `{}`",
             a.robot.name, b.robot.name

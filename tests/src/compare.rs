@@ -90,6 +90,78 @@ fn two_attempts_are_told_apart_where_they_part() {
     assert!(ran.stderr.contains("holds `notes.txt`"), "{ran:?}");
 }
 
+/// A lab's first motion task in the record.
+fn moved(record: &Value) -> &Value {
+    let tasks = record["tasks"].as_array().expect("tasks");
+    let motion = tasks.iter().find(|task| task["motion"].is_object());
+    &motion.expect("a motion")["motion"]
+}
+
+#[test]
+fn students_with_other_numbers_are_compared_and_the_page_says_so() {
+    let bed = TestBed::new();
+    let lab = "03-knock-with-position";
+    let good = root().join(format!("tests/submissions/{lab}/good/submission.rhai"));
+    let good = std::fs::read_to_string(good).expect("a submission");
+    bed.write("good.rhai", good);
+    for student in ["anna", "bert"] {
+        let args = [
+            "grade",
+            lab,
+            "good.rhai",
+            "--student",
+            student,
+            "--salt",
+            "s",
+        ];
+        let ran = bed.run(&[&args[..], &["--out", student]].concat());
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+    }
+    let ran = bed.run(&["compare", "anna", "bert", "--json"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let record: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let notes = record["notes"].as_array().expect("notes");
+    let told = |words: &str| {
+        notes
+            .iter()
+            .any(|note| note.as_str().is_some_and(|note| note.contains(words)))
+    };
+    assert!(told("anna") && told("bert"), "{notes:?}");
+    // other goals, so the arms part; both stand in one page, each with its own shelf and can
+    assert!(moved(&record)["first"]["time_s"].is_number(), "{record}");
+    let page = std::fs::read_to_string(bed.path("kinemark-compare/compare.html")).expect("a page");
+    assert!(page.contains("\"name\":\"B/can\"") && page.contains("anna"));
+}
+
+#[test]
+fn a_lab_whose_robot_has_changed_since_is_compared_with_its_two_robots() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let good = root().join("tests/submissions/01-kinematics/good/submission.rhai");
+    bed.write(
+        "good.rhai",
+        std::fs::read_to_string(good).expect("a submission"),
+    );
+    let grade = |out: &str| bed.run(&["grade", "01-kinematics", "good.rhai", "--out", out]);
+    assert_eq!(grade("a").code, Some(0));
+    let robot = "labs/robots/rrbot.toml";
+    let text = std::fs::read_to_string(bed.path(robot)).expect("a robot");
+    assert_eq!(text.matches("damping = 0.7").count(), 2, "{text}");
+    bed.write(robot, text.replace("damping = 0.7", "damping = 2.5"));
+    let ran = grade("b");
+    assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
+    let ran = bed.run(&["compare", "a", "b", "--json"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let record: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let notes = record["notes"].to_string();
+    assert!(
+        notes.contains("robot `rrbot` was changed between the two"),
+        "{notes}"
+    );
+    let motion = moved(&record);
+    assert_eq!(motion["same_bits"], false, "{motion}");
+}
+
 #[test]
 fn a_report_that_was_changed_is_told() {
     let bed = graded();

@@ -190,8 +190,13 @@ impl Serving {
         let mut before = Vec::new();
         loop {
             let line = serving.line();
-            if let Some((_, address)) = line.split_once(" is open at http://") {
-                serving.host = address.trim_end_matches('/').to_owned();
+            let address = line
+                .split_once(" is open at http://")
+                .or_else(|| line.split_once("\"address\":\"http://"));
+            if let Some((_, address)) = address {
+                let host = address.split(['/', '"']).next().unwrap_or_default();
+                serving.host = host.to_owned();
+                before.extend(line.starts_with('{').then_some(line));
                 return (serving, before);
             }
             before.push(line);

@@ -133,3 +133,16 @@ fn what_holds_no_report_is_told() {
     assert_eq!(ran.code, Some(3), "{ran:?}");
     assert!(ran.stderr.contains("holds no report"), "{ran:?}");
 }
+
+#[test]
+fn a_program_is_told_folder_and_address_as_json() {
+    let bed = graded("out");
+    let (serving, told) = Serving::start(&bed, &["view", "out", "--no-open", "--json"]);
+    let line: serde_json::Value = serde_json::from_str(&told[0]).expect("JSON");
+    let address = format!("http://{}/", serving.host);
+    assert_eq!(
+        line,
+        serde_json::json!({ "folder": "out", "address": address })
+    );
+    assert_eq!(serving.get("/report.html").code, 200);
+}

@@ -184,6 +184,9 @@ pub(crate) struct ViewArgs {
     pub(crate) folder: PathBuf,
     #[command(flatten)]
     pub(crate) serve: ServeArgs,
+    /// Print folder and address as a line of JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Grade on every save, and keep the report open

@@ -111,12 +111,14 @@ impl<'a> Replay<'a> {
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
         let most = (tens * MOST_CHARACTERS as f64) as usize;
         let mut coded = Coded::default();
+        let mut between = "line";
         for coarseness in COARSENESS {
             let moments = if coarseness < TOO_COARSE_FOR_EVENTS {
                 &moments[..]
             } else {
                 &[]
             };
+            between = if coarseness > 1 { "curve" } else { "line" };
             coded = self.coded(&frames(step_s, ticks, coarseness, moments));
             if coded.size() <= most {
                 break;
@@ -141,6 +143,7 @@ impl<'a> Replay<'a> {
             task: visible(&run.task).into_owned(),
             title: shortened(self.task.map_or(&run.task, |task| &task.title), 200),
             step_s,
+            between,
             lab: self.lab(),
             frames: self.frames(),
             joints: joints.collect(),

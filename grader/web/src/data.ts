@@ -86,6 +86,8 @@ export interface Replay {
   readonly title: string;
   readonly stepS: number;
   readonly ticks: Float64Array;
+  /** Whether the way between two frames is taken as a straight line, else as a curve: frames far apart are of smooth motion. */
+  readonly straight: boolean;
   readonly lab: Frame;
   readonly nodes: readonly SceneNode[];
   readonly meshes: readonly Mesh[];
@@ -266,6 +268,7 @@ export function read(json: string): Replay {
     title: root.of("title").text(),
     stepS,
     ticks,
+    straight: root.of("between").one(["line", "curve"], "line") === "line",
     lab: frame(root.of("lab")),
     nodes,
     meshes,

@@ -33,13 +33,3 @@ export function normalize(pose: Float64Array, o: number): void {
   pose[o + 5] = y * scale;
   pose[o + 6] = z * scale;
 }
-
-/** Writes the pose a fraction `f` of the way from row `i` to row `k`: a straight line, and the shorter of both turns. */
-export function between(out: Float64Array, o: number, rows: Float64Array, i: number, k: number, f: number): void {
-  const a = 7 * i, b = 7 * k;
-  const dot = rows[a + 3] * rows[b + 3] + rows[a + 4] * rows[b + 4] + rows[a + 5] * rows[b + 5] + rows[a + 6] * rows[b + 6];
-  const g = dot < 0 ? -f : f;
-  for (let c = 0; c < 3; c++) out[o + c] = rows[a + c] + f * (rows[b + c] - rows[a + c]);
-  for (let c = 3; c < 7; c++) out[o + c] = (1 - f) * rows[a + c] + g * rows[b + c];
-  normalize(out, o);
-}

@@ -1,7 +1,8 @@
-// Where everything is at a moment: the poses of the trace, and between two frames the straight way from one to the other.
+// Where everything is at a moment: the poses of the trace, and between two frames the way from one to the other.
 
+import { blend, blended, blendedPose, setBlend } from "./between";
 import type { Replay } from "./data";
-import { between, compose, normalize, place } from "./pose";
+import { compose, normalize, place } from "./pose";
 
 export class World {
   /** Pose of every node in the world, seven numbers each. */
@@ -18,6 +19,7 @@ export class World {
   /** Frames that have passed, with the fraction of the one under way. */
   progress = 0;
   private row = 0;
+  private readonly way = blend();
 
   constructor(readonly replay: Replay) {
     this.poses = new Float64Array(7 * replay.nodes.length);
@@ -50,24 +52,21 @@ export class World {
 
   /** Puts everything where it is at `t` \[s\]. */
   at(t: number): void {
-    const { ticks, stepS, nodes, tracks, tcp, q, lab } = this.replay;
+    const { ticks, stepS, nodes, tracks, tcp, q, lab, straight } = this.replay;
     // a time read from a link may miss its tick by a rounding
     const exact = t / stepS;
     const tick = Math.abs(exact - Math.round(exact)) < 1e-6 ? Math.round(exact) : exact;
     const i = (this.row = this.find(tick));
     const k = Math.min(i + 1, ticks.length - 1);
-    const f = k > i ? Math.min(1, Math.max(0, (tick - ticks[i]) / (ticks[k] - ticks[i]))) : 0;
     this.t = t;
-    this.progress = i + f;
+    this.progress = i + (k > i ? Math.min(1, Math.max(0, (tick - ticks[i]) / (ticks[k] - ticks[i]))) : 0);
+    setBlend(this.way, ticks, i, tick, straight);
     for (let n = 0; n < nodes.length; n++) {
       const at = nodes[n].track;
-      if (at >= 0) between(this.poses, 7 * n, tracks[at].values, i, k, f);
+      if (at >= 0) blendedPose(this.poses, 7 * n, tracks[at], this.way);
     }
-    for (let c = 0; c < 3; c++) this.tcp[c] = tcp.values[3 * i + c] + f * (tcp.values[3 * k + c] - tcp.values[3 * i + c]);
-    const width = this.q.length;
-    for (let c = 0; c < width; c++) {
-      this.q[c] = q.values[width * i + c] + f * (q.values[width * k + c] - q.values[width * i + c]);
-    }
+    for (let c = 0; c < 3; c++) this.tcp[c] = blended(tcp, c, this.way);
+    for (let c = 0; c < this.q.length; c++) this.q[c] = blended(q, c, this.way);
     this.frame(this.lab, lab.node, lab.pose);
     place(this.tcpInWorld, 0, this.lab, 0, this.tcp[0], this.tcp[1], this.tcp[2]);
   }

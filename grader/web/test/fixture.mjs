@@ -65,7 +65,7 @@ const L1 = 0.9;
 const L2 = 0.85;
 const BASE = 1.1;
 
-function armAt([q1, q2]) {
+export function armAt([q1, q2]) {
   // turned about y, so that the arm at zero points up
   const first = about(1, q1);
   const elbow = plus([0, 0, BASE], rotate(first, [0, 0, L1]));

@@ -29,7 +29,12 @@ pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
     });
     let server = Server::bind(&args.folder, args.serve.port, None)?;
     let address = server.address();
-    output::print(&format!("{shown} is open at {address}\nend with Ctrl-C\n"))?;
+    if args.json {
+        let line = serde_json::json!({ "folder": shown.to_string(), "address": address });
+        output::print(&format!("{line}\n"))?;
+    } else {
+        output::print(&format!("{shown} is open at {address}\nend with Ctrl-C\n"))?;
+    }
     if !args.serve.no_open {
         serve::open(&address);
     }

@@ -14,6 +14,8 @@ pub(super) struct Record<'a> {
     pub(super) task: String,
     pub(super) title: String,
     pub(super) step_s: f64,
+    /// The way from frame to frame: a `line`, or a `curve` where frames are so far apart that a line would cut corners.
+    pub(super) between: &'static str,
     pub(super) lab: FrameRecord,
     #[serde(flatten)]
     pub(super) coded: Coded,

@@ -211,6 +211,10 @@ fn many_joints_are_told_more_coarsely() {
     let record: Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(record["nodes"].as_array().map(Vec::len), Some(26));
     assert!(record["tcp"]["count"].as_u64() > Some(200));
+    // far apart, and so on a curve; a robot of few joints needs none
+    assert_eq!(record["between"], "curve");
+    let few = sample::chain(2, 10_001, |tick, _| libm::sin(0.001 * tick as f64));
+    assert_eq!(self::record(Replay::of(&few, None))["between"], "line");
 }
 
 #[test]
