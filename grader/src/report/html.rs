@@ -185,7 +185,7 @@ mod tests {
         let page = page(&sample::graded());
         for part in [
             "<div class=\"replay\" data-replay=\"replay-4\" data-task=\"move\"></div>",
-            "<script type=\"application/json\" id=\"replay-4\">{\"format\":\"kinemark-replay/1\",\"task\":\"move\"",
+            "<script type=\"application/json\" id=\"replay-4\">{\"format\":\"kinemark-replay/2\",\"task\":\"move\"",
             "<a class=\"seek\" href=\"#task=move&amp;t=3.71\">3.71 s</a>",
             "<a class=\"seek\" href=\"#task=move&amp;t=2.4\">2.400 s</a>",
         ] {

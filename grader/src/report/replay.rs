@@ -1,6 +1,8 @@
 //! What a viewer needs to show a run again: shapes, poses by frame, and the moments worth a mark, as JSON that can stand in a page.
 
+mod between;
 mod column;
+mod course;
 mod frames;
 mod moments;
 mod motion;
@@ -8,32 +10,35 @@ mod nodes;
 mod record;
 mod shapes;
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::kinematics::FramePoses;
+use kinemark_sim::robot::{Frame, Robot};
 use kinemark_sim::scene::{BodyKind, Scene};
 use kinemark_sim::spatial::Pose;
 use kinemark_sim::trace::Trace;
 
-use self::column::{Columns, Track};
-use self::frames::{frames, sound_ticks};
+use self::column::{Track, tick_column};
+use self::course::{Course, What};
+use self::frames::{looked, sound_ticks, steps};
 use self::moments::{MOST_OF_A_NAME, contacts, events};
 use self::motion::{Motion, PLACE};
 use self::nodes::Nodes;
-use self::record::{
-    Coded, FrameRecord, GoalRecord, JointRecord, PathRecord, Record, ReferencePath,
-};
+use self::record::{FrameRecord, GoalRecord, JointRecord, PathRecord, Record, ReferencePath};
 use self::shapes::pose_record;
 use crate::grade::TaskGrade;
 use crate::graded::TaskRun;
 use crate::report::visible::{shortened, visible};
 
 /// The format and its version.
-const FORMAT: &str = "kinemark-replay/1";
-/// Characters of coded data of a run of ten seconds or less; longer runs may have as much more as they are longer.
+const FORMAT: &str = "kinemark-replay/2";
+/// Between frames everything is told to this \[m or rad\].
+const WITHIN: f64 = 3e-4;
+/// Characters of coded motion of a run of ten seconds or less; longer runs may have as much more as they are longer. Beyond, what takes
+/// the most is told less truly, and the record says how much.
 const MOST_CHARACTERS: usize = 120_000;
-/// How many periods apart the frames may be, finest first.
-const COARSENESS: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-/// Frames at events are left out from this coarseness on: of many joints, they are most of the data.
-const TOO_COARSE_FOR_EVENTS: usize = 8;
+/// So much less truly each time.
+const LESS_TRUE: f64 = 3.0;
+/// Nothing is told less truly than this \[m or rad\].
+const LEAST_TRUE: f64 = 10.0;
 /// Points of a reference path or of a path to follow.
 const MOST_POINTS: usize = 20_000;
 
@@ -108,25 +113,17 @@ impl<'a> Replay<'a> {
         }
         let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let step_s = run.trace.step_s;
+        let told = self.told(ticks, &moments);
+        let steps = tick_column(&steps(step_s, ticks, &moments));
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
-        let most = (tens * MOST_CHARACTERS as f64) as usize;
-        let mut coded = Coded::default();
-        let mut between = "line";
-        for coarseness in COARSENESS {
-            let moments = if coarseness < TOO_COARSE_FOR_EVENTS {
-                &moments[..]
-            } else {
-                &[]
-            };
-            between = if coarseness > 1 { "curve" } else { "line" };
-            coded = self.coded(&frames(step_s, ticks, coarseness, moments));
-            if coded.size() <= most {
-                break;
-            }
-        }
+        let most = ((tens * MOST_CHARACTERS as f64) as usize).saturating_sub(steps.len());
+        let mut tracks = told.tracks(step_s, most);
+        let nodes = tracks.split_off(1 + run.robot.n());
+        let q = tracks.split_off(1);
+        let tcp = tracks.pop().unwrap_or_default();
         let reference = run.reference_tcp.as_ref().map(|path| ReferencePath {
             period_s: path.period_s,
-            path: track(
+            path: Track::even(
                 &[PLACE; 3],
                 path.points_m
                     .iter()
@@ -143,7 +140,12 @@ impl<'a> Replay<'a> {
             task: visible(&run.task).into_owned(),
             title: shortened(self.task.map_or(&run.task, |task| &task.title), 200),
             step_s,
-            between,
+            ticks: steps,
+            nodes: told.nodes.nodes,
+            meshes: told.nodes.meshes.records(),
+            tcp,
+            q,
+            tracks: nodes,
             lab: self.lab(),
             frames: self.frames(),
             joints: joints.collect(),
@@ -157,17 +159,20 @@ impl<'a> Replay<'a> {
                 .map(|ghost| shortened(ghost.label, MOST_OF_A_NAME)),
             main_label: self.label.map(|label| shortened(label, MOST_OF_A_NAME)),
             ended: self.ended(),
-            coded,
         }
     }
 
-    /// All that changes from frame to frame, and what it belongs to.
-    fn coded(&self, frames: &[usize]) -> Coded {
+    /// Everything that moves, at the moments looked at, and what it belongs to.
+    fn told(&self, ticks: usize, moments: &[u64]) -> Told {
         let run = self.run;
         let trace = &run.trace;
+        let ghosts = self.ghost.map_or(0, |ghost| ghost.robot.links().len());
+        let poses = run.robot.links().len() + trace.moving_bodies.len() + ghosts;
+        let looked = looked(ticks, 7 * poses + run.robot.n() + 3, moments);
+        let unit_m = unit_m(run, ticks);
         let mut nodes = Nodes::default();
-        let motion = Motion::of(&run.robot, trace, frames, trace.step_s);
-        nodes.robot(&run.robot, &motion, None);
+        let motion = Motion::of(&run.robot, trace, &looked, trace.step_s, unit_m);
+        nodes.robot(&run.robot, motion.links, None);
         let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
         for (index, body) in bodies.enumerate() {
             let kind = match body.kind {
@@ -179,28 +184,34 @@ impl<'a> Replay<'a> {
                 .moving_bodies
                 .iter()
                 .position(|moving| *moving == index);
-            let course = at.and_then(|at| motion.bodies.get(at));
+            let course = at.and_then(|at| motion.bodies.get(at)).cloned();
             let shapes = nodes.meshes.shapes(&body.shapes);
             let name = shortened(&body.name, MOST_OF_A_NAME);
             nodes.node(name, kind, None, shapes, &body.world_from_body, course);
         }
         if let Some(ghost) = &self.ghost {
-            nodes.ghost(ghost, run, &motion, frames);
+            nodes.ghost(ghost, run, &motion.bodies, &looked, unit_m);
         }
-        let ticks = frames.iter().map(|tick| [*tick as f64]);
-        Coded {
-            ticks: track(&[1.0], ticks).into_data(),
-            tcp: track(
-                &[PLACE; 3],
-                frames.iter().map(|tick| &trace.tcp.at(*tick)[..3]),
-            ),
-            q: track(
-                &vec![PLACE; run.robot.n()],
-                frames.iter().map(|tick| trace.q.at(*tick)),
-            ),
-            meshes: nodes.meshes.records(),
-            nodes: nodes.nodes,
-            tracks: nodes.tracks,
+        let place = PLACE * unit_m;
+        let mut tcp = Course::new(What::Place, &[place; 3], unit_m);
+        let joints = run.robot.moving_joints();
+        let mut q: Vec<Course> = joints
+            .map(|joint| match joint.kind.turns() {
+                true => Course::new(What::Number, &[PLACE], 1.0),
+                false => Course::new(What::Number, &[place], unit_m),
+            })
+            .collect();
+        for tick in &looked {
+            tcp.push(trace.tcp.at(*tick));
+            for (course, q) in q.iter_mut().zip(trace.q.at(*tick)) {
+                course.push(&[*q]);
+            }
+        }
+        Told {
+            looked,
+            tcp,
+            q,
+            nodes,
         }
     }
 
@@ -268,8 +279,63 @@ impl<'a> Replay<'a> {
     }
 }
 
+/// What moves, and the moments at which it was looked at.
+struct Told {
+    looked: Vec<usize>,
+    tcp: Course,
+    q: Vec<Course>,
+    nodes: Nodes,
+}
+
+impl Told {
+    /// The tracks of the TCP, of the joints, and of the nodes, in at most `most` characters: while they take more, whatever takes the
+    /// most is told less truly.
+    fn tracks(&self, step_s: f64, most: usize) -> Vec<Track> {
+        let courses: Vec<&Course> = [&self.tcp]
+            .into_iter()
+            .chain(&self.q)
+            .chain(&self.nodes.courses)
+            .collect();
+        let track = |course: &Course, within: f64| course.track(&self.looked, step_s, within);
+        let mut within = vec![WITHIN; courses.len()];
+        let mut tracks: Vec<Track> = courses.iter().map(|c| track(c, WITHIN)).collect();
+        let mut size: usize = tracks.iter().map(Track::size).sum();
+        while size > most {
+            let can = (0..tracks.len()).filter(|i| within[*i] < LEAST_TRUE);
+            let Some(largest) = can.max_by_key(|i| tracks[*i].size()) else {
+                break;
+            };
+            within[largest] *= LESS_TRUE;
+            size -= tracks[largest].size();
+            tracks[largest] = track(courses[largest], within[largest]);
+            size += tracks[largest].size();
+        }
+        tracks
+    }
+}
+
+/// The unit of length of a run \[m\]: a metre, or for an arm that reaches less far than a quarter of that, four times its reach.
+fn unit_m(run: &TaskRun, ticks: usize) -> f64 {
+    let mut poses = FramePoses::new(&run.robot);
+    if ticks > 0 {
+        poses.update(&run.robot, run.trace.q.at(0));
+    }
+    let frames = run.robot.frames();
+    let place = |frame: &Frame| poses.world_from(frame).translation.vector;
+    let base = frames.first().map(place).unwrap_or_default();
+    let reach_m = frames
+        .iter()
+        .map(|frame| (place(frame) - base).norm())
+        .fold(0.0, f64::max);
+    if reach_m > 0.0 {
+        (4.0 * reach_m).clamp(1e-4, 1.0)
+    } else {
+        1.0
+    }
+}
+
 /// A frame of a robot: on the node of its link, or in the world where that never moves.
-fn frame_record(robot: &Robot, frame: &kinemark_sim::robot::Frame) -> FrameRecord {
+fn frame_record(robot: &Robot, frame: &Frame) -> FrameRecord {
     let name = shortened(&frame.name, MOST_OF_A_NAME);
     match frame.attachment.body {
         None => FrameRecord {
@@ -287,15 +353,6 @@ fn frame_record(robot: &Robot, frame: &kinemark_sim::robot::Frame) -> FrameRecor
             }
         }
     }
-}
-
-/// Rows as a track.
-fn track<R: AsRef<[f64]>>(quanta: &[f64], rows: impl Iterator<Item = R>) -> Track {
-    let mut columns = Columns::new(quanta);
-    for row in rows {
-        columns.push(row.as_ref());
-    }
-    columns.track()
 }
 
 #[cfg(test)]

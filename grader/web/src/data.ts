@@ -1,5 +1,6 @@
 // What the page says of a run: the replay's JSON, checked once, so that nothing behind it meets a missing number.
 
+import { Way } from "./between";
 import { bytes, column, track, type Track } from "./track";
 
 export type Vector = readonly number[];
@@ -85,17 +86,17 @@ export interface Replay {
   readonly task: string;
   readonly title: string;
   readonly stepS: number;
+  /** The ticks stepped through. */
   readonly ticks: Float64Array;
-  /** Whether the way between two frames is taken as a straight line, else as a curve: frames far apart are of smooth motion. */
-  readonly straight: boolean;
   readonly lab: Frame;
   readonly nodes: readonly SceneNode[];
   readonly meshes: readonly Mesh[];
   readonly frames: readonly Frame[];
+  /** How everything moved, to the tick. */
+  readonly moves: { readonly tcp: Way; readonly q: readonly Way[]; readonly nodes: readonly Way[] };
+  /** The TCP in the lab frame at every step. */
   readonly tcp: Track;
-  readonly q: Track;
   readonly joints: readonly Joint[];
-  readonly tracks: readonly Track[];
   readonly reference: { readonly periodS: number; readonly path: Track } | null;
   readonly goals: readonly Goal[];
   readonly paths: readonly Path[];
@@ -182,13 +183,28 @@ class Value {
     return found ?? otherwise;
   }
 
-  track(width: number, frames: number | null): Track {
+  /** Rows of `width` numbers: at their ticks, or at a fixed period. */
+  track(width: number, ticks: Float64Array | null): Track {
     const quanta = this.of("quanta").numbers(this.of("width").number());
     if (quanta.length !== width) throw this.wrong(`${width} columns`);
     const count = this.of("count").number();
     if (!Number.isInteger(count) || count < 0) throw this.wrong("a track: its count is no count");
-    if (frames !== null && count !== frames) throw this.wrong(`a track of ${frames} frames`);
-    return this.decoded(() => track(this.of("data").text(), quanta, count));
+    if (ticks !== null && count !== ticks.length) throw this.wrong(`a track of ${ticks.length} frames`);
+    return this.decoded(() => track(this.of("data").text(), quanta, count, ticks));
+  }
+
+  /** Ticks in order, one at least. */
+  ticks(): Float64Array {
+    const ticks = this.decoded(() => column(this.text()));
+    if (ticks.length === 0) throw this.wrong("a list of ticks: there is none");
+    for (let i = 1; i < ticks.length; i++) if (!(ticks[i] > ticks[i - 1])) throw this.wrong("in order of time");
+    return ticks;
+  }
+
+  way(width: number): Way {
+    const ticks = this.of("ticks").ticks();
+    const within = this.of("within").positive();
+    return new Way(ticks, this.track(width, ticks), within);
   }
 
   decoded<T>(read: () => T): T {
@@ -232,18 +248,27 @@ const tolerance = (value: Value): Tolerance => ({
   zero: value.of("zero").maybe((v) => v.number()),
 });
 
+/** A way's rows at other ticks. */
+function resampled(way: Way, ticks: Float64Array): Track {
+  const { width } = way.track;
+  const values = new Float64Array(width * ticks.length);
+  ticks.forEach((tick, i) => {
+    way.at(tick);
+    for (let c = 0; c < width; c++) values[i * width + c] = way.number(c);
+  });
+  return { width, count: ticks.length, values };
+}
+
 /** Reads a replay. Throws with a sentence that says what is wrong with it. */
 export function read(json: string): Replay {
   const root = new Value(JSON.parse(json), "");
   const format = root.of("format").text();
-  if (format !== "kinemark-replay/1") throw new Error(`its format is ${format}, and this page shows kinemark-replay/1`);
+  if (format !== "kinemark-replay/2") throw new Error(`its format is ${format}, and this page shows kinemark-replay/2`);
   const stepS = root.of("stepS").positive();
-  const ticks = root.of("ticks").decoded(() => column(root.of("ticks").text()));
-  if (ticks.length === 0) throw new Error("it has no frame: the run ended before its first step");
-  for (let i = 1; i < ticks.length; i++) if (!(ticks[i] > ticks[i - 1])) throw new Error("its frames are not in order of time");
-  const frames = ticks.length;
+  if (root.of("ticks").text() === "") throw new Error("it has no frame: the run ended before its first step");
+  const ticks = root.of("ticks").ticks();
   const meshes = root.of("meshes").maybe((list) => list.list(mesh)) ?? [];
-  const tracks = root.of("tracks").list((value) => value.track(7, frames));
+  const tracks = root.of("tracks").list((value) => value.way(7));
   const nodes = root.of("nodes").list((value): SceneNode => {
     const at = value.of("track").maybe((v) => v.index(tracks.length));
     return {
@@ -262,21 +287,22 @@ export function read(json: string): Replay {
     pose: value.of("pose").pose(),
   });
   const joints = root.of("joints").list((value) => ({ name: value.of("name").text(), unit: value.of("unit").text() }));
+  const tcp = root.of("tcp").way(3);
+  const q = root.of("q").list((value) => value.way(1));
+  if (q.length !== joints.length) throw new Error(`there are ${q.length} tracks of ${joints.length} joints`);
   const list = <T>(key: string, item: (value: Value) => T): T[] => root.of(key).maybe((value) => value.list(item)) ?? [];
   return {
     task: root.of("task").text(),
     title: root.of("title").text(),
     stepS,
     ticks,
-    straight: root.of("between").one(["line", "curve"], "line") === "line",
     lab: frame(root.of("lab")),
     nodes,
     meshes,
     frames: list("frames", frame),
-    tcp: root.of("tcp").track(3, frames),
-    q: root.of("q").track(joints.length, frames),
+    moves: { tcp, q, nodes: tracks },
+    tcp: resampled(tcp, ticks),
     joints,
-    tracks,
     reference: root.of("reference").maybe((value) => ({ periodS: value.of("periodS").positive(), path: value.of("path").track(3, null) })),
     goals: list("goals", (value) => ({ position: value.of("position").numbers(3), ...tolerance(value) })),
     paths: list("paths", (value) => ({

@@ -1,6 +1,6 @@
-// Numbers of a run as the page carries them: columns of whole numbers, coded as second differences.
+// Numbers of a run as the page carries them: columns of whole numbers, each told by how far it is from where the two before it lead.
 
-/** Values of every frame, row after row: value `c` of frame `i` is `values[i * width + c]`. */
+/** Values of every row, row after row: value `c` of row `i` is `values[i * width + c]`. */
 export interface Track {
   readonly width: number;
   readonly count: number;
@@ -65,8 +65,11 @@ export function column(text: string): Float64Array {
   return out.subarray(0, count);
 }
 
-/** A track of `quanta.length` columns with `count` numbers each. Throws where the bytes hold fewer or more. */
-export function track(text: string, quanta: readonly number[], count: number): Track {
+/**
+ * A track of `quanta.length` columns with `count` numbers each, at `ticks`, or at a fixed period where that is null. Throws where the bytes
+ * hold fewer or more.
+ */
+export function track(text: string, quanta: readonly number[], count: number, ticks: Float64Array | null): Track {
   const width = quanta.length;
   const data = bytes(text);
   // a number takes a byte at least, so a false count costs no memory
@@ -86,11 +89,13 @@ export function track(text: string, quanta: readonly number[], count: number): T
         numbers.at++;
         next = (byte >> 1) ^ -(byte & 1);
       } else next = numbers.next();
-      if (i === 0) value = next;
+      const before = value;
+      if (i < 2) value += next;
       else {
-        step += next;
-        value += step;
+        const ratio = ticks === null ? 1 : (ticks[i] - ticks[i - 1]) / (ticks[i - 1] - ticks[i - 2]);
+        value += Math.floor(step * ratio + 0.5) + next;
       }
+      step = value - before;
       values[at] = value * quantum;
     }
   }

@@ -1,6 +1,6 @@
 // Where everything is at a moment: the poses of the trace, and between two frames the way from one to the other.
 
-import { blend, blended, blendedPose, setBlend } from "./between";
+import { lastAt } from "./between";
 import type { Replay } from "./data";
 import { compose, normalize, place } from "./pose";
 
@@ -16,10 +16,8 @@ export class World {
   readonly q: Float64Array;
   /** Moment that is shown \[s\]. */
   t = 0;
-  /** Frames that have passed, with the fraction of the one under way. */
+  /** Steps that have passed, with the fraction of the one under way. */
   progress = 0;
-  private row = 0;
-  private readonly way = blend();
 
   constructor(readonly replay: Replay) {
     this.poses = new Float64Array(7 * replay.nodes.length);
@@ -32,41 +30,27 @@ export class World {
     this.at(replay.ticks[0] * replay.stepS);
   }
 
-  /** The last frame at or before a moment. */
-  private find(tick: number): number {
-    const ticks = this.replay.ticks;
-    const last = ticks.length - 1;
-    let row = Math.min(this.row, last);
-    // while it plays, the frame is the one of before or the next
-    if (ticks[row] <= tick && (row === last || tick < ticks[row + 1])) return row;
-    if (row < last && ticks[row + 1] <= tick && (row + 1 === last || tick < ticks[row + 2])) return row + 1;
-    let low = 0;
-    let high = last;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (ticks[middle] <= tick) low = middle;
-      else high = middle - 1;
-    }
-    return low;
-  }
-
   /** Puts everything where it is at `t` \[s\]. */
   at(t: number): void {
-    const { ticks, stepS, nodes, tracks, tcp, q, lab, straight } = this.replay;
+    const { ticks, stepS, nodes, moves, lab } = this.replay;
     // a time read from a link may miss its tick by a rounding
     const exact = t / stepS;
     const tick = Math.abs(exact - Math.round(exact)) < 1e-6 ? Math.round(exact) : exact;
-    const i = (this.row = this.find(tick));
+    const i = lastAt(ticks, tick);
     const k = Math.min(i + 1, ticks.length - 1);
     this.t = t;
     this.progress = i + (k > i ? Math.min(1, Math.max(0, (tick - ticks[i]) / (ticks[k] - ticks[i]))) : 0);
-    setBlend(this.way, ticks, i, tick, straight);
+    for (let i = 0; i < moves.nodes.length; i++) moves.nodes[i].at(tick);
     for (let n = 0; n < nodes.length; n++) {
       const at = nodes[n].track;
-      if (at >= 0) blendedPose(this.poses, 7 * n, tracks[at], this.way);
+      if (at >= 0) moves.nodes[at].pose(this.poses, 7 * n);
     }
-    for (let c = 0; c < 3; c++) this.tcp[c] = blended(tcp, c, this.way);
-    for (let c = 0; c < this.q.length; c++) this.q[c] = blended(q, c, this.way);
+    moves.tcp.at(tick);
+    for (let c = 0; c < 3; c++) this.tcp[c] = moves.tcp.number(c);
+    for (let c = 0; c < this.q.length; c++) {
+      moves.q[c].at(tick);
+      this.q[c] = moves.q[c].number(0);
+    }
     this.frame(this.lab, lab.node, lab.pose);
     place(this.tcpInWorld, 0, this.lab, 0, this.tcp[0], this.tcp[1], this.tcp[2]);
   }

@@ -19,22 +19,24 @@ function varint(out, integer) {
   out.push(rest);
 }
 
-/** The bytes of columns of whole numbers, by second differences. */
-export function encodeColumns(columns) {
+/** The bytes of columns of whole numbers, each told by how far it is from where the two before it lead. */
+export function encodeColumns(columns, ticks = null) {
   const out = [];
   for (const column of columns) {
     column.forEach((value, i) => {
-      const step = (k) => column[k] - column[k - 1];
-      varint(out, i === 0 ? value : i === 1 ? step(1) : step(i) - step(i - 1));
+      if (i < 2) return varint(out, i === 0 ? value : value - column[0]);
+      const ratio = ticks === null ? 1 : (ticks[i] - ticks[i - 1]) / (ticks[i - 1] - ticks[i - 2]);
+      varint(out, value - column[i - 1] - Math.floor((column[i - 1] - column[i - 2]) * ratio + 0.5));
     });
   }
   return Buffer.from(out).toString("base64");
 }
 
-/** A track of rows. */
-export function encode(rows, quanta) {
+/** A track of rows, at ticks or at a fixed period. */
+export function encode(rows, quanta, ticks = null) {
   const columns = quanta.map((quantum, c) => rows.map((row) => Math.round(row[c] / quantum)));
-  return { width: quanta.length, count: rows.length, quanta, data: encodeColumns(columns) };
+  const coded = { width: quanta.length, count: rows.length, quanta, data: encodeColumns(columns, ticks) };
+  return ticks === null ? coded : { ...coded, ticks: encodeColumns([ticks]), within: 3e-4 };
 }
 
 const POSITION = [1e-5, 1e-5, 1e-5];
@@ -104,7 +106,7 @@ export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, 
   const labTurn = labPose.slice(3);
   const inLab = (p) => rotate([labTurn[0], -labTurn[1], -labTurn[2], -labTurn[3]], p.map((v, i) => v - labPose[i]));
   const tracks = [];
-  const track = (f) => tracks.push(encode(ticks.map(f), POSE)) - 1;
+  const track = (f) => tracks.push(encode(ticks.map(f), POSE, ticks)) - 1;
   const bar = (length, width) => [
     { solid: { box: [width, width, length] }, pose: [0, 0, length / 2, ...identity] },
     { solid: { cylinder: { radius: 0.75 * width, length: 1.3 * width } }, pose: [0, 0, 0, ...about(0, Math.PI / 2)] },
@@ -140,7 +142,7 @@ export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, 
   const periods = Array.from({ length: Math.round(seconds / 0.01) + 1 }, (_, i) => i * 10);
   const path = Array.from({ length: 30 }, (_, i) => inLab(reference(Math.round((0.75 * last * i) / 29)).tcp));
   return {
-    format: "kinemark-replay/1",
+    format: "kinemark-replay/2",
     task,
     title: "Knock the can off the shelf",
     stepS,
@@ -149,8 +151,8 @@ export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, 
     nodes,
     meshes: [{ vertices: raw(tetrahedron), triangles: raw(faces) }],
     frames: [{ name: "tcp", node: 2, pose: [0, 0, L2, ...identity] }, { name: "base", node: 0, pose: origin }],
-    tcp: encode(ticks.map((k) => inLab(at(k).tcp)), POSITION),
-    q: encode(ticks.map((k) => Array.from({ length: joints }, (_, j) => angles(k * stepS, seconds)[j % 2] + (j > 1 ? 0.1 * j : 0))), Array(joints).fill(1e-5)),
+    tcp: encode(ticks.map((k) => inLab(at(k).tcp)), POSITION, ticks),
+    q: Array.from({ length: joints }, (_, j) => encode(ticks.map((k) => [angles(k * stepS, seconds)[j % 2] + (j > 1 ? 0.1 * j : 0)]), [1e-5], ticks)),
     joints: Array.from({ length: joints }, (_, j) => ({ name: ["shoulder", "elbow"][j] ?? `joint ${j + 1}`, unit: j === 2 ? "m" : "rad" })),
     tracks,
     reference: { periodS: 0.01, path: encode(periods.map((k) => inLab(reference(k).tcp)), POSITION) },
@@ -225,5 +227,5 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const folder = process.argv[2] ?? "out";
   mkdirSync(folder, { recursive: true });
   writeFileSync(join(folder, "one.html"), page([replay()]));
-  writeFileSync(join(folder, "three.html"), page([replay(), '{"format":"kinemark-replay/1"}', replay({ task: "long", seconds: 60, joints: 25 })]));
+  writeFileSync(join(folder, "three.html"), page([replay(), '{"format":"kinemark-replay/2"}', replay({ task: "long", seconds: 60, joints: 25 })]));
 }

@@ -17,7 +17,7 @@ const write = (name, text) => {
   return pathToFileURL(join(folder, name)).href;
 };
 const one = write("one.html", html([replay()]));
-const three = write("three.html", html([replay(), '{"format":"kinemark-replay/1"}', replay({ task: "long", seconds: 60, joints: 25 })]));
+const three = write("three.html", html([replay(), '{"format":"kinemark-replay/2"}', replay({ task: "long", seconds: 60, joints: 25 })]));
 let browser;
 
 before(async () => {

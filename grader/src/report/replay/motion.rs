@@ -1,46 +1,22 @@
-//! How everything moved: poses of links and bodies in the world, frame by frame, from a trace.
+//! How everything moved: where links and bodies were in the world at every moment looked at, from a trace.
 
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::robot::Robot;
 use kinemark_sim::trace::{Trace, pose_numbers};
 
-use super::column::Columns;
+use super::course::{Course, What};
 use super::frames::sound_ticks;
 
-/// Positions are told to this \[m\], joint positions too \[rad or m\].
+/// Positions are told to this part of the unit of length; joint positions that are angles to this \[rad\].
 pub(super) const PLACE: f64 = 1e-5;
 /// Elements of quaternions are told to this.
 const TURN: f64 = 2e-5;
-const POSE: [f64; 7] = [PLACE, PLACE, PLACE, TURN, TURN, TURN, TURN];
 
-/// How one node moved.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Course {
-    /// Where it is first.
-    pub(super) start: [f64; 7],
-    /// Where it is in every frame, its quaternion without jumps of sign.
-    pub(super) columns: Columns,
-    turn: [f64; 4],
-}
-
-impl Course {
-    fn new(start: [f64; 7]) -> Self {
-        Self {
-            start,
-            columns: Columns::new(&POSE),
-            turn: [start[3], start[4], start[5], start[6]],
-        }
-    }
-
-    fn push(&mut self, mut pose: [f64; 7]) {
-        // a turn and its negative are the same; the nearer one lets a viewer go between two frames
-        let dot: f64 = (0..4).map(|i| self.turn[i] * pose[3 + i]).sum();
-        if dot < 0.0 {
-            pose[3..].iter_mut().for_each(|x| *x = -*x);
-        }
-        self.turn.copy_from_slice(&pose[3..]);
-        self.columns.push(&pose);
-    }
+/// A course of poses, told as finely as `unit_m` asks \[m\].
+pub(super) fn poses(unit_m: f64) -> Course {
+    let place = PLACE * unit_m;
+    let quanta = [place, place, place, TURN, TURN, TURN, TURN];
+    Course::new(What::Pose, &quanta, unit_m)
 }
 
 /// How all links of a robot and all bodies of its scene that can move did move.
@@ -52,54 +28,54 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// The motion in a trace at `frames`, ticks of `step_s`; after its end everything stays where it was.
-    pub(super) fn of(robot: &Robot, trace: &Trace, frames: &[usize], step_s: f64) -> Self {
-        let mut poses = FramePoses::new(robot);
+    /// The motion in a trace at `looked`, ticks of `step_s`; after its end everything stays where it was. Without a sound row a
+    /// course has one row: where the arm is as its file has it.
+    pub(super) fn of(
+        robot: &Robot,
+        trace: &Trace,
+        looked: &[usize],
+        step_s: f64,
+        unit_m: f64,
+    ) -> Self {
+        let mut now = FramePoses::new(robot);
         let ticks = sound_ticks(trace);
-        let link_frames = &robot.frames()[..robot.links().len()];
-        let place = |poses: &mut FramePoses, tick: Option<usize>| {
-            if let Some(tick) = tick {
-                poses.update(robot, trace.q.at(tick));
-            }
-        };
-        let first = (ticks > 0).then_some(0);
-        place(&mut poses, first);
-        let mut links: Vec<Option<Course>> = link_frames
+        let frames = &robot.frames()[..robot.links().len()];
+        let mut links: Vec<Option<Course>> = frames
             .iter()
-            .map(|frame| {
-                let moves = frame.attachment.body.is_some();
-                moves.then(|| Course::new(pose_numbers(&poses.world_from(frame))))
-            })
+            .map(|frame| frame.attachment.body.map(|_| poses(unit_m)))
             .collect();
-        let body = |tick: usize, i: usize| -> [f64; 7] {
-            let mut pose = [0.0; 7];
-            pose.copy_from_slice(&trace.bodies.at(tick)[7 * i..7 * i + 7]);
-            pose
-        };
-        let count = if ticks > 0 {
-            trace.moving_bodies.len()
-        } else {
-            0
-        };
-        let mut bodies: Vec<Course> = (0..count).map(|i| Course::new(body(0, i))).collect();
-        if ticks > 0 {
-            for frame in frames {
-                // two traces may have steps of different length
-                let tick = if trace.step_s.total_cmp(&step_s).is_eq() {
-                    *frame
-                } else {
-                    (*frame as f64 * step_s / trace.step_s).round() as usize
-                };
-                let tick = tick.min(ticks - 1);
-                place(&mut poses, Some(tick));
-                for (course, frame) in links.iter_mut().zip(link_frames) {
-                    if let Some(course) = course {
-                        course.push(pose_numbers(&poses.world_from(frame)));
-                    }
+        if ticks == 0 {
+            for (course, frame) in links.iter_mut().zip(frames) {
+                if let Some(course) = course {
+                    course.push(&pose_numbers(&now.world_from(frame)));
                 }
-                for (i, course) in bodies.iter_mut().enumerate() {
-                    course.push(body(tick, i));
+            }
+            return Self {
+                links,
+                bodies: Vec::new(),
+            };
+        }
+        let mut bodies: Vec<Course> = trace.moving_bodies.iter().map(|_| poses(unit_m)).collect();
+        let mut at = None;
+        for tick in looked {
+            // two traces may have steps of different length
+            let tick = if trace.step_s.total_cmp(&step_s).is_eq() {
+                *tick
+            } else {
+                (*tick as f64 * step_s / trace.step_s).round() as usize
+            };
+            let tick = tick.min(ticks - 1);
+            if at != Some(tick) {
+                now.update(robot, trace.q.at(tick));
+                at = Some(tick);
+            }
+            for (course, frame) in links.iter_mut().zip(frames) {
+                if let Some(course) = course {
+                    course.push(&pose_numbers(&now.world_from(frame)));
                 }
+            }
+            for (i, course) in bodies.iter_mut().enumerate() {
+                course.push(&trace.bodies.at(tick)[7 * i..7 * i + 7]);
             }
         }
         Self { links, bodies }

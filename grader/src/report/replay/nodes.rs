@@ -4,19 +4,19 @@ use kinemark_sim::robot::Robot;
 use kinemark_sim::spatial::Pose;
 
 use super::Ghost;
-use super::column::Track;
+use super::course::Course;
 use super::moments::MOST_OF_A_NAME;
-use super::motion::{Course, Motion};
+use super::motion::Motion;
 use super::record::{NodeRecord, Place};
 use super::shapes::{self, Meshes, ShapeRecord, pose_record};
 use crate::graded::TaskRun;
 use crate::report::visible::shortened;
 
-/// Nodes with their tracks and meshes.
+/// Nodes with the courses of those that move, and meshes.
 #[derive(Debug, Default)]
 pub(super) struct Nodes {
     pub(super) nodes: Vec<NodeRecord>,
-    pub(super) tracks: Vec<Track>,
+    pub(super) courses: Vec<Course>,
     pub(super) meshes: Meshes,
 }
 
@@ -29,14 +29,19 @@ impl Nodes {
         parent: Option<usize>,
         shapes: Vec<ShapeRecord>,
         pose: &Pose,
-        course: Option<&Course>,
+        course: Option<Course>,
     ) {
         let place = match course {
-            Some(course) if !course.columns.stands_still() => {
-                self.tracks.push(course.columns.track());
-                Place::Track(self.tracks.len() - 1)
+            Some(course) if !course.stands_still() => {
+                self.courses.push(course);
+                Place::Track(self.courses.len() - 1)
             }
-            Some(course) => Place::Pose(shapes::rounded(course.start)),
+            Some(course) => Place::Pose(
+                course
+                    .start()
+                    .and_then(start_pose)
+                    .unwrap_or_else(|| pose_record(pose)),
+            ),
             None => Place::Pose(pose_record(pose)),
         };
         self.nodes.push(NodeRecord {
@@ -49,9 +54,9 @@ impl Nodes {
     }
 
     /// Adds the links of a robot, those of a ghost under its label.
-    pub(super) fn robot(&mut self, robot: &Robot, motion: &Motion, label: Option<&str>) {
+    pub(super) fn robot(&mut self, robot: &Robot, links: Vec<Option<Course>>, label: Option<&str>) {
         let first = self.nodes.len();
-        for (i, link) in robot.links().iter().enumerate() {
+        for (i, (link, course)) in robot.links().iter().zip(links).enumerate() {
             let parent = robot.joints().iter().find(|joint| joint.child == i);
             let name = shortened(&link.name, MOST_OF_A_NAME);
             let (name, kind) = match label {
@@ -68,7 +73,7 @@ impl Nodes {
                 parent.map(|joint| first + joint.parent),
                 shapes,
                 &link.attachment.body_from_here,
-                motion.links[i].as_ref(),
+                course,
             );
         }
     }
@@ -78,18 +83,20 @@ impl Nodes {
         &mut self,
         ghost: &Ghost<'_>,
         run: &TaskRun,
-        main: &Motion,
-        frames: &[usize],
+        main: &[Course],
+        looked: &[usize],
+        unit_m: f64,
     ) {
-        let motion = Motion::of(ghost.robot, ghost.trace, frames, run.trace.step_s);
-        self.robot(ghost.robot, &motion, Some(ghost.label));
+        let step_s = run.trace.step_s;
+        let motion = Motion::of(ghost.robot, ghost.trace, looked, step_s, unit_m);
+        self.robot(ghost.robot, motion.links, Some(ghost.label));
         let bodies = ghost.scene.map_or(&[][..], |scene| &scene.bodies);
-        for (course, index) in motion.bodies.iter().zip(&ghost.trace.moving_bodies) {
+        for (course, index) in motion.bodies.into_iter().zip(&ghost.trace.moving_bodies) {
             let Some(body) = bodies.get(*index) else {
                 continue;
             };
-            let same = main.bodies.iter().any(|other| other == course);
-            if same || course.columns.stands_still() {
+            let same = main.contains(&course);
+            if same || course.stands_still() {
                 continue;
             }
             let shapes = self.meshes.shapes(&body.shapes);
@@ -106,4 +113,9 @@ impl Nodes {
             );
         }
     }
+}
+
+/// The pose of a course's first row, as it is written.
+fn start_pose(row: &[f64]) -> Option<[f64; 7]> {
+    row.try_into().ok().map(shapes::rounded)
 }

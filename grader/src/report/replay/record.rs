@@ -14,11 +14,14 @@ pub(super) struct Record<'a> {
     pub(super) task: String,
     pub(super) title: String,
     pub(super) step_s: f64,
-    /// The way from frame to frame: a `line`, or a `curve` where frames are so far apart that a line would cut corners.
-    pub(super) between: &'static str,
     pub(super) lab: FrameRecord,
-    #[serde(flatten)]
-    pub(super) coded: Coded,
+    /// The ticks stepped through, as a column.
+    pub(super) ticks: String,
+    pub(super) nodes: Vec<NodeRecord>,
+    pub(super) meshes: Vec<MeshRecord>,
+    pub(super) tcp: Track,
+    pub(super) q: Vec<Track>,
+    pub(super) tracks: Vec<Track>,
     pub(super) frames: Vec<FrameRecord>,
     pub(super) joints: Vec<JointRecord>,
     pub(super) reference: Option<ReferencePath>,
@@ -29,25 +32,6 @@ pub(super) struct Record<'a> {
     pub(super) ghost_label: Option<String>,
     pub(super) main_label: Option<String>,
     pub(super) ended: Option<String>,
-}
-
-/// What depends on which frames there are.
-#[derive(Debug, Default, Serialize)]
-pub(super) struct Coded {
-    pub(super) ticks: String,
-    pub(super) nodes: Vec<NodeRecord>,
-    pub(super) meshes: Vec<MeshRecord>,
-    pub(super) tcp: Track,
-    pub(super) q: Track,
-    pub(super) tracks: Vec<Track>,
-}
-
-impl Coded {
-    /// Characters of coded data, meshes apart.
-    pub(super) fn size(&self) -> usize {
-        let tracks: usize = self.tracks.iter().map(Track::size).sum();
-        self.ticks.len() + self.tcp.size() + self.q.size() + tracks
-    }
 }
 
 #[derive(Debug, Serialize)]

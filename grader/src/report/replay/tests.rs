@@ -1,6 +1,7 @@
 //! The replay of real runs, read back as a viewer reads it.
 
-use kinemark_sim::kinematics::FramePoses;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 use super::column::read;
@@ -13,25 +14,65 @@ fn record(replay: Replay<'_>) -> Value {
     serde_json::from_str(&json).expect("a replay is JSON")
 }
 
-fn columns(track: &Value) -> Vec<Vec<f64>> {
-    let quanta: Vec<f64> = track["quanta"]
-        .as_array()
-        .expect("quanta")
-        .iter()
-        .filter_map(Value::as_f64)
-        .collect();
-    let (width, count) = (track["width"].as_u64(), track["count"].as_u64());
-    let (width, count) = (
-        width.expect("width") as usize,
-        count.expect("count") as usize,
-    );
-    assert_eq!(quanta.len(), width);
-    read(width, count, &quanta, track["data"].as_str().expect("data"))
+/// The rows of a track, at its ticks; of one at a fixed period, by number.
+fn rows(track: &Value) -> (Vec<usize>, Vec<Vec<f64>>) {
+    let count = track["count"].as_u64().expect("count") as usize;
+    let quanta = numbers(&track["quanta"]);
+    assert_eq!(Some(quanta.len() as u64), track["width"].as_u64());
+    let ticks = track["ticks"].as_str().map(|text| ticks_of(text, count));
+    let data = track["data"].as_str().expect("data");
+    let columns = read(count, &quanta, ticks.as_deref(), data);
+    let rows = (0..count).map(|i| columns.iter().map(|column| column[i]).collect());
+    (
+        ticks.unwrap_or_else(|| (0..count).collect()),
+        rows.collect(),
+    )
 }
 
-fn ticks(record: &Value, count: usize) -> Vec<usize> {
-    let ticks = read(1, count, &[1.0], record["ticks"].as_str().expect("ticks"));
+fn ticks_of(text: &str, count: usize) -> Vec<usize> {
+    let ticks = read(count, &[1.0], None, text);
     ticks[0].iter().map(|tick| *tick as usize).collect()
+}
+
+/// The ticks stepped through: as many as their bytes end numbers.
+fn steps_of(record: &Value) -> Vec<usize> {
+    let text = record["ticks"].as_str().expect("ticks");
+    let bytes = STANDARD.decode(text).expect("base64");
+    ticks_of(text, bytes.iter().filter(|byte| **byte < 0x80).count())
+}
+
+/// What a viewer shows at a tick: a row of the track, its quaternion, if it has one, of length one.
+fn shown((ticks, rows): &(Vec<usize>, Vec<Vec<f64>>), tick: usize) -> Vec<f64> {
+    let last = ticks.len() - 1;
+    let from = ticks.partition_point(|at| *at <= tick).saturating_sub(1);
+    let around = [
+        from.saturating_sub(1),
+        from,
+        (from + 1).min(last),
+        (from + 2).min(last),
+    ];
+    let weights = between::weights(around.map(|i| ticks[i] as f64), tick as f64);
+    let mut row = vec![0.0; rows[0].len()];
+    for (i, weight) in around.into_iter().zip(weights) {
+        for (sum, x) in row.iter_mut().zip(&rows[i]) {
+            *sum += weight * x;
+        }
+    }
+    if let Some(turn) = row.get_mut(3..7) {
+        let length: f64 = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+        turn.iter_mut().for_each(|x| *x /= length);
+    }
+    row
+}
+
+/// How far the pose shown is from a pose \[m\], \[rad\].
+fn apart(shown: &[f64], pose: &Pose) -> (f64, f64) {
+    let place = nalgebra::Vector3::from_column_slice(&shown[..3]) - pose.translation.vector;
+    let told = nalgebra::Quaternion::new(shown[3], shown[4], shown[5], shown[6]);
+    let told = nalgebra::UnitQuaternion::from_quaternion(told).to_rotation_matrix();
+    // of a small turn the greatest element of the difference is the sine at most
+    let turn = (told.matrix() - pose.rotation.matrix()).abs().max();
+    (place.norm(), turn)
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -55,45 +96,49 @@ fn poses_are_those_of_the_trace() {
         .collect();
     assert_eq!(names, ["base", "upper", "forearm"]);
     assert_eq!(nodes[0]["pose"].as_array().map(Vec::len), Some(7));
-    let tcp = columns(&record["tcp"]);
-    let q = columns(&record["q"]);
-    let ticks = ticks(&record, tcp[0].len());
-    assert!(ticks.len() > 800 && ticks.is_sorted());
-    assert_eq!(ticks.last(), Some(&8000));
+    // every tick is shown, not those that are told alone
+    let tcp = rows(&record["tcp"]);
+    let q: Vec<_> = record["q"]
+        .as_array()
+        .expect("joints")
+        .iter()
+        .map(rows)
+        .collect();
+    let courses = record["tracks"]
+        .as_array()
+        .expect("tracks")
+        .iter()
+        .map(rows);
+    let courses: Vec<_> = courses.collect();
     let mut poses = FramePoses::new(&run.robot);
-    for (node, link) in [(1, "upper"), (2, "forearm")] {
-        let track = nodes[node]["track"].as_u64().expect("it moves") as usize;
-        let course = columns(&record["tracks"][track]);
-        for (frame, tick) in ticks.iter().enumerate() {
-            poses.update(&run.robot, run.trace.q.at(*tick));
+    for tick in 0..run.trace.len() {
+        poses.update(&run.robot, run.trace.q.at(tick));
+        for (node, link) in [(1, "upper"), (2, "forearm")] {
+            let track = nodes[node]["track"].as_u64().expect("it moves") as usize;
             let pose = poses.world_from(run.robot.frame(link).expect("a link"));
-            let p = pose.translation.vector;
-            for c in 0..3 {
-                assert!((course[c][frame] - p[c]).abs() < 0.6 * PLACE);
-                assert!((tcp[c][frame] - run.trace.tcp.at(*tick)[c]).abs() < 0.6 * PLACE);
-            }
-            // the turn between what is told and what was: twice the distance of the quaternions, each element off by half a quantum
-            let told = nalgebra::Quaternion::new(
-                course[3][frame],
-                course[4][frame],
-                course[5][frame],
-                course[6][frame],
+            let (place, turn) = apart(&shown(&courses[track], tick), &pose);
+            assert!(
+                place <= WITHIN && turn <= WITHIN,
+                "{link} at {tick}: {place} m, {turn}"
             );
-            let told = nalgebra::UnitQuaternion::from_quaternion(told).to_rotation_matrix();
-            assert!((told.matrix() - pose.rotation.matrix()).abs().max() < 1e-4);
-            if frame > 0 {
-                let dot: f64 = (3..7)
-                    .map(|c| course[c][frame] * course[c][frame - 1])
-                    .sum();
-                assert!(dot > 0.9, "the quaternion of {link} jumps at tick {tick}");
-            }
+        }
+        let told = shown(&tcp, tick);
+        for c in 0..3 {
+            assert!((told[c] - run.trace.tcp.at(tick)[c]).abs() <= WITHIN);
+        }
+        for (joint, course) in q.iter().enumerate() {
+            assert!((shown(course, tick)[0] - run.trace.q.at(tick)[joint]).abs() <= WITHIN);
         }
     }
-    for (joint, course) in q.iter().enumerate() {
-        for (frame, tick) in ticks.iter().enumerate() {
-            assert!((course[frame] - run.trace.q.at(*tick)[joint]).abs() < 0.6 * PLACE);
-        }
+    // at its frames a track is as true as its quanta
+    for (i, tick) in tcp.0.iter().enumerate() {
+        assert!((tcp.1[i][0] - run.trace.tcp.at(*tick)[0]).abs() < 0.6 * PLACE);
     }
+    assert!(tcp.0.len() < 800, "{} frames", tcp.0.len());
+    assert_eq!(record["tcp"]["within"].as_f64(), Some(WITHIN));
+    let steps = steps_of(&record);
+    assert!(steps.len() > 800 && steps.is_sorted());
+    assert_eq!(steps.last(), Some(&8000));
 }
 
 /// The lab's frame and the TCP's put together give the TCP as the trace has it.
@@ -123,8 +168,8 @@ fn frames_hang_on_their_nodes() {
     let goals = record["goals"].as_array().expect("goals");
     assert_eq!(numbers(&goals[0]["position"]), [2.0, 1.4, 0.05]);
     assert_eq!(goals[0]["zero"].as_f64(), Some(0.02));
-    let reference = columns(&record["reference"]["path"]);
-    assert_eq!(reference[0].len(), 801);
+    let (_, reference) = rows(&record["reference"]["path"]);
+    assert_eq!(reference.len(), 801);
 }
 
 #[test]
@@ -147,13 +192,10 @@ fn what_happened_has_its_marks() {
         .collect();
     // of each check that lost points the earliest moment
     assert_eq!(breaches, [620, 3200]);
-    let ticks = ticks(
-        &record,
-        record["tcp"]["count"].as_u64().expect("count") as usize,
-    );
+    let ticks = steps_of(&record);
     for event in events {
         let tick = event["tick"].as_u64().expect("tick") as usize;
-        assert!(ticks.contains(&tick), "no frame at {tick}");
+        assert!(ticks.contains(&tick), "no step at {tick}");
     }
     assert_eq!(record["ended"], Value::Null);
 }
@@ -193,28 +235,56 @@ fn runs_without_sound_rows_are_shown_at_home() {
         }
     });
     let record = record(Replay::of(&broken, None));
-    let count = record["tcp"]["count"].as_u64().expect("count") as usize;
-    assert_eq!(ticks(&record, count), [0, 10, 20, 30, 40, 50, 54]);
+    assert_eq!(steps_of(&record), [0, 10, 20, 30, 40, 50, 54]);
 }
 
+/// Of a chain of joints of which one buzzes at every tick, all others are told truly, and the record says what is not.
 #[test]
-fn many_joints_are_told_more_coarsely() {
-    let run = sample::chain(25, 10_001, |tick, joint| {
-        libm::sin(0.001 * (tick * (1 + joint as u64)) as f64)
+fn what_takes_most_is_told_less_truly_and_the_record_says_so() {
+    let run = sample::chain(25, 10_001, |tick, joint| match joint {
+        24 => 0.3 * f64::from(tick as u32 % 2),
+        _ => 0.1 * libm::sin(0.001 * (tick * (1 + joint as u64 % 3)) as f64 + joint as f64),
     });
-    let json = Replay::of(&run, None).json();
+    let replay = Replay::of(&run, None);
+    let json = replay.json();
     assert!(
         json.len() < MOST_CHARACTERS + 20_000,
         "{} bytes",
         json.len()
     );
     let record: Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(record["nodes"].as_array().map(Vec::len), Some(26));
-    assert!(record["tcp"]["count"].as_u64() > Some(200));
-    // far apart, and so on a curve; a robot of few joints needs none
-    assert_eq!(record["between"], "curve");
-    let few = sample::chain(2, 10_001, |tick, _| libm::sin(0.001 * tick as f64));
-    assert_eq!(self::record(Replay::of(&few, None))["between"], "line");
+    let nodes = record["nodes"].as_array().expect("nodes");
+    assert_eq!(nodes.len(), 26);
+    let mut poses = FramePoses::new(&run.robot);
+    let mut untrue = 0;
+    for node in nodes.iter().filter(|node| node["track"].is_u64()) {
+        let track = &record["tracks"][node["track"].as_u64().expect("a track") as usize];
+        let within = track["within"].as_f64().expect("how true it is");
+        untrue += usize::from(within > WITHIN);
+        let course = rows(track);
+        for tick in (0..run.trace.len()).step_by(37) {
+            poses.update(&run.robot, run.trace.q.at(tick));
+            let link = node["name"].as_str().expect("a name");
+            let pose = poses.world_from(run.robot.frame(link).expect("a link"));
+            let (place, turn) = apart(&shown(&course, tick), &pose);
+            assert!(
+                place <= within && turn <= within,
+                "{link} at {tick}: {place}, {turn}, not {within}"
+            );
+        }
+    }
+    assert_eq!(untrue, 1, "the last link buzzes");
+}
+
+/// A millimetre's arm is told as truly as a metre's, by its size.
+#[test]
+fn small_arms_are_told_more_finely() {
+    let run = sample::chain(2, 1001, |tick, _| libm::sin(0.003 * tick as f64));
+    let metre = unit_m(&run, run.trace.len());
+    assert!(metre > 0.05 && metre <= 1.0, "{metre}");
+    let record = record(Replay::of(&run, None));
+    let place = numbers(&record["tcp"]["quanta"])[0];
+    assert!((place - PLACE * metre).abs() < 1e-12);
 }
 
 #[test]
@@ -234,15 +304,10 @@ fn a_ghost_moves_beside_the_run() {
         ["reference/base", "reference/upper", "reference/forearm"]
     );
     let track = nodes[5]["track"].as_u64().expect("it moves") as usize;
-    let course = columns(&record["tracks"][track]);
-    let frames = record["tcp"]["count"].as_u64().expect("count") as usize;
-    assert_eq!(course[0].len(), frames);
+    let course = rows(&record["tracks"][track]);
     // once it ended it stays where it was
-    assert!(
-        course[0][frames - 1]
-            .total_cmp(&course[0][frames / 2])
-            .is_eq()
-    );
+    let [at_end, before] = [run.trace.len() - 1, 700].map(|tick| shown(&course, tick));
+    assert!((at_end[0] - before[0]).abs() <= 2.0 * PLACE, "{at_end:?}");
 }
 
 #[test]
