@@ -1,5 +1,7 @@
 //! Closed loops and mimic joints: against projections of the open tree, against each other, and against energy.
 
+use kinemark_sim::control::servo::Servo;
+use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::dynamics::smooth::SmoothStep;
 use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, driven_efforts, energy, forward_dynamics, inverse_dynamics,
@@ -106,6 +108,37 @@ fn a_four_bar_that_falls_keeps_its_energy_and_its_loop_for_20_s() {
     assert!(drift < 1e-7, "energy drifts by {drift:.1e} J");
     // still on its branch: the rocker has not turned over
     assert!((0.0..std::f64::consts::PI).contains(&q[2]), "{q:?}");
+}
+
+/// No drive acts on a passive joint, whatever it is commanded; one that is not marked has its own.
+#[test]
+fn servos_drive_no_passive_joint() {
+    for (marks, driven) in [
+        ("passive = true\n", [true, false, false]),
+        ("", [true, true, true]),
+    ] {
+        let robot = robot(&four_bar(marks, HINGE));
+        for mode in [Mode::Position, Mode::Velocity, Mode::Effort] {
+            let gains = Gains {
+                kp: 3.0,
+                ki: 0.0,
+                kd: 0.0,
+                effort_limit: 1e3,
+                integral_limit: 0.0,
+            };
+            let settings = ServoSettings {
+                mode,
+                derivative: Derivative::Measurement,
+                gains: vec![gains; 3],
+                gravity_compensation: false,
+            };
+            let mut servo =
+                Servo::new(&robot, settings, 0.001, GRAVITY_M_S2).expect("it fits the robot");
+            let mut effort = [f64::NAN; 3];
+            servo.sample(&robot, &[9.0; 3], &[0.5; 3], &[0.0; 3], &mut effort);
+            assert_eq!(effort.map(|tau| tau != 0.0), driven, "{mode:?}: {effort:?}");
+        }
+    }
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod hostile;
 mod jacobian_task;
 mod lab_audit;
 mod lab_truths;
+mod linkage_lab;
 mod mesh_labs;
 mod own_lab;
 mod path_checks;

@@ -25,6 +25,11 @@ impl OwnLab {
         format!("labs/{}/lab.toml", self.name)
     }
 
+    /// Writes another file beside the labs.
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        self.bed.write(name, text);
+    }
+
     /// Replaces `from` by `to` in the lab's file, once.
     pub(crate) fn edit(&self, from: &str, to: &str) {
         self.bed.edit(&self.file(), from, to);

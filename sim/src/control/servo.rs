@@ -98,6 +98,8 @@ pub struct Servo {
     gravity_m_s2: Vector3<f64>,
     rnea: Rnea,
     gravity_effort: Vec<f64>,
+    /// Which joints have a drive.
+    driven: Vec<bool>,
     integral: Vec<f64>,
     before: Vec<f64>,
     started: bool,
@@ -134,6 +136,7 @@ impl Servo {
             gravity_m_s2,
             rnea: Rnea::new(robot),
             gravity_effort: vec![0.0; n],
+            driven: robot.moving_joints().map(|joint| !joint.passive).collect(),
             integral: vec![0.0; n],
             before: vec![0.0; n],
             started: false,
@@ -145,7 +148,7 @@ impl Servo {
         &self.settings
     }
 
-    /// Takes one sample and writes the effort to hold until the next; all slices have shape `(n)`. Allocates nothing, but for the
+    /// Takes one sample and writes the effort to hold until the next, zero for joints without a drive; all slices have shape `(n)`. Allocates nothing, but for the
     /// gravity compensation of a robot with loops, whose dependent joints carry nothing.
     pub fn sample(
         &mut self,
@@ -163,6 +166,10 @@ impl Servo {
             }
         }
         for (i, gains) in self.settings.gains.iter().enumerate() {
+            if !self.driven[i] {
+                effort[i] = 0.0;
+                continue;
+            }
             let u = match self.settings.mode {
                 Mode::Effort => command[i],
                 Mode::Position => {

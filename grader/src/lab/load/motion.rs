@@ -7,6 +7,7 @@ use kinemark_sim::control::servo::Servo;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
 use kinemark_sim::hybrid::HybridStep;
+use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::sensor::{Sensors, replaced, resolve_all};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
@@ -17,6 +18,10 @@ use crate::controller::Value;
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::lab::model::{MotionGoal, MotionTask};
 use crate::lab::problem::{LabError, LabProblem};
+use crate::quantity::trimmed;
+
+/// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
+const MOST_GAP_M: f64 = 1e-3;
 
 impl Reader<'_> {
     pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
@@ -57,11 +62,11 @@ impl Reader<'_> {
             }
         };
         let ticks = whole_ticks(duration_s, &motion.duration_s, "the duration")?;
-        let n = self.robot.n();
         let start_q = match &motion.start_rad {
-            None => vec![0.0; n],
+            None => self.robot.home().to_vec(),
             Some(start) => {
                 self.counted(start, "start_rad")?;
+                self.closes(start)?;
                 start.get_ref().clone()
             }
         };
@@ -170,6 +175,46 @@ impl Reader<'_> {
     }
 
     /// Refuses a robot with a joint that moves neither mass nor armature: no effort on it has a finite answer.
+    /// A start at which a loop stands open is no place the robot can be.
+    fn closes(&self, start: &Spanned<Vec<f64>>) -> Result<(), LabError> {
+        let (robot, q) = (self.robot, start.get_ref());
+        let gap_m = loop_gap_m(robot, q);
+        if gap_m <= MOST_GAP_M {
+            return Ok(());
+        }
+        let independent: Vec<f64> = robot.independent().iter().map(|&i| q[i]).collect();
+        let names: Vec<&str> = robot.moving_joints().map(|j| j.name.as_str()).collect();
+        let told = |which: &[usize]| {
+            which
+                .iter()
+                .map(|&i| names[i])
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let help = match closed_positions(robot, &independent) {
+            Ok(closed) => {
+                let closed: Vec<String> = closed.iter().map(|q| trimmed(*q, 6)).collect();
+                format!(
+                    "{} follow from {}: the loops are closed at [{}]; left out, the robot starts at its home",
+                    told(robot.dependent()),
+                    told(robot.independent()),
+                    closed.join(", ")
+                )
+            }
+            Err(error) => format!("{error}: {}", error.help()),
+        };
+        self.report.err(
+            start.span(),
+            "lab::start",
+            format!(
+                "a loop of robot `{}` stands open by {gap_m:.4} m at this start",
+                robot.name()
+            ),
+            "not a place where the robot can be",
+            Some(help),
+        )
+    }
+
     fn can_move(&self, start_q: &[f64]) -> Result<(), LabError> {
         let robot = self.robot;
         let rest = vec![0.0; robot.n()];

@@ -115,7 +115,12 @@ impl Course {
         let frames = self.frames(ticks, step_s, within);
         let at: Vec<usize> = frames.iter().map(|i| ticks[*i]).collect();
         let rows = frames.iter().map(|i| self.row(*i));
-        Track::through(&at, &self.quanta, rows, within * self.unit_m)
+        let within = match self.what {
+            // the angle is the greater number
+            What::Pose => within,
+            What::Number | What::Place => within * self.unit_m,
+        };
+        Track::through(&at, &self.quanta, rows, within)
     }
 
     /// Which rows the track needs: from few frames on, halves every interval in which it would be too far off, until none is left.
