@@ -30,8 +30,10 @@ use crate::report::visible::{shortened, visible};
 
 /// The format and its version.
 const FORMAT: &str = "kinemark-replay/2";
-/// Between frames everything is told to this \[m or rad\].
+/// Between frames everything is shown to this \[m or rad\].
 const WITHIN: f64 = 3e-4;
+/// TCP and joints, which are read as numbers of four decimals, to this \[m or rad\].
+const NUMBERS_WITHIN: f64 = 4e-5;
 /// Characters of coded motion of a run of ten seconds or less; longer runs may have as much more as they are longer. Beyond, what takes
 /// the most is told less truly, and the record says how much.
 const MOST_CHARACTERS: usize = 120_000;
@@ -297,8 +299,13 @@ impl Told {
             .chain(&self.nodes.courses)
             .collect();
         let track = |course: &Course, within: f64| course.track(&self.looked, step_s, within);
+        let numbers = 1 + self.q.len();
         let mut within = vec![WITHIN; courses.len()];
-        let mut tracks: Vec<Track> = courses.iter().map(|c| track(c, WITHIN)).collect();
+        within[..numbers].fill(NUMBERS_WITHIN);
+        let each = courses.iter().zip(&within);
+        let mut tracks: Vec<Track> = each
+            .map(|(course, within)| track(course, *within))
+            .collect();
         let mut size: usize = tracks.iter().map(Track::size).sum();
         while size > most {
             let can = (0..tracks.len()).filter(|i| within[*i] < LEAST_TRUE);

@@ -124,10 +124,10 @@ fn poses_are_those_of_the_trace() {
         }
         let told = shown(&tcp, tick);
         for c in 0..3 {
-            assert!((told[c] - run.trace.tcp.at(tick)[c]).abs() <= WITHIN);
+            assert!((told[c] - run.trace.tcp.at(tick)[c]).abs() <= NUMBERS_WITHIN);
         }
         for (joint, course) in q.iter().enumerate() {
-            assert!((shown(course, tick)[0] - run.trace.q.at(tick)[joint]).abs() <= WITHIN);
+            assert!((shown(course, tick)[0] - run.trace.q.at(tick)[joint]).abs() <= NUMBERS_WITHIN);
         }
     }
     // at its frames a track is as true as its quanta
@@ -135,7 +135,7 @@ fn poses_are_those_of_the_trace() {
         assert!((tcp.1[i][0] - run.trace.tcp.at(*tick)[0]).abs() < 0.6 * PLACE);
     }
     assert!(tcp.0.len() < 800, "{} frames", tcp.0.len());
-    assert_eq!(record["tcp"]["within"].as_f64(), Some(WITHIN));
+    assert_eq!(record["tcp"]["within"].as_f64(), Some(NUMBERS_WITHIN));
     let steps = steps_of(&record);
     assert!(steps.len() > 800 && steps.is_sorted());
     assert_eq!(steps.last(), Some(&8000));
