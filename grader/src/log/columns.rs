@@ -1,9 +1,12 @@
 //! A JSON message as a row: every number, text and truth value in a column named by the way to it.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::json::Json;
 
+/// The first column of every table: the time of the message.
+pub(super) const TIME: &str = "time_s";
 /// As many as the widest spreadsheet has.
 pub(super) const MOST_COLUMNS: usize = 16_384;
 /// Characters of a column's name.
@@ -12,39 +15,73 @@ pub(super) const MOST_NAME: usize = 1_000;
 /// What a list of things is told apart by, if all of its items have it and no two have the same.
 const NAMES: [&str; 3] = ["name", "child_frame_id", "id"];
 
+/// Columns of all tables of a log, and bytes of their names: what is held while they are written.
+const MOST_OF_ALL: Budget = Budget {
+    columns: 200_000,
+    bytes: 16 << 20,
+};
+
+/// What the columns of a log's tables may still take, all together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Budget {
+    columns: usize,
+    bytes: usize,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        MOST_OF_ALL
+    }
+}
+
+impl Budget {
+    fn take(&mut self, name: &str) -> Result<(), TooWide> {
+        let columns = self.columns.checked_sub(1).ok_or(TooWide::All)?;
+        let bytes = self.bytes.checked_sub(name.len()).ok_or(TooWide::All)?;
+        *self = Self { columns, bytes };
+        Ok(())
+    }
+}
+
 /// Why a message does not fit a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TooWide {
     Columns,
     Name,
+    /// The tables of the log together.
+    All,
 }
 
 /// The columns of one topic, in the order of its messages.
 #[derive(Debug, Default)]
 pub(super) struct Columns {
     /// Numbers of columns, by name.
-    by_name: HashMap<String, usize>,
+    by_name: HashMap<Arc<str>, usize>,
     /// Names by number.
-    names: Vec<String>,
+    names: Vec<Arc<str>>,
     /// Numbers in the order of the table.
     order: Vec<usize>,
 }
 
 impl Columns {
     /// Names in the order of the table.
-    pub(super) fn names(&self) -> Vec<String> {
-        self.order.iter().map(|n| self.names[*n].clone()).collect()
+    pub(super) fn names(&self) -> Vec<Arc<str>> {
+        let names = self.order.iter().map(|n| Arc::clone(&self.names[*n]));
+        names.collect()
     }
 
     /// Takes in the columns of a message. A new one stands after the one that precedes it in the message, so that what is left out
     /// of the first message is in its place all the same.
-    pub(super) fn learn(&mut self, message: &Json) -> Result<(), TooWide> {
+    pub(super) fn learn(&mut self, message: &Json, left: &mut Budget) -> Result<(), TooWide> {
         let mut before: Option<usize> = None;
         walk(message, &mut |name, _| {
             let known = self.by_name.get(name).copied();
             let number = match known {
                 Some(number) => number,
-                None => self.add(name, before)?,
+                None => {
+                    left.take(name)?;
+                    self.add(name, before)?
+                }
             };
             before = Some(number);
             Ok(())
@@ -58,8 +95,9 @@ impl Columns {
         }
         let last = before.and_then(|before| self.order.iter().rposition(|n| *n == before));
         self.order.insert(last.map_or(0, |last| last + 1), number);
-        self.names.push(name.to_owned());
-        self.by_name.insert(name.to_owned(), number);
+        let name: Arc<str> = name.into();
+        self.names.push(Arc::clone(&name));
+        self.by_name.insert(name, number);
         Ok(number)
     }
 }
@@ -119,7 +157,12 @@ fn below<'a>(
                 .enumerate()
                 .try_for_each(|(i, item)| inside(&i.to_string(), item, path)),
         },
-        leaf => each(if path.is_empty() { "value" } else { path }, leaf),
+        leaf => match path.as_str() {
+            "" => each("value", leaf),
+            // the first column has this name
+            TIME => each(r"\time_s", leaf),
+            path => each(path, leaf),
+        },
     }
 }
 
@@ -131,6 +174,26 @@ fn push_part(path: &mut String, part: &str) {
         }
         path.push(c);
     }
+}
+
+/// The parts of a column's name, as the message has them.
+pub(super) fn parts(name: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut chars = name.chars();
+    while let Some(c) = chars.next() {
+        let last = match c {
+            '.' => {
+                parts.push(String::new());
+                continue;
+            }
+            '\\' => chars.next(),
+            c => Some(c),
+        };
+        if let Some(part) = parts.last_mut() {
+            part.extend(last);
+        }
+    }
+    parts
 }
 
 /// The names of a list of things, where they have them and each has its own.
@@ -160,10 +223,14 @@ mod tests {
         let mut columns = Columns::default();
         for message in messages {
             columns
-                .learn(&Json::parse(message.as_bytes()).unwrap())
+                .learn(
+                    &Json::parse(message.as_bytes()).unwrap(),
+                    &mut Budget::default(),
+                )
                 .unwrap();
         }
-        columns.names()
+        let names = columns.names();
+        names.iter().map(|name| name.to_string()).collect()
     }
 
     #[test]
@@ -210,12 +277,35 @@ mod tests {
     }
 
     #[test]
+    fn the_name_of_the_first_column_is_taken() {
+        assert_eq!(
+            names(&[r#"{"time_s": 1, "a": {"time_s": 2}, "\\time_s": 3}"#]),
+            [r"\time_s", "a.time_s", r"\\time_s"]
+        );
+    }
+
+    #[test]
     fn tables_have_bounds() {
         let wide = format!("[{}0]", "0,".repeat(MOST_COLUMNS));
         let wide = Json::parse(wide.as_bytes()).unwrap();
-        assert_eq!(Columns::default().learn(&wide), Err(TooWide::Columns));
+        let learn = |json: &Json| Columns::default().learn(json, &mut Budget::default());
+        assert_eq!(learn(&wide), Err(TooWide::Columns));
         let long = format!(r#"{{"{}": 1}}"#, "n".repeat(MOST_NAME + 1));
         let long = Json::parse(long.as_bytes()).unwrap();
-        assert_eq!(Columns::default().learn(&long), Err(TooWide::Name));
+        assert_eq!(learn(&long), Err(TooWide::Name));
+        // all tables together
+        let mut left = Budget {
+            columns: 3,
+            bytes: 100,
+        };
+        let two = Json::parse(br#"{"a": 1, "b": 2}"#).unwrap();
+        assert_eq!(Columns::default().learn(&two, &mut left), Ok(()));
+        let again = Columns::default().learn(&two, &mut left);
+        assert_eq!(again, Err(TooWide::All));
+        left.columns = 100;
+        let long = format!(r#"{{"{}": 1}}"#, "n".repeat(99));
+        let long = Json::parse(long.as_bytes()).unwrap();
+        let long = Columns::default().learn(&long, &mut left);
+        assert_eq!(long, Err(TooWide::All));
     }
 }

@@ -1,14 +1,20 @@
 //! A log as tables for spreadsheets: a CSV file per topic, a row per message, numbers with all their digits.
 
-use std::collections::HashMap;
-use std::io::Write;
+use std::cell::Cell;
+use std::collections::{BTreeMap, HashMap};
+use std::io::{ErrorKind, Write};
+use std::sync::Arc;
 
-use super::columns::{Columns, MOST_COLUMNS, MOST_NAME, TooWide, walk};
+use ::mcap::Schema;
+
+use super::columns::{Budget, Columns, MOST_COLUMNS, MOST_NAME, TIME, TooWide, parts, walk};
 use super::json::Json;
-use super::read::{ReadError, Seen, messages};
+use super::read::{ReadError, Seen, messages, most_of};
 
-/// A table larger than this opens nowhere.
-const MOST_TABLE_BYTES: u64 = 2 << 30;
+/// Tables that are larger, all together, open nowhere.
+const MOST_TABLES_BYTES: u64 = 2 << 30;
+/// Characters of what a schema says of a column.
+const MOST_OF_A_DESCRIPTION: usize = 200;
 /// Topics of a log, each of which becomes a file.
 const MOST_TOPICS: usize = 1_000;
 
@@ -20,7 +26,9 @@ pub struct Table {
     /// Its messages.
     pub rows: u64,
     /// Its columns after the first, which is `time_s`: the way to each value, with dots between.
-    pub columns: Vec<String>,
+    pub columns: Vec<Arc<str>>,
+    /// What the log's schema says of columns, most often the unit, such as `rad`.
+    pub described: BTreeMap<Arc<str>, String>,
 }
 
 /// What a log holds.
@@ -32,13 +40,21 @@ pub struct Tables {
     pub foreign: Vec<(String, String)>,
 }
 
+/// A table while the log is read.
+struct Found {
+    table: Table,
+    columns: Columns,
+    schema: Option<Arc<Schema<'static>>>,
+}
+
 /// Reads a log through: which tables it makes, each with its rows and columns.
 ///
 /// # Errors
 /// [`ReadError`] for a log that is damaged, cut off, no log, too large, or without a JSON message.
 pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
-    let mut found: Vec<(Table, Columns)> = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     let mut foreign: Vec<(String, String)> = Vec::new();
+    let mut left = Budget::default();
     messages(log, &mut |message| {
         let topic = message.channel.topic.as_str();
         if !is_json(&message) {
@@ -52,7 +68,7 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
             }
             return Ok(());
         }
-        let at = match found.iter().position(|(table, _)| table.topic == topic) {
+        let at = match found.iter().position(|found| found.table.topic == topic) {
             Some(at) => at,
             None => {
                 bounded(found.len() + foreign.len())?;
@@ -60,15 +76,21 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
                     topic: topic.to_owned(),
                     rows: 0,
                     columns: Vec::new(),
+                    described: BTreeMap::new(),
                 };
-                found.push((table, Columns::default()));
+                found.push(Found {
+                    table,
+                    columns: Columns::default(),
+                    schema: message.channel.schema.clone(),
+                });
                 found.len() - 1
             }
         };
-        let (table, columns) = &mut found[at];
+        let Found { table, columns, .. } = &mut found[at];
         table.rows += 1;
         let value = parse(&message, table.rows)?;
-        columns.learn(&value).map_err(|why| too_wide(topic, why))
+        let learnt = columns.learn(&value, &mut left);
+        learnt.map_err(|why| too_wide(topic, why))
     })?;
     if found.is_empty() {
         let topics = foreign
@@ -81,8 +103,12 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
             ReadError::NoJson { topics }
         });
     }
-    let tables = found.into_iter().map(|(mut table, columns)| {
-        table.columns = columns.names();
+    let tables = found.into_iter().map(|found| {
+        let mut table = found.table;
+        table.columns = found.columns.names();
+        if let Some(schema) = &found.schema {
+            table.described = described(schema, &table.columns);
+        }
         table
     });
     Ok(Tables {
@@ -103,21 +129,18 @@ pub fn write_csv<W: Write>(
     tables: &[Table],
     out: Vec<Option<W>>,
 ) -> Result<(), ReadError> {
+    let left = Cell::new(most_of(log, MOST_TABLES_BYTES));
     let mut writers = Vec::new();
     for (table, out) in tables.iter().zip(out) {
         let Some(out) = out else { continue };
         // a text with `;` or a tab in it would be two fields where these stand between fields
         let writer = csv::WriterBuilder::new()
             .quote_style(csv::QuoteStyle::NonNumeric)
-            .from_writer(Bounded {
-                out,
-                topic: &table.topic,
-                left: MOST_TABLE_BYTES,
-            });
+            .from_writer(Bounded { out, left: &left });
         let mut writer = Rows {
             table,
             writer,
-            at: table.columns.iter().map(String::as_str).zip(1..).collect(),
+            at: table.columns.iter().map(AsRef::as_ref).zip(1..).collect(),
             row: vec![String::new(); table.columns.len() + 1],
             written: 0,
         };
@@ -133,7 +156,7 @@ pub fn write_csv<W: Write>(
     })?;
     writers.iter_mut().try_for_each(|rows| {
         let flushed = rows.writer.flush();
-        flushed.map_err(ReadError::Write)
+        flushed.map_err(unfit)
     })
 }
 
@@ -151,7 +174,7 @@ struct Rows<'a, W: Write> {
 impl<W: Write> Rows<'_, W> {
     fn head(&mut self) -> Result<(), ReadError> {
         let names = self.table.columns.iter().map(|name| harmless(name));
-        let head = std::iter::once("time_s".to_owned()).chain(names);
+        let head = std::iter::once(TIME.to_owned()).chain(names);
         self.writer.write_record(head).map_err(unwritten)
     }
 
@@ -172,22 +195,17 @@ impl<W: Write> Rows<'_, W> {
     }
 }
 
-/// A writer that has an end.
+/// A writer that has an end, the same for all tables of a log.
 struct Bounded<'a, W> {
     out: W,
-    topic: &'a str,
-    left: u64,
+    left: &'a Cell<u64>,
 }
 
 impl<W: Write> Write for Bounded<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.left = self.left.checked_sub(bytes.len() as u64).ok_or_else(|| {
-            std::io::Error::other(format!(
-                "the table of `{}` is larger than {} GiB",
-                self.topic,
-                MOST_TABLE_BYTES >> 30
-            ))
-        })?;
+        let left = self.left.get().checked_sub(bytes.len() as u64);
+        self.left
+            .set(left.ok_or_else(|| std::io::Error::from(ErrorKind::FileTooLarge))?);
         self.out.write_all(bytes)?;
         Ok(bytes.len())
     }
@@ -195,6 +213,28 @@ impl<W: Write> Write for Bounded<'_, W> {
     fn flush(&mut self) -> std::io::Result<()> {
         self.out.flush()
     }
+}
+
+/// What a JSON schema says of columns; none of one that is not read.
+fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, String> {
+    let root: serde_json::Value = match schema.encoding.as_str() {
+        "jsonschema" => serde_json::from_slice(&schema.data).unwrap_or_default(),
+        _ => return BTreeMap::new(),
+    };
+    let described = columns.iter().filter_map(|column| {
+        let mut at = &root;
+        for part in parts(column) {
+            at = match at.get("properties") {
+                Some(properties) => properties.get(part)?,
+                // a list's things are told by name or place
+                None => at.get("items")?,
+            };
+        }
+        let text = at.get("description")?.as_str()?;
+        let text: String = text.chars().take(MOST_OF_A_DESCRIPTION).collect();
+        Some((Arc::clone(column), text))
+    });
+    described.collect()
 }
 
 fn is_json(message: &Seen<'_>) -> bool {
@@ -226,6 +266,7 @@ fn too_wide(topic: &str, why: TooWide) -> ReadError {
                     "topic `{topic}` has more than {MOST_COLUMNS} columns, the most a spreadsheet has"
                 )
             }
+            TooWide::All => "its tables have too many columns together".to_owned(),
             TooWide::Name => {
                 format!(
                     "a column of topic `{topic}` has a name of more than {MOST_NAME} characters"
@@ -237,9 +278,18 @@ fn too_wide(topic: &str, why: TooWide) -> ReadError {
 
 fn unwritten(error: csv::Error) -> ReadError {
     match error.into_kind() {
-        csv::ErrorKind::Io(error) => ReadError::Write(error),
+        csv::ErrorKind::Io(error) => unfit(error),
         // rows have as many fields as the head, and nothing is read
         other => ReadError::Write(std::io::Error::other(format!("{other:?}"))),
+    }
+}
+
+fn unfit(error: std::io::Error) -> ReadError {
+    match error.kind() {
+        ErrorKind::FileTooLarge => ReadError::TooLarge {
+            what: "its tables take many times its own room".to_owned(),
+        },
+        _ => ReadError::Write(error),
     }
 }
 

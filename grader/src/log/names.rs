@@ -10,20 +10,35 @@ pub(super) const WORLD: &str = "world";
 /// What stands before the frames of the reference solution's motion.
 pub(super) const REFERENCE: &str = "reference/";
 
+/// What stands before the frames of a scene's bodies.
+const BODY: &str = "body/";
+
 /// A frame's name in the log. `world` is the root, and viewers take `base_link`, `odom`, `map` and `earth` for a fixed ground: a
-/// robot's frame of such a name is put under the robot's own.
+/// robot's frame of such a name is put under the robot's own, and so is one that is called as only bodies and the reference's frames
+/// are.
 pub(super) fn frame_id(robot: &Robot, frame: &Frame) -> String {
     let moves = frame.attachment.body.is_some();
     let misleads = match frame.name.as_str() {
         WORLD => true,
         "base_link" | "odom" | "map" | "earth" => moves,
-        _ => false,
+        name => is_taken(name),
     };
-    if misleads {
-        format!("{}/{}", robot.name(), frame.name)
-    } else {
-        frame.name.clone()
+    if !misleads {
+        return frame.name.clone();
     }
+    let mut name = format!("{}/{}", robot.name(), frame.name);
+    // a robot may be called `body`, or have a frame of this name, too
+    while is_taken(&name) || robot.frame(&name).is_some() {
+        name.insert_str(0, "robot/");
+    }
+    name
+}
+
+/// Whether a name begins as those of bodies and of the reference's frames do.
+fn is_taken(name: &str) -> bool {
+    [BODY, REFERENCE]
+        .into_iter()
+        .any(|prefix| name.starts_with(prefix))
 }
 
 /// A frame's name by the name the robot knows it by; a frame it does not know is the world.
@@ -35,7 +50,7 @@ pub(super) fn frame_id_of(robot: &Robot, name: &str) -> String {
 
 /// The frame of a body of the scene: never that of a link.
 pub(super) fn body_frame(name: &str) -> String {
-    format!("body/{name}")
+    format!("{BODY}{name}")
 }
 
 /// Field names from free text: letters, digits and underscores, no two the same, in the same order.
@@ -57,7 +72,37 @@ pub(super) fn fields<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use kinemark_sim::robot::RobotFile;
+    use kinemark_sim::source::Source;
+
     use super::*;
+
+    /// The course's arm under another name, with frames of these names.
+    fn arm(name: &str, frames: &[&str]) -> Robot {
+        let mut text = include_str!("../../../labs/robots/rrbot.toml").to_owned();
+        text = text.replacen("name = \"rrbot\"", &format!("name = \"{name}\""), 1);
+        for frame in frames {
+            text += &format!("\n[[frames]]\nname = \"{frame}\"\nlink = \"forearm\"\n");
+        }
+        let file = RobotFile::parse(Source::new("arm.toml", text)).unwrap();
+        file.build(&[]).unwrap()
+    }
+
+    #[test]
+    fn no_frame_of_a_robot_is_called_as_a_body_or_the_root() {
+        let called = |robot: &Robot, name: &str| frame_id_of(robot, name);
+        let plain = arm("rrbot", &["body/can", "reference/upper", "world", "body"]);
+        assert_eq!(called(&plain, "body/can"), "rrbot/body/can");
+        assert_eq!(called(&plain, "reference/upper"), "rrbot/reference/upper");
+        assert_eq!(called(&plain, "body"), "body");
+        assert_eq!(
+            called(&arm("body", &["world"]), "world"),
+            "robot/body/world"
+        );
+        let both = arm("rrbot", &["rrbot/world", "world"]);
+        assert_eq!(called(&both, "rrbot/world"), "rrbot/world");
+        assert_eq!(called(&both, "world"), "robot/rrbot/world");
+    }
 
     #[test]
     fn fields_are_plain_and_differ() {

@@ -1,5 +1,8 @@
 //! The messages of any MCAP log, with every checksum looked at and every size bounded.
 
+mod chunks;
+mod sums;
+
 use std::sync::Arc;
 
 use ::mcap::records::Record;
@@ -10,6 +13,16 @@ use ::mcap::{Channel, McapError, parse_record};
 const MOST_RECORD_BYTES: usize = 64 << 20;
 /// All records together, unpacked: a small file can unpack to any size.
 const MOST_BYTES: u64 = 4 << 30;
+/// What a log of any size may unpack to, and how many times its own size besides. Messages of an arm that stands still pack well.
+const ANY_BYTES: u64 = 64 << 20;
+const TIMES: u64 = 200;
+/// Topics and schemas, which are held as long as the log is read.
+const MOST_KNOWN_BYTES: usize = 32 << 20;
+
+/// Bytes that may come of a log, unpacked or as tables.
+pub(super) fn most_of(log: &[u8], most: u64) -> u64 {
+    most.min(ANY_BYTES + TIMES * log.len() as u64)
+}
 
 /// A log that cannot be read, or not as a table.
 #[derive(Debug, thiserror::Error)]
@@ -105,9 +118,31 @@ pub(super) struct Seen<'a> {
 /// Calls `each` with every message of a log, in the order in which they are written.
 ///
 /// # Errors
-/// What is wrong with the log, and what `each` finds.
+/// What is wrong with the log, and what `each` finds. A log whose bytes are not those that were written is told as damaged, whatever
+/// the damage looks like.
 pub(super) fn messages(
     log: &[u8],
+    each: &mut dyn FnMut(Seen<'_>) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    let mut count = 0;
+    let read = stream(log, &mut count, each);
+    read.map_err(|error| match error {
+        ReadError::Empty | ReadError::Foreign | ReadError::Damaged { .. } | ReadError::Write(_) => {
+            error
+        }
+        other => match sums::mismatch(log) {
+            Some(why) => ReadError::Damaged {
+                messages: count,
+                why: why.to_owned(),
+            },
+            None => other,
+        },
+    })
+}
+
+fn stream(
+    log: &[u8],
+    count: &mut u64,
     each: &mut dyn FnMut(Seen<'_>) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
     if log.is_empty() {
@@ -120,16 +155,27 @@ pub(super) fn messages(
     let options = LinearReaderOptions::default()
         .with_record_length_limit(MOST_RECORD_BYTES)
         .with_validate_chunk_crcs(true)
+        // before a message of theirs is looked at
+        .with_prevalidate_chunk_crcs(true)
         .with_validate_data_section_crc(true)
         .with_validate_summary_section_crc(true)
         .with_check_finishes_after_end_magic(true);
     let mut reader = LinearReader::new_with_options(options);
     let mut channels = ::mcap::read::ChannelAccumulator::default();
-    let mut rest = log;
-    let mut count = 0;
+    // the reader must not see a chunk that contradicts itself
+    let torn = chunks::first_torn(log);
+    let mut rest = &log[..torn.unwrap_or(log.len())];
+    let most = most_of(log, MOST_BYTES);
     let mut unpacked = 0_u64;
+    let mut known_bytes = 0_usize;
     while let Some(event) = reader.next_event() {
-        let event = event.map_err(|error| told(error, count))?;
+        let event = event.map_err(|error| match (error, torn) {
+            (McapError::UnexpectedEof, Some(_)) => ReadError::Damaged {
+                messages: *count,
+                why: "the records of a chunk are longer than the chunk".to_owned(),
+            },
+            (error, _) => told(error, *count),
+        })?;
         let (opcode, data) = match event {
             LinearReadEvent::ReadRequest(need) => {
                 let (now, later) = rest.split_at(need.min(rest.len()));
@@ -141,19 +187,31 @@ pub(super) fn messages(
             LinearReadEvent::Record { opcode, data } => (opcode, data),
         };
         unpacked += data.len() as u64;
-        if unpacked > MOST_BYTES {
+        if unpacked > most {
             return Err(ReadError::TooLarge {
-                what: format!("it unpacks to more than {} GiB", MOST_BYTES >> 30),
+                what: format!("it unpacks to more than {} MiB", most >> 20),
             });
         }
-        let record = parse_record(opcode, data).map_err(|error| told(error, count))?;
+        let size = data.len();
+        let record = parse_record(opcode, data).map_err(|error| told(error, *count))?;
+        if matches!(record, Record::Schema { .. } | Record::Channel(_)) {
+            known_bytes += size;
+            if known_bytes > MOST_KNOWN_BYTES {
+                return Err(ReadError::TooLarge {
+                    what: format!(
+                        "its schemas and topics take more than {} MiB",
+                        MOST_KNOWN_BYTES >> 20
+                    ),
+                });
+            }
+        }
         let known = match record {
             Record::Schema { header, data } => channels.add_schema_from_slice(header, &data),
             Record::Channel(channel) => channels.add_channel(channel),
             Record::Message { header, data } => {
                 let Some(channel) = channels.get(header.channel_id) else {
                     return Err(ReadError::Damaged {
-                        messages: count,
+                        messages: *count,
                         why: format!(
                             "a message names channel {}, which it has not",
                             header.channel_id
@@ -165,12 +223,12 @@ pub(super) fn messages(
                     log_time_ns: header.log_time,
                     data: &data,
                 })?;
-                count += 1;
+                *count += 1;
                 Ok(())
             }
             _ => Ok(()),
         };
-        known.map_err(|error| told(error, count))?;
+        known.map_err(|error| told(error, *count))?;
     }
     Ok(())
 }

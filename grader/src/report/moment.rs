@@ -1,28 +1,24 @@
 //! Links to a moment of a run: the part of an address after the page, by which a report's replay goes there.
 
-use std::fmt::Write as _;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::visible::visible;
 use crate::grade::{Grade, Outcome, TaskGrade};
 use crate::quantity::trimmed;
 
+/// What does not stand for itself in a part of an address (RFC 3986, section 2.3).
+pub const ADDRESS_PART: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'_')
+    .remove(b'.')
+    .remove(b'~');
+
 /// The fragment of a moment of a task, such as `#task=move&t=2.35`; characters that steer an address are written as `%XX`.
 pub fn fragment(task: &str, time_s: f64) -> String {
-    let mut link = "#task=".to_owned();
-    for byte in visible(task).bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' => {
-                link.push(char::from(byte))
-            }
-            // writing into a string cannot fail
-            _ => {
-                let _ = write!(link, "%{byte:02X}");
-            }
-        }
-    }
+    let task = visible(task);
+    let task = utf8_percent_encode(&task, ADDRESS_PART);
     // a step shorter than a tenth of a millisecond is no lab's
-    let _ = write!(link, "&t={}", trimmed(time_s.max(0.0), 4));
-    link
+    format!("#task={task}&t={}", trimmed(time_s.max(0.0), 4))
 }
 
 /// Where points were first lost: the earliest moment told of the first check that lost some.

@@ -156,11 +156,145 @@ fn every_log_that_is_none_is_told() {
     }
 }
 
+/// Takes the checksums of data and summary out of a log, as writers leave them out.
+fn without_sums(log: &mut [u8]) {
+    let footer = log.len() - 8 - 29;
+    let summary = u64::from_le_bytes(log[footer + 9..footer + 17].try_into().unwrap());
+    log[footer + 25..footer + 29].fill(0);
+    let summary = usize::try_from(summary).unwrap();
+    let end = if summary == 0 { footer } else { summary };
+    log[end - 4..end].fill(0);
+}
+
+/// Each bit of a log, turned over alone: damage, or nothing that tells.
+#[test]
+fn a_bit_that_turned_over_is_damage() {
+    let whole = log_of(&[
+        ("/t", "json", 0, br#"{"a": 1, "b": [2, 3]}"#),
+        ("/other", "json", 1, br#"{"name": "x"}"#),
+        ("/t", "json", 2, br#"{"a": 4, "b": [5, 6]}"#),
+    ]);
+    let expected = tables(&whole).unwrap();
+    let footer = whole.len() - 8 - 29;
+    let summary = u64::from_le_bytes(whole[footer + 9..footer + 17].try_into().unwrap());
+    // the end of the data has a checksum for all before it, and none of its own
+    let end = usize::try_from(summary).unwrap() - 13..usize::try_from(summary).unwrap();
+    for at in ::mcap::MAGIC.len()..whole.len() {
+        for bit in 0..8 {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 1 << bit;
+            match tables(&bytes) {
+                Err(ReadError::Damaged { .. }) => {}
+                Ok(found) if end.contains(&at) || at >= footer => assert_eq!(found, expected),
+                Err(_) if end.contains(&at) || at >= footer => {}
+                other => panic!("byte {at}, bit {bit}: {other:?}"),
+            }
+        }
+    }
+}
+
+/// The reader of logs subtracts the lengths of records from that of their chunk.
+#[test]
+fn a_chunk_that_is_shorter_than_its_records_is_damage() {
+    let options = WriteOptions::new().compression(None);
+    let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
+    let channel = writer
+        .add_channel(0, "/t", "json", &BTreeMap::new())
+        .unwrap();
+    let header = MessageHeader {
+        channel_id: channel,
+        sequence: 0,
+        log_time: 0,
+        publish_time: 0,
+    };
+    writer.write_to_known_channel(&header, b"1").unwrap();
+    writer.finish().unwrap();
+    let mut bytes = writer.into_inner().into_inner();
+    without_sums(&mut bytes);
+    assert_eq!(tables(&bytes).unwrap().tables[0].rows, 1);
+    let chunk = bytes[8..].windows(9).position(|nine| nine[0] == 0x06);
+    // past magic, opcode, length, times, unpacked size; the checksum and the packed size
+    let at = 8 + chunk.unwrap() + 9 + 24;
+    bytes[at..at + 4].fill(0);
+    for less in [1_u64, 9, 20] {
+        let mut torn = bytes.clone();
+        let size = u64::from_le_bytes(torn[at + 8..at + 16].try_into().unwrap());
+        torn[at + 8..at + 16].copy_from_slice(&(size - less).to_le_bytes());
+        let error = tables(&torn).unwrap_err();
+        assert!(
+            matches!(&error, ReadError::Damaged { why, .. } if why.contains("longer than the chunk")),
+            "{error}"
+        );
+    }
+}
+
+/// A few kilobytes that would unpack to much, or become much.
+#[test]
+fn small_logs_cost_little() {
+    // many topics of many columns with long names
+    let wide: Vec<String> = (0..300)
+        .map(|i| format!("\"{}{i}\": 0", "n".repeat(900)))
+        .collect();
+    let wide = format!("{{{}}}", wide.join(","));
+    let topics: Vec<String> = (0..200).map(|i| format!("/{i}")).collect();
+    let many: Vec<_> = topics
+        .iter()
+        .map(|topic| (topic.as_str(), "json", 0, wide.as_bytes()))
+        .collect();
+    let log = log_of(&many);
+    assert!(log.len() < 100_000, "{}", log.len());
+    let error = tables(&log).unwrap_err().to_string();
+    assert!(error.contains("too large"), "{error}");
+    // one row that is wide, and a great many that are empty
+    let row = format!("[{}0]", "0,".repeat(9_999));
+    let mut rows: Vec<(&str, &str, u64, &[u8])> = vec![("/t", "json", 0, row.as_bytes())];
+    rows.extend((0..10_000).map(|i| ("/t", "json", i, &b"0"[..])));
+    let log = log_of(&rows);
+    let found = tables(&log).unwrap();
+    let mut written = 0_u64;
+    struct Count<'a>(&'a mut u64);
+    impl std::io::Write for Count<'_> {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            *self.0 += bytes.len() as u64;
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let error = write_csv(&log, &found.tables, vec![Some(Count(&mut written))]).unwrap_err();
+    assert!(error.to_string().contains("too large"), "{error}");
+    let most = most_of(&log, MOST_TABLES_BYTES);
+    assert!(written <= most && most < 128 << 20, "{written} of {most}");
+}
+
+#[test]
+fn a_member_called_as_the_first_column_has_another_name() {
+    let log = log_of(&[("/t", "json", 1_000_000_000, br#"{"time_s": 7}"#)]);
+    assert_eq!(csv_of(&log, "/t"), "\"time_s\",\"\\time_s\"\n1,7\n");
+}
+
+#[test]
+fn columns_are_described_as_the_schema_has_them() {
+    let run = sample::task_run();
+    let log = mcap(&run, &sample::graded().grade, &[]).unwrap();
+    let found = tables(&log).unwrap();
+    let of = |topic: &str| found.tables.iter().find(|table| table.topic == topic);
+    let signals = &of("/signals").unwrap().described;
+    assert_eq!(signals["q_shoulder"], "rad");
+    assert_eq!(signals["effort_elbow"], "N m");
+    let joints = &of("/joint_states").unwrap().described;
+    assert_eq!(joints["joints.elbow.velocity"], "rad/s or m/s");
+}
+
 #[test]
 fn a_compression_that_is_not_read_is_named() {
     let mut bytes = log_of(&[("/t", "json", 0, br#"{"a": 1}"#)]);
     let at = bytes.windows(4).position(|four| four == b"zstd").unwrap();
     bytes[at..at + 4].copy_from_slice(b"zlib");
+    // with its checksums it is damaged: nobody wrote that
+    assert!(matches!(tables(&bytes), Err(ReadError::Damaged { .. })));
+    without_sums(&mut bytes);
     assert_eq!(
         tables(&bytes).unwrap_err().to_string(),
         "its chunks are compressed with `zlib`; zstd and uncompressed ones are read"
