@@ -1,14 +1,15 @@
 //! Two graded submissions of one lab beside each other: what each check earned, and where the motions first part.
 
+use kinemark_sim::event::EventKind;
 use kinemark_sim::robot::Robot;
 use serde::Serialize;
 
 use crate::divergence;
-use crate::grade::{Grade, GradeMode, TaskGrade, TaskKind};
+use crate::grade::{Grade, GradeMode, Outcome, Stopped, TaskGrade, TaskKind};
 use crate::graded::{GradedRun, TaskRun};
 use crate::lab::Lab;
 use crate::lab::model::TaskWork;
-use crate::quantity::{list, metres, trimmed};
+use crate::quantity::{list, metres, seconds, trimmed};
 use crate::verdict::Verdict;
 
 /// The format and its version.
@@ -79,6 +80,10 @@ pub struct TaskComparison {
     pub verdict_b: Verdict,
     /// What both earned.
     pub points: Pair,
+    /// What ended the first early, if something did.
+    pub ended_a: Option<Ended>,
+    /// What ended the second early.
+    pub ended_b: Option<Ended>,
     /// Its checks, in the lab's order.
     pub checks: Vec<CheckComparison>,
     /// How the motions compare; absent in a function task.
@@ -116,8 +121,68 @@ pub struct CheckComparison {
     pub name: String,
     /// Its title.
     pub title: String,
+    /// How much the first earned; what is not judged has no points, which is not the same as zero.
+    pub outcome_a: Outcome,
+    /// How much the second earned.
+    pub outcome_b: Outcome,
     /// What both earned.
     pub points: Pair,
+}
+
+/// What ended a task early: the submission was stopped, or the motion went beyond all reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ended {
+    /// The tick of a motion task at which it did.
+    pub tick: Option<u64>,
+    /// The time of that tick \[s\].
+    pub time_s: Option<f64>,
+    /// Line in the submission, from one.
+    pub line: Option<usize>,
+    /// Why.
+    pub message: String,
+}
+
+impl Ended {
+    /// When, where and why, after the letter of the one that ended: `B stopped at 3.01 s, line 12: ...`.
+    pub fn words(&self, letter: &str) -> String {
+        let at = self
+            .time_s
+            .map_or(String::new(), |time_s| format!(" at {}", seconds(time_s)));
+        let line = match self.line {
+            Some(line) => format!(", line {line}"),
+            None => String::new(),
+        };
+        format!("{letter} stopped{at}{line}: {}", self.message)
+    }
+}
+
+/// What ended a run before its time, if something did.
+pub(crate) fn ended(run: &TaskRun, task: Option<&TaskGrade>) -> Option<Ended> {
+    let stopped = task.and_then(|task| task.stopped.as_ref());
+    // a stop without a tick is of a run that is not this one
+    let told = stopped.filter(|stopped| stopped.tick.is_some() || run.trace.is_empty());
+    if let Some(stopped) = told {
+        return Some(Ended::of(stopped));
+    }
+    let ends = |kind: &EventKind| matches!(kind, EventKind::Diverged | EventKind::Stopped);
+    let last = run.trace.events.iter().rfind(|event| ends(&event.kind))?;
+    Some(Ended {
+        tick: Some(last.tick),
+        time_s: Some(last.tick as f64 * run.trace.step_s),
+        line: None,
+        message: run.names().event(&last.kind),
+    })
+}
+
+impl Ended {
+    fn of(stopped: &Stopped) -> Self {
+        Self {
+            tick: stopped.tick,
+            time_s: stopped.time_s,
+            line: stopped.line,
+            message: stopped.message.clone(),
+        }
+    }
 }
 
 /// How two motions compare.
@@ -303,6 +368,8 @@ fn task(
         Some(CheckComparison {
             name: check.name.clone(),
             title: check.title.clone(),
+            outcome_a: check.outcome,
+            outcome_b: other.outcome,
             points: Pair::new(check.points, other.points, check.max_points),
         })
     });
@@ -319,7 +386,15 @@ fn task(
         },
         _ => None,
     };
+    // as it was recorded with the points; what no record tells, as it ran again
+    let ended = |task: &TaskGrade, again: &GradedRun| {
+        let run = again.runs.iter().find(|run| run.task == task.name);
+        let recorded = task.stopped.as_ref().map(Ended::of);
+        recorded.or_else(|| ended(run?, None))
+    };
     TaskComparison {
+        ended_a: ended(task_a, a.again),
+        ended_b: ended(task_b, b.again),
         name: task_a.name.clone(),
         title: task_a.title.clone(),
         verdict_a: task_a.verdict,

@@ -5,11 +5,12 @@ use owo_colors::OwoColorize as _;
 use super::visible::visible;
 use crate::compare::{Comparison, MotionComparison, Pair, SideRecord};
 use crate::divergence::{JOINT_TOLERANCE_RAD, PLACE_TOLERANCE_M};
+use crate::grade::Outcome;
 use crate::quantity::{metres, points, seconds};
 
 /// Renders a comparison.
 pub fn text(comparison: &Comparison) -> String {
-    let mut lines = vec![comparison.lab.bold().to_string()];
+    let mut lines = vec![visible(&comparison.lab).bold().to_string()];
     for (letter, side) in [("A", &comparison.a), ("B", &comparison.b)] {
         lines.push(side_line(letter, side));
     }
@@ -18,18 +19,27 @@ pub fn text(comparison: &Comparison) -> String {
     }
     for task in &comparison.tasks {
         lines.push(String::new());
+        let name = visible(&task.name);
+        let width = name.chars().count();
+        let name = name.bold().to_string();
+        let judged = [Outcome::Full; 2];
         lines.push(format!(
             "{}  {}",
-            row(&task.name.bold().to_string(), task.name.len(), &task.points),
-            task.title
+            row(&name, width, &task.points, judged),
+            visible(&task.title)
         ));
         for check in &task.checks {
-            let name = format!("  {}", check.name);
+            let name = format!("  {}", visible(&check.name));
+            let outcomes = [check.outcome_a, check.outcome_b];
             lines.push(format!(
                 "{}  {}",
-                row(&name, name.len(), &check.points),
-                check.title
+                row(&name, name.chars().count(), &check.points, outcomes),
+                visible(&check.title)
             ));
+        }
+        for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
+            let words = ended.as_ref().map(|ended| ended.words(letter));
+            lines.extend(words.map(|words| format!("  {}", visible(&words).yellow())));
         }
         lines.extend(task.motion.as_ref().map(motion));
     }
@@ -56,16 +66,24 @@ fn side_line(letter: &str, side: &SideRecord) -> String {
     )
 }
 
-/// A name that is `width` wide, and the points of both.
-fn row(name: &str, width: usize, pair: &Pair) -> String {
+/// A name that is `width` wide, and the points of both; what is not judged has none.
+fn row(name: &str, width: usize, pair: &Pair, outcomes: [Outcome; 2]) -> String {
     let space = " ".repeat(24_usize.saturating_sub(width));
-    let of = |earned: f64| format!("{}/{}", points(earned), points(pair.max));
+    let of = |earned: f64, outcome| format!("{}/{}", mark(earned, outcome), points(pair.max));
     format!(
         "{name}{space} {:>9} {:>9} {:>6}",
-        of(pair.a),
-        of(pair.b),
+        of(pair.a, outcomes[0]),
+        of(pair.b, outcomes[1]),
         change(pair.difference)
     )
+}
+
+/// Points earned; a dash where nothing was judged.
+fn mark(earned: f64, outcome: Outcome) -> String {
+    match outcome {
+        Outcome::NotJudged => "\u{2013}".to_owned(),
+        Outcome::Full | Outcome::Partial | Outcome::None => points(earned),
+    }
 }
 
 /// A difference of points with its sign.

@@ -168,12 +168,27 @@ mod tests {
 
     #[test]
     fn nothing_that_a_picture_names_is_read() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fonts/DejaVuSans.ttf");
-        let svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"20\"><image href=\"{file}\" width=\"9\" height=\"9\"/></svg>"
+        let folder = std::env::temp_dir().join(format!("kinemark-png-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let red = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><rect width=\"9\" height=\"9\" fill=\"#f00\"/></svg>";
+        let drawn = png(red).expect("a picture");
+        assert!(
+            colours(&pixels(&drawn)).contains(&[255, 0, 0, 255]),
+            "it would show"
         );
-        let drawn = png(&svg).expect("a picture");
-        assert_eq!(colours(&pixels(&drawn)).len(), 1);
+        for (name, bytes) in [("red.svg", red.as_bytes()), ("red.png", &drawn)] {
+            let file = folder.join(name);
+            std::fs::write(&file, bytes).expect("a file");
+            let file = file.display();
+            for address in [file.to_string(), format!("file://{file}")] {
+                let svg = format!(
+                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"20\"><image href=\"{address}\" width=\"9\" height=\"9\"/></svg>"
+                );
+                let drawn = png(&svg).expect("a picture");
+                assert_eq!(colours(&pixels(&drawn)).len(), 1, "{address}");
+            }
+        }
+        std::fs::remove_dir_all(&folder).expect("removed");
     }
 
     #[test]

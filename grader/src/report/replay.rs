@@ -1,5 +1,6 @@
 //! What a viewer needs to show a run again: shapes, poses by frame, and the moments worth a mark, as JSON that can stand in a page.
 
+mod beside;
 mod between;
 mod column;
 mod course;
@@ -19,7 +20,7 @@ use kinemark_sim::trace::Trace;
 use self::column::{Track, tick_column};
 use self::course::{Course, What};
 use self::frames::{looked, sound_ticks, steps};
-use self::moments::{MOST_OF_A_NAME, contacts, events};
+use self::moments::{ContactMark, EventMark, MOST_OF_A_NAME, contacts, events};
 use self::motion::{Motion, PLACE};
 use self::nodes::Nodes;
 use self::record::{FrameRecord, GoalRecord, JointRecord, PathRecord, Record, ReferencePath};
@@ -55,6 +56,8 @@ pub struct Ghost<'a> {
     pub trace: &'a Trace,
     /// What it is called, such as `reference` or `B`.
     pub label: &'a str,
+    /// All of the run, where it is another and not the reference's: its path, its surroundings and its marks are shown, too.
+    pub run: Option<(&'a TaskRun, Option<&'a TaskGrade>)>,
 }
 
 /// A run as a viewer shows it.
@@ -74,6 +77,7 @@ impl<'a> Replay<'a> {
             scene: run.scene.as_ref().map(|scene| &scene.scene),
             trace,
             label: "reference",
+            run: None,
         });
         Self {
             run,
@@ -107,8 +111,9 @@ impl<'a> Replay<'a> {
 
     fn record(&self) -> Record<'_> {
         let run = self.run;
-        let ticks = sound_ticks(&run.trace);
-        let mut events = events(run, self.task);
+        let other = self.ghost.and_then(|ghost| ghost.run);
+        let ticks = self.ticks();
+        let mut events = self.events();
         for event in &mut events {
             // what ended a run has no row of its own
             event.tick = event.tick.min(ticks.saturating_sub(1) as u64);
@@ -123,16 +128,10 @@ impl<'a> Replay<'a> {
         let nodes = tracks.split_off(1 + run.robot.n());
         let q = tracks.split_off(1);
         let tcp = tracks.pop().unwrap_or_default();
-        let reference = run.reference_tcp.as_ref().map(|path| ReferencePath {
-            period_s: path.period_s,
-            path: Track::even(
-                &[PLACE; 3],
-                path.points_m
-                    .iter()
-                    .take(MOST_POINTS)
-                    .take_while(|p| p.iter().all(|x| x.is_finite())),
-            ),
-        });
+        let reference = match other {
+            Some((other, _)) => Some(beside::tcp_path(other, run)),
+            None => self.reference(),
+        };
         let joints = run.robot.moving_joints().map(|joint| JointRecord {
             name: shortened(&joint.name, MOST_OF_A_NAME),
             unit: if joint.kind.turns() { "rad" } else { "m" },
@@ -154,7 +153,7 @@ impl<'a> Replay<'a> {
             reference,
             goals: self.goals(),
             paths: self.paths(),
-            contacts: contacts(run),
+            contacts: self.contacts(),
             events,
             ghost_label: self
                 .ghost
@@ -162,6 +161,59 @@ impl<'a> Replay<'a> {
             main_label: self.label.map(|label| shortened(label, MOST_OF_A_NAME)),
             ended: self.ended(),
         }
+    }
+
+    /// Ticks that are shown: of the run, and of another beside it that went on longer.
+    fn ticks(&self) -> usize {
+        let other = self.ghost.and_then(|ghost| ghost.run);
+        let other = other.map_or(0, |(run, _)| sound_ticks(&run.trace));
+        match sound_ticks(&self.run.trace) {
+            0 => 0,
+            ticks => ticks.max(other),
+        }
+    }
+
+    /// What happened in the run, and in another beside it under that one's label.
+    fn events(&self) -> Vec<EventMark> {
+        let mut marks = events(self.run, self.task);
+        if let Some((ghost, (run, task))) = self.ghost.and_then(|g| Some((g, g.run?))) {
+            let told = |label: &str, mut mark: EventMark| {
+                mark.text = format!("{}: {}", shortened(label, MOST_OF_A_NAME), mark.text);
+                mark
+            };
+            let ours = marks.into_iter();
+            let ours = ours.map(|mark| told(self.label.unwrap_or("A"), mark));
+            let theirs = events(run, task).into_iter();
+            marks = ours
+                .chain(theirs.map(|mark| told(ghost.label, mark)))
+                .collect();
+            marks.sort_by_key(|mark| mark.tick);
+        }
+        marks
+    }
+
+    /// The contacts of the run, and of another beside it under that one's label.
+    fn contacts(&self) -> Vec<ContactMark> {
+        let mut marks = contacts(self.run);
+        if let Some((ghost, (run, _))) = self.ghost.and_then(|g| Some((g, g.run?))) {
+            let label = shortened(ghost.label, MOST_OF_A_NAME);
+            marks.extend(contacts(run).into_iter().map(|mark| mark.of(&label)));
+        }
+        marks
+    }
+
+    fn reference(&self) -> Option<ReferencePath> {
+        let path = self.run.reference_tcp.as_ref()?;
+        Some(ReferencePath {
+            period_s: path.period_s,
+            path: Track::even(
+                &[PLACE; 3],
+                path.points_m
+                    .iter()
+                    .take(MOST_POINTS)
+                    .take_while(|p| p.iter().all(|x| x.is_finite())),
+            ),
+        })
     }
 
     /// Everything that moves, at the moments looked at, and what it belongs to.
@@ -193,6 +245,9 @@ impl<'a> Replay<'a> {
         }
         if let Some(ghost) = &self.ghost {
             nodes.ghost(ghost, run, &motion.bodies, &looked, unit_m);
+            if let Some((other, _)) = ghost.run {
+                beside::surroundings(&mut nodes, other, run, ghost.label);
+            }
         }
         let place = PLACE * unit_m;
         let mut tcp = Course::new(What::Place, &[place; 3], unit_m);
@@ -203,9 +258,11 @@ impl<'a> Replay<'a> {
                 false => Course::new(What::Number, &[place], unit_m),
             })
             .collect();
-        for tick in &looked {
-            tcp.push(trace.tcp.at(*tick));
-            for (course, q) in q.iter_mut().zip(trace.q.at(*tick)) {
+        // after its end a run stays where it was
+        let last = sound_ticks(trace).saturating_sub(1);
+        for tick in looked.iter().map(|tick| (*tick).min(last)) {
+            tcp.push(trace.tcp.at(tick));
+            for (course, q) in q.iter_mut().zip(trace.q.at(tick)) {
                 course.push(&[*q]);
             }
         }
@@ -261,23 +318,20 @@ impl<'a> Replay<'a> {
         record.collect()
     }
 
-    /// Why the run ended before its time, if it did.
+    /// Why the run, or another beside it, ended before its time, if it did.
     fn ended(&self) -> Option<String> {
-        let names = self.run.names();
-        let last = self
-            .run
-            .trace
-            .events
-            .iter()
-            .rfind(|event| moments::ends(&event.kind));
-        let stopped = self.task.and_then(|task| task.stopped.as_ref());
-        let told = stopped.filter(|stopped| stopped.tick.is_some() || self.run.trace.is_empty());
-        let words = match (told, last) {
-            (Some(stopped), _) => stopped.message.clone(),
-            (None, Some(event)) => names.event(&event.kind),
-            (None, None) => return None,
+        let ours = ended(self.run, self.task);
+        let Some((ghost, (run, task))) = self.ghost.and_then(|g| Some((g, g.run?))) else {
+            return ours;
         };
-        Some(shortened(&words.replace('`', ""), 300))
+        let label = self.label.unwrap_or("A");
+        let told = [(label, ours), (ghost.label, ended(run, task))];
+        let told = told.into_iter().filter_map(|(label, why)| {
+            let label = shortened(label, MOST_OF_A_NAME);
+            why.map(|why| format!("{label}: {why}"))
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| told.join("; "))
     }
 }
 
@@ -339,6 +393,11 @@ fn unit_m(run: &TaskRun, ticks: usize) -> f64 {
     } else {
         1.0
     }
+}
+
+/// Why a run ended before its time, if it did.
+fn ended(run: &TaskRun, task: Option<&TaskGrade>) -> Option<String> {
+    crate::compare::ended(run, task).map(|ended| shortened(&ended.message.replace('`', ""), 300))
 }
 
 /// A frame of a robot: on the node of its link, or in the world where that never moves.

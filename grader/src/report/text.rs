@@ -73,7 +73,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             "{:<10} {:>8}  {verdict}  {}",
             task.name.bold(),
             earned,
-            task.title
+            visible(&task.title)
         ),
     );
     if let Some(stopped) = &task.stopped {
@@ -199,7 +199,10 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
         Outcome::NotJudged => (".".dimmed().to_string(), "  not judged"),
     };
     let earned = format!("{}/{}", points(check.points), points(check.max_points));
-    line(out, &format!("  {mark} {earned:>9}  {}{word}", check.title));
+    line(
+        out,
+        &format!("  {mark} {earned:>9}  {}{word}", visible(&check.title)),
+    );
     if let Some(measure) = &check.measure {
         line(
             out,

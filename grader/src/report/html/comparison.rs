@@ -5,8 +5,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::foreign;
 use super::viewer::{self, seek};
 use crate::compare::{
-    Comparison, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,
+    Comparison, Ended, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,
 };
+use crate::grade::Outcome;
 use crate::graded::GradedRun;
 use crate::quantity::{points, seconds};
 use crate::report::compare_text::{change, together};
@@ -65,14 +66,18 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
 fn replay(task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Option<String> {
     let (run_a, run_b) = runs(&task.name, a, b)?;
     comparable(run_a, run_b).ok()?;
-    let graded = a.grade.tasks.iter().find(|graded| graded.name == task.name);
+    let [of_a, of_b] = [a, b].map(|graded| {
+        let mut tasks = graded.grade.tasks.iter();
+        tasks.find(|graded| graded.name == task.name)
+    });
     let ghost = Ghost {
         robot: &run_b.robot,
         scene: run_b.scene.as_ref().map(|scene| &scene.scene),
         trace: &run_b.trace,
         label: "B",
+        run: Some((run_b, of_b)),
     };
-    Some(Replay::of(run_a, graded).beside("A", ghost).json())
+    Some(Replay::of(run_a, of_a).beside("A", ghost).json())
 }
 
 fn scores(comparison: &Comparison) -> Markup {
@@ -118,6 +123,9 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
     html! {
         section class="task" id=(id) aria-labelledby={ (id) "-title" } {
             h2 id={ (id) "-title" } { (foreign(&task.title)) }
+            @for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
+                @if let Some(ended) = ended { (stopped(&task.name, letter, ended)) }
+            }
             @if let Some(motion) = &task.motion { (apart(&task.name, motion)) }
             @if found.is_some() { (viewer::place(index, &task.name)) }
             div class="wide" tabindex="0" role="group" aria-label="Points of both" {
@@ -127,8 +135,8 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
                         th scope="col" class="number" { "A" } th scope="col" class="number" { "B" }
                         th scope="col" class="number" { "of" } th scope="col" class="number" { "Difference" }
                     } }
-                    tbody { @for check in &task.checks { (row(&check.title, &check.points)) } }
-                    tfoot { (row("All", &task.points)) }
+                    tbody { @for check in &task.checks { (row(&check.title, &check.points, [check.outcome_a, check.outcome_b])) } }
+                    tfoot { (row("All", &task.points, [Outcome::Full; 2])) }
                 }
             }
             p class="quiet" { "A: " (task.verdict_a.name()) ", B: " (task.verdict_b.name()) }
@@ -144,14 +152,32 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
     }
 }
 
-fn row(title: &str, pair: &Pair) -> Markup {
+fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
     html! {
         tr {
             th scope="row" { (foreign(title)) }
-            td class="number" { (points(pair.a)) }
-            td class="number" { (points(pair.b)) }
+            @for (earned, outcome) in [pair.a, pair.b].into_iter().zip(outcomes) {
+                td class="number" {
+                    @match outcome {
+                        Outcome::NotJudged => "not judged",
+                        Outcome::Full | Outcome::Partial | Outcome::None => (points(earned)),
+                    }
+                }
+            }
             td class="number" { (points(pair.max)) }
             td class="number" { (change(pair.difference)) }
+        }
+    }
+}
+
+/// When and why one of the two ended early.
+fn stopped(task: &str, letter: &str, ended: &Ended) -> Markup {
+    html! {
+        p {
+            (letter) " stopped"
+            @if let Some(time_s) = ended.time_s { " at " (seek(task, time_s, &seconds(time_s))) }
+            @if let Some(line) = ended.line { ", line " (line) }
+            ": " (super::prose(&ended.message))
         }
     }
 }

@@ -37,6 +37,16 @@ pub(super) struct ContactMark {
     impulse: f64,
 }
 
+impl ContactMark {
+    /// The same, between parties of another run that is called `label`.
+    pub(super) fn of(mut self, label: &str) -> Self {
+        for party in [&mut self.first, &mut self.second] {
+            *party = format!("{label}/{party}");
+        }
+        self
+    }
+}
+
 /// What kind of mark an event is.
 fn mark(kind: &EventKind) -> &'static str {
     match kind {

@@ -95,8 +95,13 @@ impl Nodes {
             let Some(body) = bodies.get(*index) else {
                 continue;
             };
-            let same = main.contains(&course);
-            if same || course.stands_still() {
+            let ours = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
+            let ours: Vec<_> = ours.collect();
+            let mut pairs = main.iter().zip(&run.trace.moving_bodies);
+            let same = pairs.any(|(other, index)| {
+                *other == course && ours.get(*index).is_some_and(|b| b.shapes == body.shapes)
+            });
+            if same {
                 continue;
             }
             let shapes = self.meshes.shapes(&body.shapes);

@@ -1,7 +1,10 @@
 //! The replay of real runs, read back as a viewer reads it.
 
+mod beside;
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use kinemark_sim::kinematics::FramePoses;
 use serde_json::Value;
 
 use super::column::read;
@@ -164,7 +167,25 @@ fn frames_hang_on_their_nodes() {
         (tcp["name"].as_str(), tcp["node"].as_u64()),
         (Some("tcp"), Some(2))
     );
-    assert_eq!(numbers(&tcp["pose"])[..3].len(), 3);
+    let pose_of = |numbers: &[f64]| {
+        let turn = nalgebra::Quaternion::new(numbers[3], numbers[4], numbers[5], numbers[6]);
+        let turn = nalgebra::UnitQuaternion::from_quaternion(turn);
+        nalgebra::Isometry3::from_parts(
+            nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]),
+            turn,
+        )
+    };
+    let world_from_lab = pose_of(&numbers(&lab["pose"]));
+    let forearm_from_tcp = pose_of(&numbers(&tcp["pose"]));
+    let track = record["nodes"][2]["track"].as_u64().expect("it moves") as usize;
+    let course = rows(&record["tracks"][track]);
+    for (tick, forearm) in course.0.iter().zip(&course.1) {
+        let put_together = world_from_lab.inverse() * pose_of(forearm) * forearm_from_tcp;
+        let told = run.trace.tcp_position(*tick);
+        let apart = (put_together.translation.vector - told).norm();
+        // half a quantum of each place, and of each element of the turn over a metre or so
+        assert!(apart < 1e-4, "{apart} m at tick {tick}");
+    }
     let goals = record["goals"].as_array().expect("goals");
     assert_eq!(numbers(&goals[0]["position"]), [2.0, 1.4, 0.05]);
     assert_eq!(goals[0]["zero"].as_f64(), Some(0.02));
