@@ -131,6 +131,142 @@ fn students_with_other_numbers_are_compared_and_the_page_says_so() {
     assert!(moved(&record)["first"]["time_s"].is_number(), "{record}");
     let page = std::fs::read_to_string(bed.path("kinemark-compare/compare.html")).expect("a page");
     assert!(page.contains("\"name\":\"B/can\"") && page.contains("anna"));
+    // the shelf, which never moves, and where the TCP of B went, in a lab without a reference path
+    assert!(page.contains("\"name\":\"B/shelf\",\"kind\":\"ghost\""));
+    assert!(page.contains("\"reference\":{\"periodS\":0.01,"));
+}
+
+#[test]
+fn a_run_that_stopped_is_told_with_when_and_why() {
+    let bed = TestBed::new();
+    let lab = "04-knock-with-velocity";
+    for (out, case) in [("a", "good"), ("b", "nan-at-the-corner")] {
+        let file = format!("tests/submissions/{lab}/{case}/submission.rhai");
+        std::fs::copy(root().join(file), bed.path(&format!("{out}.rhai"))).expect("copied");
+        let file = format!("{out}.rhai");
+        let ran = bed.run(&["grade", lab, &file, "--out", out]);
+        assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
+    }
+    let ran = bed.run(&["compare", "a", "b"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let graded = std::fs::read_to_string(bed.path("b/grade.json")).expect("a record");
+    let graded: Value = serde_json::from_str(&graded).expect("JSON");
+    let tasks = graded["tasks"].as_array().expect("tasks");
+    let task = tasks.iter().find(|task| task["stopped"].is_object());
+    let stopped = &task.expect("a task that stopped")["stopped"];
+    let time_s = stopped["time_s"].as_f64().expect("a time");
+    let message = stopped["message"].as_str().expect("words");
+    let line = ran
+        .stdout
+        .lines()
+        .find(|line| line.contains("B stopped at"));
+    let line = line.expect("when it stopped");
+    assert!(line.contains(&format!("{time_s:.2} s")), "{line} {time_s}");
+    assert!(line.contains(message), "{line}");
+    assert!(!ran.stdout.contains("A stopped"), "{ran:?}");
+    // no points because nothing was judged is a dash, and no zero
+    assert!(ran.stdout.contains(" \u{2013}/"), "{ran:?}");
+    let record = record(&bed);
+    let tasks = record["tasks"].as_array().expect("tasks");
+    let told = tasks.iter().find(|task| task["ended_b"].is_object());
+    let told = told.expect("it is told");
+    assert_eq!(told["ended_b"]["message"], stopped["message"]);
+    assert_eq!(told["ended_b"]["tick"], stopped["tick"]);
+    assert!(told["ended_a"].is_null());
+    let checks = told["checks"].as_array().expect("checks");
+    assert!(
+        checks
+            .iter()
+            .any(|check| check["outcome_b"] == "not-judged")
+    );
+    let page = std::fs::read_to_string(bed.path("kinemark-compare/compare.html")).expect("a page");
+    assert!(page.contains("B stopped at <a class=\"seek\""), "no moment");
+    assert!(page.contains("not judged"));
+}
+
+/// What this machine cannot do is no result.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_machine_that_cannot_run_them_again_is_told_and_nothing_is_written() {
+    let bed = graded();
+    let binary = crate::testbed::binary();
+    // no process gets the pipes to a worker
+    let script = format!("ulimit -n 7; exec '{}' compare a b", binary.display());
+    let ran = std::process::Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(bed.path(""))
+        .output()
+        .expect("a shell");
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(4), "{told}");
+    assert!(told.contains("could not be run again"), "{told}");
+    assert!(ran.stdout.is_empty());
+    assert!(!bed.path("kinemark-compare").exists());
+}
+
+#[test]
+fn what_is_no_whole_report_of_this_version_is_told() {
+    let bed = graded();
+    let broken = |words: &str| {
+        for args in [&["compare", "a", "b"][..], &["verify", "b", "--practice"]] {
+            let ran = bed.run(args);
+            assert_eq!(ran.code, Some(3), "{args:?} {ran:?}");
+            let told = ran.stderr.replace("\n  \u{2502} ", " ");
+            assert!(told.contains(words) && told.contains("help:"), "{ran:?}");
+        }
+    };
+    bed.edit("b/grade.json", "kinemark-grade/1", "kinemark-grade/7");
+    broken("kinemark-grade/7");
+    bed.edit("b/grade.json", "kinemark-grade/7", "kinemark-grade/1");
+    for name in ["submission.rhai", "lab"] {
+        let away = bed.path("away");
+        std::fs::rename(bed.path(&format!("b/{name}")), &away).expect("moved");
+        broken(&format!("`b` has no {name}"));
+        std::fs::rename(&away, bed.path(&format!("b/{name}"))).expect("moved");
+    }
+    std::fs::rename(bed.path("b/lab/01-kinematics"), bed.path("away")).expect("moved");
+    broken("holds no lab `01-kinematics`");
+}
+
+/// Names in a record that somebody sent must not steer a terminal.
+#[test]
+fn foreign_names_are_shown_harmlessly() {
+    let bed = graded();
+    let escape = "\\u001b]0;owned\\u0007\\u202e";
+    let path = bed.path("b/grade.json");
+    let text = std::fs::read_to_string(&path).expect("a record");
+    let mut record: Value = serde_json::from_str(&text).expect("JSON");
+    let mut spoil = |pointer: &str| {
+        let text = record.pointer(pointer).and_then(Value::as_str);
+        let spoilt = format!("{}{escape}", text.expect("a text"));
+        let spoilt: Value = serde_json::from_str(&format!("\"{spoilt}\"")).expect("a text");
+        *record.pointer_mut(pointer).expect("a place") = spoilt;
+        let bytes = serde_json::to_vec(&record).expect("JSON");
+        // both, so that they are still of one lab
+        for out in ["a", "b"] {
+            bed.write(&format!("{out}/grade.json"), &bytes);
+        }
+    };
+    for pointer in [
+        "/tasks/0/title",
+        "/tasks/0/checks/0/title",
+        "/tasks/0/checks/0/name",
+    ] {
+        spoil(pointer);
+    }
+    let harmless = |ran: &crate::testbed::Ran| {
+        for text in [&ran.stdout, &ran.stderr] {
+            assert!(!text.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{text:?}");
+        }
+    };
+    let ran = bed.run(&["compare", "a", "b"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("\u{27e8}U+001B\u{27e9}"), "{ran:?}");
+    harmless(&ran);
+    spoil("/tasks/1/name");
+    harmless(&bed.run(&["compare", "a", "b"]));
+    spoil("/lab/name");
+    harmless(&bed.run(&["compare", "a", "b"]));
 }
 
 #[test]

@@ -58,6 +58,89 @@ fn a_log_becomes_a_folder_of_tables_and_one_topic_a_stream() {
     assert!(bed.path("out/move/run-csv/notes.txt").is_file());
 }
 
+/// What people keep in a report's folder is never lost, on whatever level.
+#[test]
+fn grading_again_keeps_exports_and_refuses_what_is_somebodys_own() {
+    let bed = graded();
+    let export = ["export", "out/move/run.mcap", "--csv"];
+    assert_eq!(bed.run(&export).code, Some(0));
+    bed.write("out/move/run-csv/notes.txt", "mine");
+    let before = files_below(&bed.path("out/move/run-csv"));
+    let grade = [
+        "grade",
+        "01-kinematics",
+        "mine.rhai",
+        "--storyboard",
+        "--png",
+    ];
+    for _ in 0..2 {
+        let ran = bed.run(&grade);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        assert!(before == files_below(&bed.path("out/move/run-csv")));
+    }
+    assert!(bed.path("out/move/storyboard.png").is_file());
+    let entries = std::fs::read_dir(bed.path("")).expect("the bed");
+    let names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
+    assert_eq!(names.len(), 2, "nothing is left over: {names:?}");
+    for name in [
+        "out/plots/notes.txt",
+        "out/move/notes.txt",
+        "out/move/deep/notes.txt",
+        "out/lab/01-kinematics/notes.md",
+        "out/lab/notes.toml",
+        "out/notes.txt",
+    ] {
+        bed.write(name, "mine");
+        let report = files_below(&bed.path("out"));
+        let ran = bed.run(&grade);
+        assert_eq!(ran.code, Some(2), "{name}: {ran:?}");
+        assert!(ran.stderr.contains("which is no part of"), "{ran:?}");
+        assert!(report == files_below(&bed.path("out")), "{name}");
+        std::fs::remove_file(bed.path(name)).expect("removed");
+        let _ = std::fs::remove_dir(bed.path("out/move/deep"));
+    }
+    assert_eq!(bed.run(&grade).code, Some(0));
+}
+
+/// A link to a folder stays one, and files are as open as the umask says.
+#[cfg(unix)]
+#[test]
+fn a_report_is_written_where_a_link_leads_and_as_the_umask_says() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let bed = graded();
+    std::fs::create_dir(bed.path("disk")).expect("a folder");
+    std::os::unix::fs::symlink("disk", bed.path("link")).expect("a link");
+    let binary = crate::testbed::binary().display();
+    let script = format!("umask 077; exec '{binary}' grade 01-kinematics mine.rhai --out link");
+    for _ in 0..2 {
+        let ran = std::process::Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(bed.path(""))
+            .output()
+            .expect("a shell");
+        assert_eq!(ran.status.code(), Some(0), "{ran:?}");
+        let link = bed.path("link").symlink_metadata().expect("it is there");
+        assert!(link.is_symlink());
+    }
+    for (name, expected) in [
+        ("disk", 0o700),
+        ("disk/plots", 0o700),
+        ("disk/report.html", 0o600),
+        ("disk/move/run.mcap", 0o600),
+    ] {
+        let there = bed.path(name).metadata().expect("it is there");
+        assert_eq!(there.permissions().mode() & 0o777, expected, "{name}");
+    }
+    assert_eq!(bed.run(&["verify", "link", "--practice"]).code, Some(0));
+    // the folder one is in cannot be another
+    let ran = bed
+        .command(&["grade", "01-kinematics", "../mine.rhai", "--out", "."])
+        .current_dir(bed.path("disk"))
+        .output()
+        .expect("the binary runs");
+    assert_eq!(ran.status.code(), Some(2), "{ran:?}");
+}
+
 #[test]
 fn what_is_no_log_is_told_with_its_code() {
     let bed = TestBed::new();

@@ -35,10 +35,12 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
         "content-type: text/html; charset=utf-8",
         "cache-control: no-store",
         "x-content-type-options: nosniff",
-        "content-security-policy: default-src 'none'",
+        // of its own origin, which is nobody's: it can read nothing beside it, and ask nobody
+        "content-security-policy: sandbox allow-scripts; default-src 'none'",
     ] {
         assert!(page.head.contains(line), "{line}: {}", page.head);
     }
+    assert!(!page.head.contains("connect-src") && !page.head.contains("allow-same-origin"));
     let on_disk = std::fs::read_to_string(bed.path("out/report.html")).expect("a report");
     assert!(page.body == on_disk, "the page is served as it is");
     for (path, kind) in [
@@ -111,6 +113,7 @@ fn several_reports_are_listed_with_what_they_earned() {
     let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
     let list = serving.get("/");
     assert_eq!(list.code, 200, "{list:?}");
+    assert!(!list.head.contains("script-src"), "a list runs nothing");
     assert!(list.body.contains("1 of 24"), "{list:?}");
     assert!(
         list.body.contains("href=\"/s1%20%3Cb%3E/report.html\""),
@@ -132,6 +135,47 @@ fn what_holds_no_report_is_told() {
     let ran = bed.run(&["view", "folder", "--no-open"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
     assert!(ran.stderr.contains("holds no report"), "{ran:?}");
+}
+
+/// Pipes and devices in place of a report's files: a page that is none, and a record that never ends.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_never_ends_is_not_waited_for() {
+    let bed = graded("all/good");
+    for folder in ["all/pipe", "all/endless", "out"] {
+        std::fs::create_dir_all(bed.path(folder)).expect("a folder");
+    }
+    let pipe = |name: &str| {
+        let made = std::process::Command::new("mkfifo")
+            .arg(bed.path(name))
+            .status();
+        assert!(made.expect("mkfifo runs").success());
+    };
+    pipe("all/pipe/report.html");
+    bed.write("all/endless/report.html", "");
+    std::os::unix::fs::symlink("/dev/zero", bed.path("all/endless/grade.json")).expect("a link");
+    pipe("out/grade.json");
+    let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
+    let list = serving.get("/");
+    assert!(list.body.contains("1 of 24"), "{list:?}");
+    assert!(list.body.contains("/endless/report.html"), "{list:?}");
+    assert!(!list.body.contains("/pipe/"), "{list:?}");
+    assert_eq!(serving.get("/pipe/report.html").code, 404);
+    assert_eq!(serving.get("/endless/grade.json").code, 404);
+    assert_eq!(serving.stop(), Some(0));
+    // the same files where other commands read reports
+    let mine = "mine/submission.rhai";
+    let ran = bed.run(&["grade", "01-kinematics", mine, "--out", "out"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    for args in [&["verify", "out"][..], &["compare", "all/good", "out"]] {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(3), "{args:?} {ran:?}");
+    }
+    std::fs::remove_file(bed.path("all/good/report.html")).expect("removed");
+    pipe("all/good/report.html");
+    let ran = bed.run(&["verify", "all/good", "--practice"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains("file `report.html`"), "{ran:?}");
 }
 
 #[test]

@@ -37,6 +37,11 @@ fn every_save_is_graded_and_open_pages_are_told() {
     let page = serving.get("/report.html");
     assert!(page.body.contains("<script data-seen=\"1\">"), "no script");
     assert!(page.body.contains("connect-src 'self'"), "no right to ask");
+    assert!(!page.head.contains("sandbox"), "it may ask and remember");
+    // another page in the folder may neither
+    bed.write("out/other.html", "<p>");
+    assert!(serving.get("/other.html").head.contains("sandbox"));
+    std::fs::remove_file(bed.path("out/other.html")).expect("removed");
     let on_disk = std::fs::read_to_string(bed.path("out/report.html")).expect("a report");
     assert!(!on_disk.contains("data-seen") && !on_disk.contains("connect-src"));
     assert_eq!(newer(&serving, 0), 1);

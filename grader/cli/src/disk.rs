@@ -72,9 +72,18 @@ impl Files for Folder {
     }
 }
 
-/// What a file of at most `most` bytes holds; why not, in words.
+/// What a plain file of at most `most` bytes holds; why not, in words. A pipe, which would have to be waited for, and a device, which
+/// may never end, are none.
 pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
-    let file = File::open(path).map_err(|error| plain(&error))?;
+    let file = open(path).map_err(|error| plain(&error))?;
+    // asked of what was opened: what lies at the path may be another by now
+    let there = file.metadata().map_err(|error| plain(&error))?;
+    if !there.is_file() {
+        return Err("it is no plain file".to_owned());
+    }
+    if there.len() > most {
+        return Err(format!("more than {most} bytes"));
+    }
     let mut bytes = Vec::new();
     // one byte more tells a longer file without reading it
     file.take(most + 1)
@@ -84,6 +93,41 @@ pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         return Err(format!("more than {most} bytes"));
     }
     Ok(bytes)
+}
+
+/// Opens a file to read, and never waits for a pipe's other end.
+fn open(path: &Path) -> std::io::Result<File> {
+    let mut options = File::options();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt as _;
+        // the same bits in every type that flags of the system are kept in
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    }
+    options.open(path)
+}
+
+/// Where a path leads once every link is followed, as far as anything is there.
+pub(crate) fn real(path: &Path) -> PathBuf {
+    let mut missing = Vec::new();
+    for there in path.ancestors() {
+        let folder = if there.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            there
+        };
+        if let Ok(mut real) = folder.canonicalize() {
+            real.extend(missing.iter().rev());
+            return real;
+        }
+        // `..` has no name: what it leads to is not known
+        match there.file_name() {
+            Some(name) => missing.push(name),
+            None => break,
+        }
+    }
+    path.to_owned()
 }
 
 /// An operating system's message without its number.
@@ -153,5 +197,47 @@ fn near_in_folder(path: &Path) -> String {
         Some(near) => format!("did you mean `{}`?", folder.join(near).display()),
         None if folder.is_dir() => "check the path".to_owned(),
         None => format!("there is no folder `{}` either", folder.display()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_read_up_to_a_size() {
+        let bed = tempfile::tempdir().unwrap();
+        let file = bed.path().join("file");
+        std::fs::write(&file, "four").unwrap();
+        assert_eq!(bytes_of(&file, 4).unwrap(), b"four");
+        assert_eq!(bytes_of(&file, 3).unwrap_err(), "more than 3 bytes");
+        assert!(bytes_of(bed.path(), 9).is_err());
+    }
+
+    /// A pipe that nobody writes to, and a device that never ends.
+    #[cfg(unix)]
+    #[test]
+    fn pipes_and_devices_are_refused_at_once() {
+        let bed = tempfile::tempdir().unwrap();
+        let pipe = bed.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        assert_eq!(bytes_of(&pipe, 9).unwrap_err(), "it is no plain file");
+        let endless = Path::new("/dev/zero");
+        assert_eq!(bytes_of(endless, 9).unwrap_err(), "it is no plain file");
+    }
+
+    #[test]
+    fn a_path_is_real_as_far_as_it_is_there() {
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().canonicalize().unwrap();
+        assert_eq!(real(&folder.join("a/b/out")), folder.join("a/b/out"));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(&folder, folder.join("link")).unwrap();
+            assert_eq!(real(&folder.join("link/a/out")), folder.join("a/out"));
+        }
+        let here = std::env::current_dir().unwrap().canonicalize().unwrap();
+        assert_eq!(real(Path::new("no-such/out")), here.join("no-such/out"));
     }
 }

@@ -1,4 +1,4 @@
-//! A folder that is written under another name beside its place and then renamed, so that it is whole or not there; what was there
+//! A folder that is written under another name beside its place and then put there, so that it is whole or not there; what was there
 //! before goes with it.
 
 use std::path::{Path, PathBuf};
@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::report::visible::visible;
 use tempfile::TempDir;
 
+use crate::disk::{self, plain};
 use crate::failure::Failure;
 
 /// A folder being written.
@@ -17,8 +18,9 @@ pub(crate) struct FreshFolder {
 }
 
 impl FreshFolder {
-    /// Starts a folder that is to be `out`.
+    /// Starts a folder that is to be `out`; where that is a link to a folder, the folder that it leads to.
     pub(crate) fn beside(out: &Path) -> std::io::Result<Self> {
+        let out = disk::real(out);
         let parent = match out.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -27,10 +29,7 @@ impl FreshFolder {
         let temporary = tempfile::Builder::new()
             .prefix(".kinemark-")
             .tempdir_in(parent)?;
-        let fresh = Self {
-            temporary,
-            out: out.to_owned(),
-        };
+        let fresh = Self { temporary, out };
         std::fs::create_dir(fresh.path())?;
         Ok(fresh)
     }
@@ -40,47 +39,154 @@ impl FreshFolder {
         self.temporary.path().join("new")
     }
 
-    /// Puts it in its place.
-    pub(crate) fn put_in_place(self) -> std::io::Result<()> {
-        let old = self.temporary.path().join("old");
-        if self.out.exists() {
-            std::fs::rename(&self.out, &old)?;
+    /// Writes a file inside, with the folders above it. Nobody sees it before it is put in place.
+    pub(crate) fn write(&self, path: &str, bytes: &[u8]) -> std::io::Result<()> {
+        let path = self.path().join(path);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
         }
+        std::fs::write(path, bytes)
+    }
+
+    /// Puts it in its place. Of what was there before, the entries at `kept`, paths inside the folder, stay where they were.
+    pub(crate) fn put_in_place(self, kept: &[String]) -> std::io::Result<()> {
+        let Some(old) = self.swap()? else {
+            return Ok(());
+        };
+        for path in kept {
+            let to = self.out.join(path);
+            let moved = match to.parent() {
+                Some(folder) => std::fs::create_dir_all(folder),
+                None => Ok(()),
+            };
+            if let Err(error) = moved.and_then(|()| std::fs::rename(old.join(path), &to)) {
+                // somebody's own: better an old folder too many than a lost file
+                let left = self.temporary.keep();
+                return Err(std::io::Error::other(format!(
+                    "`{path}` is left in `{}`: {}",
+                    left.display(),
+                    plain(&error)
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts it in its place and says where the earlier folder is, if there was one.
+    fn swap(&self) -> std::io::Result<Option<PathBuf>> {
+        if !self.out.exists() {
+            std::fs::rename(self.path(), &self.out)?;
+            return Ok(None);
+        }
+        if exchange(&self.path(), &self.out) {
+            return Ok(Some(self.path()));
+        }
+        let old = self.temporary.path().join("old");
+        std::fs::rename(&self.out, &old)?;
         std::fs::rename(self.path(), &self.out).inspect_err(|_| {
             // put the earlier one back; what went wrong is told either way
             let _ = std::fs::rename(&old, &self.out);
-        })
+        })?;
+        Ok(Some(old))
     }
 }
 
-/// Checks that `out` is free, empty, or holds nothing but what is `ours`, `whole` in words: replacing it would lose the rest.
+/// Exchanges two folders in one step, so that there is one at each place at any time; whether that worked.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+fn exchange(one: &Path, other: &Path) -> bool {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    // some file systems cannot
+    renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE).is_ok()
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+fn exchange(_: &Path, _: &Path) -> bool {
+    false
+}
+
+/// What an entry of a folder is to whoever wrote the folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Entry {
+    /// A file of ours.
+    Ours,
+    /// A folder of ours: what is in it has to be looked at.
+    Inside,
+    /// Not ours, and kept where it is.
+    Kept,
+    /// Not ours.
+    Foreign,
+}
+
+/// Checks that `out` is free, empty, or holds nothing but what is `ours`, `whole` in words: replacing it would lose the rest. Gives the
+/// paths of what is to be kept. Paths are told from `out`, with `/` between names; links are never ours.
 pub(crate) fn refuse_foreign(
     out: &Path,
     whole: &str,
-    ours: impl Fn(&str) -> bool,
-) -> Result<(), Failure> {
+    ours: impl Fn(&str) -> Entry,
+) -> Result<Vec<String>, Failure> {
     let help = "choose another folder with --out";
+    let shown = out.display();
     // a file, a device, a pipe, a link to nowhere: whatever is there and no folder stays as it is
-    if out.symlink_metadata().is_ok() && !out.is_dir() {
+    if out.symlink_metadata().is_err() {
+        return Ok(Vec::new());
+    }
+    if !out.is_dir() {
         return Err(Failure::usage(
-            format!("`{}` is there and is not a folder", out.display()),
+            format!("`{shown}` is there and is not a folder"),
             help,
         ));
     }
-    let entries = std::fs::read_dir(out).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    match names.into_iter().find(|name| !ours(name)) {
-        None => Ok(()),
-        Some(name) => Err(Failure::usage(
-            format!(
-                "`{}` holds `{}`, which is no part of {whole}",
-                out.display(),
-                visible(&name)
-            ),
+    let real = disk::real(out);
+    let is_around_us =
+        std::env::current_dir().is_ok_and(|here| disk::real(&here).starts_with(&real));
+    if is_around_us {
+        return Err(Failure::usage(
+            format!("`{shown}` is the folder you are in, or one around it: it cannot be replaced"),
             help,
-        )),
+        ));
     }
+    let mut kept = Vec::new();
+    let mut open = vec![String::new()];
+    while let Some(folder) = open.pop() {
+        let unread = |error: std::io::Error| {
+            let path = real.join(&folder);
+            Failure::usage(
+                format!(
+                    "`{}` cannot be looked into: {}",
+                    path.display(),
+                    plain(&error)
+                ),
+                help,
+            )
+        };
+        let mut names = Vec::new();
+        for entry in std::fs::read_dir(real.join(&folder)).map_err(unread)? {
+            let entry = entry.map_err(unread)?;
+            let kind = entry.file_type().map_err(unread)?;
+            names.push((entry.file_name().to_string_lossy().into_owned(), kind));
+        }
+        names.sort_by(|(one, _), (other, _)| one.cmp(other));
+        for (name, kind) in names {
+            let path = if folder.is_empty() {
+                name
+            } else {
+                format!("{folder}/{name}")
+            };
+            match ours(&path) {
+                Entry::Ours if kind.is_file() => {}
+                Entry::Inside if kind.is_dir() => open.push(path),
+                Entry::Kept if kind.is_dir() => kept.push(path),
+                Entry::Ours | Entry::Inside | Entry::Kept | Entry::Foreign => {
+                    return Err(Failure::usage(
+                        format!(
+                            "`{shown}` holds `{}`, which is no part of {whole}",
+                            visible(&path)
+                        ),
+                        help,
+                    ));
+                }
+            }
+        }
+    }
+    Ok(kept)
 }

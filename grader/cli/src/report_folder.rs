@@ -3,17 +3,19 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::grade::Grade;
+use kinemark_grader::grade::{self, Grade};
 use kinemark_grader::graded::{GradedRun, TaskRun};
+use kinemark_grader::lab::files::text;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Files as _, Lab, LoadError, Variant};
 use kinemark_grader::log::{self, Attachment};
+use kinemark_grader::report::visible::visible;
 use kinemark_grader::report::{self, plot::Plot};
 use kinemark_sim::source::Source;
 
 use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;
-use crate::fresh_folder::{self, FreshFolder};
+use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::output;
 
 /// The record's file; a folder that has it is a report of ours.
@@ -24,6 +26,14 @@ pub(crate) const PAGE: &str = "report.html";
 pub(crate) const SUBMISSION: &str = "submission.rhai";
 /// The copy of lab and robot, in the shape of a labs folder.
 pub(crate) const LABS: &str = "lab";
+
+/// Where the tables of a run go unless a place is named, in the task's folder.
+pub(crate) const TABLES: &str = "run-csv";
+
+/// Records and submissions are far smaller.
+const MOST_BYTES: u64 = 64 << 20;
+/// Pages with the meshes of their robots are smaller.
+pub(crate) const MOST_PAGE_BYTES: u64 = 512 << 20;
 
 /// The storyboard of a motion task, in the task's folder.
 pub(crate) const STORYBOARD: &str = "storyboard.png";
@@ -81,7 +91,7 @@ pub(crate) fn write(
     graded: &GradedRun,
     pictures: Pictures,
 ) -> Result<(), Failure> {
-    refuse_foreign(out)?;
+    let kept = refuse_foreign(out)?;
     let files = files(lab, submission, graded, pictures)?;
     let failed = |error: std::io::Error| {
         Failure::fault(
@@ -94,26 +104,79 @@ pub(crate) fn write(
         )
     };
     let fresh = FreshFolder::beside(out).map_err(failed)?;
-    let folder = fresh.path();
     for file in &files {
-        let path = folder.join(&file.path);
-        std::fs::create_dir_all(path.parent().unwrap_or(&folder)).map_err(failed)?;
-        output::write_file(&path, &file.bytes).map_err(failed)?;
+        fresh.write(&file.path, &file.bytes).map_err(failed)?;
     }
-    fresh.put_in_place().map_err(failed)
+    fresh.put_in_place(&kept).map_err(failed)
 }
 
-/// Checks, before anything is graded, that `out` is free, empty, or an earlier report.
-pub(crate) fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    let mut ours = vec![RECORD, PAGE, SUBMISSION, LABS, "plots"];
-    let record = std::fs::read(out.join(RECORD)).ok();
+/// Checks, before anything is graded, that `out` is free, empty, or an earlier report and nothing else; what exports put beside its
+/// logs is to be kept.
+pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
+    let record = disk::bytes_of(&out.join(RECORD), MOST_BYTES).ok();
     let record: Option<Grade> = record.and_then(|text| serde_json::from_slice(&text).ok());
-    match &record {
-        Some(record) => ours.extend(record.tasks.iter().map(|task| task.name.as_str())),
+    let copies = record.as_ref().map(|record| copies_in(out, record));
+    fresh_folder::refuse_foreign(out, "a Kinemark report", |path| {
         // without a record of ours nothing in it is ours
-        None => ours.clear(),
+        let (Some(record), Some(copies)) = (&record, &copies) else {
+            return Entry::Foreign;
+        };
+        let (first, below) = path.split_once('/').unwrap_or((path, ""));
+        let is_task = record.tasks.iter().any(|task| task.name == first);
+        let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+        match (first, below) {
+            (RECORD | PAGE | SUBMISSION, "") => Entry::Ours,
+            ("plots" | LABS, "") => Entry::Inside,
+            ("plots", _) if ["svg", "png"].contains(&ending) => Entry::Ours,
+            (LABS, below) => copies.entry(below),
+            (_, "") if is_task => Entry::Inside,
+            (_, "run.mcap" | "run.layout.json" | STORYBOARD | "storyboard.svg") if is_task => {
+                Entry::Ours
+            }
+            (_, TABLES) if is_task => Entry::Kept,
+            _ => Entry::Foreign,
+        }
+    })
+}
+
+/// The copies of lab and robot that a report holds.
+struct CopiesIn {
+    /// Their paths; none where the lab is none that this version loads.
+    paths: Option<Vec<String>>,
+}
+
+impl CopiesIn {
+    fn entry(&self, path: &str) -> Entry {
+        let Some(paths) = &self.paths else {
+            // of an older version, or changed: what a lab is made of
+            let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+            return match ending {
+                "toml" | "json" | "stl" | "obj" => Entry::Ours,
+                "" => Entry::Inside,
+                _ => Entry::Foreign,
+            };
+        };
+        let is_above = |known: &String| {
+            let rest = known.strip_prefix(path);
+            rest.is_some_and(|rest| rest.starts_with('/'))
+        };
+        if paths.iter().any(|known| known == path) {
+            Entry::Ours
+        } else if paths.iter().any(is_above) {
+            Entry::Inside
+        } else {
+            Entry::Foreign
+        }
     }
-    fresh_folder::refuse_foreign(out, "a Kinemark report", |name| ours.contains(&name))
+}
+
+fn copies_in(out: &Path, record: &Grade) -> CopiesIn {
+    let lab = load(&Folder::new(out.join(LABS)), &record.lab.name).ok();
+    let paths = lab.map(|lab| {
+        let copies = lab.copies();
+        copies.iter().map(|(path, _)| path.to_owned()).collect()
+    });
+    CopiesIn { paths }
 }
 
 /// Everything the folder holds: a function of lab, submission, graded run and the pictures asked for alone.
@@ -199,59 +262,92 @@ pub(crate) struct Report {
 
 /// Reads the folder of an earlier report.
 pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
+    let shown = folder.display();
     if !folder.is_dir() {
         return Err(Failure::usage(
-            format!("there is no folder `{}`", folder.display()),
+            format!("there is no folder `{shown}`"),
             "name the folder that `kinemark grade` wrote",
         ));
     }
-    let record_path = folder.join(RECORD);
-    if !record_path.is_file() {
-        return Err(Failure::broken(
-            format!("`{}` has no {RECORD}: it is no report", folder.display()),
-            "name the folder that `kinemark grade` wrote",
-        ));
-    }
-    let record = disk::read(&record_path, "a grade record", 64 << 20)?;
-    let grade: Grade = serde_json::from_str(record.text()).map_err(|error| {
+    let there = |name: &str| match folder.join(name).symlink_metadata() {
+        Ok(_) => Ok(()),
+        Err(_) => Err(Failure::broken(
+            format!("`{shown}` has no {name}: it is no report, or not all of one"),
+            "name the folder that `kinemark grade` wrote, or grade the submission again",
+        )),
+    };
+    there(RECORD)?;
+    let grade = record(&folder.join(RECORD))?;
+    there(SUBMISSION)?;
+    there(LABS)?;
+    let path = folder.join(SUBMISSION);
+    let submission = disk::bytes_of(&path, MOST_BYTES).and_then(text);
+    let submission = submission.map_err(|why| {
         Failure::broken(
-            format!(
-                "`{}` is no grade record this version reads: {error}",
-                record_path.display()
-            ),
+            format!("`{}` cannot be read: {why}", path.display()),
             "grade the submission again",
         )
     })?;
-    let text = disk::read(&folder.join(SUBMISSION), "the submission", 64 << 20)?;
     // only the writer of replays leaves quotes as they are
-    let page = std::fs::read(folder.join(PAGE)).unwrap_or_default();
+    let page = disk::bytes_of(&folder.join(PAGE), MOST_PAGE_BYTES).unwrap_or_default();
     let sign = br#""ghostLabel":"reference""#;
     let shows_reference = page.windows(sign.len()).any(|part| part == sign);
     Ok(Report {
         shows_reference,
-        submission: Source::new(grade.submission.name.as_str(), text.text()),
+        submission: Source::new(grade.submission.name.as_str(), submission),
         labs: folder.join(LABS),
         grade,
     })
 }
 
+/// Reads a grade record, if it is of the format that this version writes.
+fn record(path: &Path) -> Result<Grade, Failure> {
+    #[derive(serde::Deserialize)]
+    struct Format {
+        format: String,
+    }
+    let shown = path.display();
+    let unread = |why: &str| {
+        Failure::broken(
+            format!("`{shown}` is no grade record that this version reads: {why}"),
+            "grade the submission again",
+        )
+    };
+    let bytes = disk::bytes_of(path, MOST_BYTES).map_err(|why| unread(&why))?;
+    // the format first: of another version everything else may be another
+    let Format { format } =
+        serde_json::from_slice(&bytes).map_err(|error| unread(&visible(&error.to_string())))?;
+    if format != grade::FORMAT {
+        let (format, ours) = (visible(&format), grade::FORMAT);
+        return Err(unread(&format!("its format is `{format}`, not `{ours}`")));
+    }
+    serde_json::from_slice(&bytes).map_err(|error| unread(&visible(&error.to_string())))
+}
+
 /// The lab of a report, in its variant, from the copies in its folder; and these.
 pub(crate) fn lab_of(report: &Report) -> Result<(Lab, Folder), Failure> {
-    let name = &report.grade.lab.name;
     let copies = Folder::new(report.labs.clone());
-    let variant = match copies.read(&format!("{name}/{VARIANT_FILE}")) {
-        Ok(Some(text)) => {
-            let variant = Variant::parse(Source::new(VARIANT_FILE, text));
-            Some(variant.map_err(LoadError::from)?)
-        }
-        Ok(None) => None,
-        Err(why) => {
-            return Err(Failure::broken(
-                format!("{VARIANT_FILE}: {why}"),
-                "grade the submission again",
-            ));
-        }
-    };
-    let lab = Lab::load_variant(&copies, name, variant.as_ref())?;
+    let lab = load(&copies, &report.grade.lab.name).map_err(|error| match error {
+        // nobody named a lab here
+        LoadError::UnknownLab { .. } => Failure::broken(
+            format!(
+                "`{}` holds no lab `{}`: the report is not all there",
+                report.labs.display(),
+                visible(&report.grade.lab.name)
+            ),
+            "grade the submission again",
+        ),
+        other => other.into(),
+    })?;
     Ok((lab, copies))
+}
+
+fn load(copies: &Folder, name: &str) -> Result<Lab, LoadError> {
+    let path = format!("{name}/{VARIANT_FILE}");
+    let variant = match copies.read(&path) {
+        Ok(Some(text)) => Some(Variant::parse(Source::new(VARIANT_FILE, text))?),
+        Ok(None) => None,
+        Err(why) => return Err(LoadError::Unreadable { path, why }),
+    };
+    Lab::load_variant(copies, name, variant.as_ref())
 }

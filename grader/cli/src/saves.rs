@@ -8,7 +8,7 @@ use kinemark_grader::lab::variant::VARIANT_FILE;
 use notify::{EventKind, RecursiveMode, Watcher as _};
 
 use crate::args::GradeArgs;
-use crate::disk::plain;
+use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::places;
 
@@ -113,11 +113,10 @@ impl Concerns {
         let trees = trees
             .into_iter()
             .filter_map(|tree| tree.canonicalize().ok());
-        let out = parent(&args.out).canonicalize().unwrap_or_default();
         Ok(Self {
             files,
             trees: trees.collect(),
-            out: out.join(args.out.file_name().unwrap_or_default()),
+            out: disk::real(&args.out),
         })
     }
 
@@ -171,6 +170,39 @@ fn parent(path: &Path) -> &Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A folder for the report that is not there, nor the one above it: what is written there is our own.
+    #[test]
+    fn a_report_below_the_lab_is_no_save_of_it() {
+        use clap::Parser as _;
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().canonicalize().unwrap();
+        std::fs::create_dir_all(folder.join("labs/one")).unwrap();
+        std::fs::write(folder.join("mine.rhai"), "").unwrap();
+        let path = |name: &str| folder.join(name).display().to_string();
+        for out in ["labs/one/reports/first/out", "labs/one/out"] {
+            let args = [
+                "kinemark",
+                "grade",
+                "one",
+                &path("mine.rhai"),
+                "--out",
+                &path(out),
+                "--labs",
+                &path("labs"),
+            ];
+            let args = crate::args::Args::try_parse_from(args).unwrap();
+            let crate::args::Command::Grade(args) = args.command else {
+                panic!("{args:?}")
+            };
+            let concerns = Concerns::of(&args).unwrap();
+            assert!(
+                !concerns.path(&folder.join(out).join("report.html")),
+                "{out}"
+            );
+            assert!(concerns.path(&folder.join("labs/one/lab.toml")));
+        }
+    }
 
     #[test]
     fn saves_of_what_is_graded_with_count_and_others_do_not() {

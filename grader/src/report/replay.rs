@@ -166,7 +166,11 @@ impl<'a> Replay<'a> {
     /// Ticks that are shown: of the run, and of another beside it that went on longer.
     fn ticks(&self) -> usize {
         let other = self.ghost.and_then(|ghost| ghost.run);
-        let other = other.map_or(0, |(run, _)| sound_ticks(&run.trace));
+        let other = other.map_or(0, |(run, _)| {
+            // two runs may have steps of different length
+            let steps = run.trace.step_s / self.run.trace.step_s;
+            (sound_ticks(&run.trace) as f64 * steps).ceil() as usize
+        });
         match sound_ticks(&self.run.trace) {
             0 => 0,
             ticks => ticks.max(other),

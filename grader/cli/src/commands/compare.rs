@@ -9,11 +9,12 @@ use kinemark_grader::graded::GradedRun;
 use kinemark_grader::grading;
 use kinemark_grader::lab::Lab;
 use kinemark_grader::report;
+use kinemark_grader::report::visible::visible;
 
 use crate::args::CompareArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::fresh_folder::{self, FreshFolder};
+use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
@@ -37,7 +38,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
     // before anything runs
     refuse_other_lab(args, &a, &b)?;
-    let (a, b) = (again(a)?, again(b)?);
+    let (a, b) = (again(a, &args.a)?, again(b, &args.b)?);
     let names = [&args.a, &args.b].map(|folder| folder.display().to_string());
     let mut notes = changed(&a, "A");
     notes.extend(changed(&b, "B"));
@@ -49,7 +50,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     });
     let mut comparison = compare::compare(&sides[0], &sides[1]).map_err(|error| {
         Failure::usage(
-            error.to_string(),
+            visible(&error.to_string()).into_owned(),
             "name two reports of one lab; `kinemark grade` grades a submission in another",
         )
     })?;
@@ -73,6 +74,7 @@ fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Fa
     if of_a == of_b {
         return Ok(());
     }
+    let [of_a, of_b] = [of_a, of_b].map(|name| visible(name));
     Err(Failure::usage(
         format!(
             "`{}` is of lab `{of_a}` and `{}` of lab `{of_b}`: they have nothing in common",
@@ -85,10 +87,29 @@ fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Fa
 
 /// Runs a report's submission again. Hidden cases do not take part: points are those of the record, and what is compared are the
 /// motions that everyone may see.
-fn again(report: Report) -> Result<Again, Failure> {
+fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
     let (lab, _) = report_folder::lab_of(&report)?;
     let graded = grading::grade(&lab, None, &report.submission, &mut WorkerHost::new(None));
     let graded = graded.map_err(|_| Failure::interrupted())?;
+    // what this machine did not do says nothing about either
+    let mut undecided = graded
+        .grade
+        .tasks
+        .iter()
+        .filter(|t| !t.verdict.is_decided());
+    if let Some(task) = undecided.next() {
+        let why = task.stopped.as_ref();
+        let why = why.map_or(task.verdict.name(), |stopped| &stopped.message);
+        return Err(Failure::fault(
+            format!(
+                "task `{}` of `{}` could not be run again: {}",
+                visible(&task.name),
+                folder.display(),
+                visible(why)
+            ),
+            "compare again on a machine that is less busy; nothing was written",
+        ));
+    }
     Ok(Again {
         report,
         lab,
@@ -134,17 +155,21 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let record: Option<serde_json::Value> =
         record.and_then(|text| serde_json::from_slice(&text).ok());
     let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
-    let ours = |name: &str| is_ours && [PAGE, RECORD].contains(&name);
-    fresh_folder::refuse_foreign(out, "an earlier comparison", ours)
+    let ours = |name: &str| match name {
+        PAGE | RECORD if is_ours => Entry::Ours,
+        _ => Entry::Foreign,
+    };
+    fresh_folder::refuse_foreign(out, "an earlier comparison", ours)?;
+    Ok(())
 }
 
 fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Result<(), Failure> {
     let record = output::json(comparison)?;
     let page = report::html::comparison(comparison, a, b);
     let written = FreshFolder::beside(out).and_then(|fresh| {
-        output::write_file(&fresh.path().join(PAGE), page.as_bytes())?;
-        output::write_file(&fresh.path().join(RECORD), record.as_bytes())?;
-        fresh.put_in_place()
+        fresh.write(PAGE, page.as_bytes())?;
+        fresh.write(RECORD, record.as_bytes())?;
+        fresh.put_in_place(&[])
     });
     written.map_err(|error| {
         Failure::fault(

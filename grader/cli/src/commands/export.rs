@@ -1,5 +1,6 @@
 //! `kinemark export`: a log as tables, in a folder that is whole or not there, or one of them on standard output.
 
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{BufWriter, ErrorKind, Write};
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::args::ExportArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::fresh_folder::{self, FreshFolder};
+use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::output;
 
 /// A log larger than this is not read.
@@ -39,6 +40,9 @@ struct Exported {
     topic: String,
     rows: u64,
     columns: usize,
+    /// What the log's schema says of columns, most often the unit; `time_s` is in seconds.
+    #[serde(default)]
+    described: BTreeMap<String, String>,
 }
 
 /// One topic that is no table.
@@ -203,6 +207,11 @@ fn write(
             topic: table.topic.clone(),
             rows: table.rows,
             columns: table.columns.len() + 1,
+            described: table
+                .described
+                .iter()
+                .map(|(column, what)| (column.to_string(), what.clone()))
+                .collect(),
         });
     }
     let foreign = found.foreign.iter().map(|(topic, encoding)| NotExported {
@@ -212,8 +221,8 @@ fn write(
     export.not_exported = foreign.collect();
     write_csv(log, &found.tables, files).map_err(Why::Log)?;
     let list = output::json(&export).map_err(Why::Other)?;
-    output::write_file(&folder.join(LIST), list.as_bytes()).map_err(Why::Disk)?;
-    fresh.put_in_place().map_err(Why::Disk)?;
+    fresh.write(LIST, list.as_bytes()).map_err(Why::Disk)?;
+    fresh.put_in_place(&[]).map_err(Why::Disk)?;
     Ok(export)
 }
 
@@ -221,12 +230,13 @@ fn write(
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let list = disk::bytes_of(&out.join(LIST), 16 << 20).ok();
     let list: Option<Export> = list.and_then(|text| serde_json::from_slice(&text).ok());
-    let ours = |name: &str| {
-        list.as_ref().is_some_and(|list| {
-            name == LIST || list.files.iter().any(|exported| exported.file == name)
-        })
+    let ours = |name: &str| match &list {
+        Some(_) if name == LIST => Entry::Ours,
+        Some(list) if list.files.iter().any(|exported| exported.file == name) => Entry::Ours,
+        _ => Entry::Foreign,
     };
-    fresh_folder::refuse_foreign(out, "an earlier export", ours)
+    fresh_folder::refuse_foreign(out, "an earlier export", ours)?;
+    Ok(())
 }
 
 /// A file name for a topic that every system takes, and that no topic before has.
@@ -295,6 +305,13 @@ fn text(export: &Export, out: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report_folder;
+
+    #[test]
+    fn the_tables_of_a_run_are_where_a_report_keeps_them() {
+        let beside = beside(Path::new("out/move/run.mcap"));
+        assert_eq!(beside, Path::new("out/move").join(report_folder::TABLES));
+    }
 
     #[test]
     fn every_topic_has_a_file_of_its_own() {
@@ -317,6 +334,7 @@ mod tests {
                 topic: topic.to_owned(),
                 rows: 0,
                 columns: 0,
+                described: BTreeMap::new(),
             });
         }
     }

@@ -57,7 +57,12 @@ pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
         let serving = threads.spawn(|| server.run(stopped));
         follow(args, &told, &count)?;
         // it ended by the same Ctrl-C
-        serving.join().unwrap_or(Ok(()))
+        serving.join().unwrap_or_else(|_| {
+            Err(Failure::fault(
+                "the server of the report ended by a fault of its own".to_owned(),
+                "please report this; the reports that were written stand",
+            ))
+        })
     })?;
     Ok(ExitCode::SUCCESS)
 }

@@ -30,7 +30,7 @@ pub(super) fn read(folder: &Path, path: &str) -> Result<Vec<u8>, Unread> {
 }
 
 /// The plain file at `path`, if it lies in `folder` once every link is followed, and no part of its way is hidden.
-fn find(folder: &Path, path: &str) -> Option<PathBuf> {
+pub(super) fn find(folder: &Path, path: &str) -> Option<PathBuf> {
     let is_plain = |part: &str| {
         let strange = |c: char| c.is_control() || matches!(c, '\\' | ':');
         !part.is_empty() && !part.starts_with('.') && !part.contains(strange)

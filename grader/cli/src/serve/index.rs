@@ -4,9 +4,12 @@ use std::path::Path;
 
 use kinemark_grader::grade::Grade;
 use kinemark_grader::quantity::points;
+use kinemark_grader::report::moment::ADDRESS_PART;
 use kinemark_grader::report::visible::visible;
 use maud::{DOCTYPE, html};
+use percent_encoding::utf8_percent_encode;
 
+use super::files;
 use crate::disk;
 use crate::report_folder::RECORD;
 
@@ -25,34 +28,44 @@ struct Entry {
 
 /// Whether there is anything to look at in `folder`.
 pub(crate) fn has_reports(folder: &Path) -> bool {
-    let has_page = |folder: &Path| FIRST.iter().any(|page| folder.join(page).is_file());
-    let inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    has_page(folder) || inside.map(|entry| entry.path()).any(|path| has_page(&path))
+    let is_page = |page: &&str| files::find(folder, page).is_some();
+    FIRST.iter().any(is_page) || found(folder).next().is_some()
 }
 
-fn entries(folder: &Path) -> Vec<Entry> {
+/// Folders of `folder` with the page in each that is served, by name.
+fn found(folder: &Path) -> impl Iterator<Item = (String, &'static str)> {
     let inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> = inside
         .filter_map(|entry| entry.file_name().into_string().ok())
-        .filter(|name| !name.starts_with('.'))
         .collect();
     names.sort();
-    let found = names.into_iter().filter_map(|name| {
-        let below = folder.join(&name);
-        let page = FIRST.into_iter().find(|page| below.join(page).is_file())?;
-        let record = disk::bytes_of(&below.join(RECORD), 64 << 20).ok();
-        Some(Entry {
-            folder: name,
-            page,
-            grade: record.and_then(|record| serde_json::from_slice(&record).ok()),
-        })
-    });
-    found.take(MOST_REPORTS).collect()
+    names.into_iter().filter_map(|name| {
+        let page = FIRST
+            .into_iter()
+            .find(|page| files::find(folder, &format!("{name}/{page}")).is_some())?;
+        Some((name, page))
+    })
+}
+
+fn entry(folder: &Path, name: String, page: &'static str) -> Entry {
+    let record = files::find(folder, &format!("{name}/{RECORD}"));
+    let record = record.and_then(|record| disk::bytes_of(&record, 64 << 20).ok());
+    Entry {
+        folder: name,
+        page,
+        grade: record.and_then(|record| serde_json::from_slice(&record).ok()),
+    }
 }
 
 /// The list as a page.
 pub(super) fn page(folder: &Path) -> String {
-    let entries = entries(folder);
+    let mut found = found(folder);
+    let entries: Vec<Entry> = found
+        .by_ref()
+        .take(MOST_REPORTS)
+        .map(|(name, page)| entry(folder, name, page))
+        .collect();
+    let more = found.count();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -87,6 +100,9 @@ pub(super) fn page(folder: &Path) -> String {
                                 @for entry in &entries { (row(entry)) }
                             }
                         }
+                        @if more > 0 {
+                            p { "and " (more) " more: `kinemark view` lists " (MOST_REPORTS) "; give it the folder of one of them" }
+                        }
                     }
                 }
             }
@@ -96,7 +112,8 @@ pub(super) fn page(folder: &Path) -> String {
 }
 
 fn row(entry: &Entry) -> maud::Markup {
-    let link = format!("/{}/{}", encoded(&entry.folder), entry.page);
+    let folder = utf8_percent_encode(&entry.folder, ADDRESS_PART);
+    let link = format!("/{folder}/{}", entry.page);
     html! {
         tr {
             th scope="row" { a href=(link) { bdi { (visible(&entry.folder)) } } }
@@ -114,27 +131,14 @@ fn row(entry: &Entry) -> maud::Markup {
     }
 }
 
-/// A name as a part of an address.
-fn encoded(name: &str) -> String {
-    let mut text = String::new();
-    for byte in name.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' => {
-                text.push(byte as char);
-            }
-            other => text += &format!("%{other:02X}"),
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn names_are_parts_of_addresses_and_text() {
-        assert_eq!(encoded("a b/é\"<"), "a%20b%2F%C3%A9%22%3C");
+        let encoded = utf8_percent_encode("a b/é\"<.-_~", ADDRESS_PART).to_string();
+        assert_eq!(encoded, "a%20b%2F%C3%A9%22%3C.-_~");
         let bed = tempfile::tempdir().unwrap();
         assert!(!has_reports(bed.path()));
         let folder = bed.path().join("<b>x");
@@ -145,5 +149,33 @@ mod tests {
         assert!(page.contains("href=\"/%3Cb%3Ex/report.html\""), "{page}");
         assert!(!page.contains("<b>"), "{page}");
         assert!(page.contains("its record cannot be read"));
+    }
+
+    #[test]
+    fn links_that_lead_out_are_not_listed_and_what_is_left_out_is_told() {
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().join("all");
+        std::fs::create_dir(&folder).unwrap();
+        for name in ["outside", "all/.hidden"] {
+            std::fs::create_dir(bed.path().join(name)).unwrap();
+            std::fs::write(bed.path().join(name).join("report.html"), "").unwrap();
+        }
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::symlink;
+            symlink("../outside", folder.join("link")).unwrap();
+            std::fs::create_dir(folder.join("page")).unwrap();
+            symlink("../../outside/report.html", folder.join("page/report.html")).unwrap();
+        }
+        assert!(!has_reports(&folder), "neither is served");
+        assert!(page(&folder).contains("There is no report here now."));
+        for i in 0..=MOST_REPORTS {
+            let report = folder.join(format!("{i:04}"));
+            std::fs::create_dir(&report).unwrap();
+            std::fs::write(report.join("report.html"), "").unwrap();
+        }
+        let page = page(&folder);
+        assert!(page.contains("/1999/report.html") && !page.contains("/2000/report.html"));
+        assert!(page.contains("and 1 more"));
     }
 }

@@ -20,6 +20,7 @@ use tokio::sync::watch;
 
 use crate::disk::plain;
 use crate::failure::Failure;
+use crate::report_folder;
 
 /// What is served, and to whom.
 #[derive(Debug)]
@@ -84,14 +85,17 @@ impl Server {
             .enable_all()
             .build()
             .map_err(unserved)?;
-        runtime.block_on(async {
+        let served = runtime.block_on(async {
             let listener = tokio::net::TcpListener::from_std(self.listener).map_err(unserved)?;
             let routes = routes(Arc::new(self.site));
             tokio::spawn(async move { axum::serve(listener, routes).await });
             // whoever could say so being gone is as good; open connections end with the runtime
             let _ = stop.wait_for(|stop| *stop).await;
             Ok(())
-        })
+        });
+        // a disk that does not answer is not waited for
+        runtime.shutdown_background();
+        served
     }
 }
 
@@ -130,7 +134,7 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
     let found = off_thread(move || {
         let first = index::FIRST
             .into_iter()
-            .find(|name| site.folder.join(name).is_file());
+            .find(|name| files::find(&site.folder, name).is_some());
         first.map_or_else(|| Err(index::page(&site.folder)), Ok)
     });
     match found.await {
@@ -138,7 +142,7 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
             let to = [(header::LOCATION, format!("/{name}"))];
             (StatusCode::TEMPORARY_REDIRECT, to).into_response()
         }
-        Some(Err(list)) => page::answer(list.into_bytes(), None),
+        Some(Err(list)) => page::list(list),
         None => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     }
 }
@@ -147,6 +151,7 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
     // looked at before the file: a report written in between is loaded once more, never missed
     let seen = site.changes.as_ref().map(|changes| *changes.borrow());
     let kind = files::media_type(&path);
+    let is_report = path == report_folder::PAGE;
     let read = off_thread(move || files::read(&site.folder, &path)).await;
     let bytes = match read {
         Some(Ok(bytes)) => bytes,
@@ -167,7 +172,11 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
         None => return StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     };
     if kind == files::HTML {
-        return page::answer(bytes, seen);
+        // what is graded again and again is our own writing; any other page is whoever's
+        return match seen.filter(|_| is_report) {
+            Some(seen) => page::following(bytes, seen),
+            None => page::alone(bytes),
+        };
     }
     let mut answer = bytes.into_response();
     let headers = answer.headers_mut();

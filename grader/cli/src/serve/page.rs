@@ -14,46 +14,63 @@ const SCRIPT: &str = include_str!("reload.js");
 /// The SHA-256 of [`SCRIPT`] for the page's policy: what else is in the page stays without rights.
 const SCRIPT_DIGEST: &str = include_str!("reload.js.sha256");
 
-/// What any page may do at most, whatever it says of itself: one that somebody sent may not tell others what it finds here.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
-                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// What a page may do that somebody may have sent: run what is in it, and nothing else. In a sandbox it has an origin of its own, so
+/// that it can neither read what else lies on this server nor keep anything in the browser.
+const ALONE: &str = "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
+                     img-src data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// The list of reports runs nothing.
+const LIST: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// What a page of ours may do that follows: its own policy lets the scripts run that it names, and no others.
+const FOLLOWING: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
+                         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// A page, with the script if open pages follow; `seen` is the count of the report.
-pub(super) fn answer(page: Vec<u8>, seen: Option<u64>) -> Response {
-    let page = match seen {
-        Some(seen) => following(page, seen),
-        None => page,
-    };
+/// A page as it lies on the disk.
+pub(super) fn alone(page: Vec<u8>) -> Response {
+    answer(page, ALONE)
+}
+
+/// The list of reports.
+pub(super) fn list(page: String) -> Response {
+    answer(page.into_bytes(), LIST)
+}
+
+/// A page of ours with the script that follows; `seen` is the count of the report.
+pub(super) fn following(page: Vec<u8>, seen: u64) -> Response {
+    match with_script(page, seen) {
+        Ok(page) => answer(page.into_bytes(), FOLLOWING),
+        // what has no policy of its own to be widened is no page of ours
+        Err(page) => alone(page),
+    }
+}
+
+fn answer(page: Vec<u8>, policy: &'static str) -> Response {
     let mut answer = page.into_response();
     let headers = answer.headers_mut();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(HTML));
     headers.insert(
         header::CONTENT_SECURITY_POLICY,
-        HeaderValue::from_static(POLICY),
+        HeaderValue::from_static(policy),
     );
     answer
 }
 
-/// The page with the script at its end and the rights it needs in its policy.
-fn following(page: Vec<u8>, seen: u64) -> Vec<u8> {
-    // what is no text is no page of ours
-    let mut page = match String::from_utf8(page) {
-        Ok(page) => page,
-        Err(error) => return error.into_bytes(),
+/// The page with the script at its end and the rights it needs in its policy; as it was where it is no text or has no policy.
+fn with_script(page: Vec<u8>, seen: u64) -> Result<String, Vec<u8>> {
+    let mut page = String::from_utf8(page).map_err(std::string::FromUtf8Error::into_bytes)?;
+    let before = "http-equiv=\"Content-Security-Policy\" content=\"";
+    let from = page.find(before).map(|at| at + before.len());
+    let found = from.and_then(|from| Some(from..from + page[from..].find('"')?));
+    let Some(found) = found else {
+        return Err(page.into_bytes());
     };
+    let policy = with_rights(&page[found.clone()]);
+    page.replace_range(found, &policy);
     let at = page.rfind("</body>").unwrap_or(page.len());
     page.insert_str(
         at,
         &format!("<script data-seen=\"{seen}\">{SCRIPT}</script>\n"),
     );
-    let before = "http-equiv=\"Content-Security-Policy\" content=\"";
-    if let Some(from) = page.find(before).map(|at| at + before.len())
-        && let Some(length) = page[from..].find('"')
-    {
-        let policy = with_rights(&page[from..from + length]);
-        page.replace_range(from..from + length, &policy);
-    }
-    page.into_bytes()
+    Ok(page)
 }
 
 /// A policy that lets the script run and ask this server, besides what it lets already.
@@ -83,8 +100,9 @@ mod tests {
     /// The digest is that of the script; `KINEMARK_BLESS=1` writes it anew.
     #[test]
     fn the_digest_is_that_of_the_script() {
+        use base64::Engine as _;
         use sha2::Digest as _;
-        let digest = base64(&sha2::Sha256::digest(SCRIPT));
+        let digest = base64::engine::general_purpose::STANDARD.encode(sha2::Sha256::digest(SCRIPT));
         if std::env::var_os("KINEMARK_BLESS").is_some() {
             let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/serve/reload.js.sha256");
             std::fs::write(path, format!("{digest}\n")).unwrap();
@@ -99,23 +117,6 @@ mod tests {
             !SCRIPT.contains("</") && !SCRIPT.contains("<!--"),
             "it would end in the middle"
         );
-    }
-
-    fn base64(bytes: &[u8]) -> String {
-        let letters = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        let mut text = String::new();
-        for three in bytes.chunks(3) {
-            let get = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
-            let bits = get(0) << 16 | get(1) << 8 | get(2);
-            for i in 0..4 {
-                text.push(if i <= three.len() {
-                    letters[(bits >> (18 - 6 * i)) as usize & 63] as char
-                } else {
-                    '='
-                });
-            }
-        }
-        text
     }
 
     #[test]
@@ -138,14 +139,15 @@ mod tests {
     #[test]
     fn the_script_stands_at_the_end_of_the_page() {
         let page = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'\"><body><pre>x</pre></body></html>";
-        let served = String::from_utf8(following(page.into(), 7)).unwrap();
+        let served = with_script(page.into(), 7).unwrap();
         assert!(
             served.contains("</pre><script data-seen=\"7\">"),
             "{served}"
         );
         assert!(served.ends_with("</script>\n</body></html>"), "{served}");
         assert!(served.contains("connect-src 'self'\"><body>"), "{served}");
-        // bytes that are no text stay as they are
-        assert_eq!(following(vec![0xff], 7), [0xff]);
+        // bytes that are no text stay as they are, and so does what has no policy
+        assert_eq!(with_script(vec![0xff], 7), Err(vec![0xff]));
+        assert_eq!(with_script(b"<p>".to_vec(), 7), Err(b"<p>".to_vec()));
     }
 }
