@@ -12,7 +12,19 @@ export interface Actions {
   copyLink(): void;
   view(): View;
   show(part: Part, on: boolean): void;
+  /** Whether a part is shown. */
+  shown(part: Part): boolean;
 }
+
+/** What the four arrows of the camera do. */
+const ARROWS = [
+  { sign: "left", turn: [-1, 0], name: "left" },
+  { sign: "right", turn: [1, 0], name: "right" },
+  { sign: "up", turn: [0, 1], name: "up" },
+  { sign: "down", turn: [0, -1], name: "down" },
+] as const;
+const TURN = Math.PI / 12;
+const SHIFT = 0.1;
 
 function button(name: string, sign: Sign | null, act: () => void, keys?: string): HTMLButtonElement {
   const made = element("button", { type: "button", class: sign ? "replay-sign" : "replay-word" });
@@ -31,11 +43,14 @@ function group(name: string, ...children: HTMLElement[]): HTMLElement {
 
 export class Controls {
   readonly element: HTMLElement;
-  readonly views: HTMLElement;
-  private readonly shadows: HTMLButtonElement;
   private readonly cameraOnly: HTMLElement[] = [];
+  private readonly toggles = new Map<Part, HTMLButtonElement>();
 
-  constructor(replay: Replay, cursor: Cursor, actions: Actions) {
+  constructor(
+    replay: Replay,
+    cursor: Cursor,
+    private readonly actions: Actions,
+  ) {
     const play = button("Play", "play", () => cursor.toggle(), "space");
     play.classList.add("replay-play");
     const loop = button("Loop", "loop", () => cursor.setLoop(!cursor.loop), "L");
@@ -58,32 +73,17 @@ export class Controls {
     speed.addEventListener("change", () => cursor.setSpeed(Number(speed.value)));
     playback.append(speed);
 
-    const toggle = (name: string, part: Part, on: boolean): HTMLButtonElement => {
-      const made = button(name, null, () => {
-        const next = made.getAttribute("aria-pressed") !== "true";
-        made.setAttribute("aria-pressed", String(next));
-        actions.show(part, next);
-      });
-      made.setAttribute("aria-pressed", String(on));
+    const toggle = (name: string, part: Part): HTMLButtonElement => {
+      const made = button(name, null, () => this.show(part, !actions.shown(part)));
+      made.setAttribute("aria-pressed", String(actions.shown(part)));
+      this.toggles.set(part, made);
       return made;
     };
-    this.shadows = toggle("Shadows", "shadows", true);
-    this.cameraOnly.push(this.shadows);
-    const shown = group("Show", toggle("Frames", "frames", false), this.shadows);
-    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Ghost arm" : `Run ${replay.ghostLabel}`, "ghost", true));
-
-    const camera = (name: string, preset: Preset): HTMLButtonElement => button(name, null, () => actions.view().camera?.view(preset));
-    this.views = group(
-      "Camera",
-      camera("Fit", "fit"),
-      camera("Side", "side"),
-      camera("Top", "top"),
-      button("Turn left", "left", () => actions.view().camera?.turn(-Math.PI / 12, 0)),
-      button("Turn right", "right", () => actions.view().camera?.turn(Math.PI / 12, 0)),
-      button("Farther", "farther", () => actions.view().camera?.zoom(1.25)),
-      button("Closer", "closer", () => actions.view().camera?.zoom(0.8)),
-    );
-    this.cameraOnly.push(this.views);
+    const shadows = toggle("Shadows", "shadows");
+    const shown = group("Show", toggle("Frames", "frames"), shadows);
+    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Ghost arm" : `Run ${replay.ghostLabel}`, "ghost"));
+    const views = this.camera(actions);
+    this.cameraOnly.push(shadows, views);
     const link = button("Copy link", null, () => actions.copyLink());
     link.prepend(icon("link"));
 
@@ -95,7 +95,53 @@ export class Controls {
       speed.value = String(cursor.speed);
     });
     loop.setAttribute("aria-pressed", "false");
-    this.element = element("div", { class: "replay-controls" }, playback, shown, this.views, group("Share", link));
+    // a single moment has nothing to play
+    if (!cursor.moves) for (const made of playback.querySelectorAll<HTMLButtonElement | HTMLSelectElement>("button, select")) made.disabled = true;
+    this.element = element("div", { class: "replay-controls" }, playback, shown, views, group("Share", link));
+  }
+
+  /** The views, and what a drag of the pointer does, as buttons. */
+  private camera(actions: Actions): HTMLElement {
+    const view = (name: string, preset: Preset): HTMLButtonElement => button(name, null, () => actions.view().camera?.view(preset));
+    const arrows = ARROWS.map(({ sign, turn: [x, y] }) =>
+      button("", sign, () => {
+        const camera = actions.view().camera;
+        if (camera?.panning) camera.shift(SHIFT * x, SHIFT * y);
+        else camera?.turn(TURN * x, TURN * y);
+      }),
+    );
+    const move = button("Move", null, () => {
+      const camera = actions.view().camera;
+      if (!camera) return;
+      camera.panning = !camera.panning;
+      name(camera.panning);
+    });
+    move.title = "Whether the arrows, and a drag, move the view rather than turn it";
+    const name = (panning: boolean): void => {
+      move.setAttribute("aria-pressed", String(panning));
+      arrows.forEach((arrow, i) => {
+        arrow.title = `${panning ? "Move" : "Turn"} ${ARROWS[i].name}`;
+        arrow.setAttribute("aria-label", arrow.title);
+      });
+    };
+    name(false);
+    const zoom = (name: string, sign: Sign, factor: number, keys: string): HTMLButtonElement => button(name, sign, () => actions.view().camera?.zoom(factor), keys);
+    return group(
+      "Camera",
+      view("Fit", "fit"),
+      view("Side", "side"),
+      view("Top", "top"),
+      ...arrows,
+      move,
+      zoom("Farther", "farther", 1.25, "− in the 3D view, or Ctrl and the wheel"),
+      zoom("Closer", "closer", 0.8, "+ in the 3D view, or Ctrl and the wheel"),
+    );
+  }
+
+  /** Shows a part or leaves it out, as its button does. */
+  show(part: Part, on: boolean): void {
+    this.actions.show(part, on);
+    this.toggles.get(part)?.setAttribute("aria-pressed", String(on));
   }
 
   /** Hides what only a camera can do. */

@@ -1,12 +1,12 @@
 // The one time of a task: every picture of it looks here, and every control writes here.
 
 import type { Replay, RunEvent } from "./data";
-import { onFrame, stopFrames } from "./frames";
+import { FrameTimes, onFrame, stopFrames } from "./frames";
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
 
-/** What happened: the time moved; it came to rest (paused or sought); play, speed or loop changed. */
-export type Change = "moved" | "rested" | "changed";
+/** What happened: the time moved; it came to rest (paused or sought); it played to its end; play, speed or loop changed. */
+export type Change = "moved" | "rested" | "ended" | "changed";
 
 export class Cursor {
   /** Moment that is shown \[s\]. */
@@ -16,7 +16,9 @@ export class Cursor {
   playing = false;
   speed = 1;
   loop = false;
-  private readonly listeners: Record<Change, Array<() => void>> = { moved: [], rested: [], changed: [] };
+  /** What the frames took while it played. */
+  readonly frameTimes = new FrameTimes();
+  private readonly listeners: Record<Change, Array<() => void>> = { moved: [], rested: [], ended: [], changed: [] };
   private last = 0;
 
   constructor(private readonly replay: Replay) {
@@ -49,22 +51,22 @@ export class Cursor {
     this.tell("moved");
   }
 
-  /** Goes to the tick nearest to a moment \[s\]; what is no number changes nothing. */
+  /** Stops, and goes to the tick nearest to a moment \[s\]; what is no number changes nothing. */
   seek(t: number): void {
     if (Number.isNaN(t)) return;
+    this.stop();
     const inside = Math.min(this.end, Math.max(this.start, t));
     this.put(this.timeOf(Math.round(inside / this.replay.stepS)));
     this.tell("rested");
   }
 
-  /** Goes to a tick. */
+  /** Stops, and goes to a tick. */
   seekTick(tick: number): void {
     this.seek(this.timeOf(tick));
   }
 
   /** Stops and goes `frames` frames on, or back where negative. */
   step(frames: number): void {
-    this.pause();
     const ticks = this.replay.ticks;
     const tick = this.tick;
     let low = 0;
@@ -94,22 +96,30 @@ export class Cursor {
     return this.replay.events.filter((event) => event.tick === tick);
   }
 
+  /** Whether there is more than one moment. */
+  get moves(): boolean {
+    return this.end > this.start;
+  }
+
   play(): void {
-    if (this.playing || this.end <= this.start) return;
+    if (this.playing || !this.moves) return;
     if (this.t >= this.end) this.put(this.start);
     this.playing = true;
     this.last = 0;
-    onFrame(this.advance);
+    onFrame(this.advance, this.frameTimes);
     this.tell("changed");
   }
 
-  pause(): void {
+  private stop(): void {
     if (!this.playing) return;
     this.playing = false;
     stopFrames(this.advance);
     this.tell("changed");
+  }
+
+  pause(): void {
     // a run is told in whole ticks, so it rests on one
-    this.seek(this.t);
+    if (this.playing) this.seek(this.t);
   }
 
   toggle(): void {
@@ -137,6 +147,7 @@ export class Cursor {
     else {
       this.t = this.end;
       this.pause();
+      this.tell("ended");
     }
   };
 }

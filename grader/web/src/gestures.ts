@@ -4,7 +4,7 @@ import type { Orbit } from "./orbit";
 
 const TURN = Math.PI / 36;
 
-/** Listens on the stage; a wheel zooms only while the stage has focus, so that it does not catch a reader who scrolls. */
+/** Listens on the stage; a wheel zooms only with Ctrl, so that it does not catch a reader who scrolls. */
 export function listen(stage: HTMLElement, orbit: Orbit): void {
   const pointers = new Map<number, { x: number; y: number }>();
 
@@ -33,7 +33,7 @@ export function listen(stage: HTMLElement, orbit: Orbit): void {
     if (before && after) {
       if (before.apart > 0 && after.apart > 0) orbit.zoom(before.apart / after.apart);
       orbit.shift((before.x - after.x) / height, (after.y - before.y) / height);
-    } else if (event.shiftKey || event.buttons & 6) orbit.shift(-dx / height, dy / height);
+    } else if (event.shiftKey || event.buttons & 6 || orbit.panning) orbit.shift(-dx / height, dy / height);
     else orbit.turn((-Math.PI * dx) / height, (Math.PI * dy) / height);
   });
   const end = (event: PointerEvent): void => {
@@ -47,7 +47,7 @@ export function listen(stage: HTMLElement, orbit: Orbit): void {
   stage.addEventListener(
     "wheel",
     (event) => {
-      if (!stage.matches(":focus, :focus-within") && !event.ctrlKey) return;
+      if (!event.ctrlKey && !event.metaKey) return;
       event.preventDefault();
       const lines = event.deltaMode === 1 ? 16 : 1;
       orbit.zoom(Math.exp(Math.min(0.4, Math.max(-0.4, 0.0016 * lines * event.deltaY))));

@@ -16,6 +16,8 @@ const PATHS = {
   farther: "M5 11h14v2H5z",
   left: "M14.5 5v14L6 12z",
   right: "M9.5 5v14l8.5-7z",
+  up: "M5 14.5h14L12 6z",
+  down: "M5 9.5h14L12 18z",
 } as const;
 
 export type Sign = keyof typeof PATHS;

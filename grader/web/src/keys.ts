@@ -5,6 +5,9 @@ import type { Cursor } from "./cursor";
 /** Elements that do something of their own with the space bar or with arrows. */
 const PRESSED = "button, select, a, summary, input:not([type=range]), textarea";
 
+/** Keys that switch something on or off. */
+const SWITCHES = [" ", "l", "L"];
+
 export function listen(root: HTMLElement, cursor: Cursor, event: (direction: 1 | -1) => void): void {
   root.addEventListener("keydown", (key) => {
     // many keyboards have the brackets behind AltGr, which counts as both others
@@ -34,7 +37,8 @@ export function listen(root: HTMLElement, cursor: Cursor, event: (direction: 1 |
     const act = acts[key.key];
     if (!act) return;
     key.preventDefault();
-    if (key.key === "Home" || key.key === "End") cursor.pause();
+    // a key that is held steps on, and does not switch to and fro
+    if (key.repeat && SWITCHES.includes(key.key)) return;
     act();
   });
 }

@@ -3,6 +3,7 @@
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import type { Extent } from "./extent";
 import { reducedMotion } from "./motion";
+import type { Camera } from "./view";
 
 export type Preset = "fit" | "side" | "top";
 
@@ -22,10 +23,11 @@ interface Place {
 
 const KEYS = ["x", "y", "z", "azimuth", "elevation", "distance"] as const;
 
-export class Orbit {
+export class Orbit implements Camera {
   readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
+  panning = false;
   /** The view the camera was put to, until it is moved by hand. */
-  preset: Preset | null = "fit";
+  private preset: Preset | null = "fit";
   private readonly now: Place = { x: 0, y: 0, z: 0, azimuth: 0, elevation: 0, distance: 1 };
   private readonly from: Place = { ...this.now };
   private readonly to: Place = { ...this.now };

@@ -2,7 +2,7 @@
 
 import type { Replay } from "./data";
 import { element } from "./dom";
-import { decimals, fixed } from "./words";
+import { breakable, decimals, fixed } from "./words";
 import type { World } from "./world";
 
 /** While it plays the numbers change this often \[ms\]: faster than one reads, slower than the screen. */
@@ -28,7 +28,7 @@ export class Readout {
     const tcp = element("table", { "data-readout": "tcp" }, element("caption", {}, `TCP in the frame ${replay.lab.name}`));
     const joints = element("table", { "data-readout": "q" }, element("caption", {}, "Joints"));
     const row = (table: HTMLElement, name: string, ...cells: Array<HTMLElement | string>): void => {
-      table.append(element("tr", {}, element("th", { scope: "row" }, element("bdi", {}, name)), ...cells.map((cell) => element("td", {}, cell))));
+      table.append(element("tr", {}, element("th", { scope: "row", title: name }, element("bdi", {}, ...breakable(name))), ...cells.map((cell) => element("td", {}, cell))));
     };
     const number = (into: HTMLElement[], name: string, index: number): HTMLElement => {
       const made = element("span", { [name]: String(index) });

@@ -2,18 +2,17 @@
 
 import { Announcer } from "./announce";
 import { Controls } from "./controls";
-import { Cursor } from "./cursor";
+import { Cursor, SPEEDS } from "./cursor";
 import { isReference, type Replay as Data, type RunEvent } from "./data";
 import { element } from "./dom";
 import { extent, type Extent } from "./extent";
-import { frameTimes } from "./frames";
 import { mark } from "./icon";
 import { listen } from "./keys";
-import { Address, copy, format } from "./links";
-import { reducedMotion } from "./motion";
+import { Address, copy, format, shareable } from "./links";
 import { plots, type Plot } from "./plots";
 import { Readout } from "./readout";
 import { Scrubber } from "./scrubber";
+import { bring } from "./sections";
 import { Side } from "./side";
 import { Stage } from "./stage";
 import type { Part, View } from "./view";
@@ -27,6 +26,14 @@ export interface Shown {
   readonly tcp: number[];
   readonly q: number[];
   readonly nodes: Record<string, number[]>;
+}
+
+/** How a replay stands: for a page that is loaded anew. */
+export interface State {
+  readonly t: number;
+  readonly speed: number;
+  readonly loop: boolean;
+  readonly parts: Record<Part, boolean>;
 }
 
 export class Replay {
@@ -43,6 +50,7 @@ export class Replay {
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
   private view: View;
   private picture: HTMLImageElement | null = null;
+  private quiet = false;
 
   constructor(
     private readonly root: HTMLElement,
@@ -63,6 +71,7 @@ export class Replay {
         this.parts[part] = on;
         this.view.show(part, on);
       },
+      shown: (part) => this.parts[part],
     });
     this.note.hidden = true;
     this.shared.hidden = true;
@@ -80,6 +89,7 @@ export class Replay {
     this.plots = plots(data.task, this.cursor, this.world, data.stepS, () => this.announcer.say(this.here()));
     this.cursor.on("moved", () => this.follow());
     this.cursor.on("rested", () => this.rest());
+    this.cursor.on("ended", () => this.announcer.say(`${this.here()}, the end`));
     root.classList.add("on");
     if (this.view instanceof Side) this.sayFlat("This browser shows no WebGL");
   }
@@ -89,7 +99,7 @@ export class Replay {
   }
 
   private open(): View {
-    const label = `The run in 3D. Arrow keys turn the view, plus and minus zoom.`;
+    const label = "The run in 3D. Arrow keys turn the view, with Shift they move it, plus and minus zoom.";
     if (!webgl()) return this.side();
     return new Stage(this.data, this.world, this.extent, label, () => this.fall());
   }
@@ -125,7 +135,7 @@ export class Replay {
     };
     if (data.mainLabel) item("main", `run ${data.mainLabel}`);
     if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", isReference(data) ? "the reference's arm" : `run ${data.ghostLabel}`);
-    item("trail", "path of the TCP, faint where it is still to come");
+    item("trail", "path of the TCP, thin where it is still to come");
     if (data.reference && data.reference.path.count > 1) item("reference", isReference(data) ? "the reference's path" : `path of run ${data.ghostLabel}`);
     if (data.goals.length) item("goal", data.goals.length > 1 ? "goals" : "goal");
     if (data.paths.length) item("path", "path to follow, and how far off still counts");
@@ -143,14 +153,42 @@ export class Replay {
   }
 
   private rest(): void {
-    this.world.at(this.cursor.t);
-    this.view.rest();
     this.readout.write();
     this.shared.hidden = true;
+    if (this.quiet) return;
     this.address.write(this.link());
+    // who works here hears where the run is; the slider tells it by itself
+    const at = document.activeElement;
+    if (at && this.root.contains(at) && !at.matches("input")) this.announcer.soon(() => this.here());
   }
 
-  link(): string {
+  /** Does something of which neither the address nor a screen reader is told. */
+  quietly(act: () => void): void {
+    this.quiet = true;
+    act();
+    this.quiet = false;
+  }
+
+  state(): State {
+    const { t, speed, loop } = this.cursor;
+    return { t, speed, loop, parts: { ...this.parts } };
+  }
+
+  /** Puts it as it stood. What comes from outside may be of another version, so each part is looked at. */
+  restore(state: Partial<State>): void {
+    const { t, speed, loop, parts } = state;
+    this.quietly(() => {
+      if (typeof t === "number") this.cursor.seek(t);
+      if (SPEEDS.some((one) => one === speed)) this.cursor.setSpeed(speed!);
+      if (typeof loop === "boolean") this.cursor.setLoop(loop);
+      for (const part of Object.keys(this.parts) as Part[]) {
+        const on = parts?.[part];
+        if (typeof on === "boolean") this.controls.show(part, on);
+      }
+    });
+  }
+
+  private link(): string {
     return format(this.data.task, moment(this.cursor.t, this.data.stepS));
   }
 
@@ -167,7 +205,6 @@ export class Replay {
   }
 
   private goTo(event: RunEvent): void {
-    this.cursor.pause();
     this.cursor.seekTick(event.tick);
     this.announcer.say(this.here());
   }
@@ -176,8 +213,7 @@ export class Replay {
   visit(t: number | null, atOnce = false): void {
     this.cursor.pause();
     if (t !== null) this.cursor.seek(t);
-    this.root.scrollIntoView({ block: this.root.offsetHeight < innerHeight ? "center" : "start", behavior: atOnce || reducedMotion() ? "auto" : "smooth" });
-    this.root.focus({ preventScroll: true });
+    bring(this.root, atOnce);
     this.announcer.say(this.here());
   }
 
@@ -185,7 +221,7 @@ export class Replay {
     this.cursor.pause();
     this.address.write(this.link());
     this.address.flush();
-    const link = location.href.replace(/#.*$/, "") + this.link();
+    const link = shareable(location, this.link());
     const done = await copy(link);
     const words = done ? "Link copied" : "Copy this link";
     this.shared.replaceChildren(`${words}: `, element("code", {}, link));
@@ -215,10 +251,6 @@ export class Replay {
       if (!(node.name in nodes)) nodes[node.name] = [...world.poses.subarray(7 * n, 7 * n + 7)];
     });
     return { t: cursor.t, tick: cursor.tick, tcp: [...world.tcp], q: [...world.q], nodes };
-  }
-
-  frameTimes(): number[] {
-    return frameTimes();
   }
 }
 

@@ -12,7 +12,6 @@ import {
   MeshBasicMaterial,
   MeshLambertMaterial,
   Object3D,
-  OctahedronGeometry,
   PlaneGeometry,
   Scene,
   ShadowMaterial,
@@ -20,13 +19,16 @@ import {
   Vector3,
 } from "three";
 import { bones, reach, type Bone } from "./bones";
-import type { NodeKind, Replay } from "./data";
+import { contactMarks, coverAt, type ContactMark } from "./contacts";
+import type { Frame, Replay } from "./data";
 import type { Extent } from "./extent";
 import { hidden } from "./ghosts";
 import { Grid } from "./ground";
 import { Line } from "./line";
+import { namedFrames } from "./named";
+import { Edges } from "./outline";
 import { geometry, tube } from "./shapes";
-import { colourOf, type Theme } from "./theme";
+import { colourOf, turn, turns, type Theme, type Turn } from "./theme";
 import type { Part } from "./view";
 import type { World } from "./world";
 
@@ -38,14 +40,15 @@ type Glass = MeshBasicMaterial;
 export class RunScene {
   readonly scene = new Scene();
   /** The named frames, the lab's among them. */
-  readonly frames: Replay["frames"];
+  readonly frames: readonly Frame[];
   /** Length of a frame's axes \[m\]. */
   readonly axis: number;
   private readonly lab = new Group();
-  private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshLambertMaterial>; index: number; kind: NodeKind; order: number }> = [];
+  private readonly nodes: Array<{ mesh: Mesh<BufferGeometry, MeshLambertMaterial>; turn: Turn }> = [];
+  private readonly edges = new Edges();
   private readonly moving: Array<{ object: Object3D; index: number }> = [];
   private readonly sticks: Array<{ bone: Bone; stick: Mesh; ball: Mesh }> = [];
-  private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; from: number; to: number }> = [];
+  private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; mark: ContactMark }> = [];
   private readonly lines: Array<{ line: Line; colour: keyof Theme }> = [];
   private readonly glasses: Array<{ material: Glass; colour: keyof Theme }> = [];
   private readonly trail: Line;
@@ -69,7 +72,7 @@ export class RunScene {
     theme: Theme,
   ) {
     const { scene, lab } = this;
-    this.frames = replay.frames.some((frame) => frame.name === replay.lab.name) ? replay.frames : [replay.lab, ...replay.frames];
+    this.frames = namedFrames(replay);
     const unit = extent.radius;
     this.axis = 0.16 * unit;
     scene.matrixAutoUpdate = false;
@@ -95,7 +98,7 @@ export class RunScene {
     this.floor.renderOrder = -3;
     scene.add(this.grid, this.floor);
 
-    let order = 0;
+    const colours = turns(replay.nodes);
     let ghosts = 0;
     replay.nodes.forEach((node, index) => {
       const shape = hidden(replay, node) ? null : geometry(node, replay.meshes);
@@ -108,7 +111,9 @@ export class RunScene {
       mesh.receiveShadow = !ghost;
       mesh.matrixAutoUpdate = false;
       if (ghost) mesh.renderOrder = 5 + 0.01 * ghosts++;
-      this.nodes.push({ mesh, index, kind: node.kind, order: node.kind === "link" ? order++ : 0 });
+      // one sees through a ghost, to the far side of its edge
+      else this.edges.around(mesh);
+      this.nodes.push({ mesh, turn: colours[index] });
       if (node.track >= 0) this.moving.push({ object: mesh, index });
       this.put(mesh, index);
       scene.add(mesh);
@@ -126,7 +131,8 @@ export class RunScene {
           mesh.matrixAutoUpdate = false;
           mesh.castShadow = !bone.ghost;
           scene.add(mesh);
-          this.nodes.push({ mesh, index: bone.to, kind: bone.ghost ? "ghost" : "link", order: i });
+          if (!bone.ghost) this.edges.around(mesh);
+          this.nodes.push({ mesh, turn: bone.ghost ? "ghost" : turn(i) });
           return mesh;
         });
         this.sticks.push({ bone, stick: made[0], ball: made[1] });
@@ -170,20 +176,21 @@ export class RunScene {
       this.referenceDot = add(lab, speck, glass("reference", 1), 6);
     }
     // in two, so that what has passed lies on top of what is to come; and pale rather than clear, which would show every joint
-    lab.add(draw(new Line(replay.tcp.values, { width: 2.5 }), "future", 4));
+    lab.add(draw(new Line(replay.tcp.values, { width: 2 }), "future", 4));
     this.trail = draw(new Line(replay.tcp.values, { width: 3.5 }), "trail", 6);
     lab.add(this.trail);
     this.dot = add(lab, speck, glass("trail", 1), 7);
 
-    const mark = new OctahedronGeometry(0.026 * unit);
-    const strongest = [...replay.contacts].sort((a, b) => b.impulse - a.impulse).slice(0, MOST_CONTACTS);
-    for (const contact of strongest) {
+    // round, as its mark on the time line
+    const ball = new SphereGeometry(1, 20, 14);
+    for (const mark of contactMarks(replay, MOST_CONTACTS)) {
       const material = glass("contact", 1);
       material.depthTest = false;
-      const mesh = add(scene, mark, material, 8);
-      mesh.matrix.setPosition(contact.point[0], contact.point[1], contact.point[2]);
+      const mesh = add(scene, ball, material, 8);
+      const size = 0.028 * unit * mark.size;
+      mesh.matrix.makeScale(size, size, size).setPosition(mark.point[0], mark.point[1], mark.point[2]);
       mesh.matrixWorldNeedsUpdate = true;
-      this.contacts.push({ mesh, from: contact.from, to: contact.to });
+      this.contacts.push({ mesh, mark });
     }
 
     const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(this.axis));
@@ -200,7 +207,6 @@ export class RunScene {
     this.colour(theme);
     this.pose();
   }
-
 
   private put(object: Object3D, index: number): void {
     this.write(object, this.world.poses, 7 * index);
@@ -240,12 +246,12 @@ export class RunScene {
       );
       this.referenceDot.matrixWorldNeedsUpdate = true;
     }
-    const tick = world.t / this.replay.stepS + 0.5;
+    const tick = world.t / this.replay.stepS;
     for (let i = 0; i < this.contacts.length; i++) {
-      const { mesh, from, to } = this.contacts[i];
-      mesh.visible = tick >= from;
-      // what is over is still told, more quietly
-      mesh.material.opacity = tick <= to + 1 ? 1 : 0.45;
+      const { mesh, mark } = this.contacts[i];
+      const cover = coverAt(mark, tick);
+      mesh.visible = cover > 0;
+      mesh.material.opacity = cover;
     }
     if (this.axes.length && this.axes[0].line.visible) {
       const { frames } = this;
@@ -276,6 +282,7 @@ export class RunScene {
   resize(width: number, height: number): void {
     for (const { line } of this.lines) line.resize(width, height);
     for (const { line } of this.axes) line.resize(width, height);
+    this.edges.resize(width, height);
   }
 
   show(part: Part, on: boolean): void {
@@ -283,11 +290,12 @@ export class RunScene {
     else if (part === "shadows") {
       this.sun.castShadow = on;
       this.floor.visible = on;
-    } else for (const { mesh, kind } of this.nodes) if (kind === "ghost") mesh.visible = on;
+    } else for (const { mesh, turn } of this.nodes) if (turn === "ghost") mesh.visible = on;
   }
 
   colour(theme: Theme): void {
-    for (const { mesh, kind, order } of this.nodes) mesh.material.color.set(colourOf(theme, kind, order));
+    for (const { mesh, turn } of this.nodes) mesh.material.color.set(colourOf(theme, turn));
+    this.edges.colour = theme.edge;
     for (const { line, colour } of this.lines) line.colour = theme[colour] as string;
     for (const { material, colour } of this.glasses) material.color.set(theme[colour] as string);
     for (const { line } of this.axes) {
@@ -307,10 +315,14 @@ export class RunScene {
     this.floor.material.opacity = theme.shadow;
   }
 
-  /** Gives back what belongs to a context that is gone. */
+  /** Gives back what a renderer holds of the scene, which else would hold the renderer: the next one makes it anew. */
   forget(): void {
     this.sun.shadow.map?.dispose();
     this.sun.shadow.map = null;
+    this.scene.traverse((object) => {
+      const { geometry, material } = object as Partial<Mesh>;
+      geometry?.dispose();
+      for (const one of [material ?? []].flat()) one.dispose();
+    });
   }
 }
-

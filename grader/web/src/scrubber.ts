@@ -4,20 +4,24 @@ import type { Cursor } from "./cursor";
 import type { Replay, RunEvent } from "./data";
 import { element } from "./dom";
 import { EVENTS, mark } from "./icon";
+import { lanes, MARK } from "./lanes";
+import { Tip } from "./tip";
 import { seconds, told } from "./words";
 
 /** Width of what is pressed to go to an event \[px\]. */
 const TARGET = 28;
-const MOST_MARKS = 400;
+/** Height of the marks' row at least \[px\]. */
+const LEAST_HEIGHT = 26;
 /** Events a tip tells. */
 const MOST_TOLD = 6;
 
 export class Scrubber {
   readonly element: HTMLElement;
-  readonly slider: HTMLInputElement;
+  private readonly slider: HTMLInputElement;
   private readonly row = element("div", { class: "replay-events", role: "group", "aria-label": "Events" });
   private readonly targets = element("div", { class: "replay-targets" });
-  private readonly tip = element("div", { class: "replay-tip", role: "tooltip" });
+  private readonly marks = element("div", { class: "replay-marks" });
+  private readonly tip = new Tip();
   private width = 0;
 
   constructor(
@@ -35,25 +39,14 @@ export class Scrubber {
       step: "1",
       "aria-label": "Moment of the run",
     });
-    this.slider.addEventListener("input", () => {
-      cursor.pause();
-      cursor.seekTick(Number(this.slider.value));
-    });
-    this.tip.hidden = true;
+    this.slider.disabled = !cursor.moves;
+    this.slider.addEventListener("input", () => cursor.seekTick(this.slider.valueAsNumber));
+    // while it plays the words stand still, so they are those of now when one comes to it
+    this.slider.addEventListener("focus", () => this.say());
     this.element = element("div", { class: "replay-time" });
     if (replay.events.length > 0) {
-      let before = -1;
-      for (const event of replay.events.slice(0, MOST_MARKS)) {
-        const at = this.share(event.tick);
-        // marks that would lie on each other are one
-        if (at === before) continue;
-        before = at;
-        const sign = mark(event.kind);
-        sign.style.left = `${100 * at}%`;
-        this.row.append(sign);
-      }
-      this.row.append(this.targets);
-      this.element.append(this.row, this.tip);
+      this.row.append(this.marks, this.targets);
+      this.element.append(this.row, this.tip.element);
       new ResizeObserver(() => this.layout()).observe(this.row);
     }
     this.element.append(this.slider);
@@ -80,11 +73,33 @@ export class Scrubber {
     this.slider.setAttribute("aria-valuetext", [seconds(this.cursor.t, this.replay.stepS), ...now].join(", "));
   }
 
-  /** Buttons side by side, each for the events above it: none is too small and none lies on another. */
   private layout(): void {
     const width = this.row.clientWidth;
     if (width === 0 || width === this.width) return;
     this.width = width;
+    this.draw(width);
+    this.target(width);
+  }
+
+  /** The marks, those of the same moment above each other. */
+  private draw(width: number): void {
+    const placed = lanes(this.replay.events.map(({ kind, tick }) => ({ kind, x: width * this.share(tick) })));
+    const count = Math.max(1, ...placed.map(({ lane }) => lane + 1));
+    const height = Math.max(LEAST_HEIGHT, count * (MARK + 1));
+    this.row.style.height = `${height}px`;
+    this.marks.replaceChildren(
+      ...placed.map(({ kind, x, lane }) => {
+        const sign = mark(kind);
+        // in parts of the width, so that they hold on paper too
+        sign.style.left = `${(100 * x) / width}%`;
+        sign.style.top = `${0.5 * height + (0.5 * count - lane - 1) * (MARK + 1) + 0.5}px`;
+        return sign;
+      }),
+    );
+  }
+
+  /** Buttons side by side, each for the events above it: none is too small and none lies on another. */
+  private target(width: number): void {
     const bins = Math.max(1, Math.floor(width / TARGET));
     const filled = new Map<number, RunEvent[]>();
     for (const event of this.replay.events) {
@@ -101,30 +116,34 @@ export class Scrubber {
       button.style.width = `${100 / bins}%`;
       button.addEventListener("click", (click) => this.choose(events, click));
       button.addEventListener("pointerenter", () => this.show(button, events));
-      button.addEventListener("focus", () => this.show(button, events));
-      button.addEventListener("pointerleave", () => (this.tip.hidden = true));
-      button.addEventListener("blur", () => (this.tip.hidden = true));
+      button.addEventListener("focus", () => {
+        this.stop(button);
+        this.show(button, events);
+      });
+      button.addEventListener("pointerleave", () => this.tip.leave());
+      button.addEventListener("blur", () => this.tip.leave());
       button.addEventListener("keydown", (key) => this.key(key, button));
       this.targets.append(button);
     }
     const first = this.targets.firstElementChild;
     if (first instanceof HTMLElement) {
-      first.tabIndex = 0;
+      this.stop(first);
       if (focused) first.focus();
     }
   }
 
-  /** One stop for the tabulator, and arrows between the marks. */
+  /** Makes one button the stop of the tabulator; arrows lead to the others. */
+  private stop(button: HTMLElement): void {
+    for (const other of this.targets.querySelectorAll<HTMLElement>("[tabindex='0']")) other.tabIndex = -1;
+    button.tabIndex = 0;
+  }
+
   private key(event: KeyboardEvent, button: HTMLButtonElement): void {
-    if (event.key === "Escape") this.tip.hidden = true;
     const to = event.key === "ArrowRight" ? button.nextElementSibling : event.key === "ArrowLeft" ? button.previousElementSibling : null;
     if (event.key !== "ArrowRight" && event.key !== "ArrowLeft") return;
     event.preventDefault();
     event.stopPropagation();
-    if (!(to instanceof HTMLElement)) return;
-    button.tabIndex = -1;
-    to.tabIndex = 0;
-    to.focus();
+    if (to instanceof HTMLElement) to.focus();
   }
 
   private choose(events: RunEvent[], click: MouseEvent): void {
@@ -145,11 +164,7 @@ export class Scrubber {
   }
 
   private show(button: HTMLElement, events: readonly RunEvent[]): void {
-    this.tip.replaceChildren(...this.words(events).map((line) => element("p", {}, line)));
-    this.tip.hidden = false;
-    const room = this.element.clientWidth - this.tip.offsetWidth;
-    const middle = button.offsetLeft + 0.5 * button.offsetWidth + this.row.offsetLeft;
-    this.tip.style.left = `${Math.max(0, Math.min(room, middle - 0.5 * this.tip.offsetWidth))}px`;
+    this.tip.show(this.words(events), button.offsetLeft + 0.5 * button.offsetWidth + this.row.offsetLeft);
   }
 
   /** What the marks mean: each kind that occurs, with its shape. */

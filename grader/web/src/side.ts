@@ -2,19 +2,24 @@
 
 import { balls, type Balls } from "./balls";
 import { bones, reach, type Bone } from "./bones";
+import { contactMarks, coverAt, type ContactMark } from "./contacts";
 import { drawing, element } from "./dom";
-import type { Replay } from "./data";
+import type { Frame, Replay } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { hidden } from "./ghosts";
 import { hull } from "./hull";
+import { namedFrames } from "./named";
 import { pitchFor } from "./pitch";
 import { place } from "./pose";
+import { turns } from "./theme";
 import type { Part, View } from "./view";
 import type { World } from "./world";
 
 /** Points of a circle that stands for a ball. */
 const ROUND = 20;
+const MOST_CONTACTS = 100;
+const AXES = ["x", "y", "z"] as const;
 
 interface Outline {
   readonly path: SVGPathElement;
@@ -28,10 +33,11 @@ export class Side implements View {
   private readonly svg: SVGSVGElement;
   private readonly outlines: Outline[] = [];
   private readonly sticks: Array<{ bone: Bone; line: SVGLineElement }> = [];
-  private readonly marks: Array<{ mark: SVGElement; from: number; to: number }> = [];
+  private readonly marks: Array<{ dot: SVGElement; mark: ContactMark }> = [];
   private readonly past: SVGPolylineElement;
   private readonly dot: SVGCircleElement;
-  private readonly frames: Array<{ group: SVGGElement; node: number | null; pose: readonly number[] }> = [];
+  private readonly frames: Array<{ frame: Frame; group: SVGGElement; axes: Array<{ line: SVGLineElement; letter: SVGTextElement }>; name: SVGTextElement }> = [];
+  private readonly tip = new Float64Array(3);
   private readonly labFixed: boolean;
   private readonly still: SVGGElement;
   private readonly trail: string[] = [];
@@ -41,6 +47,7 @@ export class Side implements View {
   private readonly sign: number;
   private readonly unit: number;
   private first = true;
+  private framesShown = false;
 
   constructor(
     private readonly replay: Replay,
@@ -74,12 +81,10 @@ export class Side implements View {
     for (let i = Math.ceil((box[0] - reach) / pitch); i * pitch < box[0] + box[2] + reach; i++) grid.append(this.line(i * pitch, box[1] - reach, i * pitch, box[1] + box[3] + reach));
     for (let i = Math.ceil((box[1] - reach) / pitch); i * pitch < box[1] + box[3] + reach; i++) grid.append(this.line(box[0] - reach, i * pitch, box[0] + box[2] + reach, i * pitch));
 
-    let order = 0;
+    const colours = turns(replay.nodes);
     replay.nodes.forEach((node, index) => {
-      const turn = node.kind === "link" ? (order === 0 ? "base" : order % 2 ? "odd" : "even") : node.kind;
-      if (node.kind === "link") order++;
       for (const shape of hidden(replay, node) ? [] : node.shapes) {
-        const path = drawing("path", { class: `side-shape ${turn}` });
+        const path = drawing("path", { class: `side-shape ${colours[index]}` });
         (node.kind === "ghost" ? ghosts : node.kind === "fixed" ? fixed : arm).append(path);
         this.outlines.push({ path, node: index, balls: balls(shape, replay.meshes), moves: node.track >= 0 });
       }
@@ -92,20 +97,24 @@ export class Side implements View {
     this.past = drawing("polyline", { class: "side-trail" });
     this.dot = drawing("circle", { class: "side-tcp", r: String(0.012 * this.unit) });
     this.drawLab();
-    const strongest = [...replay.contacts].sort((a, b) => b.impulse - a.impulse).slice(0, 100);
-    for (const contact of strongest) {
-      const [x, y] = this.flat(contact.point);
-      const r = 0.025 * this.unit;
-      const mark = drawing("path", { class: "side-contact", d: `M${x - r} ${y}L${x} ${y - r}L${x + r} ${y}L${x} ${y + r}Z` });
-      marks.append(mark);
-      this.marks.push({ mark, from: contact.from, to: contact.to });
+    for (const mark of contactMarks(replay, MOST_CONTACTS)) {
+      const [x, y] = this.flat(mark.point);
+      const dot = drawing("circle", { class: "side-contact", cx: String(x), cy: String(y), r: String(0.025 * this.unit * mark.size) });
+      marks.append(dot);
+      this.marks.push({ dot, mark });
     }
-    for (const frame of replay.frames) {
-      const name = drawing("text", { "font-size": String(0.045 * this.unit), x: String(0.02 * this.unit), y: String(-0.02 * this.unit) });
-      name.textContent = frame.name;
-      const group = drawing("g", {}, drawing("circle", { r: String(0.012 * this.unit) }), name);
+    const size = String(0.045 * this.unit);
+    const text = (words: string): SVGTextElement => {
+      const made = drawing("text", { "font-size": size, "text-anchor": "middle", "dominant-baseline": "central" });
+      made.textContent = words;
+      return made;
+    };
+    for (const frame of namedFrames(replay)) {
+      const axes = AXES.map((axis) => ({ line: drawing("line", { class: `side-axis ${axis}` }), letter: text(axis) }));
+      const name = text(frame.name);
+      const group = drawing("g", {}, ...axes.map(({ line }) => line), ...axes.map(({ letter }) => letter), name);
       frames.append(group);
-      this.frames.push({ group, node: frame.node, pose: frame.pose });
+      this.frames.push({ frame, group, axes, name });
     }
     this.draw();
   }
@@ -169,11 +178,11 @@ export class Side implements View {
     nextFrame(this.draw);
   }
 
-  rest(): void {
-    this.invalidate();
-  }
-
   show(part: Part, on: boolean): void {
+    if (part === "frames") {
+      this.framesShown = on;
+      this.invalidate();
+    }
     const name = part === "frames" ? ".side-frames" : part === "ghost" ? ".side-ghost" : null;
     const group = name ? this.svg.querySelector<SVGGElement>(name) : null;
     if (group) group.style.display = on ? "" : "none";
@@ -194,17 +203,35 @@ export class Side implements View {
     this.past.setAttribute("points", this.trail.slice(0, Math.floor(world.progress) + 1).join(" ") + ` ${x.toFixed(5)},${y.toFixed(5)}`);
     this.dot.setAttribute("cx", x.toFixed(5));
     this.dot.setAttribute("cy", y.toFixed(5));
-    const tick = world.t / this.replay.stepS + 0.5;
-    for (const { mark, from, to } of this.marks) {
-      mark.style.visibility = tick >= from ? "visible" : "hidden";
-      mark.style.opacity = tick <= to + 1 ? "1" : "0.45";
-    }
-    for (const { group, node, pose } of this.frames) {
-      world.frame(this.spot, node, pose);
-      const [fx, fy] = this.flat(this.spot);
-      group.setAttribute("transform", `translate(${fx.toFixed(5)} ${fy.toFixed(5)})`);
-    }
+    const tick = world.t / this.replay.stepS;
+    for (const { dot, mark } of this.marks) dot.style.opacity = String(coverAt(mark, tick));
+    if (this.framesShown) for (const one of this.frames) this.drawFrame(one);
   };
+
+  /** A frame's axes as they are seen from the side, and its name where they are not. */
+  private drawFrame({ frame, axes, name }: Side["frames"][number]): void {
+    const { spot, tip, unit } = this;
+    this.world.frame(spot, frame.node, frame.pose);
+    const [x, y] = this.flat(spot);
+    let [across, down] = [0, 0];
+    axes.forEach(({ line, letter }, c) => {
+      const length = 0.16 * unit;
+      place(tip, 0, spot, 0, c === 0 ? length : 0, c === 1 ? length : 0, c === 2 ? length : 0);
+      const [tx, ty] = this.flat(tip);
+      for (const [key, value] of [["x1", x], ["y1", y], ["x2", tx], ["y2", ty]] as const) line.setAttribute(key, value.toFixed(5));
+      // an axis towards the eye is a point, which has no letter
+      const seen = Math.hypot(tx - x, ty - y) > 0.3 * length;
+      letter.style.display = seen ? "" : "none";
+      letter.setAttribute("x", (x + 1.2 * (tx - x)).toFixed(5));
+      letter.setAttribute("y", (y + 1.2 * (ty - y)).toFixed(5));
+      across += tx - x;
+      down += ty - y;
+    });
+    const length = Math.hypot(across, down) || 1;
+    name.setAttribute("x", (x - (across / length) * 0.05 * unit).toFixed(5));
+    name.setAttribute("y", (y - (down / length) * 0.05 * unit).toFixed(5));
+    name.setAttribute("text-anchor", across > 0.3 * length ? "end" : across < -0.3 * length ? "start" : "middle");
+  }
 
   private outline({ node, balls: own }: Outline): string {
     const points: Array<[number, number]> = [];

@@ -1,13 +1,14 @@
 // The run in 3D: a context while it is near the screen, and a picture only when something changed.
 
-import { PCFShadowMap, Vector3, WebGLRenderer } from "three";
+import { PCFShadowMap, WebGLRenderer } from "three";
 import { element } from "./dom";
 import type { Replay } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { listen } from "./gestures";
-import { place } from "./pose";
-import { Orbit, type Preset } from "./orbit";
+import { Labels } from "./labels";
+import { Orbit } from "./orbit";
+import { onPixels } from "./pixels";
 import { RunScene } from "./scene";
 import { LIGHT, onTheme, theme } from "./theme";
 import type { Part, View } from "./view";
@@ -16,35 +17,50 @@ import type { World } from "./world";
 /** Pixels of the picture in a pixel of the page, at most and at least. */
 const MOST_PIXELS = 2;
 const LEAST_PIXELS = 0.6;
-/** Frames whose axes have letters; of more one would see letters only. */
-const MOST_LETTERED = 6;
-/** A picture that comes later than this after the one before is late \[ms\]. */
+/** A frame that comes later than this after a picture says that the picture was too much for the machine \[ms\]. */
 const LATE_MS = 45;
-/** So many late pictures in a row make the next ones coarser, until it rests. */
+/** A frame this late says that nobody looked \[ms\]. */
+const ASLEEP_MS = 1000;
+/** So many late pictures in a row, each in the frame after the one before, make the next ones coarser. */
 const MOST_LATE = 10;
 const COARSER = 2;
+/** What moved coarsely is sharp again this long after it stopped \[ms\]. */
+const SETTLE_MS = 250;
+/** How long a context that was lost is waited for \[ms\], and how often. */
+const PATIENCE_MS = 4000;
+const MOST_LOSSES = 4;
+
+/** The one context of a stage, with the listeners of its canvas. */
+interface Drawn {
+  readonly renderer: WebGLRenderer;
+  readonly canvas: HTMLCanvasElement;
+  readonly heard: AbortController;
+}
 
 export class Stage implements View {
   readonly element: HTMLElement;
-  readonly camera: { view(preset: Preset): void; turn(azimuth: number, elevation: number): void; zoom(factor: number): void };
-  private readonly orbit: Orbit;
+  readonly camera: Orbit;
   private readonly scene: RunScene;
-  private readonly labels = element("div", { class: "replay-labels", "aria-hidden": "true" });
-  private readonly names: Array<{ label: HTMLElement; frame: number; tip: number }> = [];
-  private renderer: WebGLRenderer | null = null;
+  private readonly labels: Labels;
+  private drawn: Drawn | null = null;
+  /** The timer while a lost context is waited for. */
+  private waits = 0;
+  private losses = 0;
+  private near = false;
+  /** When the last picture was drawn, and the frame after it came. */
   private last = 0;
+  private beaten = 0;
   private late = 0;
   private coarse = false;
+  private settles = 0;
   private width = 0;
   private height = 0;
-  private readonly point = new Vector3();
-  private readonly spot = new Float64Array(7);
-  private readonly tip = new Float64Array(3);
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
+  private readonly undo: Array<() => void> = [];
 
   constructor(
     replay: Replay,
-    private readonly world: World,
+    world: World,
     extent: Extent,
     label: string,
     /** Told when the context is gone and cannot be had again. */
@@ -52,157 +68,191 @@ export class Stage implements View {
   ) {
     this.element = element("div", { class: "replay-stage", tabindex: "0", role: "application", "aria-roledescription": "3D view", "aria-label": label });
     this.scene = new RunScene(replay, world, extent, theme());
-    this.scene.frames.forEach((frame, i) => {
-      this.name(frame.name, i, -1);
-      // letters tell the axes apart without their colours
-      if (this.scene.frames.length <= MOST_LETTERED) ["x", "y", "z"].forEach((axis, c) => this.name(axis, i, c));
-    });
-    this.labels.hidden = true;
-    this.element.append(this.labels);
-    this.orbit = new Orbit(extent, () => this.invalidate());
-    this.camera = {
-      view: (preset) => this.orbit.view(preset),
-      turn: (azimuth, elevation) => this.orbit.turn(azimuth, elevation),
-      zoom: (factor) => this.orbit.zoom(factor),
-    };
-    listen(this.element, this.orbit);
-    onTheme(() => {
-      this.scene.colour(theme());
-      this.invalidate();
-    });
-    new ResizeObserver(() => this.resize()).observe(this.element);
-    new IntersectionObserver(([seen]) => seen.isIntersecting && this.open(), { rootMargin: "300px" }).observe(this.element);
-    new IntersectionObserver(([seen]) => !seen.isIntersecting && this.release(), { rootMargin: "2500px" }).observe(this.element);
+    this.labels = new Labels(this.scene.frames, 1.1 * this.scene.axis, world);
+    this.element.append(this.labels.element);
+    this.camera = new Orbit(extent, () => this.invalidate());
+    listen(this.element, this.camera);
+    const sizes = new ResizeObserver(() => this.resize());
+    sizes.observe(this.element);
+    const near = new IntersectionObserver((all) => this.approach(all[all.length - 1].isIntersecting), { rootMargin: "300px" });
+    near.observe(this.element);
+    const far = new IntersectionObserver((all) => !all[all.length - 1].isIntersecting && this.release(), { rootMargin: "2500px" });
+    far.observe(this.element);
+    this.undo.push(
+      () => sizes.disconnect(),
+      () => near.disconnect(),
+      () => far.disconnect(),
+      onPixels(() => this.resize()),
+      onTheme(() => {
+        this.scene.colour(theme());
+        this.invalidate();
+      }),
+    );
   }
 
-  private name(text: string, frame: number, tip: number): void {
-    const label = element("span", tip < 0 ? {} : { class: "replay-axis" }, text);
-    this.labels.append(label);
-    this.names.push({ label, frame, tip });
+  private approach(near: boolean): void {
+    this.near = near;
+    if (near) this.open();
   }
 
   private open(): void {
-    if (this.renderer) return;
-    let renderer: WebGLRenderer;
-    try {
-      renderer = new WebGLRenderer({ antialias: true, alpha: true, powerPreference: "low-power" });
-    } catch {
-      this.lost();
+    if (this.drawn) return;
+    const canvas = element("canvas", { "aria-hidden": "true" });
+    const heard = new AbortController();
+    const options = { signal: heard.signal };
+    canvas.addEventListener("webglcontextlost", (event) => this.waitFor(event), options);
+    canvas.addEventListener("webglcontextrestored", (event) => this.regain(event), options);
+    // asked for here, since three tells the console where there is none
+    const context = canvas.getContext("webgl2", { alpha: true, antialias: true, depth: true, stencil: false, powerPreference: "low-power" });
+    if (!context) {
+      this.giveUp();
       return;
     }
+    const renderer = new WebGLRenderer({ canvas, context });
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = PCFShadowMap;
     renderer.setClearAlpha(0);
-    renderer.domElement.addEventListener("webglcontextlost", () => {
-      // the one that was given back tells of its end, too
-      if (this.renderer === renderer) this.lost();
-    });
-    renderer.domElement.setAttribute("aria-hidden", "true");
-    this.element.prepend(renderer.domElement);
-    this.renderer = renderer;
+    this.element.prepend(canvas);
+    this.drawn = { renderer, canvas, heard };
     this.resize();
   }
 
   private release(): void {
-    const renderer = this.renderer;
-    if (!renderer) return;
-    this.renderer = null;
+    if (!this.drawn) return;
+    const { renderer, canvas, heard } = this.drawn;
+    this.drawn = null;
+    clearTimeout(this.waits);
+    this.waits = 0;
+    heard.abort();
+    this.end(renderer);
+    // the context itself, at once: a browser has few
+    const context = renderer.getContext();
+    if (!context.isContextLost()) context.getExtension("WEBGL_lose_context")?.loseContext();
+    canvas.remove();
+  }
+
+  /** Gives back what a renderer holds; where its context is lost already there is nothing to be deleted. */
+  private end(renderer: WebGLRenderer): void {
+    clearTimeout(this.settles);
+    this.coarse = false;
     this.scene.forget();
     renderer.dispose();
-    renderer.forceContextLoss();
-    renderer.domElement.remove();
+  }
+
+  /** The browser took the context, and is asked for it again: a machine that slept or changed its graphics card gives it back. */
+  private waitFor(event: Event): void {
+    event.preventDefault();
+    // three would tell the console
+    event.stopImmediatePropagation();
+    if (!this.drawn) return;
+    this.losses++;
+    if (!this.near) this.release();
+    else if (this.losses > MOST_LOSSES) this.giveUp();
+    else {
+      // what was made in the context does not come back with it
+      this.end(this.drawn.renderer);
+      this.waits = window.setTimeout(() => this.giveUp(), PATIENCE_MS);
+    }
+  }
+
+  /** The context is there again, empty: a new renderer begins with one of its own. */
+  private regain(event: Event): void {
+    event.stopImmediatePropagation();
+    if (!this.drawn || !this.waits) return;
+    this.drawn.heard.abort();
+    this.drawn.canvas.remove();
+    const context = this.drawn.renderer.getContext();
+    this.drawn = null;
+    clearTimeout(this.waits);
+    this.waits = 0;
+    context.getExtension("WEBGL_lose_context")?.loseContext();
+    this.open();
+  }
+
+  private giveUp(): void {
+    this.dispose();
+    this.lost();
+  }
+
+  /** Ends it: nothing calls it any more, and nothing of it is held. */
+  private dispose(): void {
+    this.release();
+    for (const undo of this.undo) undo();
+    this.undo.length = 0;
   }
 
   private resize(): void {
     const { clientWidth, clientHeight } = this.element;
-    if (!this.renderer || clientWidth === 0 || clientHeight === 0) return;
+    if (!this.drawn || this.waits || clientWidth === 0 || clientHeight === 0) return;
     this.width = clientWidth;
     this.height = clientHeight;
-    this.sharpen(false);
     this.scene.resize(clientWidth, clientHeight);
-    this.orbit.resize(clientWidth, clientHeight);
-    // a canvas is empty once its size changed, so it is not left so until the next frame
-    this.draw(performance.now());
+    this.camera.resize(clientWidth, clientHeight);
+    this.labels.resize(clientWidth, clientHeight);
+    this.sharpen(false);
   }
 
   show(part: Part, on: boolean): void {
     this.parts[part] = on;
     this.scene.show(part, on);
-    this.labels.hidden = !this.parts.frames;
+    this.labels.element.hidden = !this.parts.frames;
     this.invalidate();
   }
 
   /** Draws every so many pixels; a machine that cannot keep up moves coarsely rather than by jumps. */
   private sharpen(coarse: boolean): void {
+    if (!this.drawn || this.waits) return;
+    const { renderer } = this.drawn;
     this.coarse = coarse;
     this.late = 0;
     const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, devicePixelRatio) / (coarse ? COARSER : 1));
-    this.renderer?.setPixelRatio(ratio);
-    this.renderer?.setSize(this.width, this.height);
-  }
-
-  private pace(now: number): void {
-    const passed = now - this.last;
-    this.last = now;
-    // a picture long after the last one is the first of a new motion, not a late one
-    this.late = passed > LATE_MS && passed < 1000 ? this.late + 1 : 0;
-    if (this.late < MOST_LATE || this.coarse) return;
-    this.coarse = true;
-    // a change of size waits for the graphics card, which no frame should
-    setTimeout(() => {
-      if (!this.coarse) return;
-      this.sharpen(true);
-      this.draw(performance.now());
-    });
-  }
-
-  rest(): void {
-    if (this.coarse) {
-      this.sharpen(false);
-      this.draw(performance.now());
-    } else this.invalidate();
+    renderer.setPixelRatio(ratio);
+    renderer.setSize(this.width, this.height);
+    // a canvas is empty once its size changed, so it is not left so until the next frame
+    this.draw(performance.now());
   }
 
   invalidate(): void {
-    if (this.renderer) nextFrame(this.draw);
+    if (this.drawn) nextFrame(this.draw);
   }
 
   private readonly draw = (now: number): void => {
-    if (!this.renderer) return;
-    if (this.orbit.ease(Math.min(50, now - this.last))) nextFrame(this.draw);
-    this.pace(now);
+    if (!this.drawn || this.waits || this.width === 0) return;
+    clearTimeout(this.settles);
+    // only pictures in frame after frame tell of a machine that cannot keep up
+    if (now !== this.beaten) this.late = 0;
+    const more = this.camera.ease(Math.min(50, now - this.last));
+    this.last = now;
+    nextFrame(this.beat);
+    if (more) nextFrame(this.draw);
     this.scene.pose();
-    this.renderer.render(this.scene.scene, this.orbit.camera);
-    if (this.parts.frames) this.label();
+    this.drawn.renderer.render(this.scene.scene, this.camera.camera);
+    if (this.parts.frames) this.labels.place(this.camera.camera);
   };
 
-  private label(): void {
-    const frames = this.scene.frames;
-    const { spot, tip: end, point } = this;
-    for (const { label, frame, tip } of this.names) {
-      if (tip <= 0) this.world.frame(spot, frames[frame].node, frames[frame].pose);
-      const reach = 1.1 * this.scene.axis;
-      if (tip < 0) end.set(spot.subarray(0, 3));
-      else place(end, 0, spot, 0, tip === 0 ? reach : 0, tip === 1 ? reach : 0, tip === 2 ? reach : 0);
-      point.set(end[0], end[1], end[2]).project(this.orbit.camera);
-      const style = label.style;
-      style.visibility = point.z > 1 ? "hidden" : "visible";
-      const x = 0.5 * (1 + point.x) * this.width;
-      const y = 0.5 * (1 - point.y) * this.height;
-      style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
+  /** The frame after a picture: how late it comes tells what the picture took. */
+  private readonly beat = (now: number): void => {
+    const passed = now - this.last;
+    this.beaten = now;
+    this.late = passed > LATE_MS && passed < ASLEEP_MS ? this.late + 1 : 0;
+    if (this.coarse) this.settles = window.setTimeout(() => this.sharpen(false), SETTLE_MS);
+    else if (this.late >= MOST_LATE) {
+      this.coarse = true;
+      // a change of size waits for the graphics card, which no frame should
+      setTimeout(() => this.coarse && this.sharpen(true));
     }
-  }
+  };
 
   /** The moment as a picture on white. */
   picture(): string | null {
-    const away = this.renderer === null;
+    const away = this.drawn === null;
     if (away) this.open();
-    const renderer = this.renderer;
-    if (!renderer) return null;
+    if (!this.drawn || this.waits || this.width === 0) return null;
+    const { renderer, canvas } = this.drawn;
     this.scene.colour(LIGHT);
     renderer.setClearColor(0xffffff, 1);
-    this.draw(performance.now());
-    const url = renderer.domElement.toDataURL("image/png");
+    this.sharpen(false);
+    const url = this.parts.frames ? this.labels.onto(canvas) : canvas.toDataURL("image/png");
     renderer.setClearColor(0xffffff, 0);
     this.scene.colour(theme());
     if (away) this.release();

@@ -1,7 +1,11 @@
 // The colours of the replay, for light and dark; those of lines are the plots' own, so that a colour means one thing on the page.
 
+import type { NodeKind } from "./data";
+
 export interface Theme {
   readonly link: readonly [base: string, odd: string, even: string];
+  /** What is around every shape. */
+  readonly edge: string;
   readonly fixed: string;
   readonly driven: string;
   readonly free: string;
@@ -24,12 +28,13 @@ export interface Theme {
 
 export const LIGHT: Theme = {
   link: ["#5d6b7d", "#8ba4c0", "#c6d2df"],
+  edge: "#566375",
   fixed: "#c3b297",
   driven: "#86aa9d",
   free: "#e0b040",
   ghost: "#9e4a80",
   trail: "#006cae",
-  future: "#a3c6df",
+  future: "#4a90c2",
   reference: "#9e4a80",
   goal: "#007e5c",
   contact: "#c65200",
@@ -44,12 +49,13 @@ export const LIGHT: Theme = {
 
 export const DARK: Theme = {
   link: ["#5f6d80", "#7d9ac0", "#b6c4d4"],
+  edge: "#8794a5",
   fixed: "#8f8069",
   driven: "#5f8f80",
   free: "#d2a338",
   ghost: "#e69cc8",
   trail: "#62b8f0",
-  future: "#35586f",
+  future: "#487a9b",
   reference: "#e69cc8",
   goal: "#38c89c",
   contact: "#ff9452",
@@ -66,13 +72,26 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 
 export const theme = (): Theme => (dark.matches ? DARK : LIGHT);
 
-/** Calls when the page turns light or dark. */
-export function onTheme(listener: () => void): void {
+/** Calls when the page turns light or dark, until what it returns is called. */
+export function onTheme(listener: () => void): () => void {
   dark.addEventListener("change", listener);
+  return () => dark.removeEventListener("change", listener);
 }
 
-/** Colour of a node: the links take turns, so that each is told from the next. */
-export function colourOf(theme: Theme, kind: "link" | "fixed" | "driven" | "free" | "ghost", order: number): string {
-  if (kind !== "link") return theme[kind];
-  return order === 0 ? theme.link[0] : order % 2 === 1 ? theme.link[1] : theme.link[2];
+/** Which colour each node has, by its place in the list: the links take turns, so that each is told from the next. */
+export function turns(nodes: ReadonlyArray<{ readonly kind: NodeKind }>): Turn[] {
+  let links = 0;
+  return nodes.map(({ kind }) => (kind === "link" ? turn(links++) : kind));
+}
+
+/** Of the links, the first has a colour of its own. */
+export function turn(order: number): "base" | "odd" | "even" {
+  return order === 0 ? "base" : order % 2 === 1 ? "odd" : "even";
+}
+
+export type Turn = ReturnType<typeof turn> | Exclude<NodeKind, "link">;
+
+export function colourOf(theme: Theme, turn: Turn): string {
+  const place = ["base", "odd", "even"].indexOf(turn);
+  return place < 0 ? theme[turn as Exclude<NodeKind, "link">] : theme.link[place];
 }

@@ -5,15 +5,24 @@ import type { Preset } from "./orbit";
 /** What may be shown or left out. */
 export type Part = "shadows" | "frames" | "ghost";
 
+/** Where one looks from. */
+export interface Camera {
+  /** Whether what turns by a drag moves the picture instead. */
+  panning: boolean;
+  view(preset: Preset): void;
+  /** Turns by angles \[rad\]. */
+  turn(azimuth: number, elevation: number): void;
+  /** Moves by fractions of the picture's height. */
+  shift(across: number, up: number): void;
+  zoom(factor: number): void;
+}
+
 export interface View {
   readonly element: HTMLElement;
   /** Says that the moment or anything else changed; the picture is drawn at the next frame. */
   invalidate(): void;
-  /** Says that nothing will move for a while. */
-  rest(): void;
   show(part: Part, on: boolean): void;
-  /** Puts the camera to a view, or turns and zooms it, where there is a camera. */
-  camera?: { view(preset: Preset): void; turn(azimuth: number, elevation: number): void; zoom(factor: number): void };
+  readonly camera?: Camera;
   /** A picture of the moment for paper, where the element does not print by itself. */
   picture?(): string | null;
 }

@@ -24,6 +24,11 @@ export function fixed(value: number, digits: number): string {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
+/** A name that may go on in a new line after each of its parts. */
+export function breakable(name: string): Array<string | HTMLElement> {
+  return name.split(/(?<=[_.:/-])/).flatMap((part, i) => (i > 0 ? [document.createElement("wbr"), part] : [part]));
+}
+
 /** What an event is, with its kind where its own words do not tell. */
 export function told(event: RunEvent): string {
   const kind = EVENTS[event.kind].name;

@@ -204,8 +204,8 @@ function plane(task, seconds) {
 <svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img" width="640" height="320" viewBox="0 0 6400 3200"><title>Path</title><polyline fill="none" stroke="#006CAE" stroke-width="20" points="${points.join(" ")}"/></svg></figure>`;
 }
 
-/** The page of some runs; a text in place of a run is put in as its data. */
-export function page(replays, { bundle = join(root, "dist") } = {}) {
+/** The page of some runs; a text in place of a run is put in as its data, and `more` stands at the end. */
+export function page(replays, { bundle = join(root, "dist"), more = "" } = {}) {
   const style = readFileSync(join(root, "../src/report/html/page.css"), "utf8");
   const viewer = readFileSync(join(bundle, "viewer.css"), "utf8");
   const script = readFileSync(join(bundle, "viewer.js"), "utf8");
@@ -214,13 +214,13 @@ export function page(replays, { bundle = join(root, "dist") } = {}) {
     const { task, title, events = [] } = typeof run === "string" ? { task: `bad-${i}`, title: "A task whose replay is bad" } : run;
     const seconds = typeof run === "string" ? 4 : run.events.at(-1).tick * run.stepS;
     const moments = events.map((e) => `<li><a class="seek" href="#task=${task}&amp;t=${e.tick / 1000}">${e.tick / 1000} s</a> ${escape(e.text)}</li>`);
-    return `<section class="task" id="task-${i + 1}"><div class="title"><h2>${escape(title)}</h2></div><p class="lead">What it is about.</p>
+    return `<section class="task" id="task-${i + 1}" data-task="${escape(task)}"><div class="title"><h2>${escape(title)}</h2></div><p class="lead">What it is about.</p>
 <div class="replay" data-replay="replay-${i + 1}" data-task="${escape(task)}"></div><h3>Plots</h3><div class="plots">${figure(task, seconds)}${plane(task, seconds)}</div><ul>${moments.join("")}</ul></section>`;
   });
   const data = replays.map((run, i) => `<script type="application/json" id="replay-${i + 1}">${(typeof run === "string" ? run : JSON.stringify(run)).replace(/</g, "\\u003c")}</script>`);
   return `<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'sha256-${digest}'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
 <meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark"><title>A report</title><style>${style}${viewer}</style></head>
-<body><main><h1>A report</h1>${sections.join("\n")}</main>${data.join("\n")}<script>${script}</script></body></html>`;
+<body><main><h1>A report</h1>${sections.join("\n")}${more}</main>${data.join("\n")}<script>${script}</script></body></html>`;
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -4,9 +4,10 @@ import { pathToFileURL } from "node:url";
 /** What the driver says of a software renderer is not the page's. */
 const isDriver = (text) => /GL Driver Message|GPU stall due to ReadPixels/.test(text);
 
-/** Opens `path#fragment`. `page.said` is what went wrong: messages, requests, dialogs, windows, errors. */
-export async function open(browser, path, { fragment = "", width = 1000, height = 800, ...context } = {}) {
+/** Opens `path#fragment`; `first` runs in the page before its own code. `page.said` is what went wrong: messages, requests, dialogs, windows, errors. */
+export async function open(browser, path, { fragment = "", width = 1000, height = 800, first, ...context } = {}) {
   const own = await browser.newContext({ viewport: { width, height }, ...context });
+  if (first) await own.addInitScript(first);
   const page = await own.newPage();
   page.said = [];
   page.setDefaultTimeout(15_000);

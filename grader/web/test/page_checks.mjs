@@ -297,18 +297,34 @@ export async function keysSteer(page, index) {
   }
 }
 
-/** No violation of a rule that axe calls serious or critical. */
-export async function accessible(page) {
+/** What axe finds in a part of the page: `{ id, impact, told }`. */
+export async function violations(page, part = "html") {
   if (!(await page.evaluate(() => "axe" in window))) {
     // the page's policy lets no script in: axe comes through the debugger
     await page.evaluate((await import("node:fs")).readFileSync(axeSource, "utf8"));
   }
-  const { violations } = await page.evaluate(() =>
-    window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"], resultTypes: ["violations"] }),
+  const found = await page.evaluate(
+    async (part) => {
+      const { violations } = await window.axe.run(part === "html" ? document : document.querySelector(part), {
+        runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+        resultTypes: ["violations"],
+      });
+      return violations;
+    },
+    part,
   );
-  const grave = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
-  assert.deepEqual(grave.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join(" | ")}`), []);
-  return violations.map(({ id }) => id);
+  return found.map(({ id, impact, nodes }) => ({
+    id,
+    impact,
+    told: `${id} (${impact}): ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join(" | ")}`,
+  }));
+}
+
+/** No violation of a rule that axe calls serious or critical. */
+export async function accessible(page) {
+  const found = await violations(page);
+  assert.deepEqual(found.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ told }) => told), []);
+  return found.map(({ id }) => id);
 }
 
 /** The page is no wider than the window. */
@@ -365,6 +381,27 @@ export async function drawsMotion(page, index) {
   if (last > 0.2) assert.ok(!start.equals(await picture(last / 2)), "the picture stands still");
   assert.ok(start.equals(await picture(0)), "the same moment has two pictures");
   return start;
+}
+
+/** How many pixels of a picture have one of some colours. */
+export function coloured(page, png, colours) {
+  return page.evaluate(
+    async ([url, colours]) => {
+      const image = new Image();
+      image.src = url;
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
+      const context = canvas.getContext("2d");
+      context.drawImage(image, 0, 0);
+      const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+      const wanted = colours.map((colour) => [0, 2, 4].map((at) => parseInt(colour.slice(at, at + 2), 16)));
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) if (wanted.some((rgb) => rgb.every((value, c) => Math.abs(data[i + c] - value) <= 2))) count++;
+      return count;
+    },
+    [`data:image/png;base64,${Buffer.from(png).toString("base64")}`, colours],
+  );
 }
 
 /** Bytes of code, and bytes of each motion task without meshes, with its length [s]. */

@@ -1,6 +1,7 @@
 // Reading a run: what is written comes back, and what is broken is said in a sentence.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { armAt, encode, encodeColumns, replay, truth } from "./fixture.mjs";
 import { load } from "./modules.mjs";
@@ -9,7 +10,12 @@ const { column, track } = await load("track.ts");
 const { read } = await load("data.ts");
 const { World } = await load("world.ts");
 const { Way } = await load("between.ts");
-const { parse, format } = await load("links.ts");
+const { parse, format, meant, shareable } = await load("links.ts");
+const { lanes } = await load("lanes.ts");
+const { contactMarks, coverAt } = await load("contacts.ts");
+// it asks the browser which theme is wanted
+globalThis.matchMedia = () => ({ matches: false, addEventListener() {} });
+const { LIGHT, DARK } = await load("theme.ts");
 const { hull } = await load("hull.ts");
 const { pitchFor } = await load("pitch.ts");
 const { moment, fixed } = await load("words.ts");
@@ -159,14 +165,84 @@ test("25 joints over 60 s are read whole", () => {
 });
 
 test("links to a moment", () => {
-  assert.deepEqual(parse("#task=move&t=2.35"), { task: "move", t: 2.35 });
-  assert.deepEqual(parse("#task=a%26b&t=0"), { task: "a&b", t: 0 });
-  assert.deepEqual(parse("#task=move"), { task: "move", t: null });
-  assert.deepEqual(parse("#task=move&t=soon"), { task: "move", t: null });
-  assert.equal(parse("#task-3"), null);
-  assert.equal(parse("#task=%E0%A4%A"), null);
-  assert.equal(parse(""), null);
-  assert.deepEqual(parse(format("a&b=c", "1")), { task: "a&b=c", t: 1 });
+  const cases = [
+    ["#task=move&t=2.35", "move", 2.35, null],
+    ["#task=a%26b&t=0", "a&b", 0, null],
+    ["#task=move", "move", null, null],
+    // in any order, and as they come out of a sentence
+    ["#t=2.2&task=knock", "knock", 2.2, null],
+    ["#task=move&t=2.2.", "move", 2.2, null],
+    ["#task=move&t=2.2)", "move", 2.2, null],
+    ["#task=move&t=2.2).", "move", 2.2, null],
+    ["#task=move&t=2,2", "move", 2.2, null],
+    ["#task=move&t=2,", "move", 2, null],
+    ["#task=move&t=.5%E2%80%9D", "move", 0.5, null],
+    ["#task=move&t=-3", "move", -3, null],
+    // what is no time is told
+    ["#task=move&t=soon", "move", null, "soon"],
+    ["#task=move&t=0x2", "move", null, "0x2"],
+    ["#task=move&t=1e1", "move", null, "1e1"],
+    ["#task=move&t=1.2.3", "move", null, "1.2.3"],
+    ["#task=move&t=Infinity", "move", null, "Infinity"],
+    ["#task=move&t=...", "move", null, "..."],
+    ["#task=%E0%A4%A", "%E0%A4%A", null, null],
+  ];
+  for (const [hash, task, t, unread] of cases) assert.deepEqual(parse(hash), { task, t, unread }, hash);
+  for (const hash of ["#task-3", "", "#t=1", "#task=&t=1"]) assert.equal(parse(hash), null, hash);
+  assert.deepEqual(parse(format("a&b=c", "1")), { task: "a&b=c", t: 1, unread: null });
+  assert.equal(meant("move.", ["move", "hold"]), "move");
+  assert.equal(meant("move.", ["move", "move."]), "move.");
+  assert.equal(meant("mo", ["move"]), undefined);
+});
+
+test("a link that is copied is of use elsewhere", () => {
+  const at = (href) => shareable(new URL(href), "#task=move&t=1");
+  assert.equal(at("file:///home/me/my%20lab/out/report.html#task=hold&t=2"), "report.html#task=move&t=1");
+  assert.equal(at("https://example.org/lab/report.html?a=1#x"), "https://example.org/lab/report.html?a=1#task=move&t=1");
+});
+
+test("every kind of event at a moment has its mark, the worse where there is no room", () => {
+  const lay = (...events) => lanes(events.map(([kind, x]) => ({ kind, x }))).map(({ kind, x, lane }) => `${kind} ${x} ${lane}`);
+  assert.deepEqual(lay(["contact", 50], ["breach", 50]), ["breach 50 0", "contact 50 1"]);
+  assert.deepEqual(lay(["contact", 50], ["contact", 52], ["contact", 56], ["contact", 90]), ["contact 50 0", "contact 56 0", "contact 90 0"]);
+  assert.deepEqual(lay(["saturation", 0], ["limit", 5], ["other", 8], ["breach", 9]), ["saturation 0 0", "limit 5 1", "breach 9 2"]);
+  const many = Array.from({ length: 10_000 }, (_, i) => [["contact", "saturation"][i % 2], (800 * i) / 10_000]);
+  assert.ok(lay(...many, ["stop", 800]).length < 800 && lay(...many, ["stop", 800]).some((mark) => mark.startsWith("stop 800")));
+});
+
+test("the arm's contacts are marked stronger than those of bodies among themselves", () => {
+  const contact = (first, second, impulse) => ({ from: 10, to: 20, first, second, point: [0, 0, 0], impulse });
+  const marks = contactMarks({ nodes: [{ kind: "link", name: "forearm" }, { kind: "free", name: "can" }], contacts: [contact("shelf", "can", 16), contact("forearm", "can", 0.6), contact("can", "forearm", 0.1)] }, 2);
+  assert.deepEqual(marks.map(({ size }) => size), [1, 0.65 + 0.35 * Math.sqrt(1 / 6)]);
+  const all = contactMarks({ nodes: [], contacts: [contact("shelf", "can", 16)] }, 9);
+  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(all[0], tick)), [0, 0.45, 0.45, 0.2]);
+  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(marks[0], tick)), [0, 1, 1, 0.6]);
+});
+
+test("what is drawn stands out from the paper, in light and in dark, and the styles have the same colours", () => {
+  const css = readFileSync(new URL("../src/viewer.css", import.meta.url), "utf8");
+  const page = readFileSync(new URL("../../src/report/html/page.css", import.meta.url), "utf8");
+  const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+  const luminance = (hex) => [1, 3, 5].reduce((sum, at, c) => sum + [0.2126, 0.7152, 0.0722][c] * linear(parseInt(hex.slice(at, at + 2), 16) / 255), 0);
+  const contrast = (a, b) => {
+    const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+    return (high + 0.05) / (low + 0.05);
+  };
+  const last = (text, name, i) => [...text.matchAll(new RegExp(`--${name}:(#[0-9a-f]{3,6})`, "g"))].map(([, hex]) => (hex.length === 4 ? hex.replace(/\w/g, "$&$&") : hex))[i];
+  for (const [i, theme] of [LIGHT, DARK].entries()) {
+    const papers = [last(page, "paper", i), last(page, "ground", i)];
+    // shapes have an edge around them, so that a pale one is seen as well
+    for (const name of ["edge", "trail", "future", "reference", "goal", "contact", "path", "ghost"]) {
+      for (const paper of papers) assert.ok(contrast(theme[name], paper) >= 3, `${name} ${theme[name]} on ${paper}: ${contrast(theme[name], paper).toFixed(2)}`);
+    }
+    for (const axis of theme.axes) for (const paper of papers) assert.ok(contrast(axis, paper) >= 3, axis);
+    const [base, odd, even] = theme.link;
+    const [x, y, z] = theme.axes;
+    const { edge, trail, future, reference, goal, contact, ghost, fixed, driven, free } = theme;
+    for (const [name, colour] of Object.entries({ edge, trail, future, reference, goal, contact, ghost, base, odd, even, fixed, driven, free, "axis-x": x, "axis-y": y, "axis-z": z })) {
+      assert.equal(last(css, name, i), colour, name);
+    }
+  }
 });
 
 test("numbers as they are told", () => {

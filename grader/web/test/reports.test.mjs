@@ -81,11 +81,24 @@ test("the link of a moment opens there, paused", async () => {
 });
 
 test("a link to nowhere does no harm, and anchors of tasks keep working", async () => {
-  const wrong = ["#task=nowhere&t=1", "#task=move", "#task=move&t=NaN", "#task=move&t=-3", "#task=move&t=1e99", "#task=%E0%A4%A&t=1", "#t=1", "#%%%", "#task=__proto__&t=1", "#task=move&t=1&t=2"];
-  for (const fragment of wrong) {
+  // what `move` shows, and what the page says of the link
+  const wrong = [
+    ["#task=nowhere&t=1", 0, /no task “nowhere”.*It has: .*move/],
+    ["#task=move", 0, /^$/],
+    ["#task=move&t=NaN", 0, /“NaN” of this link cannot be read/],
+    ["#task=move&t=-3", 0, /^$/],
+    ["#task=move&t=1e99", 0, /“1e99” of this link cannot be read/],
+    ["#task=%E0%A4%A&t=1", 0, /no task/],
+    ["#t=1", 0, /^$/],
+    ["#%%%", 0, /^$/],
+    ["#task=__proto__&t=1", 0, /no task “__proto__”/],
+    ["#task=move&t=1&t=2", 2, /^$/],
+  ];
+  for (const [fragment, t, says] of wrong) {
     await visit("01-kinematics", { fragment }, async (page) => {
-      const times = await page.evaluate(() => window.kinemark.replays.map((replay) => replay.shown().t));
-      assert.ok(times.every((t) => Number.isFinite(t) && t >= 0), `${fragment}: ${times}`);
+      await page.waitForTimeout(100);
+      assert.deepEqual(await page.evaluate(() => window.kinemark.replays.map((replay) => [replay.task, replay.shown().t])), [["warm-up", 0], ["move", t]], fragment);
+      assert.match(await page.locator(".replay-notice p").allTextContents().then((all) => all.join("")), says, fragment);
     });
   }
   await visit("01-kinematics", { fragment: "#task-4" }, async (page) => {
@@ -103,11 +116,17 @@ test("the keyboard steers the replay", async () => {
 
 test("the stage draws the motion, in light and in dark", async () => {
   for (const lab of ["03-knock-with-position", "meshes", "humanoid"]) {
-    const pictures = [];
+    // the path of the TCP, so that more than the paper is of the other kind
+    const paths = { light: ["006cae", "4a90c2"], dark: ["62b8f0", "487a9b"] };
     for (const colorScheme of ["light", "dark"]) {
-      await visit(lab, { colorScheme }, async (page) => pictures.push(await check.drawsMotion(page, 0)));
+      await visit(lab, { colorScheme }, async (page) => {
+        const picture = await check.drawsMotion(page, 0);
+        for (const [scheme, colours] of Object.entries(paths)) {
+          const found = await check.coloured(page, picture, colours);
+          assert.ok(scheme === colorScheme ? found > 5 : found === 0, `${lab}, ${colorScheme}: ${found} pixels of the ${scheme} path`);
+        }
+      });
     }
-    assert.ok(!pictures[0].equals(pictures[1]), "light and dark are the same");
   }
 });
 
@@ -172,18 +191,18 @@ test("without scripts the page is whole, and the replay takes no room", async ()
 test("it prints, with a picture of the moment in place of the stage", async () => {
   await visit("03-knock-with-position", { fragment: "#task=knock&t=1.5" }, async (page) => {
     await page.waitForSelector("[data-replay] canvas");
-    await page.evaluate(() => addEventListener("beforeprint", () => setTimeout(() => {}, 0)));
     await page.evaluate(() => {
       window.printed = null;
-      addEventListener("beforeprint", () => {
-        window.printed = [...document.querySelectorAll("[data-replay]")].map((place) => [...place.querySelectorAll("img, svg")].map((picture) => picture.naturalWidth ?? picture.clientWidth));
+      addEventListener("beforeprint", async () => {
+        const pictures = [...document.querySelectorAll("[data-replay]")].map((place) => place.querySelector("img.replay-print"));
+        window.printed = Promise.all(pictures.map(async (picture) => (await picture?.decode(), picture?.naturalWidth ?? 0)));
       });
     });
     const pdf = await page.pdf({ format: "A4" });
     assert.equal(pdf.subarray(0, 5).toString(), "%PDF-");
     assert.ok(pdf.length > 20_000, `${pdf.length} bytes`);
     const printed = await page.evaluate(() => window.printed);
-    assert.ok(printed?.some((pictures) => pictures.length > 0), `printed without a picture: ${JSON.stringify(printed)}`);
+    assert.ok(printed?.length === 2 && printed.every((width) => width > 300), `pictures as wide as ${JSON.stringify(printed)}`);
   });
 });
 
@@ -194,7 +213,7 @@ test("the time of its own code per frame is measured", async (t) => {
     await visit(lab, { width: 390, height: 500 }, async (page) => {
       const { median, p95, count } = await check.frameTimes(page, 0);
       t.diagnostic(`${lab}: median ${median.toFixed(2)} ms of own code per frame (aim: 4 ms), 95th percentile ${p95.toFixed(2)} ms, ${count} frames`);
-      assert.ok(count > 0 && median > 0, `${lab}: nothing was measured`);
+      assert.ok(count > 0, `${lab}: nothing was measured`);
     });
   }
 });

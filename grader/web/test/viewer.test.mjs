@@ -1,48 +1,11 @@
 // The viewer in a browser, from disk, on a made-up run.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { pathToFileURL } from "node:url";
-import { executablePath, launch } from "./browser.mjs";
+import { test } from "node:test";
+import { launch } from "./browser.mjs";
 import { page as html, replay, truth } from "./fixture.mjs";
-
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const folder = mkdtempSync(join(tmpdir(), "viewer-"));
-const write = (name, text) => {
-  writeFileSync(join(folder, name), text);
-  return pathToFileURL(join(folder, name)).href;
-};
-const one = write("one.html", html([replay()]));
-const three = write("three.html", html([replay(), '{"format":"kinemark-replay/2"}', replay({ task: "long", seconds: 60, joints: 25 })]));
-let browser;
-
-before(async () => {
-  assert.ok(executablePath, "no chromium is installed");
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true });
-});
-
-/** Opens a page that must neither ask for anything nor complain. */
-async function open(url, options = {}, from = browser) {
-  const context = await from.newContext({ viewport: { width: 1440, height: 1000 }, reducedMotion: "reduce", ...options });
-  const page = await context.newPage();
-  const wrong = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && wrong.push(message.text()));
-  page.on("pageerror", (error) => wrong.push(error.stack));
-  page.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && wrong.push(`asked for ${request.url()}`));
-  await page.goto(url);
-  return { page, wrong, close: () => context.close() };
-}
-
-const shown = (page, i = 0) => page.evaluate((i) => window.kinemark.replays[i].shown(), i);
-const near = (a, b, by, what) => assert.ok(Math.abs(a - b) <= by, `${what}: ${a}, not ${b}`);
+import { near, one, open, shown, three, write } from "./made.mjs";
+import { violations } from "./page_checks.mjs";
 
 test("starts at the beginning, paused, and complains of nothing", async () => {
   const { page, wrong, close } = await open(one);
@@ -81,8 +44,7 @@ test("a link opens its moment, and the moment writes its link", async () => {
   assert.equal((await shown(page)).tick, 2350);
   assert.ok(await page.locator(".replay").evaluate((root) => root.getBoundingClientRect().top < innerHeight && document.activeElement === root));
   await page.keyboard.press("ArrowRight");
-  await page.waitForTimeout(300);
-  assert.match(page.url(), /#task=knock&t=2\.36$/);
+  await page.waitForURL(/#task=knock&t=2\.36$/);
   await page.evaluate(() => (location.hash = "#task=knock&t=1"));
   await page.waitForTimeout(200);
   assert.equal((await shown(page)).tick, 1000);
@@ -203,7 +165,7 @@ test("the link of the moment can be copied", async () => {
   await page.keyboard.press("]");
   await page.getByRole("button", { name: "Copy link" }).click();
   await page.waitForSelector(".replay-shared code");
-  assert.equal(await page.locator(".replay-shared code").textContent(), `${one}#task=knock&t=0.8`);
+  assert.equal(await page.locator(".replay-shared code").textContent(), "one.html#task=knock&t=0.8");
   assert.match(page.url(), /#task=knock&t=0\.8$/);
   await close();
 });
@@ -268,12 +230,7 @@ test("no serious barrier is found, light, dark and narrow", async () => {
   for (const options of [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } }]) {
     const { page, close } = await open(`${one}#task=knock&t=2.35`, options);
     await page.waitForTimeout(200);
-    await page.evaluate(axe);
-    const found = await page.evaluate(async () => {
-      const result = await window.axe.run(document.querySelector(".replay"), { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
-      return result.violations.map((v) => `${v.id} (${v.impact}): ${v.nodes.map((n) => `${n.html.slice(0, 140)} ${n.failureSummary}`).slice(0, 3).join(" | ")}`);
-    });
-    assert.deepEqual(found, []);
+    assert.deepEqual((await violations(page, ".replay")).map(({ told }) => told), []);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${wide} px too wide`);
     const small = await page.locator(".replay :is(button, select, input)").evaluateAll((all) =>
@@ -330,15 +287,6 @@ test("without WebGL the run is drawn flat, with the same cursor and controls", a
   }
 });
 
-test("a context that is lost gives way to the flat picture", async () => {
-  const { page, close } = await open(one);
-  await page.waitForSelector(".replay canvas");
-  await page.evaluate(() => document.querySelector(".replay canvas").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
-  await page.waitForSelector(".replay-side");
-  assert.match(await page.locator(".replay-note").textContent(), /was lost/);
-  await close();
-});
-
 test("contexts are made near the screen and given back far from it", async () => {
   const { page, wrong, close } = await open(three);
   await page.addStyleTag({ content: "section{margin-bottom:6000px!important}" }).catch(() => {});
@@ -389,6 +337,6 @@ test("the time of its own code per frame is measured", async () => {
   const times = (await page.evaluate(() => window.kinemark.replays[0].frameTimes())).sort((a, b) => a - b);
   const median = times[times.length >> 1];
   console.log(`frames: median ${median.toFixed(2)} ms of own code (aim: 4 ms), ${times.length} frames`);
-  assert.ok(median > 0);
+  assert.ok(times.every((ms) => ms >= 0 && ms < 1000), "a time that is none");
   await close();
 });

@@ -3,25 +3,46 @@
   // the report that is open; the server answers when there is another
   const seen = document.currentScript.dataset.seen;
   const place = "kinemark-place";
-  const replays = () => window.kinemark?.replays ?? [];
+  const kept = () => JSON.parse(sessionStorage.getItem(place) ?? "null") ?? {};
+  // where a page that is shorter than the one before could not be scrolled to
+  let beyond = null;
+
+  // parts that fold, by what they are in
+  function folds() {
+    const counts = {};
+    return [...document.querySelectorAll("details")].map((part) => {
+      const at = part.closest("[id]")?.id ?? "";
+      counts[at] = (counts[at] ?? 0) + 1;
+      return [`${at} ${counts[at]}`, part];
+    });
+  }
 
   function leave() {
-    const times = {};
-    for (const replay of replays()) times[replay.task] = replay.shown()?.t;
-    sessionStorage.setItem(place, JSON.stringify({ x: scrollX, y: scrollY, times }));
+    // a version that does not build has no replays: those of the one before it are kept
+    const { replays, open } = kept();
+    const at = beyond && scrollY === beyond.reached ? beyond.y : scrollY;
+    sessionStorage.setItem(place, JSON.stringify({
+      goes: true,
+      x: scrollX,
+      y: at,
+      replays: { ...replays, ...window.kinemark?.state?.() },
+      open: { ...open, ...Object.fromEntries(folds().map(([name, part]) => [name, part.open])) },
+    }));
     location.reload();
   }
 
   function arrive() {
-    const left = JSON.parse(sessionStorage.getItem(place) ?? "null");
-    sessionStorage.removeItem(place);
-    if (!left) return;
-    for (const replay of replays()) {
-      const time = left.times[replay.task];
-      if (typeof time === "number") replay.seek(time);
-    }
+    const left = kept();
+    // a page that was loaded by hand starts as it is
+    if (!left.goes) return sessionStorage.removeItem(place);
+    sessionStorage.setItem(place, JSON.stringify({ ...left, goes: false }));
+    for (const [name, part] of folds()) part.open = left.open[name] ?? part.open;
+    window.kinemark?.restore?.(left.replays);
     // once the replays have their size
-    requestAnimationFrame(() => requestAnimationFrame(() => scrollTo(left.x, left.y)));
+    requestAnimationFrame(() => requestAnimationFrame(() => {
+      scrollTo(left.x, left.y);
+      if (scrollY < left.y - 1) beyond = { y: left.y, reached: scrollY };
+    }));
   }
 
   let waits = false;

@@ -121,7 +121,7 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
         .and_then(|motion| motion.first.as_ref());
     let plots = found.map_or_else(Vec::new, |(a, b)| differences(a, b, first));
     html! {
-        section class="task" id=(id) aria-labelledby={ (id) "-title" } {
+        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
             h2 id={ (id) "-title" } { (foreign(&task.title)) }
             @for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
                 @if let Some(ended) = ended { (stopped(&task.name, letter, ended)) }

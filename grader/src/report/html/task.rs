@@ -39,7 +39,7 @@ pub(super) fn section(
         has_replay,
     };
     html! {
-        section class="task" id=(id) aria-labelledby={ (id) "-title" } {
+        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
             div class="title" {
                 h2 id={ (id) "-title" } { (foreign(&task.title)) }
                 p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }

@@ -1,0 +1,40 @@
+// Which contacts are marked, and how strongly: those of the arm are what a motion did, while a can also touches the shelf it stands on.
+
+import type { Replay, Vector } from "./data";
+
+export interface ContactMark {
+  readonly point: Vector;
+  /** First and last tick. */
+  readonly from: number;
+  readonly to: number;
+  /** Size as a part of the greatest. */
+  readonly size: number;
+  /** How much it covers while it lasts, and when it is over: what is over is still told, more quietly. */
+  readonly lasting: number;
+  readonly over: number;
+}
+
+/** The marks of a run, at most so many: those of the arm first, then by impulse. */
+export function contactMarks(replay: Replay, most: number): ContactMark[] {
+  const arm = new Set(replay.nodes.filter((node) => node.kind === "link").map((node) => node.name));
+  const all = replay.contacts.map((contact) => ({ contact, arm: arm.has(contact.first) || arm.has(contact.second) }));
+  all.sort((a, b) => Number(b.arm) - Number(a.arm) || b.contact.impulse - a.contact.impulse);
+  const greatest = Math.max(0, ...all.slice(0, 1).map(({ contact }) => contact.impulse));
+  return all.slice(0, most).map(({ contact, arm }) => {
+    const share = greatest > 0 ? Math.min(1, contact.impulse / greatest) : 1;
+    return {
+      point: contact.point,
+      from: contact.from,
+      to: contact.to,
+      size: arm ? 0.65 + 0.35 * Math.sqrt(share) : 0.5,
+      lasting: arm ? 1 : 0.45,
+      over: arm ? 0.6 : 0.2,
+    };
+  });
+}
+
+/** How much a mark covers at a tick: nothing before the contact began. */
+export function coverAt(mark: ContactMark, tick: number): number {
+  if (tick + 0.5 < mark.from) return 0;
+  return tick - 0.5 <= mark.to ? mark.lasting : mark.over;
+}
