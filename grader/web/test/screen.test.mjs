@@ -28,6 +28,7 @@ test("a picture that turned coarse while it played is sharp again once it rests"
   await page.getByRole("button", { name: "Pause" }).click();
   await page.waitForFunction(() => document.querySelector(".replay canvas").width === document.querySelector(".replay canvas").clientWidth);
   // and so it is after a drag
+  await page.locator(".replay-stage").evaluate((stage) => stage.scrollIntoView());
   const box = await page.locator(".replay-stage").boundingBox();
   await page.mouse.move(box.x + 100, box.y + 100);
   await page.evaluate(() => document.querySelector(".replay-stage").addEventListener("pointerdown", (event) => (window.held = event.pointerId)));
