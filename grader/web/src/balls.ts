@@ -10,7 +10,7 @@ export type Balls = Float64Array;
 const MOST_VERTICES = 96;
 
 /** Evenly spread directions (a Fibonacci lattice), three numbers each. */
-export function directions(count: number): Float64Array {
+function directions(count: number): Float64Array {
   const out = new Float64Array(3 * count);
   const golden = Math.PI * (3 - Math.sqrt(5));
   for (let i = 0; i < count; i++) {

@@ -26,9 +26,10 @@ const MOST_LATE = 10;
 const COARSER = 2;
 /** What moved coarsely is sharp again this long after it stopped \[ms\]. */
 const SETTLE_MS = 250;
-/** How long a context that was lost is waited for \[ms\], and how often. */
+/** How long a context that was lost is waited for \[ms\], and how often; losses this far apart are each the first. */
 const PATIENCE_MS = 4000;
 const MOST_LOSSES = 4;
+const CALM_MS = 60_000;
 
 /** The one context of a stage, with the listeners of its canvas. */
 interface Drawn {
@@ -46,6 +47,7 @@ export class Stage implements View {
   /** The timer while a lost context is waited for. */
   private waits = 0;
   private losses = 0;
+  private lossAt = 0;
   private near = false;
   /** When the last picture was drawn, and the frame after it came. */
   private last = 0;
@@ -145,7 +147,9 @@ export class Stage implements View {
     // three would tell the console
     event.stopImmediatePropagation();
     if (!this.drawn) return;
-    this.losses++;
+    const now = performance.now();
+    this.losses = now - this.lossAt > CALM_MS ? 1 : this.losses + 1;
+    this.lossAt = now;
     if (!this.near) this.release();
     else if (this.losses > MOST_LOSSES) this.giveUp();
     else {
@@ -247,7 +251,10 @@ export class Stage implements View {
   picture(): string | null {
     const away = this.drawn === null;
     if (away) this.open();
-    if (!this.drawn || this.waits || this.width === 0) return null;
+    if (!this.drawn || this.waits || this.width === 0) {
+      if (away) this.release();
+      return null;
+    }
     const { renderer, canvas } = this.drawn;
     this.scene.colour(LIGHT);
     renderer.setClearColor(0xffffff, 1);

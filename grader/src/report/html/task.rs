@@ -40,7 +40,7 @@ pub(super) fn section(
     };
     html! {
         section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
-            div class="title" {
+            div class="title" id={ "task=" (visible(&task.name)) } {
                 h2 id={ (id) "-title" } { (foreign(&task.title)) }
                 p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
             }
