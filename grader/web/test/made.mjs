@@ -22,7 +22,7 @@ export const write = (name, text) => {
   return join(folder, name);
 };
 export const one = write("one.html", html([replay()]));
-export const three = write("three.html", html([replay(), '{"format":"kinemark-replay/1"}', replay({ task: "long", seconds: 60, joints: 25 })]));
+export const three = write("three.html", html([replay(), '{"format":"kinemark-replay/2"}', replay({ task: "long", seconds: 60, joints: 25 })]));
 
 /** Opens a page, `file#fragment`; `wrong` is what it asked for and complained of. */
 export async function open(path, options = {}, from = browser) {
