@@ -9,7 +9,7 @@ use crate::grade::{Grade, GradeMode, Outcome, Stopped, TaskGrade, TaskKind};
 use crate::graded::{GradedRun, TaskRun};
 use crate::lab::Lab;
 use crate::lab::model::TaskWork;
-use crate::quantity::{list, metres, seconds, trimmed};
+use crate::quantity::{difference_of_points, list, metres, seconds, trimmed};
 use crate::verdict::Verdict;
 
 /// The format and its version.
@@ -108,7 +108,7 @@ impl Pair {
         Self {
             a,
             b,
-            difference: b - a,
+            difference: difference_of_points(a, b),
             max,
         }
     }

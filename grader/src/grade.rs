@@ -258,16 +258,30 @@ pub struct CheckGrade {
     pub title: String,
     /// Its outcome.
     pub outcome: Outcome,
-    /// Points earned.
+    /// Points earned, in whole hundredths.
     pub points: f64,
     /// Points there are.
     pub max_points: f64,
     /// What was measured against the band.
     pub measure: Option<Measure>,
+    /// Where it began to lose points in the run of a motion task: where the curve it judged first leaves the band of full points, if
+    /// every moment of that curve is held against the band, else the earliest moment of its evidence. Absent where no moment is told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_lost: Option<Instant>,
     /// Why points were lost, worst first; empty where none were.
     pub evidence: Vec<Evidence>,
     /// One thing to do next, where points were lost.
     pub next_step: Option<String>,
+}
+
+/// A moment of the run of a motion task: the visible one, which the report shows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Instant {
+    /// The tick.
+    pub tick: u64,
+    /// Its time \[s\].
+    pub time_s: f64,
 }
 
 /// A measured value and the band it was judged by: `full` earns all points, `zero` none, between them they fall linearly.
@@ -302,10 +316,14 @@ pub struct Evidence {
     pub message: String,
     /// The signal it shows in, such as `tcp`, `q[1]`, `effort[0]`, or the function called.
     pub signal: String,
-    /// The tick of a motion task at which it first went wrong, or at its worst.
+    /// The tick of a motion task at which it first went wrong, or at its worst; always one of the visible run. Of another run only
+    /// the message tells a time.
     pub tick: Option<u64>,
     /// The time of that tick \[s\].
     pub time_s: Option<f64>,
+    /// The run it happened in, where that is not the visible one: the name of the rung of a robustness check.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<String>,
     /// The visible case of a function task, or the class of hidden ones.
     pub case: Option<String>,
     /// The value there.

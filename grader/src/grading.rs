@@ -1,6 +1,7 @@
 //! From a lab and a submission to a graded run: every task in order, and the record put together from them.
 
 mod case_grades;
+mod first_lost;
 mod functions;
 mod judging;
 mod motion;
@@ -14,6 +15,7 @@ use crate::grade::{FORMAT, Grade, GradeMode, ParameterValue, Part, VariantRecord
 use crate::graded::GradedRun;
 use crate::lab::model::{Lab, Task, TaskWork};
 use crate::lab::{LabRobot, Staff, staff::Mutant};
+use crate::quantity::sum_of_points;
 use crate::submission::ScriptController;
 use crate::verdict::Verdict;
 
@@ -136,7 +138,7 @@ pub fn grade(
             digest: staff.digest.to_hex().to_string(),
         }),
         verdict: verdicts.min().unwrap_or(Verdict::Passed),
-        points: tasks.iter().map(|task| task.points).sum(),
+        points: sum_of_points(tasks.iter().map(|task| task.points)),
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,
     };

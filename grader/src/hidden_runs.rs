@@ -11,6 +11,7 @@ use crate::grading::{Host, Interrupted, judged, opening, pose_band};
 use crate::lab::model::{Check, TaskWork};
 use crate::lab::staff::HiddenRun;
 use crate::motion::{self, EarlyEnd, MotionRun};
+use crate::quantity::points;
 use crate::stopped;
 use crate::verdict::Verdict;
 
@@ -88,7 +89,14 @@ impl HiddenRuns {
         for (i, (grade, check)) in grades.iter_mut().zip(checks).enumerate() {
             let score = |run: &Seen| run.scores.get(i).copied().unwrap_or(0.0);
             let hidden: f64 = self.runs.iter().map(score).sum();
-            let mean = (grade.points / grade.max_points + hidden) / (self.runs.len() + 1) as f64;
+            let visible = grade.points / grade.max_points;
+            let mean = (visible + hidden) / (self.runs.len() + 1) as f64;
+            // as far as it shows
+            if points(grade.points) != points(grade.max_points * mean) {
+                grade
+                    .evidence
+                    .push(self.mean_of(grade.points, grade.max_points));
+            }
             grade.points = grade.max_points * mean;
             let judged = |run: &Seen| run.judged.get(i).copied().unwrap_or(false);
             let was_full = grade.outcome == Outcome::Full;
@@ -127,6 +135,29 @@ impl HiddenRuns {
         }
     }
 
+    /// What the measure of the visible run does not say: that others count as much.
+    fn mean_of(&self, visible: f64, of: f64) -> Evidence {
+        let runs = match self.runs.len() {
+            1 => "a hidden run".to_owned(),
+            several => format!("{several} hidden runs"),
+        };
+        Evidence {
+            message: format!(
+                "the visible run alone earns {} of {}; the points are the mean of it and {runs}",
+                points(visible),
+                points(of)
+            ),
+            signal: "control".to_owned(),
+            tick: None,
+            time_s: None,
+            run: None,
+            case: None,
+            value: None,
+            limit: None,
+            unit: String::new(),
+        }
+    }
+
     /// One sentence per class with a run in which `lost`: how many, and never which numbers.
     fn evidence(&self, lost: impl Fn(&Seen) -> bool, what: &str) -> Vec<Evidence> {
         let told = self
@@ -142,6 +173,7 @@ impl HiddenRuns {
                     signal: "control".to_owned(),
                     tick: None,
                     time_s: None,
+                    run: None,
                     case: Some(class),
                     value: None,
                     limit: None,
@@ -183,9 +215,12 @@ const NEXT_STEP: &str = "The task is run with other numbers, too. If one is type
 /// Steps in which a hidden score is told: finer ones could carry a hidden number out in the points.
 const HIDDEN_STEPS: f64 = 20.0;
 
-/// A score as it is told of a hidden run: never more than it was, and full only where it was full.
+/// A score as it counts in a hidden run: cut off to whole steps, so that it is full only where it was full, but for one above zero not
+/// to zero: what a check needs has earned something or it has not, and the points must say the same.
 fn told_score(score: f64) -> f64 {
-    (score * HIDDEN_STEPS).floor() / HIDDEN_STEPS
+    let steps = (score * HIDDEN_STEPS).floor();
+    let least = if score > 0.0 { 1.0 } else { 0.0 };
+    steps.max(least) / HIDDEN_STEPS
 }
 
 /// A stop without a place: which line fails can tell a hidden number.
@@ -290,4 +325,24 @@ fn one(
         digest: trace.digest().all,
         stopped,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hidden_score_is_cut_to_twentieths_but_never_to_nothing() {
+        for (score, told) in [
+            (1.0, 1.0),
+            (0.999, 0.95),
+            (0.5, 0.5),
+            (0.05, 0.05),
+            (0.04, 0.05),
+            (1e-5, 0.05),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(told_score(score), told, "{score}");
+        }
+    }
 }

@@ -24,9 +24,16 @@ pub fn seconds(value_s: f64) -> String {
     format!("{} s", trimmed(value_s, 3))
 }
 
+/// Beyond this a number only says that it is beyond all reason.
+const BEYOND: f64 = 1e9;
+
 /// A value in the unit of a measure.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
+        "m" if !value.is_finite() => metres(value),
+        _ if value.is_nan() => "no number".to_owned(),
+        _ if value >= BEYOND => beyond("over ", unit),
+        _ if value <= -BEYOND => beyond("below -", unit),
         "m" => metres(value),
         "s" => seconds(value),
         "" if value != 0.0 && value.abs() < 1e-6 => "under 0.0001 %".to_owned(),
@@ -37,11 +44,58 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
+fn beyond(which: &str, unit: &str) -> String {
+    let unit = if unit.is_empty() { "%" } else { unit };
+    format!("{which}{BEYOND} {unit}")
+}
+
+/// A value in the unit of a measure, as [`with_unit`] tells it, but with so many digits that it does not read like `limit` unless it is
+/// equal to it.
+pub fn told_apart(value: f64, limit: f64, unit: &str) -> String {
+    let told = with_unit(value, unit);
+    if value.total_cmp(&limit).is_eq() || told != with_unit(limit, unit) {
+        return told;
+    }
+    let (scale, shown) = match unit {
+        "m" if limit.abs() < 0.1 => (1000.0, "mm"),
+        "" => (100.0, "%"),
+        unit => (1.0, unit),
+    };
+    let written = |value: f64, decimals| trimmed(value * scale, decimals);
+    let apart = (2..=15).find(|decimals| written(value, *decimals) != written(limit, *decimals));
+    match apart {
+        Some(decimals) => format!("{} {shown}", written(value, decimals)),
+        None => told,
+    }
+}
+
 /// Points: whole where whole, else two decimals without trailing zeros, cut off rather than rounded: what is not full does not look
 /// full.
 pub fn points(value: f64) -> String {
     // a sum of hundredths is off by its rounding
     trimmed((value * 100.0 + 1e-6).floor() / 100.0, 2)
+}
+
+/// Points of `of` as a record has them: all of them, or whole hundredths, cut off as [`points`] does it; what earned something has one
+/// at least.
+pub fn whole_hundredths(value: f64, of: f64) -> f64 {
+    let cut = (value * 100.0 + 1e-6).floor() / 100.0;
+    match value {
+        all if all >= of => of,
+        some if some > 0.0 && cut <= 0.0 => of.min(0.01),
+        _ => cut.max(0.0),
+    }
+}
+
+/// The sum of points, without what adding binary numbers leaves.
+pub fn sum_of_points(points: impl Iterator<Item = f64>) -> f64 {
+    (points.sum::<f64>() * 1e9).round() / 1e9
+}
+
+/// How much more points `b` are than `a`, of both as they are shown.
+pub fn difference_of_points(a: f64, b: f64) -> f64 {
+    let shown = |value: f64| (value * 100.0 + 1e-6).floor();
+    (shown(b) - shown(a)) / 100.0
 }
 
 /// A number with at most `decimals` decimals and no trailing zeros; never `-0`.
@@ -87,6 +141,30 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_near_miss_does_not_read_like_a_hit() {
+        assert_eq!(told_apart(2.000_000_4, 2.0, "s"), "2.0000004 s");
+        assert_eq!(told_apart(2.0, 2.0, "s"), "2 s");
+        assert_eq!(told_apart(2.1, 2.0, "s"), "2.1 s");
+        assert_eq!(told_apart(0.008_002, 0.008, "m"), "8.002 mm");
+        assert_eq!(told_apart(0.9999, 1.0, ""), "99.99 %");
+        assert_eq!(told_apart(0.0501, 0.05, "m"), "50.1 mm");
+    }
+
+    #[test]
+    fn what_is_told_of_points_adds_up() {
+        assert_eq!(whole_hundredths(1.4888, 2.0), 1.48);
+        assert_eq!(whole_hundredths(0.9999, 1.0), 0.99);
+        assert_eq!(whole_hundredths(0.29, 1.0), 0.29);
+        assert_eq!(whole_hundredths(0.333, 0.333), 0.333);
+        assert_eq!(whole_hundredths(0.0004, 1.0), 0.01);
+        assert_eq!(whole_hundredths(0.0, 1.0), 0.0);
+        let parts = [1.48, 5.0, 4.0, 2.23, 3.0, 1.0];
+        assert_eq!(sum_of_points(parts.into_iter()), 16.71);
+        assert_eq!(difference_of_points(24.0, 23.996), -0.01);
+        assert_eq!(difference_of_points(30.0, 23.669), -6.34);
+    }
+
+    #[test]
     fn numbers_read_as_people_write_them() {
         for (value, text) in [
             (0.0142, "14.2 mm"),
@@ -104,6 +182,8 @@ mod tests {
         assert_eq!(with_unit(3e-16, ""), "under 0.0001 %");
         assert_eq!(with_unit(0.0, ""), "0 %");
         assert_eq!(with_unit(4.3e-5, "rad"), "under 0.0001 rad");
+        assert_eq!(with_unit(1e300, "m"), "over 1000000000 m");
+        assert_eq!(with_unit(f64::NEG_INFINITY, "N m"), "below -1000000000 N m");
         assert_eq!(points(3.0), "3");
         assert_eq!(trimmed(-0.00001, 3), "0");
         assert_eq!(list(&[1.0, -0.25]), "[1, -0.25]");

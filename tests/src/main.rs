@@ -25,6 +25,7 @@ mod lab_audit;
 mod lab_truths;
 mod linkage_lab;
 mod mesh_labs;
+mod moments;
 mod own_lab;
 mod path_checks;
 mod pictures;

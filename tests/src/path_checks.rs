@@ -174,9 +174,15 @@ fn a_rung_that_is_too_high_costs_its_share() {
     );
     let told = message(sturdy);
     assert!(
-        told.starts_with("rung `loaded` (8 kg more at the TCP): \"On the lines\" earns 0 % of its points; segment "),
+        told.starts_with("in the run `loaded` (8 kg more at the TCP): \"On the lines\" earns 0 % of its points; segment "),
         "{told}"
     );
+    // the moment is one of another run than the report shows, so that there is nothing to lead to
+    let evidence = &sturdy["evidence"][0];
+    assert_eq!(evidence["run"], "loaded");
+    assert_eq!(evidence["tick"], Json::Null);
+    assert_eq!(evidence["time_s"], Json::Null);
+    assert_eq!(sturdy["first_lost"], Json::Null);
     // what is lost on a rung is no fault of the run itself
     assert_eq!(check(&task, "near")["outcome"], "full");
     assert_eq!(task["stopped"], Json::Null);
@@ -195,7 +201,7 @@ fn a_submission_that_fails_on_a_rung_loses_the_rung_only() {
     assert_eq!(sturdy["measure"]["value"], 0.8, "{sturdy}");
     let told = message(sturdy);
     assert!(
-        told.starts_with("rung `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd): the submission was stopped:")
+        told.starts_with("in the run `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd), at 0 s: the submission was stopped:")
             && told.contains("shaking"),
         "{told}"
     );

@@ -31,10 +31,6 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
             evidence.push(facts.evidence(message, "tcp".to_owned(), last));
             continue;
         };
-        let window = stay.settled_last - goal.dwell_ticks as usize..=stay.settled_last;
-        let distance = |tick: usize| (facts.trace.tcp_position(tick) - goal.position_m).norm();
-        let furthest = window.max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        let furthest = furthest.unwrap_or(stay.settled_last);
         let p = facts.trace.tcp_position(stay.settled_last);
         let away = p - goal.position_m;
         let message = format!(
@@ -50,7 +46,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {
             value: Some(stay.settled_m),
             limit: Some(band.full),
             unit: "m".to_owned(),
-            ..facts.evidence(message, "tcp".to_owned(), furthest)
+            ..facts.evidence(message, "tcp".to_owned(), stay.settled_last)
         });
     }
     evidence.sort_by(|a, b| {

@@ -6,7 +6,7 @@
 use super::Finding;
 use crate::grade::{Evidence, Measure};
 use crate::lab::ladder::{Ladder, Rung};
-use crate::quantity::with_unit;
+use crate::quantity::{seconds, with_unit};
 
 /// How a motion went under one rung.
 #[derive(Debug, Clone)]
@@ -84,12 +84,14 @@ fn told(
     score: f64,
     time_s: &impl Fn(u64) -> f64,
 ) -> Evidence {
-    let under = format!("rung `{}` ({})", rung.name, rung.told());
+    let under = format!("in the run `{}` ({})", rung.name, rung.told());
     let mut evidence = Evidence {
         message: String::new(),
         signal: String::new(),
         tick: None,
         time_s: None,
+        // a tick of that run is none of the one that is shown
+        run: Some(rung.name.clone()),
         case: None,
         value: None,
         limit: None,
@@ -97,9 +99,8 @@ fn told(
     };
     match &facts.outcome {
         Err(end) => {
-            evidence.message = format!("{under}: {}", end.message);
-            evidence.tick = Some(end.tick);
-            evidence.time_s = Some(time_s(end.tick));
+            let at = seconds(time_s(end.tick));
+            evidence.message = format!("{under}, at {at}: {}", end.message);
         }
         Ok(finding) => {
             let first = finding.evidence.first();
@@ -110,8 +111,6 @@ fn told(
             );
             if let Some(first) = first {
                 evidence.signal.clone_from(&first.signal);
-                evidence.tick = first.tick;
-                evidence.time_s = first.time_s;
             }
             if let Some(measure) = &finding.measure {
                 evidence.value = measure.value;
@@ -198,12 +197,13 @@ mod tests {
         let first = &finding.evidence[0];
         assert_eq!(
             first.message,
-            "rung `r1` (commands 0.01 s late): the motion blew up"
+            "in the run `r1` (commands 0.01 s late), at 1.5 s: the motion blew up"
         );
-        assert_eq!((first.tick, first.time_s), (Some(1500), Some(1.5)));
+        assert_eq!((first.tick, first.time_s), (None, None));
+        assert_eq!(first.run.as_deref(), Some("r1"));
         assert_eq!(
             finding.evidence[1].message,
-            "rung `r0` (commands 0.01 s late): \"On the line\" earns 50 % of its points"
+            "in the run `r0` (commands 0.01 s late): \"On the line\" earns 50 % of its points"
         );
     }
 

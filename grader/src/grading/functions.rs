@@ -1,7 +1,7 @@
 //! Grading a function task: its visible and hidden cases, its checks, and the known mistakes it shows.
 
 use super::case_grades::{case_grade, hidden_classes};
-use super::judging::{judged, not_finite_help, without_hints};
+use super::judging::{counted, judged, not_finite_help, without_hints};
 use super::{Grader, Host, InProcess, Interrupted, MOST_LOG_LINES};
 use crate::cases::{self, CasesRun};
 use crate::check::{self, Answered, CaseFacts};
@@ -89,14 +89,15 @@ impl Grader<'_> {
             self.function_diagnoses(task, &work.function, &all, &run)
         };
         let explained = stopped_record.is_some() || !diagnoses.is_empty();
-        let checks = without_hints(checks, explained);
+        let mut checks = without_hints(checks, explained);
+        let points = counted(&mut checks);
         let good = good_bands(&task.checks);
         Ok(TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
             kind: TaskKind::Function,
             verdict,
-            points: checks.iter().map(|check| check.points).sum(),
+            points,
             max_points: task.max_points(),
             stopped: stopped_record,
             checks,

@@ -4,6 +4,7 @@ use crate::check::Finding;
 use crate::grade::{CheckGrade, Outcome};
 use crate::graded::Curve;
 use crate::lab::model::Check;
+use crate::quantity::{sum_of_points, whole_hundredths};
 
 /// Judges the checks in order; one whose needs earned nothing, or of a task that cannot be judged, earns nothing itself.
 pub(crate) fn judged(
@@ -20,6 +21,7 @@ pub(crate) fn judged(
             points: 0.0,
             max_points: check.points,
             measure: None,
+            first_lost: None,
             evidence: Vec::new(),
             next_step: None,
         };
@@ -62,6 +64,14 @@ pub(crate) fn judged(
         grades.push((grade, curve));
     }
     grades
+}
+
+/// The points as they are told, whole hundredths, and their sum: so what is shown adds up, wherever it is shown.
+pub(super) fn counted(checks: &mut [CheckGrade]) -> f64 {
+    for check in checks.iter_mut() {
+        check.points = whole_hundredths(check.points, check.max_points);
+    }
+    sum_of_points(checks.iter().map(|check| check.points))
 }
 
 /// Where a stop or a diagnosis explains the loss, a check's general hint would read as another one.

@@ -2,7 +2,8 @@
 
 use kinemark_sim::trace::Trace;
 
-use super::judging::{judged, not_finite_help, without_hints};
+use super::first_lost::first_lost;
+use super::judging::{counted, judged, not_finite_help, without_hints};
 use super::{Grader, Host, InProcess, Interrupted, MOST_LOG_LINES};
 use crate::check::{self, Climb, MotionFacts, stay};
 use crate::climb::{self, Undecided};
@@ -95,7 +96,8 @@ impl Grader<'_> {
         let rungs = rung_digests(task, &facts.climbs);
         let mut checks = Vec::new();
         let mut curves = Vec::new();
-        for (check, curve) in judged {
+        for (asked, (mut check, curve)) in task.checks.iter().zip(judged) {
+            check.first_lost = first_lost(&asked.kind, &check, curve.as_ref(), &work.periods);
             checks.push(check);
             curves.extend(curve);
         }
@@ -166,13 +168,14 @@ impl Grader<'_> {
                 stopped_record = Some(record);
             }
         }
-        let checks = without_hints(checks, explained);
+        let mut checks = without_hints(checks, explained);
+        let points = counted(&mut checks);
         let grade = TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
             kind: TaskKind::Motion,
             verdict,
-            points: checks.iter().map(|check| check.points).sum(),
+            points,
             max_points: task.max_points(),
             stopped: stopped_record,
             checks,

@@ -6,7 +6,7 @@ use super::visible::visible;
 use crate::compare::{Comparison, MotionComparison, Pair, SideRecord};
 use crate::divergence::{JOINT_TOLERANCE_RAD, PLACE_TOLERANCE_M};
 use crate::grade::Outcome;
-use crate::quantity::{metres, points, seconds};
+use crate::quantity::{difference_of_points, metres, points, seconds};
 
 /// Renders a comparison.
 pub fn text(comparison: &Comparison) -> String {
@@ -43,7 +43,7 @@ pub fn text(comparison: &Comparison) -> String {
         }
         lines.extend(task.motion.as_ref().map(motion));
     }
-    let total = comparison.b.points - comparison.a.points;
+    let total = difference_of_points(comparison.a.points, comparison.b.points);
     lines.push(String::new());
     lines.push(format!(
         "{} in A, {} in B: {}",

@@ -4,6 +4,7 @@ pub mod brief_page;
 pub mod compare_text;
 pub(crate) mod goal;
 pub mod html;
+mod measured;
 pub mod moment;
 mod number;
 pub mod plot;
@@ -12,6 +13,7 @@ pub mod png;
 pub mod replay;
 #[cfg(test)]
 pub(crate) mod sample;
+mod standing;
 pub mod storyboard;
 pub mod text;
 mod theme;

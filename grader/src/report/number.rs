@@ -1,8 +1,6 @@
 //! Numbers as people read them: few digits, a fitting unit, a true minus sign. What messages say is in
 //! [`crate::quantity`]; this adds what a page and the axes of a plot need.
 
-use crate::quantity;
-
 /// Ten to a whole power.
 pub(crate) fn power_of_ten(exponent: i32) -> f64 {
     libm::pow(10.0, f64::from(exponent))
@@ -58,15 +56,6 @@ pub(crate) fn shown_unit(unit: &str, typical: f64) -> (&str, f64) {
     }
 }
 
-/// A value with its unit: `12.5 mm`.
-pub(crate) fn with_unit(value: f64, unit: &str) -> String {
-    if value.abs() < 1e6 {
-        quantity::with_unit(value, unit)
-    } else {
-        joined(&significant(value, 4), unit)
-    }
-}
-
 /// A number and its unit, kept on one line.
 pub(crate) fn joined(number: &str, unit: &str) -> String {
     if unit.is_empty() {
@@ -74,15 +63,6 @@ pub(crate) fn joined(number: &str, unit: &str) -> String {
     } else {
         format!("{number}\u{a0}{unit}")
     }
-}
-
-/// `value` with so many digits that it does not read like `limit` unless it is equal to it.
-pub(crate) fn told_apart(value: f64, limit: f64) -> String {
-    let equal = value.total_cmp(&limit).is_eq();
-    (4..=9)
-        .map(|digits| significant(value, digits))
-        .find(|text| equal || *text != significant(limit, 9))
-        .unwrap_or_else(|| significant(value, 12))
 }
 
 #[cfg(test)]
@@ -98,18 +78,5 @@ mod tests {
         assert_eq!(significant(3.2e-7, 3), "3.2e\u{2212}7");
         assert_eq!(significant(1234.0, 3), "1234");
         assert_eq!(significant(f64::NAN, 3), "not a number");
-    }
-
-    #[test]
-    fn a_huge_value_is_not_written_out() {
-        assert_eq!(with_unit(0.0123, "m"), "12.3 mm");
-        assert_eq!(with_unit(1e300, "m"), "1e300\u{a0}m");
-    }
-
-    #[test]
-    fn a_near_miss_does_not_read_like_a_hit() {
-        assert_eq!(told_apart(2.0000004, 2.0), "2.0000004");
-        assert_eq!(told_apart(2.0, 2.0), "2");
-        assert_eq!(told_apart(2.1, 2.0), "2.1");
     }
 }

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use crate::grade::{
     CaseGrade, CheckGrade, Diagnosis, Digests, Evidence, FORMAT, Grade, GradeMode, HiddenClass,
-    LogEntry, Measure, Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
+    Instant, LogEntry, Measure, Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
 };
 use crate::graded::{Curve, Goal, GradedRun, TaskRun, TcpPath};
 use crate::verdict::Verdict;
@@ -298,6 +298,7 @@ fn check(
         points: points.0,
         max_points: points.1,
         measure,
+        first_lost: None,
         evidence: Vec::new(),
         next_step: None,
     }
@@ -346,6 +347,13 @@ fn task(
     }
 }
 
+fn instant(tick: u64) -> Option<Instant> {
+    Some(Instant {
+        tick,
+        time_s: tick as f64 / 1000.0,
+    })
+}
+
 fn evidence(
     message: &str,
     signal: &str,
@@ -357,6 +365,7 @@ fn evidence(
         signal: signal.to_owned(),
         tick: at.0,
         time_s: at.0.map(|tick| tick as f64 / 1000.0),
+        run: None,
         case: at.1.map(str::to_owned),
         value: Some(numbers.0),
         limit: Some(numbers.1),
@@ -527,6 +536,7 @@ fn moving() -> TaskGrade {
             (0.0501, 0.05, "m"),
         ),
     ];
+    matching.first_lost = instant(620);
     matching.next_step = Some("Lead the arm over time instead of stepping the command: `quintic(t / 1.6)` blends from one pose to the next.".to_owned());
     let mut saturation = check(
         "saturation",
@@ -541,6 +551,7 @@ fn moving() -> TaskGrade {
         (Some(3200), None),
         (0.183, 0.1, "s"),
     )];
+    saturation.first_lost = instant(3200);
     let mut moving = task(
         "move",
         "Move to two places",

@@ -9,6 +9,7 @@ mod order;
 mod scenery;
 mod stage;
 mod svg;
+mod target;
 mod view;
 
 use nalgebra::Point3;
@@ -19,6 +20,7 @@ use self::face::Face;
 use self::moment::{Moment, moments};
 use self::scenery::Scenery;
 use self::stage::Stage;
+use self::target::{Target, targets};
 use self::view::View;
 use crate::grade::TaskGrade;
 use crate::graded::TaskRun;
@@ -36,23 +38,19 @@ const PANEL: f64 = (WIDTH - 2.0 * MARGIN - 2.0 * GAP) / COLUMNS as f64;
 pub fn storyboard(run: &TaskRun, grade: &TaskGrade) -> String {
     let stage = Stage::of(run);
     let camera = Camera::of(run);
+    let targets = targets(run);
     let mut panels: Vec<Panel> = moments(run, grade)
         .into_iter()
-        .map(|moment| Panel::of(&stage, Some(moment.tick), moment))
+        .map(|moment| Panel::of(&stage, &targets, Some(moment.tick), moment))
         .collect();
     if panels.is_empty() {
-        let words = grade
-            .stopped
-            .as_ref()
-            .map(|stopped| format!("stopped before the first tick: {}", stopped.message));
-        let words = words.unwrap_or_else(|| "stopped before the first tick".to_owned());
         let moment = Moment {
             tick: 0,
-            words: vec![words],
+            words: not_run(grade),
             bad: true,
             touch_m: None,
         };
-        panels.push(Panel::of(&stage, None, moment));
+        panels.push(Panel::of(&stage, &targets, None, moment));
     }
     let scenery = Scenery::of(run, &stage);
     let board = Board {
@@ -66,19 +64,39 @@ pub fn storyboard(run: &TaskRun, grade: &TaskGrade) -> String {
     board.draw()
 }
 
+/// Why nothing was run, a sentence each.
+fn not_run(grade: &TaskGrade) -> Vec<String> {
+    let mut words = vec!["stopped before the first tick".to_owned()];
+    if let Some(stopped) = &grade.stopped {
+        words.push(stopped.message.clone());
+        words.extend(stopped.line.map(|line| {
+            let source = stopped.source_line.as_deref().unwrap_or_default();
+            format!("line {line}: {}", source.trim())
+        }));
+        words.extend(stopped.help.as_ref().map(|help| format!("next: {help}")));
+    }
+    words
+}
+
 /// One moment with all that is seen at it.
 struct Panel {
     moment: Moment,
     faces: Vec<Face>,
     joints: Vec<Point3<f64>>,
     tcp: Point3<f64>,
+    /// From each joint with a target to where the TCP would be if it were there.
+    aims: Vec<[Point3<f64>; 2]>,
 }
 
 impl Panel {
-    fn of(stage: &Stage<'_>, tick: Option<usize>, moment: Moment) -> Self {
+    fn of(stage: &Stage<'_>, targets: &[Target], tick: Option<usize>, moment: Moment) -> Self {
         let (joints, tcp) = stage.joints(tick);
         Self {
             faces: stage.faces(tick),
+            aims: targets
+                .iter()
+                .filter_map(|target| target.aim(stage, tick))
+                .collect(),
             moment,
             joints,
             tcp,
@@ -128,6 +146,62 @@ mod tests {
         let wave =
             |tick: u64, joint: usize| 0.2 * libm::sin(0.004 * tick as f64 + 0.5 * joint as f64);
         assert_eq!(panels(&sound(&sample::chain(25, 1000, wave))), 6);
+    }
+
+    #[test]
+    fn what_was_never_run_is_told_with_its_line_beside_the_arm() {
+        let mut graded = sample::graded();
+        let stopped = graded
+            .grade
+            .tasks
+            .iter_mut()
+            .find_map(|task| task.stopped.take());
+        let grade = &mut graded.grade.tasks[3];
+        grade.stopped = Some(crate::grade::Stopped {
+            message: "`wrist` is not known".to_owned(),
+            line: Some(12),
+            source_line: Some("    let q = wrist;".to_owned()),
+            help: None,
+            tick: None,
+            time_s: None,
+            ..stopped.expect("a task that was stopped")
+        });
+        let mut run = sample::chain(2, 0, |_, _| 0.0);
+        run.task = "move".to_owned();
+        let svg = storyboard(&run, grade);
+        assert_eq!(panels(&svg), 1);
+        for words in [
+            ">Wrist is not known<",
+            ">Line 12: let q = wrist;<",
+            "not run",
+        ] {
+            assert!(svg.contains(words), "{words}");
+        }
+        assert!(
+            svg.contains("href=\"../report.html#task=move\""),
+            "no moment"
+        );
+    }
+
+    #[test]
+    fn links_are_written_in_full_or_all_by_their_times() {
+        let graded = sample::graded();
+        let mut run = sample::task_run();
+        assert!(storyboard(&run, &graded.grade.tasks[3]).contains(">#task=move&amp;t=8<"));
+        run.task = "through-the-shoulder-and-back".to_owned();
+        let svg = storyboard(&run, &graded.grade.tasks[3]);
+        assert!(svg.contains(">t=8<") && svg.contains(">t=0<"));
+        assert!(!svg.contains('\u{2026}'), "nothing is cut");
+    }
+
+    #[test]
+    fn points_are_those_of_the_terminal_and_captions_have_no_code() {
+        let mut graded = sample::graded();
+        let grade = &mut graded.grade.tasks[3];
+        (grade.points, grade.max_points) = (9.999, 10.0);
+        let svg = storyboard(&sample::task_run(), grade);
+        assert!(svg.contains(">9.99 of 10 points<"));
+        assert!(!svg.contains('`'), "backticks in a picture");
     }
 
     #[test]

@@ -6,12 +6,13 @@ use std::fmt::Write as _;
 
 use owo_colors::OwoColorize as _;
 
-use super::moment::fragment;
+use super::measured::Measured;
+use super::moment::{fragment, last_before};
 use super::visible::visible;
 use crate::grade::{
-    CheckGrade, Evidence, Grade, GradeMode, Measure, Outcome, Stopped, TaskGrade, TaskKind,
+    CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
 };
-use crate::quantity::{points, seconds, with_unit};
+use crate::quantity::{points, seconds};
 use crate::verdict::Verdict;
 
 /// Renders `grade`.
@@ -149,11 +150,13 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
     if let Some(time_s) = stopped.time_s {
         let _ = write!(
             where_,
-            " (at {}, tick {}) {}",
+            " (at {}, tick {})",
             seconds(time_s),
             stopped.tick.unwrap_or(0),
-            fragment(task, time_s).dimmed()
         );
+    }
+    if let Some(last) = last_before(stopped) {
+        let _ = write!(where_, " {}", fragment(task, last.time_s).dimmed());
     }
     if let Some(case) = &stopped.case {
         let _ = write!(where_, " (case \"{case}\")");
@@ -209,6 +212,17 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
             &format!("               {}", band(measure, check.outcome).dimmed()),
         );
     }
+    if let Some(first) = untold(check) {
+        let at = format!("[tick {}] {}", first.tick, fragment(task, first.time_s));
+        line(
+            out,
+            &format!(
+                "               points are lost from {} on {}",
+                seconds(first.time_s),
+                at.dimmed()
+            ),
+        );
+    }
     for evidence in &check.evidence {
         line(out, &format!("               {}", told(evidence, task)));
     }
@@ -217,28 +231,32 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
     }
 }
 
+/// Where a check began to lose points, if its evidence tells other moments only.
+pub(crate) fn untold(check: &CheckGrade) -> Option<Instant> {
+    let first = check.first_lost?;
+    let told = check
+        .evidence
+        .iter()
+        .any(|fact| fact.tick == Some(first.tick));
+    (!told).then_some(first)
+}
+
 /// The value against its band, and the margin of a full check.
 pub fn band(measure: &Measure, outcome: Outcome) -> String {
-    let unit = &measure.unit;
-    let value = match measure.value {
-        Some(value) => with_unit(value, unit),
-        None => "nothing to measure".to_owned(),
-    };
-    let full = with_unit(measure.full, unit);
-    let zero = with_unit(measure.zero, unit);
+    let told = Measured::of(measure);
     let (to, from) = if measure.zero >= measure.full {
         ("up to", "from")
     } else {
         ("at", "at")
     };
     let mut text = format!(
-        "{}: {value}; all points {to} {full}, none {from} {zero}",
-        measure.quantity
+        "{}: {}; all points {to} {}, none {from} {}",
+        measure.quantity, told.value, told.full, told.zero
     );
-    if let (Outcome::Full, Some(margin)) = (outcome, measure.margin())
-        && margin > 0.0
+    if let (Outcome::Full, Some(margin)) = (outcome, told.margin)
+        && measure.margin() > Some(0.0)
     {
-        let _ = write!(text, "; {} to spare", with_unit(margin, unit));
+        let _ = write!(text, "; {margin} to spare");
     }
     text
 }

@@ -49,8 +49,9 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
         let report = args.out.join("report.html");
         let report = report.display();
         output::print(&format!("report: {report}\n"))?;
-        if let Some(moment) = report::moment::first_loss(grade) {
-            output::print(&format!("first lost point: {report}{moment}\n"))?;
+        if let Some(loss) = report::moment::first_loss(grade) {
+            let place = loss.fragment();
+            output::print(&format!("first lost point: {report}{place}\n"))?;
         }
         if args.storyboard {
             output::print(&storyboards(&args.out, &work.graded))?;

@@ -5,8 +5,9 @@ use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use kinemark_grader::grade::{Grade, TaskGrade};
-use kinemark_grader::quantity::points;
+use kinemark_grader::grade::Grade;
+use kinemark_grader::quantity::{points, seconds};
+use kinemark_grader::report::moment::{FirstLoss, first_loss};
 use kinemark_grader::report::visible::visible;
 use tokio::sync::watch;
 
@@ -150,8 +151,8 @@ fn line(grade: &Grade, note: Option<&str>) -> String {
         points(grade.max_points),
         grade.verdict.name()
     );
-    if let Some(lost) = grade.tasks.iter().find_map(first_lost) {
-        line += &format!("; {lost}");
+    if let Some(loss) = first_loss(grade) {
+        line += &format!("; {}", lost(&loss));
     }
     if let Some(note) = note {
         line += &format!(" ({note})");
@@ -160,30 +161,26 @@ fn line(grade: &Grade, note: Option<&str>) -> String {
 }
 
 /// Where a task lost its first points, in words.
-fn first_lost(task: &TaskGrade) -> Option<String> {
-    if let Some(stopped) = &task.stopped {
-        let place = stopped
-            .line
-            .map_or(String::new(), |line| format!(", line {line}"));
-        return Some(format!(
-            "{}{place}: {}",
-            task.name,
-            visible(&stopped.message)
-        ));
-    }
-    let check = task
-        .checks
-        .iter()
-        .find(|check| check.points < check.max_points)?;
+fn lost(loss: &FirstLoss<'_>) -> String {
+    let task = &loss.task.name;
+    let Some(check) = loss.check else {
+        let stopped = loss.task.stopped.as_ref();
+        let line = stopped.and_then(|stopped| stopped.line);
+        let line = line.map_or(String::new(), |line| format!(", line {line}"));
+        let message = stopped.map_or("", |stopped| &stopped.message);
+        return format!("{task}{line}: {}", visible(message));
+    };
+    let at = loss
+        .at
+        .map_or(String::new(), |at| format!(" at {}", seconds(at.time_s)));
     let why = match check.evidence.first() {
         Some(evidence) => visible(&evidence.message),
         None => visible(&check.title),
     };
-    Some(format!(
-        "{}, {}: {}/{}, {why}",
-        task.name,
+    format!(
+        "{task}{at}, {}: {}/{}, {why}",
         check.name,
         points(check.points),
         points(check.max_points)
-    ))
+    )
 }

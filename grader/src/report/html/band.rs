@@ -3,10 +3,10 @@
 use maud::{Markup, html};
 
 use crate::grade::{CheckGrade, Measure, Outcome};
-use crate::report::number::{joined, shown_unit, significant, told_apart};
+use crate::report::measured::Measured;
 use crate::report::visible::visible;
 
-/// Value, limits and margin as a person reads them, all in one unit.
+/// Value, limits and margin as a person reads them.
 pub(super) struct Told {
     /// The value.
     pub(super) value: String,
@@ -18,49 +18,32 @@ pub(super) struct Told {
 
 /// Tells a measure.
 pub(super) fn told(measure: &Measure) -> Told {
-    let typical = measure.full.abs().max(measure.zero.abs());
-    let (unit, scale) = shown_unit(&measure.unit, typical);
-    let unit = visible(unit);
-    let (full, zero) = (measure.full * scale, measure.zero * scale);
-    // what is far beyond its band is told in the unit it came in: metres, not millions of millimetres
-    let is_far = |value: f64| measure.unit == "m" && value.abs() * scale >= 1e4;
-    let given = visible(&measure.unit);
-    let value = match measure.value {
-        // what is left of rounding says nothing: it is neither small nor smaller
-        Some(value) if value.abs() < 1e-9 * typical && measure.margin() > Some(0.0) => {
-            joined("≈ 0", &unit)
-        }
-        Some(value) if is_far(value) => joined(&significant(value, 4), &given),
-        Some(value) => joined(&told_apart(value * scale, full), &unit),
-        None => "nothing to measure".to_owned(),
-    };
+    let told = Measured::of(measure);
+    // a number and its unit are kept on one line
+    let kept = |text: &str| visible(text).replace(' ', "\u{a0}");
     let (within, beyond) = if measure.zero >= measure.full {
         ("≤", "≥")
     } else {
         ("≥", "≤")
     };
-    let limit = |limit: f64| joined(&significant(limit, 6), &unit);
-    let margin = measure.margin().filter(|margin| *margin != 0.0);
-    let margin = margin.map(|margin| {
-        let size = if is_far(margin) {
-            joined(&significant(margin.abs(), 4), &given)
-        } else {
-            joined(&significant((margin * scale).abs(), 3), &unit)
-        };
-        if margin > 0.0 {
-            format!("{size} inside full points")
-        } else {
-            format!("{size} short of full points")
-        }
-    });
+    let where_ = if measure.margin() > Some(0.0) {
+        "inside"
+    } else {
+        "short of"
+    };
     Told {
-        value,
+        value: match measure.value {
+            Some(_) => kept(&told.value),
+            None => told.value,
+        },
         band: format!(
             "full {within} {}, none {beyond} {}",
-            limit(full),
-            limit(zero)
+            kept(&told.full),
+            kept(&told.zero)
         ),
-        margin,
+        margin: told
+            .margin
+            .map(|margin| format!("{} {where_} full points", kept(&margin))),
     }
 }
 
@@ -129,10 +112,10 @@ mod tests {
     }
 
     #[test]
-    fn value_and_limits_share_a_unit() {
+    fn a_value_is_told_against_its_limits() {
         let told = told(&measure(Some(0.0041), 0.002, 0.02));
         assert_eq!(told.value, "4.1\u{a0}mm");
-        assert_eq!(told.band, "full ≤ 2\u{a0}mm, none ≥ 20\u{a0}mm");
+        assert_eq!(told.band, "full ≤ 2.0\u{a0}mm, none ≥ 20.0\u{a0}mm");
         assert_eq!(
             told.margin.as_deref(),
             Some("2.1\u{a0}mm short of full points")
@@ -142,33 +125,29 @@ mod tests {
     #[test]
     fn a_band_can_run_downwards() {
         let told = told(&measure(Some(0.5), 0.45, 0.1));
-        assert_eq!(told.band, "full ≥ 0.45\u{a0}m, none ≤ 0.1\u{a0}m");
+        assert_eq!(told.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
         assert_eq!(
             told.margin.as_deref(),
-            Some("0.05\u{a0}m inside full points")
+            Some("50.0\u{a0}mm inside full points")
         );
     }
 
     #[test]
     fn a_wild_answer_is_told_in_metres() {
         let told = told(&measure(Some(2325.872), 1e-4, 5e-3));
-        assert_eq!(told.value, "2326\u{a0}m");
+        assert_eq!(told.value, "2325.872\u{a0}m");
         assert_eq!(
             told.margin.as_deref(),
-            Some("2326\u{a0}m short of full points")
+            Some("2325.872\u{a0}m short of full points")
         );
     }
 
     #[test]
-    fn rounding_is_told_as_nothing() {
-        assert_eq!(
-            told(&measure(Some(2.2e-16), 1e-4, 5e-3)).value,
-            "≈ 0\u{a0}mm"
-        );
-        assert_eq!(
-            told(&measure(Some(2.2e-16), 0.0, 5e-3)).value,
-            "2.2e\u{2212}13\u{a0}mm"
-        );
+    fn rounding_is_told_as_next_to_nothing() {
+        for full in [1e-4, 0.0] {
+            let told = told(&measure(Some(2.2e-16), full, 5e-3));
+            assert_eq!(told.value, "under\u{a0}0.001\u{a0}mm");
+        }
     }
 
     #[test]

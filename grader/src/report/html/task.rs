@@ -12,8 +12,11 @@ use crate::grade::{
 };
 use crate::graded::TaskRun;
 use crate::quantity::seconds;
-use crate::report::number::with_unit;
+use crate::quantity::with_unit;
+use crate::report::moment::last_before;
 use crate::report::plot::Plot;
+use crate::report::standing::stands;
+use crate::report::text::untold;
 use crate::report::visible::{shortened, visible};
 
 /// Lines of the log that are shown.
@@ -110,7 +113,10 @@ fn stopped(stop: &Stopped, of: &Of<'_>) -> Markup {
                 @if let Some(line) = stop.line {
                     span { "line " (line) @if let Some(column) = stop.column { ", column " (column) } }
                 }
-                @if let Some(t_s) = stop.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
+                @if let Some(t_s) = stop.time_s {
+                    // what is shown ends with the tick before
+                    span { "at " @match last_before(stop) { Some(last) => (of.moment(last.time_s, &seconds(t_s))), None => (seconds(t_s)) } }
+                }
                 @if let Some(tick) = stop.tick { span { "tick " (tick) } }
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
@@ -200,6 +206,9 @@ fn checked(check: &CheckGrade, of: &Of<'_>) -> Markup {
             } @else if check.outcome == Outcome::NotJudged {
                 p class="quiet" { "Not judged: the run stopped before, or a check it needs earned nothing." }
             }
+            @if let Some(first) = untold(check) {
+                p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
+            }
             @if !check.evidence.is_empty() {
                 ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact, of)) } } }
             }
@@ -214,6 +223,7 @@ fn evidence(fact: &Evidence, of: &Of<'_>) -> Markup {
         p class="where" {
             @if let Some(t_s) = fact.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
             @if let Some(tick) = fact.tick { span { "tick " (tick) } }
+            @if let Some(run) = &fact.run { span { "run " (foreign(run)) } }
             @if let Some(case) = &fact.case { span { "case " (foreign(case)) } }
             @if !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
             @if let Some(value) = fact.value { span { "value " (visible(&with_unit(value, &fact.unit))) } }
@@ -281,14 +291,31 @@ fn hidden(classes: &[HiddenClass], kind: TaskKind) -> Markup {
 }
 
 fn events(events: &[EventRecord], of: &Of<'_>) -> Markup {
+    // what stood on another before the arm moved is no news; it is told below
+    let resting: Vec<(u64, String)> = of.run.map_or_else(Vec::new, |run| {
+        let names = run.names();
+        let standing = run
+            .trace
+            .events
+            .iter()
+            .filter(|event| stands(&event.kind, event.tick, run));
+        standing
+            .map(|event| (event.tick, names.event(&event.kind)))
+            .collect()
+    });
+    let rests = |event: &&EventRecord| {
+        let mut resting = resting.iter();
+        resting.any(|(tick, words)| *tick == event.tick && *words == event.message)
+    };
+    let (resting, news): (Vec<_>, Vec<_>) = events.iter().partition(rests);
     html! {
         details class="log" {
-            summary { "What happened: " (events.len()) @if events.len() == 1 { " event" } @else { " events" } }
+            summary { "What happened: " (news.len()) @if news.len() == 1 { " event" } @else { " events" } }
             div class="wide" tabindex="0" role="group" aria-label="Events" {
                 table {
                     thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Event" } th scope="col" { "What" } } }
                     tbody {
-                        @for event in events {
+                        @for event in news {
                             tr {
                                 td class="number" { (of.moment(event.time_s, &format!("{:.3} s", event.time_s))) }
                                 td { (visible(&event.event)) }
@@ -298,11 +325,25 @@ fn events(events: &[EventRecord], of: &Of<'_>) -> Markup {
                     }
                 }
             }
+            @if !resting.is_empty() {
+                p class="quiet" {
+                    "Before anything moved: "
+                    @for (i, event) in resting.iter().enumerate() { @if i > 0 { "; " } (prose(&event.message)) }
+                    "."
+                }
+            }
         }
     }
 }
 
 fn contacts(contacts: &[ContactRecord], of: &Of<'_>) -> Markup {
+    // those of the arm first, each in the order of time
+    let is_link = |name: &String| {
+        let mut links = of.run.into_iter().flat_map(|run| run.robot.links());
+        links.any(|link| link.name == *name)
+    };
+    let mut contacts: Vec<&ContactRecord> = contacts.iter().collect();
+    contacts.sort_by_key(|contact| !contact.parties.iter().any(is_link));
     html! {
         details class="log" {
             summary { "Contact: " (contacts.len()) @if contacts.len() == 1 { " time" } @else { " times" } }

@@ -15,8 +15,8 @@ use super::thin::in_plane;
 use super::view::{LEFT, RIGHT, View};
 use crate::graded::{Goal, TaskRun};
 use crate::quantity::seconds;
+use crate::quantity::with_unit;
 use crate::report::goal::distances_m;
-use crate::report::number::with_unit;
 use crate::report::theme::{
     BLUE, Colour, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
 };

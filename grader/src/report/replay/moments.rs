@@ -3,8 +3,11 @@
 use kinemark_sim::event::{Event, EventKind};
 use serde::Serialize;
 
-use crate::grade::{Outcome, TaskGrade};
+use crate::grade::TaskGrade;
 use crate::graded::TaskRun;
+use crate::quantity::with_unit;
+use crate::report::moment::has_lost;
+use crate::report::standing::stands;
 use crate::report::visible::shortened;
 
 /// Events that are told.
@@ -77,8 +80,7 @@ pub(super) fn events(run: &TaskRun, task: Option<&TaskGrade>) -> Vec<EventMark> 
     let mut breaches = breaches(task);
     let room = MOST_EVENTS - breaches.len();
     let (mut all, mut saturated) = (0, 0);
-    // what lies on another from the start is no news
-    let news = |event: &&Event| event.tick > 0 || !matches!(event.kind, EventKind::Touched { .. });
+    let news = |event: &&Event| !stands(&event.kind, event.tick, run);
     let kept = run.trace.events.iter().filter(news).filter(|event| {
         let counts = !matches!(event.kind, EventKind::Saturated { .. });
         saturated += usize::from(!counts);
@@ -104,19 +106,27 @@ pub(super) fn events(run: &TaskRun, task: Option<&TaskGrade>) -> Vec<EventMark> 
     marks
 }
 
-/// The first tick of evidence of each check that lost points.
+/// Where each check began to lose points.
 fn breaches(task: Option<&TaskGrade>) -> Vec<EventMark> {
-    let lost = task.into_iter().flat_map(|task| &task.checks);
-    let lost = lost.filter(|check| matches!(check.outcome, Outcome::Partial | Outcome::None));
-    let first = lost.filter_map(|check| {
-        let told = check.evidence.iter();
-        let (tick, message) = told
-            .filter_map(|fact| Some((fact.tick?, &fact.message)))
-            .min_by_key(|(tick, _)| *tick)?;
+    let checks = task.into_iter().flat_map(|task| &task.checks);
+    let first = checks.filter(|check| has_lost(check)).filter_map(|check| {
+        let first = check.first_lost?;
+        let mut evidence = check.evidence.iter();
+        let told = evidence.find(|fact| fact.tick == Some(first.tick));
+        let why = match (told, &check.measure) {
+            (Some(fact), _) => format!(": {}", fact.message),
+            (None, Some(measure)) => {
+                format!(
+                    ": beyond {} from here on",
+                    with_unit(measure.full, &measure.unit)
+                )
+            }
+            (None, None) => ", from here on".to_owned(),
+        };
         Some(EventMark {
-            tick,
+            tick: first.tick,
             kind: "breach",
-            text: plain(&format!("{}: {message}", check.title)),
+            text: plain(&format!("Lost: {}{why}", check.title)),
         })
     });
     first.take(MOST_OF_A_KIND).collect()

@@ -114,6 +114,8 @@ impl Board<'_> {
         svg.lines(&paths, GREEN.light, 1.5, "6 4");
         let reference = line(&self.scenery.reference);
         svg.lines(&reference, PURPLE.light, 1.5, "5 4");
+        let aims: Vec<_> = panel.aims.iter().flat_map(|aim| line(aim)).collect();
+        svg.lines(&aims, GREEN.light, 2.0, "6 4");
         for (i, goal) in self.scenery.goals.iter().enumerate() {
             if !finite(goal) {
                 continue;

@@ -1,30 +1,38 @@
-//! The moments of a run that a storyboard shows: its start and end, the most telling between, and others evenly in time
-//! and along the way.
+//! The moments of a run that a storyboard shows: its start and end, where points were lost, the most telling between, and others
+//! evenly in time and along the way.
 
 use kinemark_sim::engine::Party;
 use kinemark_sim::event::EventKind;
 use nalgebra::Vector3;
 
-use crate::grade::{Outcome, TaskGrade};
+use super::target::{Target, targets};
+use crate::grade::{CheckGrade, Divergence, TaskGrade};
 use crate::graded::TaskRun;
+use crate::quantity::{points, seconds, with_unit};
 use crate::report::goal::current_goal;
-use crate::report::number::{significant, with_unit};
+use crate::report::moment::{first_loss_of, has_lost, last_before, lost_points};
+use crate::report::number::significant;
+use crate::report::standing::stand;
 
 /// Moments of a storyboard.
 const MOMENTS: usize = 6;
 /// Moments nearer to each other than this part of a run are one.
 const APART: f64 = 0.015;
-/// Bodies that touch each other before this have stood so from the start \[s\].
-const SETTLED_S: f64 = 0.1;
-/// Causes that are told of one moment.
+/// Causes that are told in full of one moment.
 const MOST_WORDS: usize = 2;
+/// Where points were lost first, before everything.
+const FIRST_LOSS: f64 = 1e6;
+/// What a check lost most by, the costliest first: above all that cost nothing.
+const LOSS: f64 = 1e3;
+/// The other moments at which it lost, in the same order.
+const FURTHER_LOSS: f64 = 1e2;
 
 /// A moment of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moment {
     /// The tick, one that was recorded.
     pub(super) tick: usize,
-    /// What happened then.
+    /// What happened then, a sentence each.
     pub(super) words: Vec<String>,
     /// Whether it cost points, or ended the run.
     pub(super) bad: bool,
@@ -37,8 +45,79 @@ struct Candidate {
     rank: f64,
     tick: u64,
     words: String,
-    bad: bool,
+    /// Where it cost points: the title of the check, with what it earned.
+    lost: Option<String>,
+    /// How many.
+    cost: f64,
     touch_m: Option<Vector3<f64>>,
+}
+
+impl Candidate {
+    /// It in words as the caption of a panel at `tick`, which may be a little off.
+    fn told_at(&self, tick: usize, step_s: f64) -> String {
+        let time = || seconds(self.tick as f64 * step_s);
+        let is_here = self.tick as usize == tick;
+        match (&self.lost, is_here) {
+            (Some(title), true) => format!("lost: {title}: {}", self.words),
+            (Some(title), false) => format!("lost at {}: {title}: {}", time(), self.words),
+            (None, true) => self.words.clone(),
+            (None, false) => format!("at {}: {}", time(), self.words),
+        }
+    }
+}
+
+/// A moment in the making.
+struct Chosen {
+    moment: Moment,
+    /// Its candidates, the most telling first.
+    causes: Vec<Candidate>,
+}
+
+impl Chosen {
+    fn plain(tick: usize, words: &str) -> Self {
+        Self {
+            moment: Moment {
+                tick,
+                words: vec![words.to_owned()],
+                bad: false,
+                touch_m: None,
+            },
+            causes: Vec::new(),
+        }
+    }
+
+    /// Takes in what happened here, too, unless it is told already.
+    fn take(&mut self, candidate: Candidate) {
+        let told = self.causes.iter().any(|cause| match &candidate.lost {
+            Some(_) => cause.lost == candidate.lost,
+            // why it cost points says what happened, too
+            None => said_in(&candidate.words, &cause.words),
+        });
+        if !told {
+            self.causes.push(candidate);
+        }
+    }
+
+    /// The moment with its causes in words.
+    fn told(mut self, step_s: f64) -> Moment {
+        let tick = self.moment.tick;
+        // the costliest first; of equal ones the more telling
+        self.causes.sort_by(|a, b| b.cost.total_cmp(&a.cost));
+        let (full, more) = self.causes.split_at(self.causes.len().min(MOST_WORDS));
+        let mut words: Vec<String> = full
+            .iter()
+            .map(|cause| cause.told_at(tick, step_s))
+            .collect();
+        let also: Vec<&str> = more.iter().filter_map(|c| c.lost.as_deref()).collect();
+        if !also.is_empty() {
+            words.push(format!("lost here, too: {}", also.join(", ")));
+        }
+        self.moment.words.append(&mut words);
+        self.moment.bad |= self.causes.iter().any(|cause| cause.lost.is_some());
+        let touch_m = full.iter().find_map(|cause| cause.touch_m);
+        self.moment.touch_m = self.moment.touch_m.or(touch_m);
+        self.moment
+    }
 }
 
 /// At most six moments in the order of time; none of a run without a tick.
@@ -46,19 +125,13 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
     let Some(last) = run.trace.len().checked_sub(1) else {
         return Vec::new();
     };
-    let plain = |tick: usize, words: &str| Moment {
-        tick,
-        words: vec![words.to_owned()],
-        bad: false,
-        touch_m: None,
-    };
-    let mut chosen = vec![plain(0, "start")];
+    let mut chosen = vec![Chosen::plain(0, "start")];
     if last > 0 {
-        chosen.push(plain(last, "end"));
+        chosen.push(Chosen::plain(last, "end"));
     }
     if let (Some(words), Some(end)) = (ended_early(run, grade), chosen.last_mut()) {
-        end.words.push(words);
-        end.bad = true;
+        end.moment.words.push(words);
+        end.moment.bad = true;
     }
     let mut candidates = candidates(run, grade);
     // equal ranks in the order of time
@@ -67,59 +140,48 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
     for candidate in candidates {
         let tick = (candidate.tick as usize).min(last);
         let full = chosen.len() >= MOMENTS;
-        let near = chosen
-            .iter_mut()
-            .min_by_key(|moment| moment.tick.abs_diff(tick))
-            .filter(|moment| moment.tick.abs_diff(tick) <= apart);
-        match near {
-            Some(moment)
-                if moment
-                    .words
-                    .iter()
-                    .any(|said| said_in(said, &candidate.words)) =>
-            {
-                // why it cost points says what happened, too
-                moment.words.retain(|said| !said_in(said, &candidate.words));
-                moment.words.push(candidate.words);
-                moment.bad |= candidate.bad;
+        let off = |chosen: &Chosen| chosen.moment.tick.abs_diff(tick);
+        let near = chosen.iter_mut().min_by_key(|chosen| off(chosen));
+        match near.filter(|chosen| off(chosen) <= apart) {
+            Some(near) => near.take(candidate),
+            None if !full => {
+                let mut new = Chosen::plain(tick, "");
+                new.take(candidate);
+                chosen.push(new);
             }
-            Some(moment) if moment.words.len() < MOST_WORDS => {
-                moment.words.push(candidate.words);
-                moment.bad |= candidate.bad;
-                moment.touch_m = moment.touch_m.or(candidate.touch_m);
-            }
-            Some(_) => {}
-            None if !full => chosen.push(Moment {
-                tick,
-                words: vec![candidate.words],
-                bad: candidate.bad,
-                touch_m: candidate.touch_m,
-            }),
             None => {}
         }
     }
+    let step_s = run.trace.step_s;
+    let mut chosen: Vec<Moment> = chosen.into_iter().map(|c| c.told(step_s)).collect();
     chosen.sort_by_key(|moment| moment.tick);
     let progress = progress(run);
-    // the middle of the longest part that nothing is shown of
+    // the middle of the longest part that nothing is shown of, not near to what is shown as long as there is another
+    let mut air = last / (2 * MOMENTS);
     while chosen.len() < MOMENTS {
         let gaps = chosen.windows(2).enumerate();
-        let gaps = gaps.filter(|(_, pair)| pair[1].tick - pair[0].tick > 1);
+        let gaps = gaps.filter(|(_, pair)| pair[1].tick - pair[0].tick > 2 * air + 1);
         let long = |pair: &[Moment]| progress[pair[1].tick] - progress[pair[0].tick];
         let widest = gaps.max_by(|(i, a), (j, b)| long(a).total_cmp(&long(b)).then(j.cmp(i)));
         let Some((i, pair)) = widest else {
-            break;
+            if air == 0 {
+                break;
+            }
+            air = 0;
+            continue;
         };
         let middle = 0.5 * (progress[pair[0].tick] + progress[pair[1].tick]);
         let tick = progress.partition_point(|done| *done < middle);
-        let tick = tick.clamp(pair[0].tick + 1, pair[1].tick - 1);
-        chosen.insert(i + 1, plain(tick, ""));
+        let tick = tick.clamp(pair[0].tick + air + 1, pair[1].tick - air - 1);
+        chosen.insert(i + 1, Chosen::plain(tick, "").moment);
     }
+    let targets = targets(run);
     for moment in &mut chosen {
         moment.words.retain(|words| !words.is_empty());
         // what happened says more than where the arm is; start and end have both
         let only = moment.words.len() < MOST_WORDS && moment.touch_m.is_none() && !moment.bad;
         if only && moment.words.iter().all(|w| w == "end" || w == "start") {
-            moment.words.extend(whereabouts(run, moment.tick));
+            moment.words.extend(whereabouts(run, &targets, moment.tick));
         }
     }
     chosen
@@ -132,7 +194,8 @@ fn said_in(said: &str, message: &str) -> bool {
         .is_some_and(|end| message.contains(&said[..end]))
 }
 
-/// How far a run is at each tick: the mean of the parts of its time and of the TCP's path that are behind it, never less than before.
+/// How far a run is at each tick: the mean of the parts of its time, which counts twice, and of the TCP's path that are behind it, never
+/// less than before. So a step that is over soon leaves some moments for the rest of the run.
 fn progress(run: &TaskRun) -> Vec<f64> {
     let mut behind_m = 0.0;
     let mut before = None;
@@ -147,18 +210,20 @@ fn progress(run: &TaskRun) -> Vec<f64> {
     }
     let last = path.len().saturating_sub(1).max(1) as f64;
     let whole_m = behind_m.max(1e-3);
-    let done = |(tick, behind_m): (usize, &f64)| tick as f64 / last + behind_m / whole_m;
+    let done = |(tick, behind_m): (usize, &f64)| 2.0 * tick as f64 / last + behind_m / whole_m;
     path.iter().enumerate().map(done).collect()
 }
 
-/// Why the run ended before its time, if it did.
+/// Why the run ended before its time, if it did. What is shown of the end is the tick before the call that failed.
 fn ended_early(run: &TaskRun, grade: &TaskGrade) -> Option<String> {
-    let stopped = grade
-        .stopped
-        .as_ref()
-        .filter(|stopped| stopped.tick.is_some());
-    if let Some(stopped) = stopped {
-        return Some(format!("stopped: {}", stopped.message));
+    if let Some(stopped) = &grade.stopped
+        && last_before(stopped).is_some()
+    {
+        let at = seconds(stopped.time_s.unwrap_or_default());
+        let line = stopped
+            .line
+            .map_or(String::new(), |line| format!(" (line {line})"));
+        return Some(format!("stopped at {at}: {}{line}", stopped.message));
     }
     let ends = [EventKind::Diverged, EventKind::Stopped];
     let ended = run.trace.events.iter().find(|e| ends.contains(&e.kind));
@@ -167,28 +232,17 @@ fn ended_early(run: &TaskRun, grade: &TaskGrade) -> Option<String> {
 
 fn candidates(run: &TaskRun, grade: &TaskGrade) -> Vec<Candidate> {
     let names = run.names();
-    let mut found = Vec::new();
-    let mut add = |rank: f64, tick: u64, words: String, bad: bool| {
+    let mut found = losses(grade);
+    let mut add = |rank: f64, tick: u64, words: String, touch_m: Option<Vector3<f64>>| {
         found.push(Candidate {
             rank,
             tick,
             words,
-            bad,
-            touch_m: None,
+            lost: None,
+            cost: 0.0,
+            touch_m,
         });
     };
-    // where points were lost, the most first
-    for check in &grade.checks {
-        if matches!(check.outcome, Outcome::Full | Outcome::NotJudged) {
-            continue;
-        }
-        let told = check.evidence.iter().find_map(|e| Some((e.tick?, e)));
-        if let Some((tick, evidence)) = told {
-            let lost = (check.max_points - check.points) / check.max_points.max(1e-9);
-            let words = format!("{}: {}", check.title, evidence.message);
-            add(80.0 + lost, tick, words, true);
-        }
-    }
     // goals reached: the start of the stay that was judged, if it was there
     for (i, goal) in run.goals.iter().enumerate() {
         let Some((from, to)) = goal.stay else {
@@ -198,10 +252,10 @@ fn candidates(run: &TaskRun, grade: &TaskGrade) -> Vec<Candidate> {
         let tick = (to as usize).min(run.trace.len().saturating_sub(1));
         let off_m = (run.trace.tcp_position(tick) - Vector3::from(goal.position_m)).norm();
         if off_m <= goal.full_m {
-            add(60.0, from, format!("goal {} reached", i + 1), false);
+            add(60.0, from, format!("goal {} reached", i + 1), None);
         } else if off_m <= goal.zero_m {
             let off = with_unit(off_m, "m");
-            add(60.0, from, format!("at goal {}, {off} off", i + 1), false);
+            add(60.0, from, format!("at goal {}, {off} off", i + 1), None);
         }
     }
     let mut told = Vec::new();
@@ -219,7 +273,7 @@ fn candidates(run: &TaskRun, grade: &TaskGrade) -> Vec<Candidate> {
         let words = names.event(&event.kind);
         // a loop that buzzes at its limit says so a thousand times
         if !told.contains(&words) {
-            add(rank, event.tick, words.clone(), false);
+            add(rank, event.tick, words.clone(), None);
             told.push(words);
         }
         if told.len() > 40 {
@@ -227,34 +281,96 @@ fn candidates(run: &TaskRun, grade: &TaskGrade) -> Vec<Candidate> {
         }
     }
     if let Some(divergence) = &run.divergence {
-        let far = with_unit(divergence.distance, &divergence.unit);
-        let signal = &divergence.signal;
-        let words = format!("first differs from the reference: {far} in `{signal}`");
-        add(45.0, divergence.tick, words, false);
+        add(45.0, divergence.tick, differs(run, divergence), None);
     }
-    // what the arm touched, each pair once; what stood on something from the start is no news
+    // what touched, each pair once; that what stands on something touches it again is no news either
     let mut pairs = Vec::new();
     for contact in &run.trace.contacts {
-        let arm = contact.parties.iter().any(|p| matches!(p, Party::Link(_)));
-        let settles = !arm && contact.first_tick as f64 * run.trace.step_s < SETTLED_S;
-        if settles || pairs.contains(&contact.parties) || pairs.len() > 40 {
+        if pairs.contains(&contact.parties) || pairs.len() > 40 {
             continue;
         }
         pairs.push(contact.parties);
+        if stand(contact.parties, contact.first_tick, run) {
+            continue;
+        }
+        let arm = contact.parties.iter().any(|p| matches!(p, Party::Link(_)));
         let [first, second] = contact.parties.map(|party| names.party(party));
-        found.push(Candidate {
-            rank: if arm { 70.0 } else { 25.0 },
-            tick: contact.first_tick,
-            words: format!("`{first}` touches `{second}`"),
-            bad: false,
-            touch_m: Some(contact.p_first_in_world),
-        });
+        add(
+            if arm { 70.0 } else { 25.0 },
+            contact.first_tick,
+            format!("`{first}` touches `{second}`"),
+            Some(contact.p_first_in_world),
+        );
     }
     found
 }
 
-/// Where the TCP is: how far from the goal it goes to, else its position.
-fn whereabouts(run: &TaskRun, tick: usize) -> Option<String> {
+/// Where points were lost: what each check lost most by, then its other moments, the costliest check first, and before all of them
+/// where the first points were lost.
+fn losses(grade: &TaskGrade) -> Vec<Candidate> {
+    let mut found = Vec::new();
+    let first = first_loss_of(grade).and_then(|loss| Some((loss.check?.name.as_str(), loss.at?)));
+    for check in grade.checks.iter().filter(|check| has_lost(check)) {
+        let lost = lost_points(check);
+        let mut add = |rank: f64, tick: u64, words: String| {
+            let rank = if first.is_some_and(|(name, at)| name == check.name && at.tick == tick) {
+                FIRST_LOSS
+            } else {
+                rank + lost
+            };
+            found.push(Candidate {
+                rank,
+                tick,
+                words,
+                lost: Some(titled(check)),
+                cost: lost,
+                touch_m: None,
+            });
+        };
+        let timed = check.evidence.iter().filter_map(|e| Some((e.tick?, e)));
+        for (i, (tick, evidence)) in timed.clone().enumerate() {
+            let rank = if i == 0 { LOSS } else { FURTHER_LOSS };
+            add(rank, tick, evidence.message.clone());
+        }
+        let untold = check
+            .first_lost
+            .filter(|first| timed.clone().all(|(tick, _)| tick != first.tick));
+        if let Some(began) = untold {
+            let beyond = check.measure.as_ref().map_or_else(
+                || "from here on".to_owned(),
+                |measure| {
+                    format!(
+                        "beyond {} from here on",
+                        with_unit(measure.full, &measure.unit)
+                    )
+                },
+            );
+            add(FURTHER_LOSS, began.tick, beyond);
+        }
+    }
+    found
+}
+
+/// The title of a check with what it earned.
+fn titled(check: &CheckGrade) -> String {
+    let of = points(check.max_points);
+    format!("{} ({} of {of})", check.title, points(check.points))
+}
+
+/// Where a run leaves the reference solution's, in a student's words.
+fn differs(run: &TaskRun, divergence: &Divergence) -> String {
+    let far = with_unit(divergence.distance, &divergence.unit);
+    let index = divergence.signal.strip_prefix("q[");
+    let index = index.and_then(|rest| rest.strip_suffix(']')?.parse().ok());
+    let what = match index {
+        Some(joint) => format!("joint {}", run.names().joint(joint)),
+        None => "the TCP".to_owned(),
+    };
+    format!("first differs from the reference: {what} is {far} off")
+}
+
+/// Where the TCP is: how far from the goal it goes to; of a step response where the joint is; else its position.
+fn whereabouts(run: &TaskRun, targets: &[Target], tick: usize) -> Option<String> {
     let p = run.trace.tcp_position(tick);
     if !p.iter().all(|x| x.is_finite()) {
         return None;
@@ -263,6 +379,10 @@ fn whereabouts(run: &TaskRun, tick: usize) -> Option<String> {
         let far = (p - Vector3::from(run.goals[goal].position_m)).norm();
         let far = with_unit(far, "m");
         return Some(format!("TCP {far} from goal {}", goal + 1));
+    }
+    if !targets.is_empty() {
+        let told: Vec<String> = targets.iter().map(|t| t.told(run, tick)).collect();
+        return Some(told.join(", "));
     }
     let shown = [p.x, p.y, p.z].map(|x| {
         // a thousandth of a millimetre is noise here
@@ -274,6 +394,7 @@ fn whereabouts(run: &TaskRun, tick: usize) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grade::{Evidence, Instant};
     use crate::report::sample;
 
     fn of(run: &TaskRun) -> Vec<Moment> {
@@ -296,11 +417,130 @@ mod tests {
             words.iter().any(|w| w.contains("goal 1 reached")),
             "{words:?}"
         );
-        assert!(
-            words.iter().any(|w| w.contains("goal 2 reached")),
-            "{words:?}"
-        );
         assert!(words.iter().all(|w| !w.is_empty()), "{words:?}");
+    }
+
+    fn lost(name: &str, cost: f64, ticks: &[u64]) -> CheckGrade {
+        let graded = sample::graded();
+        let check = &graded.grade.tasks[3].checks[3];
+        let evidence = ticks.iter().map(|tick| Evidence {
+            message: format!("{name} at tick {tick}"),
+            tick: Some(*tick),
+            time_s: Some(*tick as f64 / 1000.0),
+            ..check.evidence[0].clone()
+        });
+        let first = ticks.iter().min().map(|tick| Instant {
+            tick: *tick,
+            time_s: *tick as f64 / 1000.0,
+        });
+        CheckGrade {
+            name: name.to_owned(),
+            title: format!("Check {name}"),
+            points: 0.0,
+            max_points: cost,
+            first_lost: first,
+            evidence: evidence.collect(),
+            ..check.clone()
+        }
+    }
+
+    fn told(checks: Vec<CheckGrade>) -> Vec<String> {
+        let mut graded = sample::graded();
+        let grade = &mut graded.grade.tasks[3];
+        grade.checks = checks;
+        let moments = moments(&sample::task_run(), grade);
+        assert!(moments.len() == 6, "{moments:?}");
+        moments
+            .iter()
+            .map(|moment| moment.words.join("; "))
+            .collect()
+    }
+
+    #[test]
+    fn the_costliest_losses_and_the_first_come_before_all_else() {
+        let told = told(vec![
+            lost("first", 0.1, &[300]),
+            lost("cheap", 0.5, &[1500]),
+            lost("dear", 6.0, &[7000, 4000]),
+            lost("middling", 2.0, &[5500]),
+            lost("cheaper", 0.4, &[6300]),
+        ]);
+        assert_eq!(told[1], "lost: Check first (0 of 0.1): first at tick 300");
+        assert_eq!(told[2], "lost: Check cheap (0 of 0.5): cheap at tick 1500");
+        assert!(
+            told[3].starts_with("lost: Check middling (0 of 2)"),
+            "{told:?}"
+        );
+        assert!(told[4].starts_with("lost: Check dear (0 of 6)"), "{told:?}");
+        // no more room: neither the cheapest check nor a goal
+        assert!(
+            !told.iter().any(|words| words.contains("cheaper")),
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn causes_of_one_moment_share_a_panel_the_costliest_first() {
+        let told = told(vec![
+            lost("small", 1.0, &[8000]),
+            lost("large", 6.0, &[8000]),
+            lost("late", 2.0, &[7950]),
+            lost("untimed", 3.0, &[]),
+        ]);
+        assert_eq!(
+            told[5],
+            "end; lost: Check large (0 of 6): large at tick 8000; \
+             lost at 7.95 s: Check late (0 of 2): late at tick 7950; lost here, too: Check small (0 of 1)"
+        );
+    }
+
+    #[test]
+    fn a_loss_begins_where_the_band_was_left() {
+        let mut check = lost("slow", 2.0, &[5000]);
+        check.first_lost = Some(Instant {
+            tick: 1900,
+            time_s: 1.9,
+        });
+        let told = told(vec![check]);
+        let began = "lost: Check slow (0 of 2): beyond 50.0 mm from here on";
+        assert!(
+            told.iter().any(|words| words.starts_with(began)),
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn the_reference_is_told_of_in_words_and_with_its_own_time() {
+        let mut run = sample::task_run();
+        run.divergence = Some(Divergence {
+            tick: 50,
+            time_s: 0.05,
+            signal: "q[1]".to_owned(),
+            yours: vec![0.1],
+            reference: vec![0.2],
+            distance: 0.1,
+            tolerance: 0.02,
+            unit: "rad".to_owned(),
+            message: String::new(),
+        });
+        assert_eq!(
+            of(&run)[0].words[..2],
+            [
+                "start",
+                "at 0.05 s: first differs from the reference: joint elbow is 0.1 rad off"
+            ]
+        );
+    }
+
+    #[test]
+    fn moments_between_are_spread_over_a_run_that_moves_at_its_start_only() {
+        let run = sample::chain(2, 8000, |tick, joint| {
+            (joint as f64 + 1.0) * (tick.min(200) as f64) / 200.0
+        });
+        let moments = of(&run);
+        assert_eq!(moments.len(), 6);
+        let apart = moments.windows(2).map(|pair| pair[1].tick - pair[0].tick);
+        assert!(apart.min() > Some(600), "{moments:?}");
     }
 
     #[test]

@@ -103,15 +103,37 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// The joints at a tick, or with all of them at zero; where the positions are no numbers, as they last were.
-    fn poses(&self, tick: Option<usize>) -> FramePoses {
-        let mut poses = FramePoses::new(&self.run.robot);
+    /// Joint positions at a tick; where they are no numbers, as they last were.
+    fn q(&self, tick: Option<usize>) -> Option<&[f64]> {
         let rows = tick.into_iter().flat_map(|tick| (0..=tick).rev());
         let mut rows = rows.map(|tick| self.run.trace.q.at(tick));
-        if let Some(q) = rows.find(|q| q.iter().all(|q| q.abs() < 1e9)) {
+        rows.find(|q| q.iter().all(|q| q.abs() < 1e9))
+    }
+
+    /// The joints at a tick, or with all of them at zero.
+    fn poses(&self, tick: Option<usize>) -> FramePoses {
+        let mut poses = FramePoses::new(&self.run.robot);
+        if let Some(q) = self.q(tick) {
             poses.update(&self.run.robot, q);
         }
         poses
+    }
+
+    /// From a joint to where the TCP would be at a tick, were that joint at `target` and all others where they are.
+    pub(super) fn aimed(&self, tick: Option<usize>, joint: usize, target: f64) -> [Point3<f64>; 2] {
+        let robot = &self.run.robot;
+        let mut q = self
+            .q(tick)
+            .map_or_else(|| vec![0.0; robot.n()], <[f64]>::to_vec);
+        if let Some(q) = q.get_mut(joint) {
+            *q = target;
+        }
+        let mut poses = FramePoses::new(robot);
+        poses.update(robot, &q);
+        let place = |frame| Point3::from(poses.world_from(frame).translation.vector);
+        let from = robot.moving_joints().nth(joint);
+        let from = from.map_or(robot.tcp(), |joint| &robot.frames()[joint.child]);
+        [place(from), place(robot.tcp())]
     }
 
     /// All faces at a tick, or, without one, as the files have them.

@@ -32,8 +32,9 @@ impl View {
     pub(super) fn around(camera: &Camera, panels: &[Panel], scenery: &Scenery) -> Self {
         let of_panel = |panel: &Panel| {
             let corners = panel.faces.iter().flat_map(|face| face.corners.clone());
-            let joints = panel.joints.iter().chain([&panel.tcp]).copied();
-            corners.chain(joints).collect::<Vec<_>>()
+            let joints = panel.joints.iter().chain([&panel.tcp]);
+            let seen = joints.chain(panel.aims.iter().flatten()).copied();
+            corners.chain(seen).collect::<Vec<_>>()
         };
         let lines = scenery.paths.iter().flatten();
         let mut kept: Vec<Point3<f64>> = panels.first().map(of_panel).unwrap_or_default();
