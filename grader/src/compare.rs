@@ -138,6 +138,8 @@ pub struct Ended {
     pub time_s: Option<f64>,
     /// Line in the submission, from one.
     pub line: Option<usize>,
+    /// The case of a function task in which it did.
+    pub case: Option<String>,
     /// Why.
     pub message: String,
 }
@@ -152,7 +154,11 @@ impl Ended {
             Some(line) => format!(", line {line}"),
             None => String::new(),
         };
-        format!("{letter} stopped{at}{line}: {}", self.message)
+        let case = match &self.case {
+            Some(case) => format!(" in case `{case}`"),
+            None => String::new(),
+        };
+        format!("{letter} stopped{at}{case}{line}: {}", self.message)
     }
 }
 
@@ -170,6 +176,7 @@ pub(crate) fn ended(run: &TaskRun, task: Option<&TaskGrade>) -> Option<Ended> {
         tick: Some(last.tick),
         time_s: Some(last.tick as f64 * run.trace.step_s),
         line: None,
+        case: None,
         message: run.names().event(&last.kind),
     })
 }
@@ -180,6 +187,7 @@ impl Ended {
             tick: stopped.tick,
             time_s: stopped.time_s,
             line: stopped.line,
+            case: stopped.case.clone(),
             message: stopped.message.clone(),
         }
     }

@@ -91,17 +91,15 @@ mod tests {
     #[test]
     fn no_frame_of_a_robot_is_called_as_a_body_or_the_root() {
         let called = |robot: &Robot, name: &str| frame_id_of(robot, name);
-        let plain = arm("rrbot", &["body/can", "reference/upper", "world", "body"]);
+        let plain = arm("rrbot", &["body/can", "reference/upper", "body"]);
         assert_eq!(called(&plain, "body/can"), "rrbot/body/can");
         assert_eq!(called(&plain, "reference/upper"), "rrbot/reference/upper");
         assert_eq!(called(&plain, "body"), "body");
-        assert_eq!(
-            called(&arm("body", &["world"]), "world"),
-            "robot/body/world"
-        );
-        let both = arm("rrbot", &["rrbot/world", "world"]);
-        assert_eq!(called(&both, "rrbot/world"), "rrbot/world");
-        assert_eq!(called(&both, "world"), "robot/rrbot/world");
+        let body = arm("body", &["base_link"]);
+        assert_eq!(called(&body, "base_link"), "robot/body/base_link");
+        let both = arm("rrbot", &["rrbot/base_link", "base_link"]);
+        assert_eq!(called(&both, "rrbot/base_link"), "rrbot/base_link");
+        assert_eq!(called(&both, "base_link"), "robot/rrbot/base_link");
     }
 
     #[test]

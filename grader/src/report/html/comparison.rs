@@ -176,6 +176,7 @@ fn stopped(task: &str, letter: &str, ended: &Ended) -> Markup {
         p {
             (letter) " stopped"
             @if let Some(time_s) = ended.time_s { " at " (seek(task, time_s, &seconds(time_s))) }
+            @if let Some(case) = &ended.case { " in case " code { (foreign(case)) } }
             @if let Some(line) = ended.line { ", line " (line) }
             ": " (super::prose(&ended.message))
         }

@@ -12,7 +12,7 @@ use super::moments::MOST_OF_A_NAME;
 use super::motion::PLACE;
 use super::nodes::Nodes;
 use super::record::ReferencePath;
-use crate::graded::TaskRun;
+use crate::graded::{AskedPath, Goal, TaskRun};
 use crate::report::visible::shortened;
 
 /// Time from one point of a TCP path to the next, where there are not too many \[s\].
@@ -96,7 +96,8 @@ pub(super) fn surroundings(nodes: &mut Nodes, theirs: &TaskRun, ours: &TaskRun, 
         return;
     };
     for (i, goal) in theirs.goals.iter().enumerate() {
-        let there = |other: &crate::graded::Goal| other.position_m == goal.position_m;
+        let place = goal.position_m.map(f64::to_bits);
+        let there = |other: &Goal| other.position_m.map(f64::to_bits) == place;
         let finite = goal.position_m.iter().all(|x| x.is_finite());
         if !finite || (same_place && ours.goals.iter().any(there)) {
             continue;
@@ -114,7 +115,7 @@ pub(super) fn surroundings(nodes: &mut Nodes, theirs: &TaskRun, ours: &TaskRun, 
         stand(name(&format!("goal {}", i + 1)), &[ball], &at);
     }
     for path in &theirs.paths {
-        let there = |other: &crate::graded::AskedPath| other.points_m == path.points_m;
+        let there = |other: &AskedPath| other.points_m == path.points_m;
         if same_place && ours.paths.iter().any(there) {
             continue;
         }

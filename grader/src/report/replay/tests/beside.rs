@@ -27,8 +27,8 @@ fn the_path_is_that_of_the_other_run_up_to_where_it_ended() {
     let every = every.round() as usize;
     assert_eq!(path.len(), b.trace.len().div_ceil(every));
     for (i, tick) in (0..b.trace.len()).step_by(every).enumerate() {
-        for c in 0..3 {
-            assert!((path[i][c] - b.trace.tcp.at(tick)[c]).abs() < 0.6 * PLACE);
+        for (told, place) in path[i].iter().zip(b.trace.tcp.at(tick)) {
+            assert!((told - place).abs() < 0.6 * PLACE);
         }
     }
     assert_eq!(record["ended"], "B: the submission was stopped");
