@@ -179,7 +179,7 @@ fn a_stop_leads_to_the_last_tick_there_is() {
     // a first call that fails leaves nothing to show but the section
     let at_once = of("fn control(o) { throw \"no\" }");
     let told = plain(&at_once);
-    assert!(told.contains("(at 0 s, tick 0)\n"), "{told}");
+    assert!(told.contains("(at 0 s, tick 0) #task=move\n"), "{told}");
     let loss = first_loss_of(task(&at_once, "move")).expect("a loss");
     assert_eq!(loss.fragment(), "#task=move");
     // which is there without a script, too

@@ -2,6 +2,7 @@
 
 mod board;
 mod camera;
+mod cause;
 mod face;
 mod layers;
 mod moment;

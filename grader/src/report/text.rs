@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use owo_colors::OwoColorize as _;
 
 use super::measured::Measured;
-use super::moment::{fragment, last_before};
+use super::moment::{fragment, last_before, of_task};
 use super::visible::visible;
 use crate::grade::{
     CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
@@ -155,8 +155,11 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
             stopped.tick.unwrap_or(0),
         );
     }
-    if let Some(last) = last_before(stopped) {
-        let _ = write!(where_, " {}", fragment(task, last.time_s).dimmed());
+    if stopped.time_s.is_some() {
+        // a first call that failed leaves the section alone
+        let link =
+            last_before(stopped).map_or_else(|| of_task(task), |last| fragment(task, last.time_s));
+        let _ = write!(where_, " {}", link.dimmed());
     }
     if let Some(case) = &stopped.case {
         let _ = write!(where_, " (case \"{case}\")");

@@ -1,18 +1,17 @@
 //! The moments of a run that a storyboard shows: its start and end, where points were lost, the most telling between, and others
 //! evenly in time and along the way.
 
-use kinemark_sim::engine::Party;
 use kinemark_sim::event::EventKind;
 use nalgebra::Vector3;
 
+use super::cause::{Cause, causes};
 use super::target::{Target, targets};
-use crate::grade::{CheckGrade, Divergence, TaskGrade};
+use crate::grade::TaskGrade;
 use crate::graded::TaskRun;
-use crate::quantity::{points, seconds, with_unit};
+use crate::quantity::{seconds, with_unit};
 use crate::report::goal::current_goal;
-use crate::report::moment::{first_loss_of, has_lost, last_before, lost_points};
+use crate::report::moment::last_before;
 use crate::report::number::significant;
-use crate::report::standing::stand;
 
 /// Moments of a storyboard.
 const MOMENTS: usize = 6;
@@ -20,12 +19,6 @@ const MOMENTS: usize = 6;
 const APART: f64 = 0.015;
 /// Causes that are told in full of one moment.
 const MOST_WORDS: usize = 2;
-/// Where points were lost first, before everything.
-const FIRST_LOSS: f64 = 1e6;
-/// What a check lost most by, the costliest first: above all that cost nothing.
-const LOSS: f64 = 1e3;
-/// The other moments at which it lost, in the same order.
-const FURTHER_LOSS: f64 = 1e2;
 
 /// A moment of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,37 +33,11 @@ pub(super) struct Moment {
     pub(super) touch_m: Option<Vector3<f64>>,
 }
 
-/// A moment that might be shown, the more telling the higher its rank.
-struct Candidate {
-    rank: f64,
-    tick: u64,
-    words: String,
-    /// Where it cost points: the title of the check, with what it earned.
-    lost: Option<String>,
-    /// How many.
-    cost: f64,
-    touch_m: Option<Vector3<f64>>,
-}
-
-impl Candidate {
-    /// It in words as the caption of a panel at `tick`, which may be a little off.
-    fn told_at(&self, tick: usize, step_s: f64) -> String {
-        let time = || seconds(self.tick as f64 * step_s);
-        let is_here = self.tick as usize == tick;
-        match (&self.lost, is_here) {
-            (Some(title), true) => format!("lost: {title}: {}", self.words),
-            (Some(title), false) => format!("lost at {}: {title}: {}", time(), self.words),
-            (None, true) => self.words.clone(),
-            (None, false) => format!("at {}: {}", time(), self.words),
-        }
-    }
-}
-
 /// A moment in the making.
 struct Chosen {
     moment: Moment,
-    /// Its candidates, the most telling first.
-    causes: Vec<Candidate>,
+    /// Its causes, the most telling first.
+    causes: Vec<Cause>,
 }
 
 impl Chosen {
@@ -87,14 +54,14 @@ impl Chosen {
     }
 
     /// Takes in what happened here, too, unless it is told already.
-    fn take(&mut self, candidate: Candidate) {
-        let told = self.causes.iter().any(|cause| match &candidate.lost {
-            Some(_) => cause.lost == candidate.lost,
+    fn take(&mut self, new: Cause) {
+        let told = self.causes.iter().any(|cause| match &new.lost {
+            Some(_) => cause.lost == new.lost,
             // why it cost points says what happened, too
-            None => said_in(&candidate.words, &cause.words),
+            None => said_in(&new.words, &cause.words),
         });
         if !told {
-            self.causes.push(candidate);
+            self.causes.push(new);
         }
     }
 
@@ -133,20 +100,20 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
         end.moment.words.push(words);
         end.moment.bad = true;
     }
-    let mut candidates = candidates(run, grade);
+    let mut causes = causes(run, grade);
     // equal ranks in the order of time
-    candidates.sort_by(|a, b| b.rank.total_cmp(&a.rank).then(a.tick.cmp(&b.tick)));
+    causes.sort_by(|a, b| b.rank.total_cmp(&a.rank).then(a.tick.cmp(&b.tick)));
     let apart = (APART * last as f64) as usize;
-    for candidate in candidates {
-        let tick = (candidate.tick as usize).min(last);
+    for cause in causes {
+        let tick = (cause.tick as usize).min(last);
         let full = chosen.len() >= MOMENTS;
         let off = |chosen: &Chosen| chosen.moment.tick.abs_diff(tick);
         let near = chosen.iter_mut().min_by_key(|chosen| off(chosen));
         match near.filter(|chosen| off(chosen) <= apart) {
-            Some(near) => near.take(candidate),
+            Some(near) => near.take(cause),
             None if !full => {
                 let mut new = Chosen::plain(tick, "");
-                new.take(candidate);
+                new.take(cause);
                 chosen.push(new);
             }
             None => {}
@@ -230,145 +197,6 @@ fn ended_early(run: &TaskRun, grade: &TaskGrade) -> Option<String> {
     ended.map(|event| run.names().event(&event.kind))
 }
 
-fn candidates(run: &TaskRun, grade: &TaskGrade) -> Vec<Candidate> {
-    let names = run.names();
-    let mut found = losses(grade);
-    let mut add = |rank: f64, tick: u64, words: String, touch_m: Option<Vector3<f64>>| {
-        found.push(Candidate {
-            rank,
-            tick,
-            words,
-            lost: None,
-            cost: 0.0,
-            touch_m,
-        });
-    };
-    // goals reached: the start of the stay that was judged, if it was there
-    for (i, goal) in run.goals.iter().enumerate() {
-        let Some((from, to)) = goal.stay else {
-            continue;
-        };
-        // it begins at the edge of the band; where it ends is where the arm stood
-        let tick = (to as usize).min(run.trace.len().saturating_sub(1));
-        let off_m = (run.trace.tcp_position(tick) - Vector3::from(goal.position_m)).norm();
-        if off_m <= goal.full_m {
-            add(60.0, from, format!("goal {} reached", i + 1), None);
-        } else if off_m <= goal.zero_m {
-            let off = with_unit(off_m, "m");
-            add(60.0, from, format!("at goal {}, {off} off", i + 1), None);
-        }
-    }
-    let mut told = Vec::new();
-    for event in &run.trace.events {
-        let rank = match event.kind {
-            EventKind::BodyFell { .. } => 90.0,
-            EventKind::Toppled { .. } => 55.0,
-            EventKind::LimitHit { .. } => 40.0,
-            EventKind::Moved { .. } => 35.0,
-            EventKind::LeftSupport { .. } => 30.0,
-            EventKind::Saturated { .. } | EventKind::SpeedLimitHit { .. } => 20.0,
-            EventKind::NearSingular => 15.0,
-            EventKind::Touched { .. } | EventKind::Diverged | EventKind::Stopped => continue,
-        };
-        let words = names.event(&event.kind);
-        // a loop that buzzes at its limit says so a thousand times
-        if !told.contains(&words) {
-            add(rank, event.tick, words.clone(), None);
-            told.push(words);
-        }
-        if told.len() > 40 {
-            break;
-        }
-    }
-    if let Some(divergence) = &run.divergence {
-        add(45.0, divergence.tick, differs(run, divergence), None);
-    }
-    // what touched, each pair once; that what stands on something touches it again is no news either
-    let mut pairs = Vec::new();
-    for contact in &run.trace.contacts {
-        if pairs.contains(&contact.parties) || pairs.len() > 40 {
-            continue;
-        }
-        pairs.push(contact.parties);
-        if stand(contact.parties, contact.first_tick, run) {
-            continue;
-        }
-        let arm = contact.parties.iter().any(|p| matches!(p, Party::Link(_)));
-        let [first, second] = contact.parties.map(|party| names.party(party));
-        add(
-            if arm { 70.0 } else { 25.0 },
-            contact.first_tick,
-            format!("`{first}` touches `{second}`"),
-            Some(contact.p_first_in_world),
-        );
-    }
-    found
-}
-
-/// Where points were lost: what each check lost most by, then its other moments, the costliest check first, and before all of them
-/// where the first points were lost.
-fn losses(grade: &TaskGrade) -> Vec<Candidate> {
-    let mut found = Vec::new();
-    let first = first_loss_of(grade).and_then(|loss| Some((loss.check?.name.as_str(), loss.at?)));
-    for check in grade.checks.iter().filter(|check| has_lost(check)) {
-        let lost = lost_points(check);
-        let mut add = |rank: f64, tick: u64, words: String| {
-            let rank = if first.is_some_and(|(name, at)| name == check.name && at.tick == tick) {
-                FIRST_LOSS
-            } else {
-                rank + lost
-            };
-            found.push(Candidate {
-                rank,
-                tick,
-                words,
-                lost: Some(titled(check)),
-                cost: lost,
-                touch_m: None,
-            });
-        };
-        let timed = check.evidence.iter().filter_map(|e| Some((e.tick?, e)));
-        for (i, (tick, evidence)) in timed.clone().enumerate() {
-            let rank = if i == 0 { LOSS } else { FURTHER_LOSS };
-            add(rank, tick, evidence.message.clone());
-        }
-        let untold = check
-            .first_lost
-            .filter(|first| timed.clone().all(|(tick, _)| tick != first.tick));
-        if let Some(began) = untold {
-            let beyond = check.measure.as_ref().map_or_else(
-                || "from here on".to_owned(),
-                |measure| {
-                    format!(
-                        "beyond {} from here on",
-                        with_unit(measure.full, &measure.unit)
-                    )
-                },
-            );
-            add(FURTHER_LOSS, began.tick, beyond);
-        }
-    }
-    found
-}
-
-/// The title of a check with what it earned.
-fn titled(check: &CheckGrade) -> String {
-    let of = points(check.max_points);
-    format!("{} ({} of {of})", check.title, points(check.points))
-}
-
-/// Where a run leaves the reference solution's, in a student's words.
-fn differs(run: &TaskRun, divergence: &Divergence) -> String {
-    let far = with_unit(divergence.distance, &divergence.unit);
-    let index = divergence.signal.strip_prefix("q[");
-    let index = index.and_then(|rest| rest.strip_suffix(']')?.parse().ok());
-    let what = match index {
-        Some(joint) => format!("joint {}", run.names().joint(joint)),
-        None => "the TCP".to_owned(),
-    };
-    format!("first differs from the reference: {what} is {far} off")
-}
-
 /// Where the TCP is: how far from the goal it goes to; of a step response where the joint is; else its position.
 fn whereabouts(run: &TaskRun, targets: &[Target], tick: usize) -> Option<String> {
     let p = run.trace.tcp_position(tick);
@@ -394,7 +222,7 @@ fn whereabouts(run: &TaskRun, targets: &[Target], tick: usize) -> Option<String>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grade::{Evidence, Instant};
+    use crate::grade::{CheckGrade, Divergence, Evidence, Instant};
     use crate::report::sample;
 
     fn of(run: &TaskRun) -> Vec<Moment> {
