@@ -97,6 +97,11 @@ fn a_loss_is_marked_where_the_band_was_left() {
         board.contains("Lost: On the first line (0 of 3): beyond 8.0 mm"),
         "{board}"
     );
+    let seek = format!(
+        "The first points were lost at <a class=\"seek\" href=\"{}\">",
+        link.replace('&', "&amp;")
+    );
+    assert!(html::html(&graded, &[]).contains(&seek), "the page");
     // and what is told of points adds up
     let parts: f64 = knock.checks.iter().map(|check| check.points).sum();
     assert!(

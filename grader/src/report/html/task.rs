@@ -13,7 +13,7 @@ use crate::grade::{
 use crate::graded::TaskRun;
 use crate::quantity::seconds;
 use crate::quantity::with_unit;
-use crate::report::moment::last_before;
+use crate::report::moment::{FirstLoss, first_loss_of, last_before};
 use crate::report::plot::Plot;
 use crate::report::standing::stands;
 use crate::report::text::untold;
@@ -48,6 +48,7 @@ pub(super) fn section(
                 p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
             }
             p class="lead" { (meaning(task.verdict)) }
+            @if let Some(loss) = first_loss_of(task) { (first_lost(&loss, &of)) }
             @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
             @if let Some(differs) = &task.divergence { (differing(differs, &of)) }
@@ -99,6 +100,15 @@ impl Of<'_> {
                 self.moment(time_s, &format!("{time_s:.3} s"))
             }
             None => html! { "tick " (tick) },
+        }
+    }
+}
+
+/// The moment at which the first points were lost, and the check; a stop has a note of its own.
+fn first_lost(loss: &FirstLoss<'_>, of: &Of<'_>) -> Markup {
+    html! {
+        @if let (Some(at), Some(check)) = (loss.at, loss.check) {
+            p class="quiet" { "The first points were lost at " (of.moment(at.time_s, &seconds(at.time_s))) ": " (foreign(&check.title)) "." }
         }
     }
 }
