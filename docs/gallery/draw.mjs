@@ -2,6 +2,7 @@
 //
 // Needs Chromium (by its Debian name, or the one in CHROMIUM) and the packages of grader/web (`npm ci` there). `draw.sh` calls it for
 // every lab. Replays show a telling moment: a little after the arm first meets something, else where two fifths of the run are over.
+// A page that is too tall for a picture is drawn to where it is cut, and told on standard output: `NAME-WIDTH shows the beginning`.
 import { writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
@@ -45,7 +46,8 @@ async function joined({ pieces, width, height }) {
 }
 
 // WebP knows no picture taller than 16383 pixels: a longer page is cut off. What draws WebGL in software knows no window taller than
-// 8192, so a page is drawn in pieces.
+// 8192, so a page is drawn in pieces. The window keeps its height: the page would be laid out anew in another, and the pieces would not
+// fit; where the last one cannot be scrolled to its place it overlaps the one before, and what is too much is cut off.
 const tallest = 16383;
 const piece = 4000;
 for (const width of widths.map(Number)) {
@@ -53,10 +55,11 @@ for (const width of widths.map(Number)) {
     const page = await browser.newPage({ viewport: { width, height: piece }, colorScheme, reducedMotion: "reduce" });
     await page.goto(pathToFileURL(resolve(path)).href);
     await page.evaluate(showTellingMoments);
-    const height = Math.min(tallest, await page.evaluate(() => document.documentElement.scrollHeight));
+    const whole = await page.evaluate(() => document.documentElement.getBoundingClientRect().height);
+    const height = Math.min(tallest, Math.ceil(whole));
+    if (height < whole && colorScheme === "light") console.log(`${name}-${width} shows the beginning`);
     const pieces = [];
     for (let top = 0; top < height; top += piece) {
-      await page.setViewportSize({ width, height: Math.min(piece, height - top) });
       await page.evaluate((top) => scrollTo(0, top), top);
       await page.waitForTimeout(1000);
       const data = (await page.screenshot()).toString("base64");
