@@ -9,7 +9,7 @@ mod variants;
 use kinemark_sim::source::Source;
 use serde::Serialize;
 
-use crate::grade::{Outcome, TaskGrade};
+use crate::grade::{Outcome, Stopped, TaskGrade};
 use crate::graded::{GradedRun, TcpPath};
 use crate::grading::{InProcess, grade};
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
@@ -164,7 +164,9 @@ impl Audit {
         let most = MOST_STARTER_SHARE * grade.max_points;
         let named = grade.tasks.iter().find(|task| !task.diagnoses.is_empty());
         let problem = if let Some(task) = failed {
-            let what = format!("task `{}`: {}", task.name, stop_of(task));
+            let stopped = task.stopped.as_ref();
+            let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, starter));
+            let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
             Some((what, "a starter runs as it is, and misses"))
         } else if grade.points > most {
             let what = format!(
@@ -197,9 +199,16 @@ impl Audit {
             .tasks
             .iter()
             .find(|task| task.verdict != Verdict::Passed);
-        let problem = lost.map(|task| {
-            let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
-            (what, "widen the band, or mend the solution")
+        let problem = lost.map(|task| match &task.stopped {
+            Some(stopped) => {
+                let place = place_of(stopped, &staff.solution);
+                let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
+                (what, "mend the solution: it runs, and has full marks")
+            }
+            None => {
+                let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
+                (what, "widen the band, or mend the solution")
+            }
         });
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Reference, form), None, earned, problem);
@@ -265,7 +274,10 @@ fn mutant_problem(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static
         return Some((what, "narrow the band, or add cases in which it shows"));
     }
     if !matches!(task.verdict, Verdict::Missed | Verdict::InvalidOutput) {
-        return Some((stop_of(task), "a known mistake runs, and is wrong"));
+        let stopped = task.stopped.as_ref();
+        let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, &mutant.source));
+        let what = format!("{}{place}", stop_of(task));
+        return Some((what, "a known mistake runs, and is wrong"));
     }
     let hidden = |of: fn(&crate::grade::HiddenClass) -> u32| -> usize {
         task.hidden.iter().map(|class| of(class) as usize).sum()
@@ -301,11 +313,21 @@ fn stop_of(task: &TaskGrade) -> String {
     }
 }
 
+/// Where a submission of the staff stopped: file, line and column, and below them the line with a caret.
+fn place_of(stopped: &Stopped, source: &Source) -> String {
+    let (Some(line), Some(text)) = (stopped.line, &stopped.source_line) else {
+        return String::new();
+    };
+    let column = stopped.column.unwrap_or(1);
+    let indent = " ".repeat(column.saturating_sub(1));
+    format!(
+        "\n    {}:{line}:{column}\n    {text}\n    {indent}^",
+        source.name()
+    )
+}
+
 /// Why a task lost points, in its own words.
 fn loss_of(task: &TaskGrade) -> String {
-    if task.stopped.is_some() {
-        return stop_of(task);
-    }
     let lost = task
         .checks
         .iter()

@@ -1,6 +1,6 @@
 //! The first control tick at which a run differs from the reference solution's: in a joint, or in where the TCP is.
 //!
-//! To differ is no mistake by itself. Another branch, another road or another time may be as right, so this is told only of
+//! To differ is no mistake by itself. Another branch, another path or another time may be as right, so this is told only of
 //! runs that lost points, and as the place where to look first.
 
 use kinemark_sim::robot::Robot;

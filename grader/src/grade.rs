@@ -155,7 +155,7 @@ pub struct TaskGrade {
     pub divergence: Option<Divergence>,
 }
 
-/// The first control tick at which a run is not where the reference solution's is. It is no mistake by itself: another road, or
+/// The first control tick at which a run is not where the reference solution's is. It is no mistake by itself: another path, or
 /// another time, may be as right.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -9,13 +9,17 @@ use kinemark_sim::trace::Trace;
 
 use crate::event_words::Names;
 use crate::grade::{Divergence, Grade};
-use crate::lab::LabScene;
+use crate::lab::{LabError, LabScene};
 
 /// The grade of a submission with the runs it rests on.
 #[derive(Debug, Clone)]
 pub struct GradedRun {
     /// The record.
     pub grade: Grade,
+    /// The lab's title.
+    pub title: String,
+    /// What of the staff's own stopped, so that it told nothing of the submission: the reference solution, or a known mistake.
+    pub staff_faults: Vec<Arc<LabError>>,
     /// The motion tasks that ran, in the lab's order.
     pub runs: Vec<TaskRun>,
 }

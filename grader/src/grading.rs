@@ -7,6 +7,9 @@ mod judging;
 mod motion;
 mod openings;
 
+use std::cell::RefCell;
+use std::sync::Arc;
+
 use kinemark_sim::robot::Dimension;
 use kinemark_sim::source::Source;
 
@@ -14,7 +17,9 @@ use crate::controller::{Controller, Opening, Stop};
 use crate::grade::{FORMAT, Grade, GradeMode, ParameterValue, Part, VariantRecord};
 use crate::graded::GradedRun;
 use crate::lab::model::{Lab, Task, TaskWork};
-use crate::lab::{LabRobot, Staff, staff::Mutant};
+use crate::lab::staff::Mutant;
+use crate::lab::staff::sound::{self, Whose};
+use crate::lab::{LabError, LabRobot, Staff};
 use crate::quantity::sum_of_points;
 use crate::submission::ScriptController;
 use crate::verdict::Verdict;
@@ -69,6 +74,7 @@ pub fn grade(
         staff,
         submission,
         right: Vec::new(),
+        staff_faults: RefCell::new(Vec::new()),
     };
     let mut tasks = Vec::new();
     let mut runs = Vec::new();
@@ -142,7 +148,12 @@ pub fn grade(
         max_points: tasks.iter().map(|task| task.max_points).sum(),
         tasks,
     };
-    Ok(GradedRun { grade, runs })
+    Ok(GradedRun {
+        grade,
+        title: lab.title.clone(),
+        staff_faults: grader.staff_faults.into_inner(),
+        runs,
+    })
 }
 
 fn variant_record(lab: &Lab) -> Option<VariantRecord> {
@@ -171,11 +182,27 @@ struct Grader<'a> {
     submission: &'a Source,
     /// Function tasks so far whose every answer is right.
     right: Vec<String>,
+    /// What of the staff's own stopped.
+    staff_faults: RefCell<Vec<Arc<LabError>>>,
 }
 
 impl Grader<'_> {
     fn opening(&self, task: &Task, submission: &Source) -> Opening {
         opening(self.lab, task, submission)
+    }
+
+    /// Keeps that a submission of the staff stopped, once for each.
+    fn note_fault(&self, whose: Whose<'_>, task: &Task, source: &Source, stop: &Stop) {
+        let Some(fault) = sound::fault(whose, Some(task), source, stop) else {
+            return;
+        };
+        let mut faults = self.staff_faults.borrow_mut();
+        if !faults
+            .iter()
+            .any(|known| known.source().name() == source.name())
+        {
+            faults.push(Arc::new(fault));
+        }
     }
 
     /// The known mistakes that a task may show: in a run none that a function would show, too, which is right. A function's own

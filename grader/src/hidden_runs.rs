@@ -210,7 +210,7 @@ impl HiddenRuns {
     }
 }
 
-const NEXT_STEP: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, leave more room: the margins of the visible run tell how much there is.";
+const NEXT_STEP: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, aim for wider margins: what the visible run has to spare tells how wide they are.";
 
 /// Steps in which a hidden score is told: finer ones could carry a hidden number out in the points.
 const HIDDEN_STEPS: f64 = 20.0;

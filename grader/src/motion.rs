@@ -198,6 +198,14 @@ impl<'a> Session<'a> {
         self.ended.is_some()
     }
 
+    /// What stopped the submission, if something did.
+    pub fn stopped(&self) -> Option<&Stop> {
+        match &self.ended {
+            Some(Err((_, EarlyEnd::Stopped(stop)))) => Some(stop),
+            _ => None,
+        }
+    }
+
     /// The signals recorded so far.
     pub fn so_far(&self) -> &Trace {
         self.recorder.so_far()

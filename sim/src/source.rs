@@ -1,9 +1,13 @@
 //! Text from outside, and errors that point into it: the file, the line, the column, and what to do next.
 
+mod toml_refusal;
+
 use std::fmt;
 use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+
+pub use self::toml_refusal::TomlRefusal;
 
 /// A text with the name a person knows it by (`robots/rrbot.toml`).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -126,58 +130,6 @@ impl<P: Problem> Diagnostic for Located<P> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let label = LabeledSpan::new_with_span(Some(self.problem.label()), self.inner.at);
         Some(Box::new(std::iter::once(label)))
-    }
-}
-
-/// What the TOML reader refused: its message, where, and the keys or values it would have taken.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TomlRefusal {
-    /// The reader's message, without its place.
-    pub message: String,
-    /// The nearest name that would have been right, or the list of them.
-    pub help: Option<String>,
-    /// The bytes it refused.
-    pub at: std::ops::Range<usize>,
-}
-
-impl TomlRefusal {
-    /// Reads the reader's error; `unknown field` and `unknown variant` messages gain a "did you mean".
-    pub fn from_error(error: &toml::de::Error) -> Self {
-        let message = error.message().trim().to_owned();
-        let mut quoted = message.split('`').skip(1).step_by(2);
-        let help = if message.starts_with("unknown field") || message.starts_with("unknown variant")
-        {
-            let given = quoted.next().unwrap_or_default().to_owned();
-            let known: Vec<&str> = quoted.collect();
-            Some(match nearest(&given, known.iter().copied()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("known here: {}", known.join(", ")),
-            })
-        } else {
-            None
-        };
-        let message = match message.split_once(", expected") {
-            Some((head, _)) if help.is_some() => head
-                .replace("unknown field", "unknown key")
-                .replace("unknown variant", "unknown kind"),
-            _ => message,
-        };
-        let message = [
-            ("f64", "a number"),
-            ("i64", "a whole number"),
-            ("u64", "a whole number, zero or more"),
-            ("u32", "a whole number, zero or more"),
-            ("a string", "a text"),
-        ]
-        .into_iter()
-        .fold(message, |message, (theirs, ours)| {
-            message.replace(&format!("expected {theirs}"), &format!("expected {ours}"))
-        });
-        Self {
-            message,
-            help,
-            at: error.span().unwrap_or(0..0),
-        }
     }
 }
 

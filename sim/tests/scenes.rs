@@ -572,7 +572,7 @@ fn messages_say_what_was_given_and_what_to_do() {
     assert_eq!(
         told(&ball(&[("type", "\"fre\"")])),
         (
-            "unknown kind `fre`".to_owned(),
+            "unknown value `fre`".to_owned(),
             "did you mean `free`?".to_owned()
         )
     );

@@ -19,7 +19,7 @@ fn each_mistake_is_named_at_its_place() {
             sensor("joint-positon", "joint = 'slide'"),
             "robot::toml",
             3,
-            "unknown kind `joint-positon`",
+            "unknown value `joint-positon`",
         ),
         (
             sensor("joint-position", ""),

@@ -104,8 +104,64 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             lab,
             "q_rad = [0.7, -1.1]",
             "q_rad = [0.7]",
-            "1 numbers for 2 joints",
+            "1 number for 2 joints",
             "shoulder, elbow",
+        ),
+        (
+            lab,
+            "[parameters]",
+            "[paramaters]",
+            "unknown key `paramaters`",
+            "did you mean `parameters`?",
+        ),
+        (
+            lab,
+            "call = \"forward_kinematics\"",
+            "call = \"forward_kinematic\"",
+            "`forward_kinematic` is a function of the lab's own",
+            "did you mean `forward_kinematics`?",
+        ),
+        (
+            lab,
+            "duration_s = 3.0",
+            "duration_s = 1e9",
+            "more than 900000 physics steps",
+            "write 900 s at most",
+        ),
+        (
+            lab,
+            "duration_s = 3.0",
+            "duration_s = 3,5",
+            "a comma in a number",
+            "write 3.5: a decimal has a point",
+        ),
+        (
+            lab,
+            "points = 1.0",
+            "points = -1.0",
+            "more than 0 and at most 1000 points",
+            "points are earned, never taken away",
+        ),
+        (
+            "labs/01-kinematics/reference-path.json",
+            "\"points_m\"",
+            "\"point_m\"",
+            "unknown key `point_m`",
+            "did you mean `points_m`?",
+        ),
+        (
+            "labs/01-kinematics/reference-path.json",
+            "[4.0,1e-7,",
+            "[4.0,1e-7 ",
+            "01-kinematics/reference-path.json:2:",
+            "\"period_s\": 0.02",
+        ),
+        (
+            robot,
+            "axis = [0.0, 1.0, 0.0]",
+            "axis = \"y\"",
+            "expected a list of 3",
+            "write a list of 3",
         ),
         (
             robot,
@@ -162,6 +218,63 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
         }
         assert!(!bed.path("out").exists());
     }
+}
+
+#[test]
+fn a_scene_of_a_lab_is_wrong_at_its_own_key() {
+    let lab = "labs/03-knock-with-position/lab.toml";
+    for (from, to, place, help) in [
+        (
+            "name = \"shelf-and-can\"",
+            "name = \"shelf-and-cans\"",
+            "lab.toml:74:8]",
+            "did you mean `shelf-and-can`?",
+        ),
+        (
+            "shelf_at =",
+            "shelf_att =",
+            "not a dimension of this scene",
+            "did you mean `shelf_at`?",
+        ),
+    ] {
+        let bed = bed();
+        bed.edit(lab, from, to);
+        let ran = bed.run(&["grade", "03-knock-with-position", "submission.rhai"]);
+        assert_eq!(ran.code, Some(3), "{ran:?}");
+        for part in [place, help] {
+            assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+        }
+    }
+}
+
+#[test]
+fn a_broken_lab_takes_no_other_off_the_list() {
+    let bed = bed();
+    bed.edit(
+        "labs/03-knock-with-position/lab.toml",
+        "points = 6.0",
+        "pionts = 6.0",
+    );
+    let ran = bed.run(&["labs"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    assert!(ran.stdout.contains("04-knock-with-velocity"), "{ran:?}");
+    assert!(!ran.stdout.contains("03-knock-with-position"), "{ran:?}");
+    assert!(ran.stderr.contains("unknown key `pionts`"), "{ran:?}");
+    let ran = bed.run(&["labs", "--json"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(labs.as_array().map(Vec::len), Some(4));
+}
+
+#[test]
+fn an_empty_salt_is_told_where_it_stands() {
+    let bed = bed();
+    let output = bed.command(&GRADE).env("KINEMARK_SALT", "").output();
+    let told = String::from_utf8_lossy(&output.expect("the binary runs").stderr).into_owned();
+    assert!(told.contains("unset KINEMARK_SALT"), "{told}");
+    let ran = bed.run(&[&GRADE[..], &["--salt", ""]].concat());
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("leave --salt out"), "{ran:?}");
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn who_hurries_rests_or_stops_loses_for_that() {
     let told = message(check(&task, "soon"));
     assert!(
         told.starts_with("point 3 of the path `ell`, at [1.75, 1.25, 0.05], was missed by 0.")
-            && told.ends_with("the path was never over"),
+            && told.ends_with("the path was never finished"),
         "{told}"
     );
     // nothing is tried again where nothing was earned

@@ -218,7 +218,7 @@ fn what_is_nearly_a_known_mistake_is_not_named() {
             vec![slow("const SPEED = 0.13;")],
         ),
         (
-            "another road",
+            "another path",
             vec![("[[2.0, 1.4], [1.6, 1.4],", "[[2.0, 1.4], [1.75, 1.25],")],
         ),
         (

@@ -119,7 +119,7 @@ fn an_arm_that_stays_earns_nothing() {
     assert_eq!(check(&task, "whole")["measure"]["value"], 0.0);
     assert_eq!(
         message(check(&task, "soon")),
-        "`can` never fell, so the time was never over"
+        "`can` never fell, so there is no time to judge"
     );
 }
 

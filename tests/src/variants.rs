@@ -394,7 +394,7 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
             "out = { from",
             "lengths = { from",
             "lab::toml",
-            "duplicate key",
+            "is there twice",
         ),
         (
             "[variants]\nout",

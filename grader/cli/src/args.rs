@@ -40,24 +40,29 @@ pub(crate) struct StaffArgs {
     /// Grade on visible cases only, as students do
     #[arg(long, conflicts_with = "reference")]
     pub(crate) practice: bool,
-    /// Salt that hidden cases are drawn with, in place of the one in hidden.toml
+    /// Salt that hidden cases are drawn with, in place of the one in hidden.toml [env: KINEMARK_SALT]
     #[arg(
         long,
         value_name = "TEXT",
-        env = "KINEMARK_SALT",
-        hide_env_values = true,
+        env = SALT,
+        hide_env = true,
         value_parser = salt
     )]
     pub(crate) salt: Option<String>,
 }
 
+/// The variable that holds a salt.
+const SALT: &str = "KINEMARK_SALT";
+
 /// Refuses a salt that everyone knows: that of a secret that is not set.
 fn salt(text: &str) -> Result<String, String> {
     if text.trim().is_empty() {
-        return Err(
-            "the salt is empty; leave it out (and KINEMARK_SALT unset) to use hidden.toml's"
-                .to_owned(),
-        );
+        let is_of_environment = std::env::var(SALT).is_ok_and(|salt| salt == text);
+        return Err(if is_of_environment {
+            format!("the salt is empty: unset {SALT} in the environment to use hidden.toml's")
+        } else {
+            "the salt is empty: leave --salt out to use hidden.toml's".to_owned()
+        });
     }
     Ok(text.to_owned())
 }
@@ -286,8 +291,8 @@ pub(crate) struct NewArgs {
 /// Write the numbers of one student: for staff
 #[derive(Debug, ClapArgs)]
 #[command(
-    after_help = "Examples:\n  kinemark variant 04-line --student s1234567\n  \
-    kinemark variant 04-line --student s1234567 --out s1234567/variant.toml\n\n\
+    after_help = "Examples:\n  kinemark variant 04-knock-with-velocity --student s1234567\n  \
+    kinemark variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
     Needs the course's salt: the staff's hidden.toml, or --salt. The same salt, lab and student give the same numbers everywhere.\n\
     Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
 )]
@@ -412,7 +417,7 @@ pub(crate) enum SceneCommand {
 #[derive(Debug, ClapArgs)]
 #[command(
     after_help = "Examples:\n  kinemark scene check shelf-and-can\n  kinemark scene check my-scene.toml --robot rrbot --start 1.57,0\n  \
-    kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  kinemark scene check labs/05-shelf/lab.toml\n\n\
+    kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  kinemark scene check labs/03-knock-with-position/lab.toml\n\n\
     With --via, each point must be reached without a link in a fixed or driven body or in the ground, and so must the straight \
     lines between them. A lab brings its own robot, starts and goals. See docs/scenes.md.\n\
     Exit codes: 0 no errors (warnings and notes may be), 1 errors, 2 usage, 3 the scene, robot or lab is broken."

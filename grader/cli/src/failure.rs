@@ -77,17 +77,29 @@ impl Failure {
 
     /// Prints the failure for a person and gives the exit code.
     pub(crate) fn report(self) -> ExitCode {
-        use std::io::Write as _;
-        let mut text = String::new();
-        let theme = GraphicalTheme::unicode();
-        let handler = GraphicalReportHandler::new_themed(theme).with_width(100);
-        // the handler writes to a string, which cannot fail
-        let _ = handler.render_report(&mut text, self.diagnostic.as_ref());
-        // anstream strips the colours where they do not belong
-        let _ = anstream::stderr().write_all(text.trim_end().as_bytes());
-        let _ = anstream::stderr().write_all(b"\n");
+        show(self.diagnostic.as_ref());
         ExitCode::from(self.code)
     }
+}
+
+/// Prints what ends nothing, but should be mended.
+pub(crate) fn warn(what: &str, diagnostic: &dyn Diagnostic) {
+    use std::io::Write as _;
+    // who cannot be told is not told
+    let _ = anstream::stderr().write_all(format!("warning: {what}\n").as_bytes());
+    show(diagnostic);
+}
+
+fn show(diagnostic: &dyn Diagnostic) {
+    use std::io::Write as _;
+    let mut text = String::new();
+    let theme = GraphicalTheme::unicode();
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(100);
+    // the handler writes to a string, which cannot fail
+    let _ = handler.render_report(&mut text, diagnostic);
+    // anstream strips the colours where they do not belong
+    let _ = anstream::stderr().write_all(text.trim_end().as_bytes());
+    let _ = anstream::stderr().write_all(b"\n");
 }
 
 impl From<LoadError> for Failure {

@@ -33,7 +33,7 @@ pub fn judge(facts: &MotionFacts<'_>, band: Band, pose: Band) -> Finding {
     }
     if let Some(goal) = missed {
         let message = format!(
-            "goal {} was never held, so the work was never over",
+            "goal {} was never held, so there is no time to judge",
             goal + 1
         );
         let last = facts.trace.len().saturating_sub(1);

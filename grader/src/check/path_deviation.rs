@@ -67,7 +67,7 @@ pub(super) fn which(only: Option<usize>) -> String {
 fn told(facts: &MotionFacts<'_>, path: &PathToFollow, i: usize, segment: &Driven) -> Evidence {
     let [from, to] = [i, i + 1].map(|k| list(path.points_m[k].as_slice()));
     let mut message = format!(
-        "segment {} of the path `{}`, from {from} to {to}: {} off (root mean square along the road)",
+        "segment {} of the path `{}`, from {from} to {to}: {} off (root mean square along the path travelled)",
         i + 1,
         path.name,
         metres(segment.rms_m),

@@ -67,7 +67,7 @@ pub fn judge(facts: &MotionFacts<'_>, until: &Until, band: Band) -> Finding {
                 fell(&trace.events, *body),
                 format!("`{name}` falls"),
                 format!("body {name}"),
-                format!("`{name}` never fell, so the time was never over"),
+                format!("`{name}` never fell, so there is no time to judge"),
                 end,
                 format!(
                     "Bring `{name}` down sooner: start at once, and go to it by a shorter way."
@@ -82,7 +82,7 @@ pub fn judge(facts: &MotionFacts<'_>, until: &Until, band: Band) -> Finding {
                 Over::Missed { point, off_m, tick } => (
                     None,
                     format!(
-                        "point {} of the path `{}`, at {}, was missed by {}, and counts from {}: the path was never over",
+                        "point {} of the path `{}`, at {}, was missed by {}, and counts from {}: the path was never finished",
                         point + 1,
                         path.name,
                         list(path.points_m[point].as_slice()),
@@ -93,7 +93,7 @@ pub fn judge(facts: &MotionFacts<'_>, until: &Until, band: Band) -> Finding {
                 ),
                 Over::Nowhere => (
                     None,
-                    format!("the path `{}` was never over", path.name),
+                    format!("the path `{}` was never finished", path.name),
                     end,
                 ),
             };

@@ -10,6 +10,7 @@ use kinemark_sim::runaway::BlowUp;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
+use crate::controller::Stop;
 use crate::grade::Diagnosis;
 use crate::lab::staff::Mutant;
 use crate::motion::{EarlyEnd, MotionRun, Session};
@@ -42,13 +43,14 @@ pub struct Compared<'t> {
     pub periods: Periods,
 }
 
-/// The one known mistake whose run is the student's, if there is exactly one.
+/// The one known mistake whose run is the student's, if there is exactly one. `stopped` is told of each that stops on the way.
 pub fn whole_run<'m, 'l>(
     compared: Compared<'_>,
     mutants: impl Iterator<Item = (&'m Mutant, Session<'l>)>,
+    stopped: &dyn Fn(&Mutant, &Stop),
 ) -> Vec<Diagnosis> {
     let mut found = mutants.filter_map(|(mutant, session)| {
-        let agreement = compared.with(session)?;
+        let agreement = compared.with(session, &|stop| stopped(mutant, stop))?;
         Some(Diagnosis {
             mistake: mutant.name.clone(),
             says: mutant.says.clone(),
@@ -71,12 +73,15 @@ struct Agreement {
 
 impl Compared<'_> {
     /// Runs a mutant as long as it can agree with the student.
-    fn with(&self, mut mutant: Session<'_>) -> Option<Agreement> {
+    fn with(&self, mut mutant: Session<'_>, stopped: &dyn Fn(&Stop)) -> Option<Agreement> {
         let mut sums = Sums::new(self);
         let look = CALLS_A_LOOK * u64::from(self.periods.ticks_per_control.get());
         let most_ticks = self.student.len() as u64 + self.most_shift_ticks() + 1;
         while !mutant.is_over() && mutant.tick() <= most_ticks {
             mutant.advance_to(mutant.tick() + look);
+            if let Some(stop) = mutant.stopped() {
+                stopped(stop);
+            }
             sums.see(self, mutant.so_far(), usize::MAX);
             if !sums.can_agree() {
                 return None;

@@ -10,6 +10,7 @@ use crate::diagnose;
 use crate::grade::{CheckGrade, Diagnosis, Digests, Outcome, Stopped, TaskGrade, TaskKind};
 use crate::lab::model::{Band, Case, Check, CheckKind, Function, FunctionTask, Task};
 use crate::lab::staff::Mutant;
+use crate::lab::staff::sound::Whose;
 use crate::stopped;
 use crate::verdict::Verdict;
 
@@ -135,6 +136,9 @@ impl Grader<'_> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &mutant.source);
             let run = cases::run(self.lab, function, all, &opening, &mut InProcess);
+            if let Some((_, stop)) = &run.stop {
+                self.note_fault(Whose::Mutant(mutant), task, &mutant.source, stop);
+            }
             (mutant, run.facts)
         });
         // mutants outlive the closure's borrow only if collected

@@ -1,5 +1,6 @@
 //! Grading a motion task: its run and hidden runs, its checks, where it leaves the reference, and what its plots draw.
 
+use kinemark_sim::source::Source;
 use kinemark_sim::trace::Trace;
 
 use super::first_lost::first_lost;
@@ -7,6 +8,7 @@ use super::judging::{counted, judged, not_finite_help, without_hints};
 use super::{Grader, Host, InProcess, Interrupted, MOST_LOG_LINES};
 use crate::check::{self, Climb, MotionFacts, stay};
 use crate::climb::{self, Undecided};
+use crate::controller::Stop;
 use crate::diagnose;
 use crate::divergence;
 use crate::event_words::Names;
@@ -16,6 +18,8 @@ use crate::grade::{
 use crate::graded::{AskedPath, Goal, TaskRun, TcpPath};
 use crate::hidden_runs::HiddenRuns;
 use crate::lab::model::{Band, Check, CheckKind, MotionTask, Task};
+use crate::lab::staff::Mutant;
+use crate::lab::staff::sound::Whose;
 use crate::lab::watched::PathToFollow;
 use crate::motion::{self, EarlyEnd, MotionRun, Session};
 use crate::stopped;
@@ -129,18 +133,25 @@ impl Grader<'_> {
                 };
                 let mutants = self.mutants_of(task).filter_map(|mutant| {
                     let opening = self.opening(task, &mutant.source);
-                    let session = Session::open(self.lab, work, &opening, &mut InProcess);
-                    Some((mutant, session.ok()?))
+                    match Session::open(self.lab, work, &opening, &mut InProcess) {
+                        Ok(session) => Some((mutant, session)),
+                        Err(run) => {
+                            self.note_stop(Whose::Mutant(mutant), task, &mutant.source, &run.ended);
+                            None
+                        }
+                    }
                 });
-                diagnose::whole_run(compared, mutants)
+                let stopped = |mutant: &Mutant, stop: &Stop| {
+                    self.note_fault(Whose::Mutant(mutant), task, &mutant.source, stop);
+                };
+                diagnose::whole_run(compared, mutants, &stopped)
             })
         } else if ended.is_none() {
             let mutants = self.mutants_of(task).map(|mutant| {
                 let opening = self.opening(task, &mutant.source);
-                (
-                    mutant,
-                    motion::run(self.lab, work, &opening, &mut InProcess).trace,
-                )
+                let run = motion::run(self.lab, work, &opening, &mut InProcess);
+                self.note_stop(Whose::Mutant(mutant), task, &mutant.source, &run.ended);
+                (mutant, run.trace)
             });
             diagnose::motion_task(work, band, &trace, mutants)
         } else {
@@ -250,9 +261,24 @@ impl Grader<'_> {
 
     /// The reference solution's run of a task, with the staff's part and if it comes to its end.
     fn solution_run(&self, task: &Task, work: &MotionTask) -> Option<Trace> {
-        let opening = self.opening(task, &self.staff?.solution);
+        let solution = &self.staff?.solution;
+        let opening = self.opening(task, solution);
         let run = motion::run(self.lab, work, &opening, &mut InProcess);
+        self.note_stop(Whose::Solution, task, solution, &run.ended);
         run.ended.is_none().then_some(run.trace)
+    }
+
+    /// Keeps that a submission of the staff stopped, if it did.
+    fn note_stop(
+        &self,
+        whose: Whose<'_>,
+        task: &Task,
+        source: &Source,
+        ended: &Option<(u64, EarlyEnd)>,
+    ) {
+        if let Some((_, EarlyEnd::Stopped(stop))) = ended {
+            self.note_fault(whose, task, source, stop);
+        }
     }
 
     fn reference_path(&self, task: &str) -> Option<&TcpPath> {

@@ -3,6 +3,7 @@
 pub(super) mod step;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
@@ -468,6 +469,10 @@ pub(super) struct MutantTable {
 pub(super) struct SceneTable {
     pub(super) name: String,
     pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+    /// Where the name stands in a table.
+    pub(super) name_at: Option<Range<usize>>,
+    /// Where the dimensions' names stand.
+    pub(super) dimensions_at: BTreeMap<String, Range<usize>>,
 }
 
 impl<'de> Deserialize<'de> for SceneTable {
@@ -481,7 +486,7 @@ impl<'de> Deserialize<'de> for SceneTable {
             fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<SceneTable, E> {
                 Ok(SceneTable {
                     name: name.to_owned(),
-                    dimensions: BTreeMap::new(),
+                    ..SceneTable::default()
                 })
             }
             fn visit_map<A: serde::de::MapAccess<'de>>(
@@ -491,13 +496,22 @@ impl<'de> Deserialize<'de> for SceneTable {
                 #[derive(Deserialize)]
                 #[serde(deny_unknown_fields)]
                 struct Table {
-                    name: String,
+                    name: Spanned<String>,
                     #[serde(default)]
-                    dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+                    dimensions: BTreeMap<Spanned<String>, kinemark_sim::robot::Dimension>,
                 }
                 let table = serde::de::value::MapAccessDeserializer::new(map);
                 let Table { name, dimensions } = Table::deserialize(table)?;
-                Ok(SceneTable { name, dimensions })
+                let places = dimensions.keys();
+                Ok(SceneTable {
+                    name_at: Some(name.span()),
+                    dimensions_at: places.map(|at| (at.get_ref().clone(), at.span())).collect(),
+                    name: name.into_inner(),
+                    dimensions: dimensions
+                        .into_iter()
+                        .map(|(name, value)| (name.into_inner(), value))
+                        .collect(),
+                })
             }
         }
         deserializer.deserialize_any(NameOrTable)

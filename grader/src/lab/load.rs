@@ -22,7 +22,7 @@ use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::source::suggest;
 use toml::Spanned;
 
-use super::file::{BudgetTable, LabTable, NumberAt, SceneTable, TaskTable};
+use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
 use super::files::Files;
 use super::model::{Check, Lab, ReferencePaths, Task, TaskWork};
 use super::parameters;
@@ -241,33 +241,44 @@ fn scenes(
     let mut scenes: Vec<Arc<LabScene>> = Vec::new();
     let motions = lab.tasks.iter().filter_map(|task| task.motion.as_ref());
     for at in motions.filter_map(|motion| motion.get_ref().scene.as_ref()) {
-        let SceneTable { name, dimensions } = at.get_ref();
-        let name = name.as_str();
-        let dimensions: Vec<_> = dimensions.clone().into_iter().collect();
+        let table = at.get_ref();
+        let name = table.name.as_str();
+        let name_at = || table.name_at.clone().unwrap_or(at.span());
+        let dimensions: Vec<_> = table.dimensions.clone().into_iter().collect();
         if scenes.iter().any(|scene| scene.is(name, &dimensions)) {
             continue;
         }
         let Some(scene) = LabScene::load(files, name)? else {
             let known = scene_names(files);
             return Ok(report.err(
-                at.span(),
+                name_at(),
                 "lab::unknown_scene",
                 format!("no scene file `scenes/{name}.toml`"),
                 "not a scene of this place",
                 Some(suggest(name, "scenes", known.iter().map(String::as_str))),
             )?);
         };
-        let known = scene.file.dimensions().names();
-        let known = suggest("", "dimensions", known);
+        let known: Vec<String> = scene.file.dimensions().names().map(str::to_owned).collect();
         let scene = match scene.with_dimensions(dimensions) {
             Ok(scene) => scene,
             Err(error) => {
+                let is_known = |name: &String| known.contains(name);
+                let typed = table.dimensions_at.iter().find(|(name, _)| !is_known(name));
+                let (typed, place) = typed.map_or(("", at.span()), |(name, at)| (name, at.clone()));
                 return Ok(report.err(
-                    at.span(),
+                    place,
                     "lab::dimensions",
                     error.to_string(),
-                    "this scene",
-                    Some(known),
+                    if typed.is_empty() {
+                        "this scene"
+                    } else {
+                        "not a dimension of this scene"
+                    },
+                    Some(suggest(
+                        typed,
+                        "dimensions",
+                        known.iter().map(String::as_str),
+                    )),
                 )?);
             }
         };
@@ -300,11 +311,10 @@ fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, Load
     let Some(source) = read(files, &path)? else {
         return Ok(ReferencePaths::default());
     };
-    let tables: BTreeMap<String, PathTable> =
-        serde_json::from_str(source.text()).map_err(|error| LoadError::Unreadable {
-            path: format!("{}/{path}", files.name()),
-            why: error.to_string(),
-        })?;
+    let tables: BTreeMap<String, PathTable> = match serde_json::from_str(source.text()) {
+        Ok(tables) => tables,
+        Err(error) => return Ok(Reporter { source: &source }.json(&error)?),
+    };
     let paths = tables.into_iter().map(|(task, table)| {
         let path = TcpPath {
             period_s: table.period_s,
@@ -316,6 +326,14 @@ fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, Load
         paths: paths.collect(),
         text: source.text().to_owned(),
     })
+}
+
+/// So many numbers, in words.
+fn numbers(count: usize) -> String {
+    match count {
+        1 => "1 number".to_owned(),
+        _ => format!("{count} numbers"),
+    }
 }
 
 struct Reader<'a> {
@@ -471,7 +489,7 @@ impl Reader<'_> {
         self.report.err(
             list.span(),
             "lab::joint_count",
-            format!("`{what}` has {found} numbers for {expected} joints"),
+            format!("`{what}` has {} for {expected} joints", numbers(found)),
             "one number per joint that moves",
             Some(format!(
                 "joints of `{}`: {}",

@@ -525,7 +525,7 @@ impl CheckKind {
 /// The part of a run that is compared with the reference's path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MatchSpan {
-    /// The dwells at the goals: between them every road is right.
+    /// The dwells at the goals: between them every path is right.
     Dwells,
     /// The whole run.
     Run,

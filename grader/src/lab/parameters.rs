@@ -71,13 +71,28 @@ pub(super) fn tables_with<T: DeserializeOwned>(
         if key.get_ref() == "variants" {
             refuse_expressions(value, source)?;
         }
-        evaluated(value, source, parameters, &mut numbers)?;
+        if let Err(error) = evaluated(value, source, parameters, &mut numbers) {
+            // a table under a wrong name is why a parameter is missing, not the expression
+            return Err(unknown_key::<T>(source).unwrap_or(error));
+        }
     }
     let mut next = numbers.iter().map(String::as_str);
     for (_, value) in table.get_mut().iter_mut() {
         replaced(value, &mut next);
     }
     T::deserialize(Deserializer::from(table)).map_err(|error| refused(source, &error))
+}
+
+/// A key that no table of `T` knows, found with every expression taken for a zero.
+fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<LabError> {
+    let mut table = DeTable::parse(source.text()).ok()?;
+    let mut zeros = std::iter::repeat("0");
+    for (_, value) in table.get_mut().iter_mut() {
+        replaced_dyn(value, &mut zeros);
+    }
+    let error = T::deserialize(Deserializer::from(table)).err()?;
+    let is_key = error.message().starts_with("unknown field");
+    is_key.then(|| refused(source, &error))
 }
 
 /// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.
@@ -183,7 +198,7 @@ fn number(
 
 /// What the TOML reader refused, with its place.
 pub(super) fn refused(source: &Source, error: &toml::de::Error) -> LabError {
-    let TomlRefusal { message, help, at } = TomlRefusal::from_error(error);
+    let TomlRefusal { message, help, at } = TomlRefusal::from_error(error, source.text());
     let problem = LabProblem {
         message,
         code: "lab::toml",
@@ -251,8 +266,19 @@ parameters = { x = 0.1, l = [1, 2.5] }
                 (7, 16),
                 "parameter name \"x-y\" cannot be used",
             ),
-            ("x = 0.1", "x = true", (7, 20), "invalid type: boolean"),
+            (
+                "x = 0.1",
+                "x = true",
+                (7, 20),
+                "`true` is true or false, expected",
+            ),
             ("x = 0.1", "x = inf", (7, 20), "a lab's numbers are finite"),
+            (
+                "parameters =",
+                "paramaters =",
+                (7, 1),
+                "unknown key `paramaters`",
+            ),
         ] {
             let error = read(&TEXT.replacen(from, to, 1)).unwrap_err();
             assert!(error.to_string().contains(message), "{to}: {error}");

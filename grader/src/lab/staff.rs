@@ -2,6 +2,7 @@
 
 mod draws;
 mod hidden_runs;
+pub(crate) mod sound;
 
 use kinemark_sim::source::{Source, suggest};
 use toml::Spanned;
@@ -13,6 +14,7 @@ use super::model::{Case, Lab, TaskWork};
 use super::problem::{LabError, LoadError};
 use draws::{checked, expect};
 use hidden_runs::hidden_runs;
+use sound::{Whose, refuse_unbuilt};
 
 /// The staff's part of a lab.
 #[derive(Debug, Clone)]
@@ -64,9 +66,10 @@ impl Staff {
         salt: Option<&str>,
     ) -> Result<Option<Self>, LoadError> {
         let folder = &lab.name;
-        let Some(solution) = read(files, &format!("{folder}/solution.rhai"))? else {
+        let Some(solution) = own(files, &format!("{folder}/solution.rhai"))? else {
             return Ok(None);
         };
+        refuse_unbuilt(lab, None, Whose::Solution, &solution)?;
         let mut hasher = blake3::Hasher::new();
         let mut digest = |source: &Source| {
             hasher.update(&(source.text().len() as u64).to_le_bytes());
@@ -78,7 +81,7 @@ impl Staff {
         // without hidden.toml nothing is hidden, and nothing keyed
         let mut key = [0; 32];
         let hidden_path = format!("{folder}/hidden.toml");
-        let hidden_source = read(files, &hidden_path)?;
+        let hidden_source = own(files, &hidden_path)?;
         let has_functions = lab
             .tasks
             .iter()
@@ -125,7 +128,7 @@ impl Staff {
             }
         }
         let mut mutants = Vec::new();
-        if let Some(source) = read(files, &format!("{folder}/mutants.toml"))? {
+        if let Some(source) = own(files, &format!("{folder}/mutants.toml"))? {
             digest(&source);
             let table: MutantsTable = tables(&source)?;
             let report = Reporter { source: &source };
@@ -136,22 +139,25 @@ impl Staff {
                 }
                 let name = mutant.name.get_ref().clone();
                 let path = format!("{folder}/mutants/{name}.rhai");
-                let Some(submission) = read(files, &path)? else {
+                let Some(submission) = own(files, &path)? else {
                     return Ok(report.err(
                         mutant.name.span(),
                         "staff::no_mutant",
-                        format!("there is no file `{path}`"),
+                        format!("there is no file `{}/{path}`", files.name()),
                         "this mutant",
                         Some("a mutant's name is its file's name without `.rhai`".to_owned()),
                     )?);
                 };
                 digest(&submission);
-                mutants.push(Mutant {
+                let mutant = Mutant {
                     name,
                     tasks: mutant.tasks.into_iter().map(Spanned::into_inner).collect(),
                     says: mutant.says,
                     source: submission,
-                });
+                };
+                let task = mutant.tasks.first().map(String::as_str);
+                refuse_unbuilt(lab, task, Whose::Mutant(&mutant), &mutant.source)?;
+                mutants.push(mutant);
             }
         }
         Ok(Some(Self {
@@ -182,7 +188,7 @@ impl Staff {
         if let Some(salt) = replacing {
             return Ok(Some(salt.to_owned()));
         }
-        let Some(source) = read(files, &format!("{lab}/hidden.toml"))? else {
+        let Some(source) = own(files, &format!("{lab}/hidden.toml"))? else {
             return Ok(None);
         };
         let table: HiddenTable = tables(&source)?;
@@ -201,6 +207,12 @@ impl Staff {
         let found = self.hidden.iter().find(|(name, _)| name == task);
         found.map_or(&[], |(_, cases)| cases)
     }
+}
+
+/// Reads a file of the staff's: its name begins with their folder, so that it can be opened from where one stands.
+fn own(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
+    let source = read(files, path)?;
+    Ok(source.map(|source| Source::new(format!("{}/{path}", files.name()), source.text())))
 }
 
 /// The salt of a `hidden.toml`, which is not empty.

@@ -3,6 +3,7 @@
 mod band;
 mod comparison;
 mod head;
+mod look;
 mod task;
 pub(crate) mod viewer;
 
@@ -42,13 +43,13 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
     let has_replay = |index: usize| replays.iter().any(|(i, _)| *i == index);
     let title = format!(
         "{}: {} of {} points",
-        visible(&grade.lab.name),
+        visible(title_of(graded)),
         points(grade.points),
         points(grade.max_points)
     );
     let body = html! {
         a class="skip" href="#scores" { "Skip to the scores" }
-        (head(grade))
+        (head(grade, title_of(graded), &look::look(grade, has_replay)))
         main {
             (scores(grade))
             @for (i, task) in grade.tasks.iter().enumerate() {
@@ -58,6 +59,15 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
         (facts(grade))
     };
     page(&title, &grade.engine, &body, &replays)
+}
+
+/// What the lab is called: its title, or its name where it has none.
+fn title_of(graded: &GradedRun) -> &str {
+    if graded.title.trim().is_empty() {
+        &graded.grade.lab.name
+    } else {
+        &graded.title
+    }
 }
 
 /// A whole page with its styles, and with the viewer where it has replays: their numbers, by which [`viewer::place`] names the places
@@ -194,6 +204,88 @@ mod tests {
         // data first, code last
         assert!(page.rfind("</script></body>").is_some());
         assert!(page.find("id=\"replay-4\"") < page.rfind("<script>"));
+    }
+
+    #[test]
+    fn the_title_of_the_lab_leads_and_its_name_follows() {
+        let mut graded = sample::graded();
+        let page_of = |graded: &GradedRun| own(&page(graded));
+        assert!(page_of(&graded).contains("<h1><bdi>Where is the hand?</bdi></h1>"));
+        assert!(page_of(&graded).contains("<bdi>01-kinematics</bdi> · robot "));
+        graded.title = " ".to_owned();
+        assert!(page_of(&graded).contains("<h1><bdi>01-kinematics</bdi></h1>"));
+    }
+
+    #[test]
+    fn a_passed_task_is_folded_and_so_are_the_full_checks_of_another() {
+        let page = own(&page(&sample::graded()));
+        let mut sections = page.split("<section class=\"task\"").skip(1);
+        let passed = sections.next().expect("the warm-up");
+        let (open, folded) = passed
+            .split_once("<details class=\"more\">")
+            .expect("folded");
+        assert!(
+            open.contains("Warm-up") && !open.contains("<article"),
+            "{open}"
+        );
+        assert!(folded.contains("<summary>Checks</summary>") && folded.contains("<article"));
+        let lost = sections.last().expect("the move");
+        let (open, folded) = lost.split_once("<details class=\"more\">").expect("folded");
+        assert!(
+            open.contains("<article") && !open.contains("Done in time"),
+            "{open}"
+        );
+        assert!(folded.contains("with all points</summary>") && folded.contains("Done in time"));
+        // what a lost check judged is drawn beside it, and nowhere else
+        assert!(open.contains("class=\"check pictured\""));
+        assert_eq!(open.matches("<figure").count(), 1);
+        assert!(folded.contains("<figure"));
+    }
+
+    #[test]
+    fn what_hidden_runs_cost_is_told_once_a_task() {
+        let mut graded = sample::graded();
+        let task = &mut graded.grade.tasks[3];
+        let class = "an arm of other lengths".to_owned();
+        task.hidden = vec![crate::grade::HiddenClass {
+            class: class.clone(),
+            good: 0,
+            total: 1,
+        }];
+        let message = "in 1 of 1 hidden runs points are lost";
+        for check in &mut task.checks {
+            check.outcome = crate::grade::Outcome::Partial;
+            let mut fact =
+                check.evidence.first().cloned().unwrap_or_else(|| {
+                    sample::graded().grade.tasks[3].checks[3].evidence[0].clone()
+                });
+            fact.message = message.to_owned();
+            (fact.tick, fact.time_s, fact.case) = (None, None, Some(class.clone()));
+            check.evidence.push(fact);
+        }
+        let count = task.checks.len();
+        let titles: Vec<&str> = task
+            .checks
+            .iter()
+            .map(|check| check.title.as_str())
+            .collect();
+        let told = format!("<td><bdi>{}</bdi></td>", titles.join("; "));
+        let page = own(&page(&graded));
+        assert!(!page.contains(message));
+        assert_eq!(page.matches(&told).count(), 1, "{told}");
+        assert_eq!(page.matches("href=\"#task-4-hidden\"").count(), count);
+        assert_eq!(page.matches("id=\"task-4-hidden\"").count(), 1);
+    }
+
+    #[test]
+    fn why_a_check_was_not_judged_is_told() {
+        let mut graded = sample::graded();
+        let check = &mut graded.grade.tasks[3].checks[0];
+        check.outcome = crate::grade::Outcome::NotJudged;
+        check.measure = None;
+        check.next_step = Some("First earn something in \"Done in time\".".to_owned());
+        let words = "Not judged: a check that it needs earned nothing.";
+        assert!(own(&page(&graded)).contains(words));
     }
 
     #[test]

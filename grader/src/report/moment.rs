@@ -82,7 +82,10 @@ pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
         .min_by(|(a, of_a), (b, of_b)| a.cmp(b).then_with(|| cost(of_b).total_cmp(&cost(of_a))));
     match earliest {
         Some((_, loss)) => Some(*loss),
-        None => all.into_iter().next(),
+        // no moment is told, as in a function task: what cost the most, of equal ones the first
+        None => all
+            .into_iter()
+            .reduce(|a, b| if cost(&b) > cost(&a) { b } else { a }),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Names and signs that people bring from MATLAB, Python and C, and what to write here.
 
+use kinemark_sim::source::nearest;
+
 /// Functions of other languages, and what to write here.
 const FUNCTIONS: &[(&str, &str)] = &[
     ("arctan2", "write atan2(y, x)"),
@@ -227,6 +229,22 @@ pub(super) fn syntax(line: &str, column: usize) -> Option<String> {
                 .find(|(sign, _)| near.contains(sign))
                 .map(|(_, help)| (*help).to_owned())
         })
+}
+
+/// Words that a line begins with.
+const KEYWORDS: [&str; 8] = ["fn", "let", "const", "if", "for", "while", "return", "else"];
+
+/// The keyword that a line's first word is nearly, where the parser stopped at its second one.
+pub(super) fn near_keyword(line: &str, column: usize) -> Option<String> {
+    let before: String = line.chars().take(column.saturating_sub(1)).collect();
+    let word = before.trim();
+    let is_name = word.chars().all(|c| c.is_alphanumeric() || c == '_');
+    // a single letter is a variable
+    if !is_name || word.len() < 2 || KEYWORDS.contains(&word) {
+        return None;
+    }
+    let near = nearest(word, KEYWORDS.into_iter())?;
+    Some(format!("did you mean `{near}`? Else end `{word}` with `;`"))
 }
 
 fn look_up(table: &[(&str, &str)], name: &str) -> Option<String> {

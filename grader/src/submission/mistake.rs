@@ -248,10 +248,11 @@ impl Context<'_> {
                 foreign::reserved(word),
             ),
             ParseErrorType::MissingToken(token, _) if token == ";" => {
+                let near = place.and_then(|place| foreign::near_keyword(line, place.column));
                 let help = "end the statement before it with `;`".to_owned();
                 return (
                     "a `;` is missing before this".to_owned(),
-                    foreign.or(Some(help)),
+                    foreign.or(near).or(Some(help)),
                 );
             }
             ParseErrorType::MissingToken(token, _) if token == "]" && at == Some(',') => (

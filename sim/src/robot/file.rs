@@ -39,7 +39,8 @@ impl RobotFile {
                 meshes: Meshes::default(),
             }),
             Err(error) => {
-                let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
+                let TomlRefusal { message, help, at } =
+                    TomlRefusal::from_error(&error, source.text());
                 let problem = PartProblem::Toml { message, help };
                 Err(RobotError::new(problem.into(), &source, at))
             }

@@ -35,7 +35,8 @@ impl SceneFile {
                 meshes: Meshes::default(),
             }),
             Err(error) => {
-                let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error);
+                let TomlRefusal { message, help, at } =
+                    TomlRefusal::from_error(&error, source.text());
                 let problem = SceneProblem::Part(PartProblem::Toml { message, help });
                 Err(SceneError::new(problem, &source, at))
             }

@@ -12,7 +12,7 @@ use kinemark_grader::verdict::Verdict;
 use kinemark_sim::source::Source;
 
 use crate::args::GradeArgs;
-use crate::failure::{FAULT, Failure, LOST};
+use crate::failure::{self, FAULT, Failure, LOST};
 use crate::report_folder::Pictures;
 use crate::variants::{self, Chosen};
 use crate::worker::WorkerHost;
@@ -119,6 +119,12 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     // a worker's processor is for workers alone
     drop(workers);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
+    for fault in &graded.staff_faults {
+        failure::warn(
+            "the points stand, but this file of the staff told nothing of the submission",
+            fault.as_ref(),
+        );
+    }
     if let Some(staff) = staff.as_ref().filter(|_| args.ghost) {
         ghost::show_reference(&lab, staff, &mut graded);
     }

@@ -150,7 +150,7 @@ fn text(audit: &Audit) -> String {
     if !audit.rooms.is_empty() {
         let _ = writeln!(
             out,
-            "\nroom of the reference in its bands over the variants (0 %: at the edge of full marks, 100 %: a band's width inside)"
+            "\nmargins of the reference in its bands over the variants (0 %: at the edge of full marks, 100 %: a band's width inside)"
         );
     }
     for room in &audit.rooms {

@@ -19,12 +19,19 @@ struct Row {
     points: f64,
 }
 
-/// Lists the labs; a broken one is an error that names its place.
+/// Lists the labs; each broken one is told after them, with its place.
 pub(crate) fn run(args: &LabsArgs) -> Result<ExitCode, Failure> {
     let (files, _) = places::labs(&args.places)?;
     let mut rows = Vec::new();
+    let mut broken = Vec::new();
     for name in lab_names(files.as_ref()) {
-        let lab = Lab::load(files.as_ref(), &name)?;
+        let lab = match Lab::load(files.as_ref(), &name) {
+            Ok(lab) => lab,
+            Err(error) => {
+                broken.push(error);
+                continue;
+            }
+        };
         rows.push(Row {
             points: lab.tasks.iter().map(|task| task.max_points()).sum(),
             tasks: lab.tasks.iter().map(|task| task.name.clone()).collect(),
@@ -49,12 +56,17 @@ pub(crate) fn run(args: &LabsArgs) -> Result<ExitCode, Failure> {
                 row.tasks.join(", ")
             );
         }
-        if rows.is_empty() {
+        if rows.is_empty() && broken.is_empty() {
             text = format!("no labs in {}\n", files.name());
-        } else {
+        } else if !rows.is_empty() {
             text += "\nStart one with `kinemark new NAME`.\n";
         }
         output::print(&text)?;
     }
-    Ok(ExitCode::SUCCESS)
+    // those that can be had are told first: one that is broken takes no other with it
+    let mut code = ExitCode::SUCCESS;
+    for error in broken {
+        code = Failure::from(error).report();
+    }
+    Ok(code)
 }

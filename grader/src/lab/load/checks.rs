@@ -46,7 +46,10 @@ impl Reader<'_> {
                     "check `{name}` must be worth more than 0 and at most 1000 points, got {points}"
                 ),
                 "out of range",
-                None,
+                Some(
+                    "points are earned, never taken away: write what full marks are worth"
+                        .to_owned(),
+                ),
             );
         }
         let mut needs = Vec::new();

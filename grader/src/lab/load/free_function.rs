@@ -1,6 +1,7 @@
 //! A task of a function that the lab names itself: what it is called, what its cases give, what they expect.
 
 use kinemark_sim::robot::Dimension;
+use kinemark_sim::source::nearest;
 use toml::Spanned;
 
 use super::Reader;
@@ -41,7 +42,7 @@ impl Reader<'_> {
         }
         let mut cases: Vec<Case> = Vec::new();
         for spanned in &table.cases {
-            let case = self.free_case(table.call.get_ref(), spanned)?;
+            let case = self.free_case(&table.call, spanned)?;
             if let Some(first) = cases.first()
                 && shape(first) != shape(&case)
             {
@@ -64,7 +65,11 @@ impl Reader<'_> {
         Ok(cases)
     }
 
-    fn free_case(&self, function: &str, spanned: &Spanned<CaseTable>) -> Result<Case, LabError> {
+    fn free_case(
+        &self,
+        function: &Spanned<String>,
+        spanned: &Spanned<CaseTable>,
+    ) -> Result<Case, LabError> {
         let table = spanned.get_ref();
         let name = table.name.get_ref().clone();
         let foreign = table.q_rad.is_some()
@@ -72,6 +77,20 @@ impl Reader<'_> {
             || table.branches.is_some()
             || !table.dimensions.is_empty();
         let (Some(given), Some(expected), false) = (&table.given, &table.expected, foreign) else {
+            let known = ["forward_kinematics", "inverse_kinematics", "jacobian"];
+            if let (true, Some(near)) = (foreign, nearest(function.get_ref(), known.into_iter())) {
+                return self.report.err(
+                    function.span(),
+                    "lab::call",
+                    format!(
+                        "`{}` is a function of the lab's own, and case `{name}` is one of `{near}`",
+                        function.get_ref()
+                    ),
+                    "this name",
+                    Some(format!("did you mean `{near}`?")),
+                );
+            }
+            let function = function.get_ref();
             return self.report.err(
                 spanned.span(),
                 "lab::case_input",

@@ -13,7 +13,7 @@ use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::Reader;
+use super::{Reader, numbers};
 use crate::controller::Value;
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::lab::model::{MotionGoal, MotionTask};
@@ -22,6 +22,8 @@ use crate::quantity::trimmed;
 
 /// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
 const MOST_GAP_M: f64 = 1e-3;
+/// Physics steps of a task: a quarter of an hour at 1 ms. More would not fit in the memory of a grade.
+const MOST_TICKS: u64 = 900_000;
 
 impl Reader<'_> {
     pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
@@ -48,19 +50,35 @@ impl Reader<'_> {
             }
         };
         let duration_s = self.positive(&motion.duration_s, "the duration")?;
-        let whole_ticks = |seconds: f64, at: &NumberAt, what: &str| {
-            match whole_ratio(seconds, step_s) {
-                // a quarter of an hour at 1 ms: more would not fit in the memory of a grade
-                Some(ticks) if ticks <= 900_000 => Ok(ticks),
-                _ => self.report.err(
-                    at.span(),
-                    "lab::periods",
-                    format!("{what} of {seconds} s is not a whole, sensible number of physics steps of {step_s} s"),
-                    "this time",
-                    None,
+        let whole_ticks =
+            |seconds: f64, at: &NumberAt, what: &str| {
+                match whole_ratio(
+            seconds, step_s,
+        ) {
+            Some(ticks) if ticks <= MOST_TICKS => Ok(ticks),
+            None if seconds / step_s <= MOST_TICKS as f64 => self.report.err(
+                at.span(),
+                "lab::periods",
+                format!(
+                    "{what} of {seconds} s is not a whole number of physics steps of {step_s} s"
                 ),
-            }
-        };
+                "does not divide",
+                Some(format!("write a multiple of {step_s} s")),
+            ),
+            _ => self.report.err(
+                at.span(),
+                "lab::periods",
+                format!(
+                    "{what} of {seconds} s has more than {MOST_TICKS} physics steps of {step_s} s"
+                ),
+                "too long",
+                Some(format!(
+                    "write {} s at most: a run is kept whole in memory",
+                    trimmed(MOST_TICKS as f64 * step_s, 3)
+                )),
+            ),
+        }
+            };
         let ticks = whole_ticks(duration_s, &motion.duration_s, "the duration")?;
         let start_q = match &motion.start_rad {
             None => self.robot.home().to_vec(),
@@ -261,7 +279,7 @@ impl Reader<'_> {
                     return self.report.err(
                         at.clone(),
                         "lab::joint_count",
-                        format!("`{what}` has {} numbers for {n} joints", values.len()),
+                        format!("`{what}` has {} for {n} joints", numbers(values.len())),
                         "this servo",
                         Some("give one number for all joints, or one per joint".to_owned()),
                     );

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::source::Source;
+use kinemark_sim::source::{Source, suggest};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 
@@ -85,6 +85,35 @@ impl Reporter<'_> {
             help,
         };
         Err(LabError::new(problem, self.source, at))
+    }
+
+    /// What the JSON reader refused, at its place.
+    pub(in crate::lab) fn json<T>(&self, error: &serde_json::Error) -> Result<T, LabError> {
+        let told = error.to_string();
+        let message = told.split(" at line ").next().unwrap_or(&told);
+        let text = self.source.text();
+        let lines = text.split_inclusive('\n');
+        let before = lines
+            .take(error.line().saturating_sub(1))
+            .map(str::len)
+            .sum::<usize>();
+        // the reader counts bytes, and has read the one that it refuses
+        let at = (before + error.column().saturating_sub(1)).min(text.len());
+        let mut quoted = message.split('`').skip(1).step_by(2);
+        let help = if message.starts_with("unknown field") {
+            let name = quoted.next().unwrap_or_default();
+            suggest(name, "keys", quoted)
+        } else {
+            "an object of tasks, each { \"period_s\": 0.02, \"points_m\": [[x, y, z], ...] }"
+                .to_owned()
+        };
+        self.err(
+            at..(at + 1).min(text.len()),
+            "lab::reference_path",
+            message.replace("unknown field", "unknown key"),
+            "here",
+            Some(help),
+        )
     }
 
     pub(in crate::lab) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {

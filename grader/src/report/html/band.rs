@@ -26,10 +26,10 @@ pub(super) fn told(measure: &Measure) -> Told {
     } else {
         ("≥", "≤")
     };
-    let where_ = if measure.margin() > Some(0.0) {
-        "inside"
+    let words = if measure.margin() > Some(0.0) {
+        "to spare"
     } else {
-        "short of"
+        "short of full points"
     };
     Told {
         value: match measure.value {
@@ -43,7 +43,7 @@ pub(super) fn told(measure: &Measure) -> Told {
         ),
         margin: told
             .margin
-            .map(|margin| format!("{} {where_} full points", kept(&margin))),
+            .map(|margin| format!("{} {words}", kept(&margin))),
     }
 }
 
@@ -126,10 +126,7 @@ mod tests {
     fn a_band_can_run_downwards() {
         let told = told(&measure(Some(0.5), 0.45, 0.1));
         assert_eq!(told.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
-        assert_eq!(
-            told.margin.as_deref(),
-            Some("50.0\u{a0}mm inside full points")
-        );
+        assert_eq!(told.margin.as_deref(), Some("50.0\u{a0}mm to spare"));
     }
 
     #[test]

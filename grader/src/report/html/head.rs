@@ -4,14 +4,17 @@ use maud::{Markup, html};
 
 use super::band::{outcome, told};
 use super::foreign;
-use crate::grade::{CheckGrade, Grade, GradeMode, Part, TaskGrade};
+use crate::grade::{CheckGrade, Grade, GradeMode, Outcome, Part, TaskGrade};
 use crate::quantity::points;
 use crate::report::visible::visible;
 use crate::verdict::Verdict;
 
-/// What a verdict means, in a sentence.
-pub(super) fn meaning(verdict: Verdict) -> &'static str {
-    match verdict {
+/// What a verdict over `checks` means, in a sentence.
+pub(super) fn meaning<'a>(
+    verdict: Verdict,
+    checks: impl Iterator<Item = &'a CheckGrade>,
+) -> String {
+    let sentence = match verdict {
         Verdict::GraderFault => {
             "The grader failed. This is not your fault, and no points are decided."
         }
@@ -24,9 +27,17 @@ pub(super) fn meaning(verdict: Verdict) -> &'static str {
         Verdict::InvalidOutput => {
             "The submission returned something of the wrong shape, or a number that is not finite."
         }
-        Verdict::Missed => "Some check did not earn all its points.",
+        Verdict::Missed => {
+            let (mut lost, mut all) = (0, 0);
+            for check in checks {
+                lost += usize::from(check.outcome != Outcome::Full);
+                all += 1;
+            }
+            return format!("{lost} of {all} checks lost points.");
+        }
         Verdict::Passed => "Every check earned all its points.",
-    }
+    };
+    sentence.to_owned()
 }
 
 /// A verdict as a chip, with a colour that its word does not need.
@@ -52,8 +63,9 @@ pub(super) fn earned(earned: f64, of: f64) -> Markup {
     html! { span class="points" { b { (points(earned)) } " of " (points(of)) } }
 }
 
-/// The head: how it went, at a glance.
-pub(super) fn head(grade: &Grade) -> Markup {
+/// The head: how it went, at a glance, and where to look first.
+pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
+    let checks = || grade.tasks.iter().flat_map(|task| &task.checks);
     let share = if grade.max_points > 0.0 {
         (grade.points / grade.max_points).clamp(0.0, 1.0)
     } else {
@@ -62,22 +74,25 @@ pub(super) fn head(grade: &Grade) -> Markup {
     html! {
         header class="head" {
             p class="eyebrow" { "Kinemark report" }
-            h1 { (foreign(&grade.lab.name)) }
-            p class="by" { "robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name)) }
+            h1 { (foreign(title)) }
+            p class="by" { (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name)) }
             @if let Some(variant) = &grade.variant { p class="by" { (foreign(&variant.words())) } }
-            div class="result" {
-                p class="score" {
-                    @if grade.verdict.is_decided() {
-                        b { (points(grade.points)) } span { "of " (points(grade.max_points)) " points" }
-                    } @else {
-                        b { "–" } span { "of " (points(grade.max_points)) " points, not decided" }
+            div class="first" {
+                div class="result" {
+                    p class="score" {
+                        @if grade.verdict.is_decided() {
+                            b { (points(grade.points)) } span { "of " (points(grade.max_points)) " points" }
+                        } @else {
+                            b { "–" } span { "of " (points(grade.max_points)) " points, not decided" }
+                        }
                     }
+                    svg class="meter" viewBox="0 0 100 2" preserveAspectRatio="none" aria-hidden="true" focusable="false" {
+                        rect class="rest" width="100" height="2" {}
+                        rect class="part" width=(format!("{:.2}", 100.0 * share)) height="2" {}
+                    }
+                    p { (verdict(grade.verdict)) " " (meaning(grade.verdict, checks())) }
                 }
-                svg class="meter" viewBox="0 0 100 2" preserveAspectRatio="none" aria-hidden="true" focusable="false" {
-                    rect class="rest" width="100" height="2" {}
-                    rect class="part" width=(format!("{:.2}", 100.0 * share)) height="2" {}
-                }
-                p { (verdict(grade.verdict)) " " (meaning(grade.verdict)) }
+                (look)
             }
             p class="mode" {
                 @match grade.mode {

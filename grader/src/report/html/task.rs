@@ -17,7 +17,8 @@ use crate::report::moment::{FirstLoss, first_loss_of, last_before};
 use crate::report::plot::Plot;
 use crate::report::standing::stands;
 use crate::report::text::untold;
-use crate::report::visible::{shortened, visible};
+use crate::report::visible::{file_stem, shortened, visible};
+use crate::verdict::Verdict;
 
 /// Lines of the log that are shown.
 const MOST_LINES: usize = 200;
@@ -40,37 +41,103 @@ pub(super) fn section(
         kind: task.kind,
         run: run.map(|(run, _)| run),
         has_replay,
+        stopped: task.stopped.is_some(),
     };
+    let passed = task.verdict == Verdict::Passed;
     html! {
         section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
             div class="title" id={ "task=" (visible(&task.name)) } {
                 h2 id={ (id) "-title" } { (foreign(&task.title)) }
                 p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
             }
-            p class="lead" { (meaning(task.verdict)) }
+            p class="lead" { (meaning(task.verdict, task.checks.iter())) }
             @if let Some(loss) = first_loss_of(task) { (first_lost(&loss, &of)) }
             @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
-            @if let Some(differs) = &task.divergence { (differing(differs, &of)) }
             @if has_replay { (place(index, &task.name)) }
-            @if !task.checks.is_empty() {
-                h3 { "Checks" }
-                ul class="checks" { @for check in &task.checks { li { (checked(check, &of)) } } }
+            // a task without a mistake is read by who wants to know more
+            @if passed {
+                details class="more" { summary { (contents(task, plots)) } (told_of(&id, task, plots, &of)) }
+            } @else {
+                (told_of(&id, task, plots, &of))
             }
-            @if !task.cases.is_empty() { (cases(&task.cases)) }
-            @if !task.hidden.is_empty() { (hidden(&task.hidden, task.kind)) }
-            @if !plots.is_empty() {
-                h3 { "Plots" }
-                div class="plots" {
-                    @for plot in plots {
-                        figure class="plot" tabindex="0" aria-label=(plot.title) data-task=(visible(&task.name)) data-panels=(plot.axes) { @for part in plot.inline() { (PreEscaped(part)) } }
-                    }
+        }
+    }
+}
+
+/// What is folded away of a task without a mistake.
+fn contents(task: &TaskGrade, plots: &[Plot]) -> String {
+    let all = [
+        (!task.checks.is_empty(), "checks"),
+        (!task.cases.is_empty(), "cases"),
+        (!plots.is_empty(), "plots"),
+        (
+            !(task.events.is_empty() && task.contacts.is_empty()),
+            "what happened",
+        ),
+        (!task.log.is_empty(), "printed lines"),
+    ];
+    let parts: Vec<&str> = all
+        .into_iter()
+        .filter_map(|(is_there, part)| is_there.then_some(part))
+        .collect();
+    let text = match parts.as_slice() {
+        [parts @ .., last] if !parts.is_empty() => format!("{} and {last}", parts.join(", ")),
+        parts => parts.concat(),
+    };
+    let mut letters = text.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => "More".to_owned(),
+    }
+}
+
+/// What is told of a task below its replay: checks, those that lost points first and each with the picture of what it judged; then
+/// cases, hidden ones, the other pictures, and what happened.
+fn told_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &Of<'_>) -> Markup {
+    let (full, lost): (Vec<&CheckGrade>, Vec<&CheckGrade>) = task
+        .checks
+        .iter()
+        .partition(|check| check.outcome == Outcome::Full);
+    let judged = |check: &CheckGrade| {
+        let name = format!("{}-check-{}", file_stem(&task.name), file_stem(&check.name));
+        plots.iter().find(|plot| plot.name == name)
+    };
+    let beside: Vec<&Plot> = lost.iter().filter_map(|check| judged(check)).collect();
+    let others = || plots.iter().filter(|plot| !beside.contains(plot));
+    let has_others = others().next().is_some();
+    html! {
+        @if let Some(differs) = &task.divergence { (differing(differs, of)) }
+        @if !task.checks.is_empty() { h3 { "Checks" } }
+        @if !lost.is_empty() {
+            ul class="checks" { @for check in &lost { li { (checked(check, judged(check), id, of)) } } }
+        }
+        @if !full.is_empty() {
+            @let list = html! { ul class="checks" { @for check in &full { li { (checked(check, None, id, of)) } } } };
+            @if lost.is_empty() {
+                (list)
+            } @else {
+                details class="more" {
+                    summary { @if full.len() == 1 { "1 check" } @else { (full.len()) " checks" } " with all points" }
+                    (list)
                 }
             }
-            @if !task.events.is_empty() { (events(&task.events, &of)) }
-            @if !task.contacts.is_empty() { (contacts(&task.contacts, &of)) }
-            @if !task.log.is_empty() { (log(task, &of)) }
         }
+        @if !task.cases.is_empty() { (cases(&task.cases)) }
+        @if !task.hidden.is_empty() { (hidden(id, task)) }
+        @if has_others {
+            h3 { "Plots" }
+            div class="plots" { @for plot in others() { (pictured(plot, &task.name)) } }
+        }
+        @if !task.events.is_empty() { (events(&task.events, of)) }
+        @if !task.contacts.is_empty() { (contacts(&task.contacts, of)) }
+        @if !task.log.is_empty() { (log(task, of)) }
+    }
+}
+
+fn pictured(plot: &Plot, task: &str) -> Markup {
+    html! {
+        figure class="plot" tabindex="0" aria-label=(plot.title) data-task=(visible(task)) data-panels=(plot.axes) { @for part in plot.inline() { (PreEscaped(part)) } }
     }
 }
 
@@ -80,6 +147,8 @@ struct Of<'a> {
     kind: TaskKind,
     run: Option<&'a TaskRun>,
     has_replay: bool,
+    /// Whether something stopped the submission.
+    stopped: bool,
 }
 
 impl Of<'_> {
@@ -189,42 +258,65 @@ fn differing(differs: &Divergence, of: &Of<'_>) -> Markup {
                 span { "at " (of.moment(differs.time_s, &seconds(differs.time_s))) }
                 span { "tick " (differs.tick) }
                 span { "signal " code { (foreign(&differs.signal)) } }
-                span { "told from " (visible(&with_unit(differs.tolerance, &differs.unit))) }
+                span { "less than " (visible(&with_unit(differs.tolerance, &differs.unit))) " apart counts as the same" }
             }
-            p { "This is where to look first, and no mistake by itself: another road, or another time, may be as right." }
+            p { "This is where to look first, and no mistake by itself: another path, or another time, may be as right." }
         }
     }
 }
 
-fn checked(check: &CheckGrade, of: &Of<'_>) -> Markup {
+/// A check, with the picture of what it judged beside it.
+fn checked(check: &CheckGrade, plot: Option<&Plot>, id: &str, of: &Of<'_>) -> Markup {
+    let is_hidden = |fact: &&Evidence| of.kind == TaskKind::Motion && is_of_hidden_run(fact);
+    let told: Vec<&Evidence> = check
+        .evidence
+        .iter()
+        .filter(|fact| !is_hidden(fact))
+        .collect();
+    let hides = told.len() < check.evidence.len();
+    let visible = !told.is_empty();
     html! {
-        article class="check" {
+        article class=(if plot.is_some() { "check pictured" } else { "check" }) {
             div class="title" {
                 h4 { (foreign(&check.title)) }
                 p { (outcome(check)) " " (earned(check.points, check.max_points)) }
             }
-            @if let Some(measure) = &check.measure {
-                @let told = told(measure);
-                div class="measure" {
-                    p {
-                        (prose(&measure.quantity)) ": " b { (told.value) }
-                        @if let Some(margin) = told.margin { ", " (margin) }
-                        br; small { (told.band) }
+            div class="told" {
+                @if let Some(measure) = &check.measure {
+                    @let told = self::told(measure);
+                    div class="measure" {
+                        p {
+                            (prose(&measure.quantity)) ": " b { (told.value) }
+                            @if let Some(margin) = told.margin { ", " (margin) }
+                            br; small { (told.band) }
+                        }
+                        (gauge(measure))
                     }
-                    (gauge(measure))
+                } @else if check.outcome == Outcome::NotJudged {
+                    p class="quiet" {
+                        "Not judged: "
+                        @if of.stopped { "the submission was stopped before." }
+                        @else if check.next_step.is_some() { "a check that it needs earned nothing." }
+                        @else { "nothing is decided." }
+                    }
                 }
-            } @else if check.outcome == Outcome::NotJudged {
-                p class="quiet" { "Not judged: the run stopped before, or a check it needs earned nothing." }
+                @if !told.is_empty() {
+                    ul class="evidence" { @for fact in told { li { (evidence(fact, of)) } } }
+                }
+                @if hides { p class="where" { a href={ "#" (id) "-hidden" } { "Points were lost in hidden runs" @if visible { ", too" } } } }
+                @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
             }
             @if let Some(first) = untold(check) {
                 p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
             }
-            @if !check.evidence.is_empty() {
-                ul class="evidence" { @for fact in &check.evidence { li { (evidence(fact, of)) } } }
-            }
-            @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
+            @if let Some(plot) = plot { div class="plots" { (pictured(plot, of.name)) } }
         }
     }
+}
+
+/// Whether a fact of a motion task tells of hidden runs, by their class.
+fn is_of_hidden_run(fact: &Evidence) -> bool {
+    fact.tick.is_none() && fact.case.is_some()
 }
 
 fn evidence(fact: &Evidence, of: &Of<'_>) -> Markup {
@@ -276,22 +368,40 @@ fn cases(cases: &[CaseGrade]) -> Markup {
     }
 }
 
-fn hidden(classes: &[HiddenClass], kind: TaskKind) -> Markup {
-    let what = match kind {
+/// Hidden cases or runs by class: only their number is told, and of runs the checks that lost points in them.
+fn hidden(id: &str, task: &TaskGrade) -> Markup {
+    let what = match task.kind {
         TaskKind::Function => "Hidden cases",
         TaskKind::Motion => "Hidden runs",
     };
+    let lost_in = |class: &HiddenClass| -> Vec<&str> {
+        let lost = task.checks.iter().filter(|check| {
+            let mut facts = check.evidence.iter();
+            facts.any(|fact| is_of_hidden_run(fact) && fact.case.as_ref() == Some(&class.class))
+        });
+        lost.map(|check| check.title.as_str()).collect()
+    };
+    let tells =
+        task.kind == TaskKind::Motion && task.hidden.iter().any(|class| !lost_in(class).is_empty());
     html! {
-        h3 { (what) }
+        h3 id={ (id) "-hidden" } { (what) }
         div class="wide" tabindex="0" role="group" aria-label=(what) {
             table class="hidden" {
-                thead { tr { th scope="col" { "Class" } th scope="col" class="number" { "Good" } th scope="col" class="number" { "Of" } } }
+                thead {
+                    tr {
+                        th scope="col" { "Class" }
+                        th scope="col" class="number" { "Good" }
+                        th scope="col" class="number" { "Of" }
+                        @if tells { th scope="col" { "Points lost by" } }
+                    }
+                }
                 tbody {
-                    @for class in classes {
+                    @for class in &task.hidden {
                         tr {
                             th scope="row" { (foreign(&class.class)) }
                             td class="number" { (class.good) }
                             td class="number" { (class.total) }
+                            @if tells { td { (foreign(&lost_in(class).join("; "))) } }
                         }
                     }
                 }

@@ -138,7 +138,10 @@ impl PartProblem {
             Self::Inertia { help, .. }
             | Self::Origin { help, .. }
             | Self::UnknownDimension { help, .. } => Some(help.clone()),
-            Self::OutOfRange { .. } | Self::DimensionShape { .. } => None,
+            Self::OutOfRange { expected, .. } => Some(format!(
+                "write a number that is {expected}; its unit is in the name of its key"
+            )),
+            Self::DimensionShape { .. } => None,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use kinemark_sim::kinematics::manipulability::{ANGULAR, LINEAR, TWIST};
 use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::source::suggest;
+use kinemark_sim::source::{nearest, suggest};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Map, Value};
 
@@ -45,8 +45,14 @@ impl<'r> Fields<'r> {
     }
 
     pub(super) fn need(&mut self, name: &'static str) -> Result<Value, Refusal> {
-        self.take(name)
-            .ok_or_else(|| Refusal::new("missing-field", format!("`{name}` is missing")))
+        let taken = self.take(name);
+        taken.ok_or_else(|| {
+            // one that nothing has read yet may be meant
+            let others = self.fields.keys().map(String::as_str);
+            let meant = nearest(name, others)
+                .map_or_else(String::new, |near| format!("; is it meant by `{near}`?"));
+            Refusal::new("missing-field", format!("`{name}` is missing{meant}"))
+        })
     }
 
     /// Refuses what no operation has read: a typo must not pass in silence.

@@ -1,0 +1,317 @@
+//! What the TOML reader refuses, in the words of people who write labs, robots and scenes, and with something to do about it.
+
+use std::ops::Range;
+
+use super::nearest;
+
+/// What the TOML reader refused: its message, where, and something to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TomlRefusal {
+    /// What is wrong.
+    pub message: String,
+    /// The nearest name that would have been right, the list of them, or what to write instead.
+    pub help: Option<String>,
+    /// The bytes it refused.
+    pub at: Range<usize>,
+}
+
+/// What to do about a mistake of syntax that has no words of its own.
+const LINES: &str =
+    "a line is `key = value`, a table begins with `[name]`, and texts stand in quotes";
+
+impl TomlRefusal {
+    /// Says the reader's error over `text` in our words.
+    pub fn from_error(error: &toml::de::Error, text: &str) -> Self {
+        let at = error.span().unwrap_or(0..0);
+        let given = text.get(at.clone()).unwrap_or_default();
+        let message = error.message().trim();
+        let (message, help) = if let Some(help) = decimal_comma(text, at.start) {
+            ("a comma in a number".to_owned(), help)
+        } else {
+            unknown(message, given)
+                .or_else(|| key(message, given))
+                .or_else(|| value(message, given))
+                .unwrap_or_else(|| syntax(message))
+        };
+        Self {
+            message,
+            help: Some(help),
+            at,
+        }
+    }
+}
+
+type Words = (String, String);
+
+/// A name that is none of those there are: of a key, of a kind that stands as a key, or of a value.
+fn unknown(message: &str, given: &str) -> Option<Words> {
+    let what = if message.starts_with("unknown field") {
+        "key"
+    } else if !message.starts_with("unknown variant") {
+        return None;
+    } else if given.starts_with(['"', '\'']) {
+        "value"
+    } else {
+        "kind"
+    };
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let name = quoted.next().unwrap_or_default();
+    let known: Vec<&str> = quoted.collect();
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known here: {}", known.join(", ")),
+    };
+    Some((format!("unknown {what} `{name}`"), help))
+}
+
+/// A key that is missing, or there twice.
+fn key(message: &str, given: &str) -> Option<Words> {
+    if message == "duplicate key" {
+        return Some((
+            format!("the key `{given}` is there twice"),
+            "keep one of the two".to_owned(),
+        ));
+    }
+    let name = message.strip_prefix("missing field ")?.trim_matches('`');
+    let help = if name == "format" {
+        "write `format = 1` in the first line".to_owned()
+    } else {
+        format!("add `{name} = ...` to this table")
+    };
+    Some((format!("the key `{name}` is missing"), help))
+}
+
+/// A value of another type or length than is read.
+fn value(message: &str, given: &str) -> Option<Words> {
+    if !message.starts_with("invalid ") {
+        return None;
+    }
+    let (_, expected) = message.split_once(", expected ")?;
+    let expected = in_our_words(expected);
+    if let Some(rest) = message.strip_prefix("invalid length ") {
+        let (found, _) = rest.split_once(',')?;
+        return Some((
+            format!("a list of {found}, expected {expected}"),
+            format!("write {expected}"),
+        ));
+    }
+    let found = ["invalid type: ", "invalid value: "]
+        .iter()
+        .find_map(|head| message.strip_prefix(head))?;
+    let (found, _) = found.split_once(", expected ")?;
+    let (kind, _) = found.split_once([' ', '`']).unwrap_or((found, ""));
+    let kind = match kind {
+        "string" => "a text",
+        "integer" => "a whole number",
+        "floating" => "a number",
+        "boolean" => "true or false",
+        "sequence" => "a list",
+        "map" => "a table",
+        _ => "a value",
+    };
+    // what fills lines is shown by the caret alone
+    let shown = if given.len() <= 40 && !given.contains('\n') {
+        format!("`{given}` is {kind}")
+    } else {
+        format!("this is {kind}")
+    };
+    let bare = given.trim_matches(['"', '\'']);
+    let help = if kind == "a text" && expected.contains("number") && bare.parse::<f64>().is_ok() {
+        format!("write {bare}, without quotes")
+    } else if expected == "a text" {
+        "put it in quotes".to_owned()
+    } else {
+        format!("write {expected}")
+    };
+    Some((format!("{shown}, expected {expected}"), help))
+}
+
+/// The reader's words for what it expected, in ours.
+fn in_our_words(expected: &str) -> String {
+    if expected.starts_with("struct ") || expected == "a map" || expected == "map" {
+        return "a table".to_owned();
+    }
+    match expected {
+        "f64" | "f32" => "a number".to_owned(),
+        "i64" | "i32" => "a whole number".to_owned(),
+        "u64" | "u32" | "usize" => "a whole number, zero or more".to_owned(),
+        "a string" | "string" => "a text".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a sequence" => "a list".to_owned(),
+        other => other.replace("an array of length ", "a list of "),
+    }
+}
+
+/// A text that is no TOML.
+fn syntax(message: &str) -> Words {
+    let (message, help) = if message.starts_with("invalid basic string") {
+        ("a text is not closed", "end it with `\"` in the same line")
+    } else if message.starts_with("missing comma between array elements") {
+        (
+            "a list is neither closed here nor goes on",
+            "put a `]` or a `,` before this",
+        )
+    } else {
+        (message, LINES)
+    };
+    (message.to_owned(), help.to_owned())
+}
+
+/// What to write for a number such as `0,5` that stands as a value just where the reader stopped.
+fn decimal_comma(text: &str, at: usize) -> Option<String> {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    let start = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
+    let line = &text[start..end];
+    line.match_indices('=').find_map(|(sign, _)| {
+        let rest = line[sign + 1..].trim_start();
+        let begin = line.len() - rest.len();
+        let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+        let minus = usize::from(rest.starts_with('-'));
+        let whole = minus + digits(&rest[minus..]);
+        let fraction = rest.get(whole..)?.strip_prefix(',')?;
+        let length = digits(fraction);
+        let ends = begin + whole + 1 + length;
+        // a little beyond it: the reader may have taken the fraction for a key
+        let is_here = (begin..=ends + 3).contains(&(at - start));
+        (whole > minus && length > 0 && is_here).then(|| {
+            let (whole, fraction) = (&rest[..whole], &fraction[..length]);
+            format!("write {whole}.{fraction}: a decimal has a point")
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use serde::Deserialize;
+
+    use super::*;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "only its refusals are looked at")]
+    struct Table {
+        mass_kg: f64,
+        #[serde(default)]
+        name: String,
+        #[serde(default)]
+        axis: Option<[f64; 3]>,
+        #[serde(default)]
+        count: Option<u64>,
+        #[serde(default)]
+        side: Option<Side>,
+        #[serde(default)]
+        part: BTreeMap<String, f64>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Side {
+        Near,
+        Far,
+    }
+
+    #[test]
+    fn every_refusal_says_what_to_write() {
+        for (text, message, help) in [
+            (
+                "mass_kg = 0,5",
+                "a comma in a number",
+                "write 0.5: a decimal has a point",
+            ),
+            (
+                "part = { a = 0,5 }\nmass_kg = 1",
+                "a comma in a number",
+                "write 0.5: a decimal has a point",
+            ),
+            (
+                "part = { a = -0,033, b = 1 }\nmass_kg = 1",
+                "a comma in a number",
+                "write -0.033: a decimal has a point",
+            ),
+            (
+                "mass_kg = \"5.0\"",
+                "`\"5.0\"` is a text, expected a number",
+                "write 5.0, without quotes",
+            ),
+            (
+                "mass_kg = \"five\"",
+                "`\"five\"` is a text, expected a number",
+                "write a number",
+            ),
+            (
+                "mass_kg = 1\nname = 2",
+                "`2` is a whole number, expected a text",
+                "put it in quotes",
+            ),
+            (
+                "mass_kg = 1\naxis = \"y\"",
+                "`\"y\"` is a text, expected a list of 3",
+                "write a list of 3",
+            ),
+            (
+                "mass_kg = 1\naxis = [0, 1]",
+                "a list of 2, expected a list of 3",
+                "write a list of 3",
+            ),
+            (
+                "mass_kg = 1\ncount = -1",
+                "`-1` is a whole number, expected a whole number, zero or more",
+                "write a whole number, zero or more",
+            ),
+            (
+                "mass_kg = 1\nside = \"nera\"",
+                "unknown value `nera`",
+                "did you mean `near`?",
+            ),
+            (
+                "mass_kgs = 1",
+                "unknown key `mass_kgs`",
+                "did you mean `mass_kg`?",
+            ),
+            (
+                "mass_kg = 1\nmass_kg = 2",
+                "the key `mass_kg` is there twice",
+                "keep one of the two",
+            ),
+            (
+                "name = \"a\"",
+                "the key `mass_kg` is missing",
+                "add `mass_kg = ...` to this table",
+            ),
+            (
+                "name = \"a\nmass_kg = 1",
+                "a text is not closed",
+                "end it with `\"` in the same line",
+            ),
+            (
+                "axis = [0, 1 }\nmass_kg = 1",
+                "a list is neither closed here nor goes on",
+                "put a `]` or a `,` before this",
+            ),
+        ] {
+            let error = toml::from_str::<Table>(text).expect_err(text);
+            let refusal = TomlRefusal::from_error(&error, text);
+            assert_eq!(refusal.message, message, "{text}: {error}");
+            assert_eq!(refusal.help.as_deref(), Some(help), "{text}: {error}");
+        }
+        let text = "mass_kg";
+        let error = toml::from_str::<Table>(text).expect_err(text);
+        assert_eq!(
+            TomlRefusal::from_error(&error, text).help.as_deref(),
+            Some(LINES)
+        );
+    }
+
+    #[test]
+    fn a_list_of_two_is_no_decimal() {
+        assert_eq!(decimal_comma("a = [0,5]", 8), None);
+        assert_eq!(decimal_comma("a = 0,5\nb = x", 12), None);
+        assert_eq!(decimal_comma("", 0), None);
+    }
+}

@@ -1,0 +1,95 @@
+//! The pages and the help keep to what there is: every code of an error is in a table, every example names what is there.
+
+use std::path::Path;
+
+use crate::testbed::{TestBed, root};
+
+/// Texts of all files with this ending below a folder.
+fn texts(folder: &Path, ending: &str, into: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).expect("folder") {
+        let path = entry.expect("entry").path();
+        if path.is_dir() {
+            texts(&path, ending, into);
+        } else if path.extension().is_some_and(|found| found == ending) {
+            into.push(std::fs::read_to_string(path).expect("text"));
+        }
+    }
+}
+
+/// Codes such as `lab::band` that stand as texts in a source.
+fn codes(source: &str) -> Vec<&str> {
+    let is_code = |text: &&str| {
+        let parts = text.split_once("::");
+        parts.is_some_and(|(head, tail)| {
+            ["lab", "staff", "variant"].contains(&head)
+                && !tail.is_empty()
+                && tail.bytes().all(|b| b.is_ascii_lowercase() || b == b'_')
+        })
+    };
+    source.split('"').filter(is_code).collect()
+}
+
+#[test]
+fn every_code_of_a_lab_is_in_the_table_of_codes() {
+    let page = std::fs::read_to_string(root().join("docs/lab-format.md")).expect("page");
+    let mut sources = Vec::new();
+    texts(&root().join("grader/src/lab"), "rs", &mut sources);
+    let mut seen = 0;
+    for source in &sources {
+        for code in codes(source) {
+            seen += 1;
+            assert!(page.contains(&format!("`{code}`")), "{code} is in no table");
+        }
+    }
+    assert!(seen > 40, "{seen}");
+}
+
+#[test]
+fn every_example_of_the_help_names_what_is_there() {
+    let bed = TestBed::new();
+    let page = std::fs::read_to_string(root().join("docs/cli.md")).expect("page");
+    let examples = page
+        .lines()
+        .filter(|line| line.starts_with("  kinemark "))
+        .flat_map(str::split_whitespace);
+    let mut labs = 0;
+    for word in examples {
+        let numbered = word.len() > 3
+            && word.as_bytes()[..2].iter().all(u8::is_ascii_digit)
+            && word.as_bytes()[2] == b'-';
+        if numbered {
+            labs += 1;
+            assert!(root().join("labs").join(word).is_dir(), "{word} is no lab");
+        }
+        if word.starts_with("labs/") {
+            assert!(root().join(word).exists(), "{word} is not there");
+        }
+    }
+    assert!(labs > 3);
+    // the variable is told where the option is
+    assert!(page.contains("[env: KINEMARK_SALT]"));
+    let help = bed.run(&["grade", "--help"]).stdout;
+    assert_eq!(help.matches("KINEMARK_SALT").count(), 1, "{help}");
+}
+
+#[test]
+fn every_command_is_in_the_table_of_the_readme() {
+    let cli = std::fs::read_to_string(root().join("docs/cli.md")).expect("page");
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("page");
+    let commands = cli
+        .lines()
+        .filter_map(|line| line.strip_prefix("## `kinemark "));
+    let mut seen = 0;
+    for command in commands.map(|rest| rest.trim_end_matches('`')) {
+        // a group of commands is told by its members
+        if ["robot", "scene", "lab"].contains(&command) {
+            continue;
+        }
+        seen += 1;
+        assert!(
+            readme.contains(&format!("| `kinemark {command}")),
+            "{command}"
+        );
+    }
+    assert!(seen > 10, "{seen}");
+}

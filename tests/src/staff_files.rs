@@ -1,0 +1,95 @@
+//! The staff's own submissions, broken: whoever grades is told, with file and line, and no student pays for it.
+
+use crate::testbed::{TestBed, root};
+
+const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
+const SOLUTION: &str = "reference/01-kinematics/solution.rhai";
+const MUTANT: &str = "reference/01-kinematics/mutants/degrees.rhai";
+
+/// The course, and a submission that loses points in the move, where the reference solution is asked for.
+fn bed() -> TestBed {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let submission = root().join("tests/submissions/01-kinematics/four-millimetres-off");
+    std::fs::copy(
+        submission.join("submission.rhai"),
+        bed.path("submission.rhai"),
+    )
+    .expect("copied");
+    bed
+}
+
+#[test]
+fn what_is_no_program_ends_a_grade_and_a_check_at_its_line() {
+    for (file, code, line) in [
+        (SOLUTION, "staff::solution", 6),
+        (MUTANT, "staff::mutant", 1),
+    ] {
+        let bed = bed();
+        let text = std::fs::read_to_string(bed.path(file)).expect("file");
+        let found = text
+            .lines()
+            .position(|line| line.starts_with("fn forward_kinematics"));
+        let number = found.expect("the function") + 1;
+        assert!(number >= line);
+        bed.edit(file, "fn forward_kinematics", "fnn forward_kinematics");
+        for args in [&GRADE[..], &["lab", "check", "01-kinematics"]] {
+            let ran = bed.run(args);
+            assert_eq!(ran.code, Some(3), "{ran:?}");
+            let place = format!("{file}:{number}:5]");
+            for part in [code, place.as_str(), "did you mean `fn`?"] {
+                assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+            }
+            assert!(!ran.stdout.contains("widen the band"), "{ran:?}");
+        }
+        assert!(!bed.path("out").exists());
+    }
+}
+
+#[test]
+fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
+    let bed = bed();
+    let before = bed.run(&GRADE);
+    assert!(before.stdout.contains("first differs"), "{before:?}");
+    assert_eq!(before.stderr, "", "{before:?}");
+    bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
+    let ran = bed.run(&GRADE);
+    assert_eq!(ran.code, before.code, "{ran:?}");
+    let points = |text: &str| {
+        let line = text.lines().find(|line| line.ends_with(" points"));
+        line.map(str::to_owned)
+    };
+    assert_eq!(points(&ran.stdout), points(&before.stdout));
+    for part in [
+        "warning: the points stand",
+        "the reference solution stops in task `move`",
+        "`base_hieght`",
+        &format!("{SOLUTION}:16:"),
+        "╰── here",
+    ] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_check_tells_where_the_solution_stops() {
+    let bed = bed();
+    bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
+    let ran = bed.run(&[
+        "lab",
+        "check",
+        "01-kinematics",
+        "--salts",
+        "0",
+        "--variants",
+        "0",
+    ]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(
+        ran.stdout.contains(&format!("{SOLUTION}:16:")),
+        "{}",
+        ran.stdout
+    );
+    assert!(ran.stdout.contains("mend the solution"), "{}", ran.stdout);
+    assert!(!ran.stdout.contains("widen the band"), "{}", ran.stdout);
+}
