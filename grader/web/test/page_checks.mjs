@@ -86,8 +86,14 @@ export async function poseOfTheTrace(page, index, path) {
   assert.ok(compared >= instants(tf.length, 20).length * Math.min(3, links), `only ${compared} poses were compared`);
 }
 
+/** Opens every folded part: what earned all its points is folded. */
+async function unfold(page) {
+  await page.$$eval("details", (list) => list.forEach((one) => (one.open = true)));
+}
+
 /** A click on any plot over time puts the cursor where it was clicked. */
 export async function plotsSeek(page) {
+  await unfold(page);
   const tasks = (await places(page)).map(({ task }) => task);
   const figures = await page.$$("figure[data-panels]");
   let clicked = 0;
@@ -185,7 +191,7 @@ export async function momentsSeek(page, most = 12) {
 
 /** Clicks on the first moment that is told; one in a folded part is reached by unfolding it. */
 export async function clickMoment(page) {
-  await page.$$eval("details", (list) => list.forEach((one) => (one.open = true)));
+  await unfold(page);
   await page.locator("a.seek").first().click();
 }
 
