@@ -1,5 +1,6 @@
 //! A graded run: the record, and what the renderers draw from besides it.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kinemark_sim::control::Mode;
@@ -51,6 +52,8 @@ pub struct TaskRun {
     pub paths: Vec<AskedPath>,
     /// The curves that checks judged, in the lab's order.
     pub curves: Vec<Curve>,
+    /// The titles of the task's checks by their names.
+    pub check_titles: BTreeMap<String, String>,
     /// Where it first differs from the reference solution's, where that is told.
     pub divergence: Option<Divergence>,
     /// The reference solution's run, where staff asked for it to be shown: its joint motion is the answer.

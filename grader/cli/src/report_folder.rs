@@ -197,12 +197,14 @@ pub(crate) fn files(
         files.push(OutFile::new(format!("{LABS}/{path}"), bytes));
     }
     for (run, plots) in graded.runs.iter().zip(plots) {
+        let caption = format!("{} \u{b7} {}", graded.grade.lab.name, run.task);
         for plot in plots {
+            let svg = plot.captioned(&caption);
             if pictures.png {
                 let path = format!("plots/{}.png", plot.name);
-                files.push(OutFile::new(path, png(&plot.svg)?));
+                files.push(OutFile::new(path, png(&svg)?));
             }
-            files.push(OutFile::new(format!("plots/{}.svg", plot.name), plot.svg));
+            files.push(OutFile::new(format!("plots/{}.svg", plot.name), svg));
         }
         let task = graded.grade.tasks.iter().find(|t| t.name == run.task);
         if let Some(task) = task.filter(|_| pictures.storyboard) {

@@ -52,7 +52,7 @@ pub fn judge(
         }),
         evidence: evidence.collect(),
         next_step: "Lead the TCP along each segment to its end before the next one, and correct what it is aside.".to_owned(),
-        curve: curve(facts, &driven, only, band, check),
+        curve: curve(facts, path, &driven, only, band, check),
     }
 }
 
@@ -93,9 +93,30 @@ fn told(facts: &MotionFacts<'_>, path: &PathToFollow, i: usize, segment: &Driven
     facts.evidence(message, "tcp".to_owned(), tick)
 }
 
+/// The moment at which the TCP was nearest to a point of the path in its turn, with words that say no more than that where it was not
+/// within the band.
+fn point(
+    facts: &MotionFacts<'_>,
+    path: &PathToFollow,
+    i: usize,
+    tick: usize,
+    band: Band,
+) -> (f64, String) {
+    let number = i + 1;
+    let away_m = path.points_m.get(i).map_or(f64::INFINITY, |point| {
+        (facts.trace.tcp_position(tick) - point).norm()
+    });
+    let words = match away_m <= path.trim_m + band.zero {
+        true => format!("point {number}"),
+        false => format!("nearest to point {number}"),
+    };
+    (facts.time_s(tick), words)
+}
+
 /// Distance aside while the path is driven; near the corners, where it does not count, there are gaps.
 fn curve(
     facts: &MotionFacts<'_>,
+    path: &PathToFollow,
     driven: &[Driven],
     only: Option<usize>,
     band: Band,
@@ -106,7 +127,7 @@ fn curve(
     let mut marks = Vec::new();
     for (i, segment) in driven.iter().enumerate() {
         let begun = segment.places.first()?;
-        marks.push((facts.time_s(begun.tick), format!("point {}", i + 1)));
+        marks.push(point(facts, path, i, begun.tick, band));
         for place in &segment.places {
             t_s.push(facts.time_s(place.tick));
             values.push(if place.counts && only.is_none_or(|only| only == i) {
@@ -117,10 +138,7 @@ fn curve(
         }
     }
     let left = driven.last()?.places.last()?;
-    marks.push((
-        facts.time_s(left.tick),
-        format!("point {}", driven.len() + 1),
-    ));
+    marks.push(point(facts, path, driven.len(), left.tick, band));
     Some(Curve {
         check: check.to_owned(),
         title: "distance from the path".to_owned(),

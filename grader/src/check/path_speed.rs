@@ -14,7 +14,7 @@ use super::path_deviation::which;
 use super::road::{self, Driven};
 use super::{Finding, MotionFacts};
 use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
+use crate::graded::{Curve, StepBackdrop};
 use crate::lab::model::Band;
 use crate::lab::watched::PathToFollow;
 use crate::quantity::{list, metres, seconds, trimmed, with_unit};
@@ -153,11 +153,27 @@ pub fn judge(
             unit: "m/s".to_owned(),
             t_s,
             values,
-            full: Some(speed_m_s),
+            full: None,
             zero: None,
             marks,
-            step: None,
+            step: Some(backdrop(speed_m_s, band)),
         }),
+    }
+}
+
+/// The wanted speed, and around it the errors that earn all points.
+fn backdrop(speed_m_s: f64, band: Band) -> StepBackdrop {
+    let percent = |share: f64| with_unit(100.0 * share, "%");
+    let off_m_s = band.full * speed_m_s;
+    let told = format!(
+        "full points up to {} off (root mean square), none from {}",
+        percent(band.full),
+        percent(band.zero)
+    );
+    StepBackdrop {
+        prediction: None,
+        target: Some(speed_m_s),
+        band: Some((speed_m_s - off_m_s, speed_m_s + off_m_s, told)),
     }
 }
 

@@ -88,7 +88,12 @@ fn curve(facts: &MotionFacts<'_>, band: Band, check: &str) -> Curve {
     }
     let marks = facts.stays.iter().enumerate().map(|(i, stay)| {
         let at = facts.time_s(stay.last);
-        (at, format!("goal {} held", i + 1))
+        let number = i + 1;
+        let words = match band.score(stay.settled_m) > 0.0 {
+            true => format!("goal {number} held"),
+            false => format!("best stay near goal {number} ends"),
+        };
+        (at, words)
     });
     Curve {
         check: check.to_owned(),

@@ -37,8 +37,8 @@ fn fastest(speeds_m_s: &[f64]) -> Option<usize> {
 pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> Finding {
     let trace = facts.trace;
     let speeds = speeds_m_s(trace);
-    let (tick, what) = match at {
-        SpeedAt::Run => (fastest(&speeds), "its greatest speed".to_owned()),
+    let (touch, tick, what) = match at {
+        SpeedAt::Run => (None, fastest(&speeds), "its greatest speed".to_owned()),
         SpeedAt::Touch(body) => {
             let contacts = trace.contacts.iter();
             let touches = contacts.filter(|contact| {
@@ -48,7 +48,11 @@ pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> F
             // the step that ends at the touch has the blow in it
             let before = first.map(|tick| tick.saturating_sub(1));
             let name = facts.names.body(body);
-            (before, format!("when the arm first touches `{name}`"))
+            (
+                first,
+                before,
+                format!("when the arm first touches `{name}`"),
+            )
         }
     };
     let speed = tick.and_then(|tick| speeds.get(tick).copied());
@@ -91,10 +95,7 @@ pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> F
             (format!("speed of the TCP {what}"), next_step)
         }
     };
-    let marks = match (tick, at) {
-        (Some(tick), SpeedAt::Touch(_)) => vec![(facts.time_s(tick), "first touch".to_owned())],
-        _ => Vec::new(),
-    };
+    let touch = touch.map(|tick| (facts.time_s(tick), "first touch".to_owned()));
     Finding {
         insists: false,
         score,
@@ -115,7 +116,7 @@ pub fn judge(facts: &MotionFacts<'_>, at: SpeedAt, band: Band, check: &str) -> F
             values: speeds,
             full: Some(band.full),
             zero: Some(band.zero),
-            marks,
+            marks: touch.into_iter().collect(),
             step: None,
         }),
     }

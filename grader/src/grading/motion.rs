@@ -1,5 +1,7 @@
 //! Grading a motion task: its run and hidden runs, its checks, where it leaves the reference, and what its plots draw.
 
+use std::collections::BTreeMap;
+
 use kinemark_sim::source::Source;
 use kinemark_sim::trace::Trace;
 
@@ -100,8 +102,10 @@ impl Grader<'_> {
         let rungs = rung_digests(task, &facts.climbs);
         let mut checks = Vec::new();
         let mut curves = Vec::new();
+        let mut check_titles = BTreeMap::new();
         for (asked, (mut check, curve)) in task.checks.iter().zip(judged) {
             check.first_lost = first_lost(&asked.kind, &check, curve.as_ref(), &work.periods);
+            check_titles.insert(check.name.clone(), check.title.clone());
             checks.push(check);
             curves.extend(curve);
         }
@@ -252,6 +256,7 @@ impl Grader<'_> {
                 .map(|path| asked(path, &task.checks))
                 .collect(),
             curves,
+            check_titles,
             divergence: differs,
             ghost: None,
             trace,

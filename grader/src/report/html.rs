@@ -2,6 +2,7 @@
 
 mod band;
 mod comparison;
+mod figure;
 mod head;
 mod look;
 mod task;

@@ -3,6 +3,7 @@
 mod asked;
 mod axis;
 mod canvas;
+mod course;
 mod differences;
 mod joints;
 mod path;
@@ -33,9 +34,27 @@ pub struct Plot {
     pub svg: String,
     /// Where its axes lie and what its lines are called, as JSON, for a viewer that reads values off.
     pub axes: String,
+    /// Its title and legend for a narrow page, where the picture's own would be too small to read; none where it has more to it.
+    pub(crate) head: Option<Head>,
+}
+
+/// What stands above the panels of a picture, for a page to show in its own way.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Head {
+    /// A small picture of each line or mark, and its words.
+    pub(crate) legend: Vec<(String, String)>,
+    /// How much of the picture's height its own head takes, as CSS has it.
+    pub(crate) of_height: String,
+    /// The same as a share of its width.
+    pub(crate) of_width: String,
 }
 
 impl Plot {
+    /// The picture as a file of its own, which tells in a line at its foot where it is from, as `01-kinematics · move`.
+    pub fn captioned(&self, caption: &str) -> String {
+        canvas::captioned(&self.svg, caption)
+    }
+
     /// The picture to stand in a page that brings the style sheet of plots itself.
     pub(crate) fn inline(&self) -> impl Iterator<Item = &str> {
         let (head, rest) = self.svg.split_once("<style>").unwrap_or((&self.svg, ""));
@@ -52,7 +71,7 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
         made: Vec::new(),
     };
     if let Some((svg, title, axes)) = path::path(run) {
-        plots.add("path", title, svg, &axes);
+        plots.add("path", title, svg, &axes, None);
     }
     let mut pictures: Vec<(String, timeline::Timeline)> = Vec::new();
     pictures.extend(signals::error(run).map(|picture| ("error".to_owned(), picture)));
@@ -78,8 +97,8 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
             .map(|picture| ("signals".to_owned(), picture)),
     );
     for (name, picture) in pictures {
-        let (svg, axes) = picture.draw();
-        plots.add(&name, picture.title, svg, &axes);
+        let (svg, axes, head) = picture.draw();
+        plots.add(&name, picture.title, svg, &axes, Some(head));
     }
     plots.made
 }
@@ -91,7 +110,7 @@ struct Plots {
 }
 
 impl Plots {
-    fn add(&mut self, name: &str, title: String, svg: String, axes: &[Axes]) {
+    fn add(&mut self, name: &str, title: String, svg: String, axes: &[Axes], head: Option<Head>) {
         let wanted = format!("{}-{name}", self.stem);
         let taken = |name: &str| self.made.iter().any(|plot| plot.name == name);
         let mut name = wanted.clone();
@@ -107,6 +126,7 @@ impl Plots {
             title,
             svg,
             axes,
+            head,
         });
     }
 }
@@ -115,6 +135,7 @@ impl Plots {
 mod tests {
     use kinemark_sim::trace::PlotSignal;
 
+    use super::reading::tests::Reader;
     use super::*;
     use crate::graded::{Curve, StepBackdrop};
     use crate::report::sample;
@@ -140,11 +161,6 @@ mod tests {
                 "{name}"
             );
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
-            let longest = svg.lines().map(|line| line.matches(',').count()).max();
-            assert!(
-                longest < Some(1_500),
-                "{name}: {longest:?} points in a line"
-            );
         }
         plots
     }
@@ -189,39 +205,6 @@ mod tests {
             .collect();
         assert_eq!(names, ["command", "measured"]);
         assert_eq!(number(&elbow["t"][1]), 8.0);
-        // the last point of the measured line
-        let svg = &plots
-            .iter()
-            .find(|plot| plot.name == "move-joints")
-            .expect("the plot")
-            .svg;
-        let bottom = number(&elbow["box"][3]);
-        let (top, (low, high)) = (
-            number(&elbow["box"][1]),
-            (number(&elbow["y"][0]), number(&elbow["y"][1])),
-        );
-        let right = number(&elbow["box"][2]);
-        let ends: Vec<f64> = svg
-            .lines()
-            .filter(|line| line.contains("<polyline") && line.contains("stroke=\"#006CAE\""))
-            .filter_map(|line| {
-                line.split("points=\"")
-                    .nth(1)?
-                    .split('"')
-                    .next()?
-                    .split_whitespace()
-                    .last()
-            })
-            .filter_map(|point| point.split_once(','))
-            .map(|(x, y)| (x.parse::<f64>().expect("x"), y.parse::<f64>().expect("y")))
-            .filter(|(x, y)| (x - right).abs() < 1.0 && *y >= top && *y <= bottom)
-            .map(|(_, y)| low + (bottom - y) / (bottom - top) * (high - low))
-            .collect();
-        let q = run.trace.q.at(8000)[1];
-        assert!(
-            ends.iter().any(|end| (end - q).abs() < 2e-3 * (high - low)),
-            "{ends:?} {q}"
-        );
         let error = axes("move-error");
         assert_eq!(error[0]["log"], true);
         // the path: y of the lab to the right, x up; the goals' close looks after it
@@ -234,6 +217,155 @@ mod tests {
         // goal 1, at y = 1.4 m, lies in the middle of its close look
         let middle = 0.5 * (number(&path[1]["box"][0]) + number(&path[1]["box"][2]));
         assert!((across(&path[1]) - middle).abs() < 2.0);
+    }
+
+    /// What is read off a panel at every so many ticks holds the value of the run, and tells it within `most` of the panel's height,
+    /// or as a range.
+    fn read_at_ticks(
+        plots: &[Plot],
+        (plot, panel, series): (&str, usize, usize),
+        value: impl Fn(usize) -> f64,
+        ticks: std::ops::Range<usize>,
+        most: f64,
+    ) {
+        let plot = plots.iter().find(|p| p.name == plot).expect("the plot");
+        let reader = Reader::new(plot, panel, series);
+        for tick in ticks.step_by(7) {
+            let (low, high) = reader.at(0.001 * tick as f64).expect("a value");
+            let told = value(tick);
+            assert!(
+                low <= told && told <= high,
+                "{} at {tick}: {told} is not within {low} and {high}",
+                plot.name
+            );
+            // a jump is read as from where to where
+            let around = (tick.saturating_sub(2)..=tick + 2).map(&value);
+            let (least, greatest) = axis::extent(around).expect("values");
+            let height = (high - low - (greatest - least)) / reader.height();
+            assert!(height <= most, "{} at {tick}: {low} to {high}", plot.name);
+        }
+    }
+
+    #[test]
+    fn what_is_read_off_a_smooth_line_is_the_runs_value() {
+        let run = sample::task_run();
+        let plots = plots(&run);
+        for joint in 0..2 {
+            let q = |tick: usize| run.trace.q.at(tick)[joint];
+            read_at_ticks(&plots, ("move-joints", joint, 1), q, 2..7998, 0.15);
+            let effort = |tick: usize| run.trace.effort.at(tick)[joint];
+            read_at_ticks(&plots, ("move-effort", joint, 0), effort, 2..7998, 0.15);
+        }
+    }
+
+    #[test]
+    fn a_chatter_is_read_as_from_its_lowest_to_its_highest() {
+        let sign = |tick: u64| if tick.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let mut run = sample::chain(2, 10_001, |tick, _| 15.0 * sign(tick));
+        run.effort_limits = vec![15.0; 2];
+        let plots = plots(&run);
+        let effort = plots.iter().find(|plot| plot.name.ends_with("effort"));
+        let effort = effort.expect("efforts");
+        let reader = Reader::new(effort, 0, 0);
+        for tick in (10..9990).step_by(13) {
+            let (low, high) = reader.at(0.001 * f64::from(tick)).expect("a band");
+            assert!((low + 15.0).abs() < 0.2 && (high - 15.0).abs() < 0.2);
+        }
+        // a rectangle
+        assert!(effort.svg.len() < 12_000, "{}", effort.svg.len());
+    }
+
+    #[test]
+    fn what_is_read_off_25_joints_holds_the_runs_values() {
+        // slow and fast waves, noise, and jumps, by joint
+        let row = |tick: u64, joint: usize| match joint % 4 {
+            0 => libm::sin(0.001 * (tick * (1 + joint as u64)) as f64),
+            1 => libm::sin(0.2 * tick as f64) * 3.0,
+            2 => (tick.wrapping_mul(7_919) % 1_000) as f64,
+            _ => (tick / 500 % 3) as f64,
+        };
+        let run = sample::chain(25, 10_001, row);
+        let plots = sound(&run);
+        // in a page, where a task has 300 KB, of which its replay takes up to 120
+        let inline = plots.iter().flat_map(Plot::inline).map(str::len);
+        let bytes = inline
+            .chain(plots.iter().map(|p| p.axes.len()))
+            .sum::<usize>();
+        assert!(bytes < 180_000, "{bytes}");
+        let effort = |tick: usize, joint: usize| run.trace.effort.at(tick)[joint];
+        for joint in 0..25 {
+            let name = match joint / 6 {
+                0 => format!("{}-effort", run.task),
+                part => format!("{}-effort-{}", run.task, part + 1),
+            };
+            // the fast waves may be bands
+            let is_slow = joint % 4 == 0 && joint <= 8;
+            let most = if is_slow { 0.15 } else { 1.1 };
+            let place = (name.as_str(), joint % 6, 0);
+            read_at_ticks(&plots, place, |tick| effort(tick, joint), 2..9_998, most);
+        }
+    }
+
+    #[test]
+    fn a_value_beyond_the_picture_is_read_as_cut_off() {
+        let mut run = sample::chain(1, 2_001, |_, _| 5.0);
+        run.mode = Mode::Effort;
+        run.effort_limits = vec![15.0];
+        let spike = sample::chain(1, 2_001, |tick, _| if tick == 1000 { 81.08 } else { 5.0 });
+        run.trace.command = spike.trace.command;
+        let plots = plots(&run);
+        let effort = plots.iter().find(|plot| plot.name.ends_with("effort"));
+        let reader = Reader::new(effort.expect("efforts"), 0, 0);
+        assert_eq!(reader.cut(), Some(22.5));
+        let (_, high) = reader.at(1.0).expect("a value");
+        assert!(high >= 22.5, "{high}");
+    }
+
+    #[test]
+    fn a_file_of_its_own_tells_where_it_is_from() {
+        for plot in plots(&sample::task_run()) {
+            let file = plot.captioned("01-kinematics \u{b7} <move>");
+            assert!(file.contains("\n01-kinematics \u{b7} &lt;move&gt;\n"));
+            assert!(!plot.svg.contains("01-kinematics"));
+            let height = |svg: &str| -> f64 {
+                let (_, rest) = svg.split_once(" height=\"").expect("a height");
+                rest.split_once('"')
+                    .expect("a height")
+                    .0
+                    .parse()
+                    .expect("a number")
+            };
+            assert!((height(&file) - height(&plot.svg) - 22.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_was_judged_is_called_by_its_title() {
+        let mut run = sample::task_run();
+        let check = run.curves[0].check.clone();
+        run.check_titles = [(check, "Follows `the` path".to_owned())].into();
+        let plots = plots(&run);
+        assert!(
+            plots
+                .iter()
+                .any(|plot| plot.title == "Judged: Follows the path")
+        );
+    }
+
+    #[test]
+    fn every_axis_has_two_numbers() {
+        for height in [105.0, 125.0, 150.0, 210.0] {
+            for (min, max) in [
+                (-0.9, 0.9),
+                (-15.0, 17.0),
+                (-33.0, 3.0),
+                (0.0, 1e-3),
+                (0.3, 0.301),
+            ] {
+                let ticks = axis::Axis::exact(min, max).ticks((height / 34.0) as usize);
+                assert!((2..=12).contains(&ticks.len()), "{min} to {max}: {ticks:?}");
+            }
+        }
     }
 
     #[test]

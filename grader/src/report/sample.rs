@@ -169,6 +169,7 @@ pub(crate) fn task_run_of(seconds: u32) -> TaskRun {
         reference_tcp,
         paths: Vec::new(),
         curves,
+        check_titles: Default::default(),
         divergence: None,
         ghost: None,
     }
@@ -255,6 +256,7 @@ pub(crate) fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> Ta
         reference_tcp: None,
         paths: Vec::new(),
         curves: Vec::new(),
+        check_titles: Default::default(),
         divergence: None,
         ghost: None,
         robot,

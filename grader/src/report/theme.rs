@@ -60,10 +60,12 @@ pub(crate) const GREEN_DASHED: Colour = dashed(GREEN, "60 35");
 pub(crate) const VERMILLION_DASHED: Colour = dashed(VERMILLION, "60 35");
 /// A quiet line beside the one that counts.
 pub(crate) const MUTED_DASHED: Colour = dashed(MUTED, "20 30");
+/// What can be moved.
+pub(crate) const AMBER: Colour = colour((146, 100, 0), (226, 178, 64));
 /// Where a run ended before its time.
 pub(crate) const RED: Colour = colour((190, 30, 45), (255, 120, 125));
 
-const ALL: [Colour; 14] = [
+const ALL: [Colour; 15] = [
     PAPER,
     INK,
     MUTED,
@@ -77,6 +79,7 @@ const ALL: [Colour; 14] = [
     GREEN_DASHED,
     VERMILLION_DASHED,
     MUTED_DASHED,
+    AMBER,
     RED,
 ];
 
@@ -89,7 +92,7 @@ pub(crate) fn hex((r, g, b): (u8, u8, u8)) -> String {
 pub(crate) fn plot_css() -> String {
     let mut css = String::from(
         ".plot text{font-family:system-ui,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;\
-         font-variant-numeric:tabular-nums}.plot polyline{stroke-linejoin:round}",
+         font-variant-numeric:tabular-nums}.plot path{stroke-linejoin:round}",
     );
     for colour in ALL {
         if let Some(dashes) = colour.dashes {
@@ -140,7 +143,7 @@ mod tests {
 
     #[test]
     fn lines_and_text_stand_out_from_their_ground() {
-        for colour in [BLUE, VERMILLION, GREEN, PURPLE] {
+        for colour in [BLUE, VERMILLION, GREEN, PURPLE, AMBER] {
             assert!(
                 contrast(colour.light, PAPER.light) >= 3.0,
                 "{:?}",
@@ -163,6 +166,50 @@ mod tests {
                 "{:?}",
                 colour.dark
             );
+        }
+    }
+
+    /// The value of `name` in the part of a source that begins with `part`.
+    fn told(source: &str, part: &str, name: &str) -> String {
+        let (_, rest) = source.split_once(part).expect(part);
+        let (_, rest) = rest.split_once(name).expect(name);
+        let start = rest.find('#').expect("a colour");
+        rest[start..start + 7].to_ascii_uppercase()
+    }
+
+    /// A colour means one thing on a page: that of the replay and its legend is that of the plots.
+    #[test]
+    fn the_replay_has_the_colours_of_the_plots() {
+        let theme = include_str!("../../web/src/theme.ts");
+        let css = include_str!("../../web/src/viewer.css");
+        let dark_css = &css[css
+            .find("prefers-color-scheme:dark")
+            .expect("a dark screen")..];
+        for (in_theme, in_css, colour) in [
+            ("trail:", "--trail:", BLUE),
+            ("reference:", "--reference:", PURPLE),
+            ("ghost:", "--ghost:", PURPLE),
+            ("goal:", "--goal:", GREEN),
+            ("path:", "", GREEN),
+            ("contact:", "--contact:", VERMILLION),
+            ("", "--stop:", RED),
+        ] {
+            if !in_theme.is_empty() {
+                assert_eq!(
+                    told(theme, "LIGHT", in_theme),
+                    hex(colour.light),
+                    "{in_theme}"
+                );
+                assert_eq!(
+                    told(theme, "DARK", in_theme),
+                    hex(colour.dark),
+                    "{in_theme}"
+                );
+            }
+            if !in_css.is_empty() {
+                assert_eq!(told(css, ".replay", in_css), hex(colour.light), "{in_css}");
+                assert_eq!(told(dark_css, "{", in_css), hex(colour.dark), "{in_css}");
+            }
         }
     }
 }

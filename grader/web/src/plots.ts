@@ -1,14 +1,22 @@
-// The plots of a task: the cursor in each, the values under the pointer, and a click that seeks.
+// The plots of a task: the cursor in each, the values under the pointer or at the cursor, a click and keys that seek.
 
 import type { Cursor } from "./cursor";
 import { drawing, element } from "./dom";
-import { curve, valueAt, type Piece } from "./curve";
-import { fixed, seconds } from "./words";
+import { drawn, inside, spanAt, type Piece } from "./curve";
+import { listen } from "./keys";
+import { words } from "./reading";
+import { seconds } from "./words";
 import type { World } from "./world";
 
 interface Series {
   readonly name: string;
   readonly colour: string;
+  /** How far above or below what is drawn a value may lie, in units of the picture. */
+  readonly off?: number;
+  /** How far a band reaches beyond its values, in units of the picture. */
+  readonly pad?: number;
+  /** The size at which values are cut off. */
+  readonly cut?: number;
 }
 
 interface TimePanel {
@@ -63,9 +71,29 @@ interface Hand {
   y: number;
 }
 
+/** A line of the box of values. */
+interface Row {
+  readonly panel: TimePanel;
+  readonly series: Series;
+  /** Its height in the picture. */
+  readonly at: number;
+  readonly text: string;
+}
+
+/** What a plot asks of its replay. */
+export interface Acts {
+  /** After a click that sought. */
+  readonly sought: () => void;
+  readonly event: (direction: 1 | -1) => void;
+  readonly say: (text: string) => void;
+}
+
 export class Plot {
   private readonly hands: Hand[] = [];
+  private paths: Map<string, Piece[]> | null = null;
   private readonly curves = new Map<Series, Piece[]>();
+  /** Whether the box stands at the cursor, for a reader without a pointer. */
+  private held = false;
   private readonly box = element("div", { class: "replay-values", "aria-hidden": "true" });
   private hover: SVGElement | null = null;
 
@@ -75,7 +103,7 @@ export class Plot {
     private readonly cursor: Cursor,
     private readonly world: World,
     private readonly stepS: number,
-    private readonly sought: () => void,
+    private readonly acts: Acts,
   ) {
     const overlay = drawing("g", { class: "replay-overlay", "aria-hidden": "true" });
     for (const panel of panels(figure.dataset.panels ?? "[]")) {
@@ -101,9 +129,62 @@ export class Plot {
       figure.addEventListener("pointerleave", () => this.leave());
       svg.addEventListener("pointercancel", () => this.leave());
       svg.addEventListener("click", (event) => this.click(event));
-      figure.addEventListener("keydown", (event) => event.key === "Escape" && this.leave());
+      this.byKeys();
     }
     this.follow();
+  }
+
+  /** Arrows seek, and the values at the cursor stand beside it and are said. */
+  private byKeys(): void {
+    const { figure, cursor } = this;
+    figure.tabIndex = 0;
+    figure.setAttribute("aria-description", "Arrow keys move through the run and tell its values; Escape hides them.");
+    listen(figure, cursor, this.acts.event);
+    // after the keys have done what they do
+    let told = cursor.t;
+    figure.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" || event.key === "Tab") return;
+      this.stay();
+      if (cursor.t !== told && !cursor.playing) this.acts.say(this.said());
+      told = cursor.t;
+    });
+    figure.addEventListener("focus", () => figure.matches(":focus-visible") && this.stay());
+    figure.addEventListener("blur", () => this.leave());
+  }
+
+  private stay(): void {
+    this.held = true;
+    this.beside();
+  }
+
+  private timePanels(): TimePanel[] {
+    return this.hands.map((hand) => hand.panel).filter((panel) => panel.kind === "time");
+  }
+
+  /** The box of all panels, at the cursor. */
+  private beside(): void {
+    const panels = this.timePanels();
+    if (panels.length === 0) return;
+    if (this.hover) this.hover.style.visibility = "hidden";
+    this.write(this.cursor.t, panels.flatMap((panel) => this.rows(panel, this.cursor.t)), panels.length === 1 ? panels[0].name : undefined);
+    const { top, bottom } = this.figure.getBoundingClientRect();
+    this.place(this.across(panels[0], this.cursor.t), 0.5 * (Math.max(0, top) + Math.min(innerHeight, bottom)));
+  }
+
+  /** The moment and all values there. */
+  private said(): string {
+    const { t } = this.cursor;
+    const panels = this.timePanels();
+    const told = panels.map((panel) => {
+      const rows = this.rows(panel, t).map(({ series, text }) => `${series.name} ${text}`);
+      return panels.length > 1 && panel.name ? `${panel.name}: ${rows.join(", ")}` : rows.join(", ");
+    });
+    return [seconds(t, this.stepS), ...told].join("; ");
+  }
+
+  /** Reads the picture, which takes its time, before anyone asks. */
+  read(): void {
+    this.paths ??= drawn(this.svg);
   }
 
   /** Units of the picture in ten pixels as it was drawn. */
@@ -114,15 +195,14 @@ export class Plot {
 
   /** Puts the cursor where the moment is. */
   follow(): void {
+    if (this.held) this.beside();
     for (let i = 0; i < this.hands.length; i++) {
       const hand = this.hands[i];
       const panel = hand.panel;
       let x: number;
       let y = 0;
       if (panel.kind === "time") {
-        const [left, , right] = panel.box;
-        const share = (this.cursor.t - panel.t[0]) / (panel.t[1] - panel.t[0]);
-        x = left + Math.min(1, Math.max(0, share)) * (right - left);
+        x = this.across(panel, this.cursor.t);
       } else {
         x = panel.zero[0] + panel.signs[0] * this.world.tcp[panel.axes[0]] * panel.pixelsPerM;
         y = panel.zero[1] - panel.signs[1] * this.world.tcp[panel.axes[1]] * panel.pixelsPerM;
@@ -154,15 +234,23 @@ export class Plot {
     return panel.t[0] + ((x - left) / (right - left)) * (panel.t[1] - panel.t[0]);
   }
 
+  private across(panel: TimePanel, t: number): number {
+    const [left, , right] = panel.box;
+    const share = (t - panel.t[0]) / (panel.t[1] - panel.t[0]);
+    return left + Math.min(1, Math.max(0, share)) * (right - left);
+  }
+
   private click(event: MouseEvent): void {
     const found = this.under(event);
     if (!found) return;
     this.cursor.pause();
     this.cursor.seek(this.time(found.panel, found.x));
-    this.sought();
+    this.acts.sought();
   }
 
-  private leave(): void {
+  /** Hides the values. */
+  leave(): void {
+    this.held = false;
     this.box.hidden = true;
     if (this.hover) this.hover.style.visibility = "hidden";
   }
@@ -175,43 +263,44 @@ export class Plot {
     }
     const { panel, x, y } = found;
     const [, top, , bottom] = panel.box;
+    this.held = false;
     for (const [name, value] of [["x1", x], ["x2", x], ["y1", top], ["y2", bottom]] as const) this.hover.setAttribute(name, String(value));
     this.hover.style.visibility = "visible";
-    this.fill(panel, x, y);
+    const t = this.cursor.timeOf(Math.round(this.time(panel, x) / this.stepS));
+    this.write(t, this.rows(panel, t), panel.name, y);
     this.place(x, event.clientY);
   }
 
-  private fill(panel: TimePanel, x: number, y: number): void {
-    const [, top, , bottom] = panel.box;
-    const [low, high] = panel.y;
-    const value = (at: number): number => {
-      const share = (bottom - at) / (bottom - top);
-      return panel.log ? low * (high / low) ** share : low + share * (high - low);
-    };
-    // as many digits as the drawing tells: a step of two units
-    const told = (at: number): string => {
-      const step = Math.abs(value(at) - value(at + 2));
-      return fixed(value(at), Math.min(9, Math.max(0, Math.ceil(-Math.log10(Math.max(step, 1e-12))))));
-    };
-    const rows: Array<{ series: Series; at: number; text: string }> = [];
-    for (const series of panel.series) {
-      let pieces = this.curves.get(series);
-      if (!pieces) this.curves.set(series, (pieces = curve(this.svg, String(series.colour), panel.box, this.unit())));
-      const at = valueAt(pieces, x);
-      if (at !== null) rows.push({ series, at, text: told(at) });
-    }
+  /** What stands at a moment, a row for each line. */
+  private rows(panel: TimePanel, t: number): Row[] {
+    this.read();
+    const [, top, , foot] = panel.box;
+    const scale = { foot, top, low: panel.y[0], high: panel.y[1], log: panel.log ?? false };
+    const x = this.across(panel, t);
+    return panel.series.flatMap((series) => {
+      let curve = this.curves.get(series);
+      if (!curve) this.curves.set(series, (curve = inside(this.paths?.get(series.colour.toUpperCase()) ?? [], panel.box, this.unit())));
+      const span = spanAt(curve, x, series.pad ?? 0);
+      if (!span) return [];
+      const text = words(scale, span, { off: series.off ?? 1, cut: series.cut });
+      return [{ panel, series, at: 0.5 * (span[0] + span[1]), text: panel.unit ? `${text}\u00a0${panel.unit}` : text }];
+    });
+  }
+
+  /** Fills the box; of many rows, those near `y` are the ones that are pointed at. */
+  private write(t: number, rows: Row[], name: string | undefined, y?: number): void {
     const more = rows.length - MOST_ROWS;
     if (more > 0) {
-      // of many, those near the pointer are the ones that are pointed at
-      rows.sort((a, b) => Math.abs(a.at - y) - Math.abs(b.at - y));
+      if (y !== undefined) rows.sort((a, b) => Math.abs(a.at - y) - Math.abs(b.at - y));
       rows.length = MOST_ROWS;
     }
     rows.sort((a, b) => a.at - b.at);
-    const head = element("p", { class: "replay-when" }, element("b", {}, seconds(this.cursor.timeOf(Math.round(this.time(panel, x) / this.stepS)), this.stepS)));
-    if (panel.name) head.append(" ", element("bdi", { class: "quiet" }, String(panel.name)));
-    const lines = rows.map(({ series, text }) => {
+    const head = element("p", { class: "replay-when" }, element("b", {}, seconds(t, this.stepS)));
+    if (name) head.append(" ", element("bdi", { class: "quiet" }, String(name)));
+    const lines = rows.map(({ panel, series, text }) => {
       const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3" }));
-      return element("p", {}, swatch, element("bdi", {}, String(series.name)), element("span", {}, `${text}\u00a0${panel.unit}`));
+      const told = name || !panel.name ? String(series.name) : `${panel.name}: ${series.name}`;
+      return element("p", {}, swatch, element("bdi", {}, told), element("span", {}, text));
     });
     this.box.replaceChildren(head, ...lines);
     if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));
@@ -239,17 +328,29 @@ export class Plot {
   }
 }
 
+/** Does what takes time when nothing else does, piece by piece. */
+function idle(work: Array<() => void>): void {
+  const next = (): void => {
+    work.shift()?.();
+    if (work.length) later(next);
+  };
+  const later = (act: () => void): unknown => (typeof requestIdleCallback === "function" ? requestIdleCallback(act) : setTimeout(act, 50));
+  if (work.length) later(next);
+}
+
 /** The plots of a task on this page. A figure that cannot be read stays a picture. */
-export function plots(task: string, cursor: Cursor, world: World, stepS: number, sought: () => void): Plot[] {
+export function plots(task: string, cursor: Cursor, world: World, stepS: number, acts: Acts): Plot[] {
   const out: Plot[] = [];
   for (const figure of document.querySelectorAll<HTMLElement>("figure[data-panels]")) {
     const svg = figure.querySelector("svg");
     if (figure.dataset.task !== task || !svg) continue;
     try {
-      out.push(new Plot(figure, svg, cursor, world, stepS, sought));
+      out.push(new Plot(figure, svg, cursor, world, stepS, acts));
     } catch {
       // the picture itself is there
     }
   }
+  idle(out.map((plot) => () => plot.read()));
+  document.addEventListener("keydown", (event) => event.key === "Escape" && out.forEach((plot) => plot.leave()));
   return out;
 }

@@ -86,7 +86,11 @@ export class Replay {
     root.setAttribute("aria-label", `Replay: ${data.title}`);
     root.tabIndex = -1;
     listen(root, this.cursor, (direction) => this.event(direction));
-    this.plots = plots(data.task, this.cursor, this.world, data.stepS, () => this.announcer.say(this.here()));
+    this.plots = plots(data.task, this.cursor, this.world, data.stepS, {
+      sought: () => this.announcer.say(this.here()),
+      event: (direction) => this.event(direction),
+      say: (text) => this.announcer.say(text),
+    });
     this.cursor.on("moved", () => this.follow());
     this.cursor.on("rested", () => this.rest());
     this.cursor.on("ended", () => this.announcer.say(`${this.here()}, the end`));

@@ -174,6 +174,17 @@ export function truth(tick, seconds = 4) {
 
 const escape = (text) => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 
+/** A line as reports draw it: a path of steps from point to point. */
+function path(points, colour) {
+  let at = [0, 0];
+  const steps = points.map(([x, y]) => {
+    const step = `${x - at[0]} ${y - at[1]}`;
+    at = [x, y];
+    return step;
+  });
+  return `<path fill="none" stroke="${colour}" stroke-width="20" d="m${steps.join(" ")}"/>`;
+}
+
 function figure(task, seconds) {
   const [left, top, right, bottom] = [680, 600, 6200, 2100];
   const series = [{ name: "shoulder", colour: "#006CAE" }, { name: "elbow", colour: "#C65200" }];
@@ -181,9 +192,10 @@ function figure(task, seconds) {
   const lines = series.map(({ colour }, j) => {
     const points = Array.from({ length: 201 }, (_, i) => {
       const value = angles((seconds * i) / 200, seconds)[j];
-      return `${Math.round(left + ((right - left) * i) / 200)},${Math.round(bottom - ((value - low) / (high - low)) * (bottom - top))}`;
+      return [Math.round(left + ((right - left) * i) / 200), Math.round(bottom - ((value - low) / (high - low)) * (bottom - top))];
     });
-    return `<polyline fill="none" opacity="1" stroke="${colour}" stroke-width="20" points="${points.join(" ")}"/><polyline fill="none" stroke="${colour}" stroke-width="20" points="${700 + 1500 * j},300 ${900 + 1500 * j},300"/>`;
+    const sample = [[700 + 1500 * j, 300], [900 + 1500 * j, 300]];
+    return path(points, colour) + path(sample, colour);
   });
   const panels = [{ kind: "time", box: [left, top, right, bottom], t: [0, seconds], y: [low, high], unit: "rad", series }];
   return `<figure class="plot" tabindex="0" aria-label="Joints" data-task="${escape(task)}" data-panels="${escape(JSON.stringify(panels))}">
@@ -197,11 +209,11 @@ function plane(task, seconds) {
   const scale = 1200;
   const points = Array.from({ length: 101 }, (_, i) => {
     const p = armAt(angles((seconds * i) / 100, seconds)).tcp;
-    return `${Math.round(zero[0] + scale * p[0])},${Math.round(zero[1] - scale * (p[2] - BASE))}`;
+    return [Math.round(zero[0] + scale * p[0]), Math.round(zero[1] - scale * (p[2] - BASE))];
   });
   const panels = [{ kind: "plane", box: [400, 300, 6200, 3000], axes: [0, 2], signs: [1, 1], zero, pixelsPerM: scale }];
   return `<figure class="plot" tabindex="0" aria-label="Path" data-task="${escape(task)}" data-panels="${escape(JSON.stringify(panels))}">
-<svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img" width="640" height="320" viewBox="0 0 6400 3200"><title>Path</title><polyline fill="none" stroke="#006CAE" stroke-width="20" points="${points.join(" ")}"/></svg></figure>`;
+<svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img" width="640" height="320" viewBox="0 0 6400 3200"><title>Path</title>${path(points, "#006CAE")}</svg></figure>`;
 }
 
 /** The page of some runs; a text in place of a run is put in as its data, and `more` stands at the end. */

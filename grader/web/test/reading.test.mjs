@@ -19,7 +19,8 @@ const { LIGHT, DARK } = await load("theme.ts");
 const { hull } = await load("hull.ts");
 const { pitchFor } = await load("pitch.ts");
 const { moment, fixed } = await load("words.ts");
-const { valueAt } = await load("curve.ts");
+const { pieces, inside, spanAt } = await load("curve.ts");
+const { words, rounded } = await load("reading.ts");
 const { bones } = await load("bones.ts");
 const { hidden } = await load("ghosts.ts");
 const { balls } = await load("balls.ts");
@@ -251,12 +252,40 @@ test("numbers as they are told", () => {
   assert.equal(fixed(-0.00001, 4), "0.0000");
 });
 
-test("the value of a drawn line", () => {
-  const piece = { x: Float64Array.of(0, 10, 10, 20), y: Float64Array.of(0, 10, 50, 60) };
-  assert.equal(valueAt([piece], 5), 5);
-  assert.equal(valueAt([piece], 10), 50);
-  assert.equal(valueAt([piece], 20), 60);
-  assert.equal(valueAt([piece], 21), null);
+test("a drawn line is read where it is, a jump as from where to where, a band as from low to high", () => {
+  // two lines in one path: up to (10, 10), upright to 50, on to (20, 60); then from (30, 5)
+  const lines = pieces("m0 0 10 10 0 40 10 10m10-55 5 0", false);
+  assert.deepEqual(lines.map(({ x, y }) => [[...x], [...y]]), [[[0, 10, 10, 20], [0, 10, 50, 60]], [[30, 35], [5, 5]]]);
+  assert.deepEqual(spanAt(lines, 5, 0), [4.5, 5.5]);
+  assert.deepEqual(spanAt(lines, 10, 0), [9.5, 50.5]);
+  assert.deepEqual(spanAt(lines, 25, 0), null);
+  assert.deepEqual(spanAt(lines, 33, 0), [5, 5]);
+  // a band from 100 to 200, drawn 7 further up and down
+  const band = pieces("m0 93 50 0 0 114-50 0z", true);
+  assert.deepEqual(spanAt(band, 20, 7), [100, 200]);
+  assert.deepEqual(inside(lines, [0, 0, 100, 100], 1).length, 2);
+  assert.deepEqual(inside(band, [0, 0, 100, 50], 1), []);
+  assert.deepEqual(pieces("M0 0L5 5", false), []);
+});
+
+test("what is read claims no more than the drawing tells", () => {
+  // 10 N m in 1000 units: a unit is 0.01
+  const scale = { foot: 2000, top: 1000, low: 0, high: 10, log: false };
+  assert.equal(words(scale, [1500, 1500], { off: 1.5 }), "5.0");
+  assert.equal(words(scale, [1500, 1500], { off: 0.5 }), "5.00");
+  assert.equal(words(scale, [1500, 1500], { off: 5.5 }), "5");
+  assert.equal(words(scale, [1100, 1900], { off: 1.5 }), "1.0 … 9.0");
+  assert.equal(words(scale, [1100, 1100], { off: 1.5, cut: 9 }), "at least 9");
+  assert.equal(words({ ...scale, low: -10 }, [1100, 1950], { off: 1.5, cut: 9 }), "at most -9 … 8.0");
+  assert.equal(words({ ...scale, low: 0.001, log: true }, [2000, 2000], { off: 1.5 }), "at most 0.001");
+  assert.equal(rounded(12345, 60), "12000");
+  assert.equal(rounded(-0.2, 0.4), "0");
+  for (let n = 0; n < 200; n++) {
+    const [value, off] = [37.1 * Math.sin(n), 10 ** (-3 + (n % 7) / 2)];
+    const told = rounded(value + off * Math.cos(3 * n), off);
+    const digit = 10 ** -(told.split(".")[1]?.length ?? 0);
+    if (off < 0.5) assert.ok(Math.abs(Number(told) - value) <= digit + 1e-9, `${value} told as ${told} with ${off}`);
+  }
 });
 
 test("a box is hulled by its corners", () => {

@@ -146,6 +146,8 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
     near(told, truth(1000).q[1], 0.02, "elbow at 1 s");
     await page.mouse.click(at.x, at.y);
     near((await shown(page)).t, 2, 0.01, "sought");
+    await page.keyboard.press("Escape");
+    assert.ok(!(await figure.locator(".replay-values").isVisible()), "Escape hides the values wherever the focus is");
     const line = await figure.locator(".replay-cursor").evaluate((line) => line.getBoundingClientRect().left);
     near(line, at.x, 1.5, "cursor");
     const dot = await page.locator(".replay-dot").evaluate((dot) => {
@@ -157,6 +159,24 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
     near(dot[1], 2600 - 1200 * (tcp[2] - 1.1), 25, "dot up");
     await close();
   }
+});
+
+test("a plot is read by keys, and what it tells is said", async () => {
+  const { page, close } = await open(one);
+  const figure = page.locator("figure[data-panels]").first();
+  await page.locator("figure[data-panels] svg").first().waitFor();
+  await figure.focus();
+  await page.keyboard.press("End");
+  await page.keyboard.press("Shift+ArrowLeft");
+  const { t, q } = await shown(page);
+  near(t, 3.9, 1e-9, "ten frames before the end");
+  const values = figure.locator(".replay-values");
+  assert.ok(await values.isVisible());
+  near(Number(/elbow(-?[\d.]+)/.exec(await values.textContent())[1]), q[1], 0.02, "elbow");
+  await page.waitForFunction(() => /^3\.9 s; shoulder -?[\d.]+\u00a0rad, elbow/.test(document.querySelector(".replay [role=status]").textContent));
+  await page.keyboard.press("Escape");
+  assert.ok(!(await values.isVisible()));
+  await close();
 });
 
 test("the link of the moment can be copied", async () => {

@@ -2,6 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::figure::figure;
 use super::foreign;
 use super::viewer::{self, seek};
 use crate::compare::{
@@ -144,7 +145,7 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
                 h3 { "What differs over time" }
                 div class="plots" {
                     @for plot in &plots {
-                        figure class="plot" tabindex="0" aria-label=(plot.title) data-task=(visible(&task.name)) data-panels=(plot.axes) { @for part in plot.inline() { (PreEscaped(part)) } }
+                        (figure(plot, &task.name))
                     }
                 }
             }

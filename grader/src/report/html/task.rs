@@ -1,8 +1,9 @@
 //! One task: what stopped it, what the mistake may be, every check with its evidence, cases, plots, and what was printed.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::band::{gauge, outcome, told};
+use super::figure::figure;
 use super::head::{anchor, earned, meaning, verdict};
 use super::viewer::{place, seek};
 use super::{foreign, prose};
@@ -127,17 +128,11 @@ fn told_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &Of<'_>) -> Markup {
         @if !task.hidden.is_empty() { (hidden(id, task)) }
         @if has_others {
             h3 { "Plots" }
-            div class="plots" { @for plot in others() { (pictured(plot, &task.name)) } }
+            div class="plots" { @for plot in others() { (figure(plot, &task.name)) } }
         }
         @if !task.events.is_empty() { (events(&task.events, of)) }
         @if !task.contacts.is_empty() { (contacts(&task.contacts, of)) }
         @if !task.log.is_empty() { (log(task, of)) }
-    }
-}
-
-fn pictured(plot: &Plot, task: &str) -> Markup {
-    html! {
-        figure class="plot" tabindex="0" aria-label=(plot.title) data-task=(visible(task)) data-panels=(plot.axes) { @for part in plot.inline() { (PreEscaped(part)) } }
     }
 }
 
@@ -309,7 +304,7 @@ fn checked(check: &CheckGrade, plot: Option<&Plot>, id: &str, of: &Of<'_>) -> Ma
             @if let Some(first) = untold(check) {
                 p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
             }
-            @if let Some(plot) = plot { div class="plots" { (pictured(plot, of.name)) } }
+            @if let Some(plot) = plot { div class="plots" { (figure(plot, of.name)) } }
         }
     }
 }

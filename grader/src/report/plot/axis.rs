@@ -69,8 +69,14 @@ impl Axis {
         self.min <= value && value <= self.max
     }
 
-    /// Round ticks, about `wanted` of them.
+    /// Round ticks, about `wanted` of them, and at least two wherever numbers differ enough.
     pub(super) fn ticks(&self, wanted: usize) -> Vec<Tick> {
+        let more = (wanted..wanted + 8).map(|wanted| self.about(wanted));
+        let mut enough = more.skip_while(|ticks| ticks.len() < 2);
+        enough.next().unwrap_or_else(|| self.about(wanted))
+    }
+
+    fn about(&self, wanted: usize) -> Vec<Tick> {
         if self.logarithmic {
             let (low, high) = (exponent(self.min * 1.001), exponent(self.max * 1.001));
             return (low..=high)

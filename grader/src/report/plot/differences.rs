@@ -37,8 +37,8 @@ pub fn differences(a: &TaskRun, b: &TaskRun, first: Option<&FirstDifference>) ->
         );
     }
     for (name, picture) in pictures {
-        let (svg, axes) = picture.draw();
-        plots.add(name, picture.title, svg, &axes);
+        let (svg, axes, head) = picture.draw();
+        plots.add(name, picture.title, svg, &axes, Some(head));
     }
     plots.made
 }

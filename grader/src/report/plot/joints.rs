@@ -207,6 +207,7 @@ fn at_limit(run: &TaskRun, joint: usize, limit: f64) -> Option<Line> {
         colour: RED,
         width: 4.0,
         held: false,
+        cut: None,
     })
 }
 
@@ -230,6 +231,7 @@ fn cut(line: &mut Line, most: f64) -> Option<f64> {
             *value = value.clamp(-most, most);
         }
     }
+    line.cut = Some(most);
     Some(greatest)
 }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::asked::Asked;
 use super::axis::Axis;
-use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture};
+use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture, text_width};
 use super::plane::Plane;
 use super::reading::Axes;
 use super::scenery::{Scenery, clipped};
@@ -18,7 +18,7 @@ use crate::quantity::seconds;
 use crate::quantity::with_unit;
 use crate::report::goal::distances_m;
 use crate::report::theme::{
-    BLUE, Colour, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
+    AMBER, BLUE, Colour, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
 };
 use crate::report::visible::shortened;
 
@@ -214,13 +214,12 @@ impl Drawn<'_> {
             legend.push(Entry::new(Swatch::Line(MUTED), "at the end"));
         }
         if !self.scenery.is_empty() {
-            legend.push(Entry::new(Swatch::Area(MUTED), "what stands there"));
+            legend.push(Entry::new(Swatch::Body(MUTED), "what stands there"));
         }
         if !self.scenery.at_end.is_empty() {
-            legend.push(Entry::new(
-                Swatch::Area(VERMILLION),
-                "what can move, at the end",
-            ));
+            let start = "what can move, at the start";
+            legend.push(Entry::new(Swatch::Outline(AMBER), start));
+            legend.push(Entry::new(Swatch::Body(AMBER), "at the end"));
         }
         if !self.goals.is_empty() {
             legend.push(Entry::new(Swatch::Ring(GREEN), "full points"));
@@ -278,8 +277,10 @@ impl Drawn<'_> {
             canvas.line(&[(at.0 - 7.0, at.1), (at.0 + 7.0, at.1)], GREEN, 1.4);
             canvas.line(&[(at.0, at.1 - 7.0), (at.0, at.1 + 7.0)], GREEN, 1.4);
         }
+        let lines = self.lines(view);
         for (at, words) in self.goal_words(view) {
-            canvas.text(&words, (at.0 + 9.0, at.1 + 13.0), Align::Start, INK);
+            let (place, align) = beside(at, text_width(&words), view, &lines);
+            canvas.text(&words, place, align, INK);
         }
         self.paths(canvas, view, 1000);
         // on top, so that its gaps show the TCP where both agree
@@ -319,8 +320,17 @@ impl Drawn<'_> {
             }
         };
         draw(&self.scenery.standing, MUTED, 0.2);
-        draw(&self.scenery.at_start, MUTED, 0.0);
-        draw(&self.scenery.at_end, VERMILLION, 0.25);
+        draw(&self.scenery.at_start, AMBER, 0.0);
+        draw(&self.scenery.at_end, AMBER, 0.25);
+    }
+
+    /// Lines that words should not stand on: the arms, and the path in few points.
+    fn lines(&self, view: &View) -> Vec<Vec<(f64, f64)>> {
+        let every = self.tcp.len() / 500 + 1;
+        let path: Vec<_> = self.tcp.iter().step_by(every).copied().collect();
+        let arms = self.arms.iter().cloned();
+        let lines = arms.chain([path, self.reference.clone()]);
+        lines.flat_map(|line| view.pieces(&line)).collect()
     }
 
     /// Numbers of the goals, those of nearly the same place together.
@@ -421,6 +431,40 @@ impl Drawn<'_> {
         );
         view
     }
+}
+
+/// Where words of a width stand beside a point: below it to the right, or where fewer lines run through them.
+fn beside(
+    (x, y): (f64, f64),
+    width: f64,
+    view: &View,
+    lines: &[Vec<(f64, f64)>],
+) -> ((f64, f64), Align) {
+    let places = [
+        (9.0, 13.0, Align::Start),
+        (9.0, -12.0, Align::Start),
+        (-9.0, 13.0, Align::End),
+        (-9.0, -12.0, Align::End),
+    ];
+    let places = places.map(|(dx, dy, align)| ((x + dx, y + dy), align));
+    let crossed = |((x, y), align): &((f64, f64), Align)| {
+        let left = if *align == Align::End { x - width } else { *x };
+        let words = View {
+            x: Axis::exact(0.0, width),
+            y: Axis::exact(0.0, 14.0),
+            left,
+            top: y - 7.0,
+            pixels_per_m: 1.0,
+        };
+        let segments = lines.iter().flat_map(|line| line.windows(2));
+        let through = segments.filter(|two| words.clip(two[0], two[1]).is_some());
+        let is_inside = left >= view.left
+            && left + width <= view.left + view.width()
+            && y - 7.0 >= view.top
+            && y + 7.0 <= view.top + view.height();
+        through.count() + if is_inside { 0 } else { 1000 }
+    };
+    places.into_iter().min_by_key(crossed).unwrap_or(places[0])
 }
 
 /// Above and below a close look: its heading, labels and words \[px\].

@@ -1,5 +1,6 @@
 //! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
+use kinemark_sim::control::Mode;
 use kinemark_sim::event::EventKind;
 
 use super::axis::{Axis, extent};
@@ -16,7 +17,7 @@ use crate::report::visible::{shortened, visible};
 /// Panels of one picture.
 pub(super) const MOST_PANELS: usize = 6;
 /// Points of all pictures of joints.
-const MOST_POINTS_OF_JOINTS: usize = 4000;
+const MOST_POINTS_OF_JOINTS: usize = 18_000;
 /// Signals of a submission that are drawn.
 const MOST_SIGNALS: usize = 18;
 /// Goals whose distance is drawn besides the current one's.
@@ -70,7 +71,8 @@ pub(super) fn timeline(
 
 /// Points of a picture: many joints make many pictures, which share what a page has room for.
 pub(super) fn most_points(run: &TaskRun) -> usize {
-    let pictures = 2 * run.robot.n().div_ceil(MOST_PANELS).max(1);
+    let kinds = if run.mode == Mode::Velocity { 3 } else { 2 };
+    let pictures = kinds * run.robot.n().div_ceil(MOST_PANELS).max(1);
     (MOST_POINTS_OF_JOINTS / pictures).min(MOST_POINTS)
 }
 
@@ -80,6 +82,7 @@ pub(super) fn line(points: Vec<(f64, f64)>, colour: Colour, held: bool) -> Line 
         colour,
         width: if held { 1.5 } else { 2.0 },
         held,
+        cut: None,
     }
 }
 
@@ -138,6 +141,7 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
                 colour: MUTED_DASHED,
                 width: 1.2,
                 held: false,
+                cut: None,
             });
         }
     }
@@ -220,7 +224,7 @@ fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
         entries.push(Entry::new(Swatch::Line(MUTED_DASHED), target));
     }
     if let Some((_, _, told)) = &step.band {
-        entries.push(Entry::new(Swatch::Area(GREEN), shortened(told, 60)));
+        entries.push(Entry::new(Swatch::Area(GREEN), shortened(told, 70)));
     }
     entries
 }
@@ -283,6 +287,7 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
     } else {
         (Axis::around(shown(), 1e-9), "")
     };
+    let judged = run.check_titles.get(&curve.check).unwrap_or(&curve.check);
     // a picture has no code: its marks are left out
     let title = shortened(&curve.title.replace('`', ""), 70);
     let panel = Panel {
@@ -309,7 +314,7 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         .collect();
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     Timeline {
-        title: format!("Judged: {}", shortened(&curve.check, 60)),
+        title: format!("Judged: {}", shortened(&judged.replace('`', ""), 60)),
         panels: vec![panel],
         legend,
         marks,
@@ -331,7 +336,8 @@ pub(super) fn own(run: &TaskRun) -> Vec<Timeline> {
                 .samples
                 .iter()
                 .map(|(tick, value)| (time_s(run, *tick), *value));
-            let lines = vec![line(points.collect(), BLUE, false)];
+            // between two of them nothing is known, so the last one stands
+            let lines = vec![line(points.collect(), BLUE, true)];
             Panel {
                 heading: format!("{} [as plotted]", shortened(&signal.name, 60)),
                 name: shortened(&signal.name, 60),

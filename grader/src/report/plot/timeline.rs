@@ -1,9 +1,10 @@
 //! Pictures over time: panels below each other with one time axis, a legend above, nothing on top of the data.
 
+use super::Head;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, UNITS, WIDTH, picture};
+use super::course::{Course, Point, courses};
 use super::reading::Axes;
-use super::thin::over_time;
 use crate::quantity::seconds;
 use crate::report::theme::{Colour, FRAME, GRID, MUTED, MUTED_DASHED, RED};
 use crate::report::visible::shortened;
@@ -17,6 +18,8 @@ pub(super) struct Line {
     pub(super) width: f64,
     /// Whether a value is held until the next.
     pub(super) held: bool,
+    /// The size at which values are cut off, if some are greater.
+    pub(super) cut: Option<f64>,
 }
 
 /// One pair of axes.
@@ -54,18 +57,16 @@ pub(super) struct Timeline {
 
 const LEFT: f64 = 68.0;
 const RIGHT: f64 = WIDTH - 20.0;
-/// Points of all lines of a picture: with some ten bytes each, a picture stays well below 60 KB.
-pub(super) const MOST_POINTS: usize = 3600;
-/// Points of one line.
-const MOST_POINTS_OF_A_LINE: usize = 1400;
-/// A line of so few points takes no share of them.
-const SHORT_LINE: usize = 300;
+/// Points of all lines of a picture: with some six bytes each, a picture stays well below 60 KB.
+pub(super) const MOST_POINTS: usize = 5000;
+/// A held value that is new more often than this makes no corners, which nobody would see, in units of the picture: a fifth of a pixel.
+const NARROWEST_STEP: i32 = 2;
 /// Marks that are numbered and told.
 const MOST_MARKS: usize = 6;
 
 impl Timeline {
-    /// Draws it, and tells where its axes lie.
-    pub(super) fn draw(&self) -> (String, Vec<Axes>) {
+    /// Draws it, and tells where its axes lie and what is above them.
+    pub(super) fn draw(&self) -> (String, Vec<Axes>, Head) {
         let mut axes = Vec::new();
         let panel_height = match self.panels.len() {
             0 | 1 => 210.0,
@@ -87,20 +88,34 @@ impl Timeline {
         let numbers = if self.marks.is_empty() { 0.0 } else { 24.0 };
         let pitch = panel_height + 30.0;
         let height = top + numbers + pitch * self.panels.len() as f64 + 42.0;
+        let place = |i: usize, panel: &Panel| {
+            let below = if i == 0 { 0.0 } else { numbers };
+            let from = top + below + pitch * i as f64 + 8.0 + 15.0 + numbers - below;
+            Place {
+                time: Axis::exact(0.0, self.end_s),
+                value: panel.axis,
+                top: from,
+                bottom: from + panel_height,
+            }
+        };
+        let signals: Vec<Vec<Option<Point>>> = self
+            .panels
+            .iter()
+            .enumerate()
+            .flat_map(|(i, panel)| {
+                let place = place(i, panel);
+                let signals = panel.lines.iter().map(|line| place.points(line).collect());
+                signals.collect::<Vec<_>>()
+            })
+            .collect();
+        let mut courses = courses(&signals, self.most_points).into_iter();
         let svg = picture(&self.title, height, |canvas| {
             canvas.title(&self.title, (20.0, 24.0));
             canvas.legend(&legend, 20.0, 50.0);
-            let time = Axis::exact(0.0, self.end_s);
             for (i, panel) in self.panels.iter().enumerate() {
                 let below = if i == 0 { 0.0 } else { numbers };
                 let heading_y = top + below + pitch * i as f64 + 8.0;
-                let from = heading_y + 13.0 + numbers - below;
-                let place = Place {
-                    time,
-                    value: panel.axis,
-                    top: from,
-                    bottom: from + panel_height,
-                };
+                let place = place(i, panel);
                 let last = i + 1 == self.panels.len();
                 canvas.heading(&panel.heading, (20.0, heading_y));
                 if i == 0
@@ -120,18 +135,38 @@ impl Timeline {
                     };
                     canvas.text(&words, (x, heading_y), align, RED);
                 }
-                self.panel(canvas, panel, &place, last);
+                let courses: Vec<Course> = courses.by_ref().take(panel.lines.len()).collect();
+                self.panel(canvas, panel, &courses, &place, last);
                 let edges = [LEFT, place.top, RIGHT, place.bottom];
-                axes.push(Axes::over_time(panel, &self.legend, time.max, edges));
+                axes.push(Axes::over_time(
+                    panel,
+                    &courses,
+                    &self.legend,
+                    place.time.max,
+                    edges,
+                ));
                 if i == 0 {
                     self.numbers(canvas, &place, heading_y + 19.0);
                 }
             }
         });
-        (svg, axes)
+        let percent = |of: f64| format!("{:.2}%", 100.0 * top / of);
+        let head = Head {
+            legend: legend.iter().map(Entry::shown).collect(),
+            of_height: percent(height),
+            of_width: percent(WIDTH),
+        };
+        (svg, axes, head)
     }
 
-    fn panel(&self, canvas: &mut Canvas<'_>, panel: &Panel, place: &Place, last: bool) {
+    fn panel(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        courses: &[Course],
+        place: &Place,
+        last: bool,
+    ) {
         let (top, bottom) = (place.top, place.bottom);
         for (from_s, to_s, colour) in &panel.spans {
             let (from, to) = (place.x(*from_s), place.x(*to_s));
@@ -141,17 +176,20 @@ impl Timeline {
             let (from, to) = (place.y(*from), place.y(*to));
             canvas.area((LEFT, to), (RIGHT, from.max(to + 2.0)), *colour, 0.2);
         }
-        let time_ticks = place.time.ticks(8);
-        for tick in &time_ticks {
-            let x = place.x(tick.value);
+        let times = place.time.ticks(8);
+        let values = place.value.ticks(((bottom - top) / 34.0) as usize);
+        let across = times.iter().map(|tick| place.x(tick.value));
+        let up = values.iter().map(|tick| place.y(tick.value));
+        for x in across.clone() {
             canvas.line(&[(x, top), (x, bottom)], GRID, 1.0);
-            if last {
-                canvas.text(&tick.label, (x, bottom + 13.0), Align::Middle, MUTED);
-            }
         }
-        for tick in place.value.ticks(((bottom - top) / 34.0) as usize) {
-            let y = place.y(tick.value);
+        for y in up.clone() {
             canvas.line(&[(LEFT, y), (RIGHT, y)], GRID, 1.0);
+        }
+        for (tick, x) in times.iter().zip(across).filter(|_| last) {
+            canvas.text(&tick.label, (x, bottom + 13.0), Align::Middle, MUTED);
+        }
+        for (tick, y) in values.iter().zip(up) {
             canvas.text(&tick.label, (LEFT - 8.0, y), Align::End, MUTED);
         }
         if last {
@@ -168,14 +206,12 @@ impl Timeline {
             let x = place.x(*t_s);
             canvas.line(&[(x, top), (x, bottom)], MUTED_DASHED, 1.0);
         }
-        let lines = self.panels.iter().flat_map(|panel| &panel.lines);
-        // short lines are not thinned
-        let lines = lines.filter(|line| line.points.len() > SHORT_LINE).count();
-        let most = (self.most_points / lines.max(1)).min(MOST_POINTS_OF_A_LINE);
-        for line in &panel.lines {
-            let width = ((RIGHT - LEFT) * UNITS) as i32;
-            for piece in over_time(place.points(line), width, most) {
-                canvas.stroke(&piece, line.colour, line.width);
+        for (line, course) in panel.lines.iter().zip(courses) {
+            for [upper, lower] in &course.bands {
+                canvas.band(upper, lower, line.colour, line.width);
+            }
+            for piece in &course.lines {
+                canvas.stroke(piece, line.colour, line.width);
             }
         }
         let corners = [
@@ -222,9 +258,9 @@ impl Place {
         self.bottom - self.value.fraction(value).clamp(0.0, 1.0) * (self.bottom - self.top)
     }
 
-    /// The points of a line in units of the picture; a held value makes a corner before the next.
-    fn points<'a>(&'a self, line: &'a Line) -> impl Iterator<Item = Option<(i32, i32)>> + 'a {
-        let mut before: Option<i32> = None;
+    /// The points of a line in units of the picture; a held value makes a corner before the next, where that can be seen.
+    fn points<'a>(&'a self, line: &'a Line) -> impl Iterator<Item = Option<Point>> + 'a {
+        let mut before: Option<Point> = None;
         line.points.iter().flat_map(move |&(t_s, value)| {
             if !(value.is_finite() && t_s.is_finite()) {
                 before = None;
@@ -232,7 +268,10 @@ impl Place {
             }
             let x = (self.x(t_s) * UNITS).round() as i32;
             let y = (self.y(value) * UNITS).round() as i32;
-            let corner = before.replace(y).filter(|_| line.held).map(|y| (x, y));
+            let corner = before
+                .replace((x, y))
+                .filter(|before| line.held && x - before.0 > NARROWEST_STEP)
+                .map(|before| (x, before.1));
             [Some(corner.unwrap_or((x, y))), Some((x, y))]
         })
     }
