@@ -6,6 +6,7 @@ use plotters::prelude::{
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::course::Point;
 use crate::report::theme::{self, Colour, INK, MUTED, PAPER};
 use crate::report::visible::{shortened, visible};
 
@@ -174,7 +175,7 @@ fn shorter(drawn: &str) -> String {
 }
 
 /// The look, the points and whether it is closed, of a polyline or polygon of the writer.
-fn shape(line: &str) -> Option<(String, Vec<(i32, i32)>, bool)> {
+fn shape(line: &str) -> Option<(String, Vec<Point>, bool)> {
     let (rest, is_closed) = match line.strip_prefix("<polyline") {
         Some(rest) => (rest, false),
         None => (line.strip_prefix("<polygon")?, true),

@@ -150,7 +150,8 @@ impl Timeline {
                 }
             }
         });
-        let percent = |of: f64| format!("{:.2}%", 100.0 * top / of);
+        // the first heading reaches a little higher where its letters are larger
+        let percent = |of: f64| format!("{:.2}%", 100.0 * (top - 5.0) / of);
         let head = Head {
             legend: legend.iter().map(Entry::shown).collect(),
             of_height: percent(height),
