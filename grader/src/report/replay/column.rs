@@ -74,7 +74,7 @@ impl Track {
             quanta: quanta.to_vec(),
             ticks: None,
             within: None,
-            data: STANDARD.encode(&bytes),
+            data: STANDARD.encode(bytes),
         }
     }
 
@@ -89,7 +89,7 @@ pub(super) fn tick_column(ticks: &[usize]) -> String {
     let whole: Vec<i64> = ticks.iter().map(|tick| *tick as i64).collect();
     let mut bytes = Vec::new();
     write(&whole, None, &mut bytes);
-    STANDARD.encode(&bytes)
+    STANDARD.encode(bytes)
 }
 
 /// Where the line through two numbers leads, `ratio` times their distance on.
