@@ -180,7 +180,8 @@ mod tests {
         assert_eq!(loss.fragment(), "#task=move");
         assert_eq!(
             loss.check.map(|check| check.name.as_str()),
-            Some("saturation")
+            // the costliest
+            Some("trajectory-match")
         );
         // nothing was run before the first call
         for tick in [None, Some(0)] {

@@ -1,5 +1,6 @@
 // The moment in numbers: time, tick, TCP and joints, as text that can be copied.
 
+import type { Way } from "./between";
 import type { Replay } from "./data";
 import { element } from "./dom";
 import { breakable, decimals, fixed } from "./words";
@@ -67,11 +68,16 @@ export class Readout {
     const { world, replay } = this;
     this.t.textContent = world.t.toFixed(Math.max(2, decimals(replay.stepS)));
     this.tick.textContent = String(Math.round(world.t / replay.stepS));
-    for (let i = 0; i < 3; i++) this.tcp[i].textContent = fixed(world.tcp[i], 4);
+    const { tcp, q } = replay.moves;
+    for (let i = 0; i < 3; i++) this.tcp[i].textContent = about(tcp) + fixed(world.tcp[i], 4);
     for (let i = 0; i < this.q.length; i++) {
-      this.q[i].textContent = fixed(world.q[i], 4);
+      this.q[i].textContent = about(q[i]) + fixed(world.q[i], 4);
       const degrees = this.inDegrees[i];
       if (degrees) degrees.textContent = fixed(DEGREES * world.q[i], 2);
     }
   }
 }
+
+/** What stands before a number that may be farther than this from the run's: between frames of what is told less truly. */
+const ROUGH = 1e-3;
+const about = (way: Way): string => (way.within > ROUGH && !way.isFrame ? "≈ " : "");

@@ -33,7 +33,8 @@ impl Axis {
     /// Holds all finite `values` with some air, and spans at least `least`.
     pub(super) fn around(values: impl Iterator<Item = f64>, least: f64) -> Self {
         let (min, max) = extent(values).unwrap_or((0.0, 1.0));
-        let least = least.max(1e-9 * min.abs().max(max.abs())).max(1e-12);
+        // what differs by less has nothing to see, and its ticks would be told apart by digits that nobody reads
+        let least = least.max(1e-3 * min.abs().max(max.abs())).max(1e-12);
         let air = (0.07 * (max - min)).max(0.5 * (least - (max - min)));
         Self::exact(min - air, max + air)
     }
@@ -122,14 +123,17 @@ pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 /// `k` times ten to the power `e`, exactly as it is.
 fn label(k: i64, e: i32) -> String {
+    let value = (k as f64 * power_of_ten(e)).abs();
+    let (mut mantissa, mut exponent) = (k, e);
+    while k != 0 && mantissa % 10 == 0 {
+        (mantissa, exponent) = (mantissa / 10, exponent + 1);
+    }
+    // a large number of many digits, as ticks near each other have, is read better whole
+    let is_round = mantissa.abs() < 1000 || value >= 1e9;
     let text = if k == 0 {
         "0".to_owned()
-    } else if e < -5 || (k as f64 * power_of_ten(e)).abs() >= 1e5 {
-        let (mut k, mut e) = (k, e);
-        while k % 10 == 0 {
-            (k, e) = (k / 10, e + 1);
-        }
-        format!("{k}e{e}")
+    } else if e < -5 || (value >= 1e5 && is_round) {
+        format!("{mantissa}e{exponent}")
     } else {
         let decimals = (-e).max(0) as usize;
         format!("{:.decimals$}", k as f64 * power_of_ten(e))
@@ -146,6 +150,22 @@ mod tests {
             .into_iter()
             .map(|tick| tick.label)
             .collect()
+    }
+
+    /// A signal that stands still, as a target or a gain does, has ticks of few digits.
+    #[test]
+    fn what_stands_still_has_plain_ticks() {
+        for value in [0.5, 100.0, -3.25, 1.2345e6] {
+            let axis = Axis::around([value, value].into_iter(), 0.0);
+            let labels: Vec<String> = axis.ticks(4).into_iter().map(|tick| tick.label).collect();
+            assert!(labels.len() >= 2, "{value}: {labels:?}");
+            assert!(
+                labels
+                    .iter()
+                    .all(|label| label.chars().count() <= 7 + usize::from(value < 0.0)),
+                "{value}: {labels:?}"
+            );
+        }
     }
 
     #[test]

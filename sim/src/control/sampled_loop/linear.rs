@@ -23,6 +23,8 @@ pub(super) struct Linear<'a> {
     motions: DMatrix<f64>,
     mass: DMatrix<f64>,
     inverse_mass: DMatrix<f64>,
+    /// Which joints have a drive.
+    driven: Vec<bool>,
     damping: DMatrix<f64>,
     /// Slope of the effort that holds the robot.
     stiffness: DMatrix<f64>,
@@ -64,6 +66,7 @@ impl<'a> Linear<'a> {
             motions,
             mass,
             inverse_mass,
+            driven: robot.moving_joints().map(|joint| !joint.passive).collect(),
             stiffness,
         })
     }
@@ -115,7 +118,10 @@ impl<'a> Linear<'a> {
         } = held;
         let (k, moving) = (self.mass.nrows(), self.moving());
         let reduced = |pick: fn(&Gains) -> f64| {
-            let values: Vec<f64> = gains.iter().map(pick).collect();
+            let drives = gains.iter().zip(&self.driven);
+            let values: Vec<f64> = drives
+                .map(|(gains, is_driven)| if *is_driven { pick(gains) } else { 0.0 })
+                .collect();
             by_independent(&self.motions, &values)
         };
         let (kp, ki, kd) = (reduced(|g| g.kp), reduced(|g| g.ki), reduced(|g| g.kd));
