@@ -1,9 +1,13 @@
 // A thin dark (or light) edge around what is drawn, so that a pale shape is told from the paper and from the next one.
 
-import { BackSide, Color, Mesh, ShaderMaterial, Vector2, type BufferGeometry } from "three";
+import { BackSide, Color, EdgesGeometry, LineBasicMaterial, LineSegments, Mesh, ShaderMaterial, Vector2, type BufferGeometry } from "three";
 
 /** Width \[px\]. */
 const WIDTH = 1.4;
+/** Of what one sees through, an edge is drawn where faces meet at more than this \[degrees\]. */
+const SHARP_DEG = 30;
+/** Corners of a shape whose edges are looked for. */
+const MOST_CORNERS = 30_000;
 
 // the far side of the shape, a little larger: what of it is seen is its edge
 const VERTEX = `
@@ -33,6 +37,17 @@ export class Edges {
     uniforms: { size: { value: new Vector2(1, 1) }, width: { value: WIDTH }, colour: { value: new Color() } },
   });
 
+  private readonly lines = new LineBasicMaterial({ transparent: true, depthWrite: false });
+
+  /** Puts edges on a mesh that one sees through, of which the far side would be seen whole. */
+  on(mesh: Mesh<BufferGeometry>): void {
+    if (mesh.geometry.getAttribute("position").count > MOST_CORNERS) return;
+    const edge = new LineSegments(new EdgesGeometry(mesh.geometry, SHARP_DEG), this.lines);
+    edge.matrixAutoUpdate = false;
+    edge.renderOrder = mesh.renderOrder;
+    mesh.add(edge);
+  }
+
   /** Puts an edge around a mesh. */
   around(mesh: Mesh<BufferGeometry>): void {
     const edge = new Mesh(mesh.geometry, this.material);
@@ -40,8 +55,10 @@ export class Edges {
     mesh.add(edge);
   }
 
-  set colour(colour: string) {
-    this.material.uniforms.colour.value.set(colour);
+  /** Colours of what is around shapes, and of the lines on what one sees through. */
+  colour(around: string, on: string): void {
+    this.material.uniforms.colour.value.set(around);
+    this.lines.color.set(on);
   }
 
   /** Size of the picture \[px\]. */

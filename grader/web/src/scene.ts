@@ -111,7 +111,7 @@ export class RunScene {
       mesh.receiveShadow = !ghost;
       mesh.matrixAutoUpdate = false;
       if (ghost) mesh.renderOrder = 5 + 0.01 * ghosts++;
-      // one sees through a ghost, to the far side of its edge
+      if (ghost) this.edges.on(mesh);
       else this.edges.around(mesh);
       this.nodes.push({ mesh, turn: colours[index] });
       if (node.track >= 0) this.moving.push({ object: mesh, index });
@@ -131,7 +131,8 @@ export class RunScene {
           mesh.matrixAutoUpdate = false;
           mesh.castShadow = !bone.ghost;
           scene.add(mesh);
-          if (!bone.ghost) this.edges.around(mesh);
+          if (bone.ghost) this.edges.on(mesh);
+          else this.edges.around(mesh);
           this.nodes.push({ mesh, turn: bone.ghost ? "ghost" : turn(i) });
           return mesh;
         });
@@ -295,7 +296,7 @@ export class RunScene {
 
   colour(theme: Theme): void {
     for (const { mesh, turn } of this.nodes) mesh.material.color.set(colourOf(theme, turn));
-    this.edges.colour = theme.edge;
+    this.edges.colour(theme.edge, theme.ghost);
     for (const { line, colour } of this.lines) line.colour = theme[colour] as string;
     for (const { material, colour } of this.glasses) material.color.set(theme[colour] as string);
     for (const { line } of this.axes) {
