@@ -34,10 +34,10 @@ const FORMAT: &str = "kinemark-replay/2";
 /// Between frames everything is shown to this \[m or rad\].
 const WITHIN: f64 = 3e-4;
 /// TCP and joints, which are read as numbers of four decimals, to this \[m or rad\].
-const NUMBERS_WITHIN: f64 = 4e-5;
+const NUMBERS_WITHIN: f64 = 1e-4;
 /// Characters of coded motion of a run of ten seconds or less; longer runs may have as much more as they are longer. Beyond, what takes
 /// the most is told less truly, and the record says how much.
-const MOST_CHARACTERS: usize = 120_000;
+const MOST_CHARACTERS: usize = 90_000;
 /// So much less truly each time.
 const LESS_TRUE: f64 = 3.0;
 /// Nothing is told less truly than this \[m or rad\].

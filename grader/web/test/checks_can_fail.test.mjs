@@ -60,7 +60,7 @@ const cases = [
   ["links a hundredth too far away", pose, inData(({ tracks }) => tracks.forEach(({ quanta }) => (quanta[2] *= 1.01)))],
   ["links turned the other way", pose, inData(({ tracks }) => tracks.forEach(({ quanta }) => (quanta[5] *= -1)))],
   ["a TCP that is two millimetres off", pose, inData(({ tcp }) => (tcp.quanta[0] *= 1.002))],
-  ["a joint that is off", pose, inData(({ q }) => (q.quanta[1] *= 1.01))],
+  ["a joint that is off", pose, inData(({ q }) => (q[1].quanta[0] *= 1.01))],
   ["a plot with the wrong time", check.plotsSeek, (page) => changed(page, page.replace(/(&quot;t&quot;:\[)([^,]*),([^\]]*)/g, (_, open, from, to) => `${open}${from},${1.2 * to}`))],
   ["moments that do not seek", check.momentsSeek, script({ last: "for (const kind of ['click', 'hashchange']) addEventListener(kind, (event) => { event.preventDefault(); event.stopImmediatePropagation(); }, true)" })],
   ["a link that opens at the start", opens, script({ last: "addEventListener('load', () => window.kinemark.replays.forEach((one) => one.seek(0)))" }), { fragment: "#task=move&t=2.35" }],

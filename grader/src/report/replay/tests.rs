@@ -126,8 +126,8 @@ fn poses_are_those_of_the_trace() {
             );
         }
         let told = shown(&tcp, tick);
-        for c in 0..3 {
-            assert!((told[c] - run.trace.tcp.at(tick)[c]).abs() <= NUMBERS_WITHIN);
+        for (told, place) in told.iter().zip(run.trace.tcp.at(tick)) {
+            assert!((told - place).abs() <= NUMBERS_WITHIN);
         }
         for (joint, course) in q.iter().enumerate() {
             assert!((shown(course, tick)[0] - run.trace.q.at(tick)[joint]).abs() <= NUMBERS_WITHIN);
