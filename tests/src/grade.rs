@@ -172,3 +172,24 @@ fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
     assert!(ran.stdout.contains("24 of 24 points"), "{ran:?}");
     assert!(ran.stderr.contains("cannot be written"), "{ran:?}");
 }
+
+/// Who grades a class loops over folders that students named.
+#[cfg(unix)]
+#[test]
+fn a_folder_that_would_steer_the_terminal_is_told_in_plain_characters() {
+    let bed = TestBed::new();
+    assert_eq!(bed.run(&["new", "01-kinematics", "mine"]).code, Some(0));
+    let out = "o\u{1b}[31m\u{202E}x";
+    let args = [
+        "grade",
+        "01-kinematics",
+        "mine/submission.rhai",
+        "--out",
+        out,
+    ];
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let told = "report: o⟨U+001B⟩[31m⟨U+202E⟩x/report.html\n";
+    assert!(ran.stdout.contains(told), "{ran:?}");
+    assert!(bed.path(out).join("report.html").exists());
+}

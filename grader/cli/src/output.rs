@@ -3,10 +3,16 @@
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
+use kinemark_grader::report::visible::visible;
 use serde::Serialize;
 
 use crate::disk::plain;
 use crate::failure::Failure;
+
+/// A path in a line of output: folders may be called by what students chose, so characters that steer a terminal are written out.
+pub(crate) fn path(path: &Path) -> String {
+    visible(&path.display().to_string()).into_owned()
+}
 
 /// Prints text; colours are stripped where they do not belong, and a reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {

@@ -16,7 +16,9 @@ export interface ContactMark {
 
 /** The marks of a run, at most so many: those of the arm first, then by impulse. */
 export function contactMarks(replay: Replay, most: number): ContactMark[] {
-  const arm = new Set(replay.nodes.filter((node) => node.kind === "link").map((node) => node.name));
+  const links = replay.nodes.filter((node) => node.kind === "link").map((node) => node.name);
+  // a second run's parties stand behind what that is called
+  const arm = new Set([...links, ...links.map((name) => `${replay.ghostLabel}/${name}`)]);
   const all = replay.contacts.map((contact) => ({ contact, arm: arm.has(contact.first) || arm.has(contact.second) }));
   all.sort((a, b) => Number(b.arm) - Number(a.arm) || b.contact.impulse - a.contact.impulse);
   const greatest = Math.max(0, ...all.slice(0, 1).map(({ contact }) => contact.impulse));

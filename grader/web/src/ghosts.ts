@@ -2,9 +2,16 @@
 
 import type { Replay, SceneNode } from "./data";
 
-/** Whether a ghost's node never moves and a link of the run stands there as well. */
+/** Whether a ghost's node never moves and a link of the run of the same shapes stands there as well. */
 export function hidden(replay: Replay, node: SceneNode): boolean {
   const { pose } = node;
   if (node.kind !== "ghost" || pose === null) return false;
-  return replay.nodes.some((other) => other.kind === "link" && other.pose !== null && other.pose.every((value, i) => Math.abs(value - pose[i]) < 1e-6));
+  const shapes = JSON.stringify(node.shapes);
+  return replay.nodes.some(
+    (other) =>
+      other.kind === "link" &&
+      other.pose !== null &&
+      other.pose.every((value, i) => Math.abs(value - pose[i]) < 1e-6) &&
+      JSON.stringify(other.shapes) === shapes,
+  );
 }

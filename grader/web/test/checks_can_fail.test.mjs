@@ -63,7 +63,7 @@ const cases = [
   ["a joint that is off", pose, inData(({ q }) => (q[1].quanta[0] *= 1.01))],
   ["a plot with the wrong time", check.plotsSeek, (page) => changed(page, page.replace(/(&quot;t&quot;:\[)([^,]*),([^\]]*)/g, (_, open, from, to) => `${open}${from},${1.2 * to}`))],
   ["moments that do not seek", check.momentsSeek, script({ last: "for (const kind of ['click', 'hashchange']) addEventListener(kind, (event) => { event.preventDefault(); event.stopImmediatePropagation(); }, true)" })],
-  ["a link that opens at the start", opens, script({ last: "addEventListener('load', () => window.kinemark.replays.forEach((one) => one.seek(0)))" }), { fragment: "#task=move&t=2.35" }],
+  ["a link that opens at the start", opens, script({ last: "requestAnimationFrame(() => requestAnimationFrame(() => window.kinemark.replays.forEach((one) => one.seek(0))))" }), { fragment: "#task=move&t=2.35" }],
   ["a focus that is not seen", check.keyboardWalk, style("*:focus, *:focus-visible { outline: none !important; box-shadow: none !important }")],
   ["a button without a name", check.keyboardWalk, inBody("<button style='width:30px;height:30px'></button>")],
   ["a control that Tab does not reach", check.keyboardWalk, script({ last: "addEventListener('focusin', ({ target }) => { if (target.type === 'range') target.blur(); })" })],

@@ -199,6 +199,9 @@ export async function clickMoment(page) {
 
 /** Opened by the link of a moment, the page shows it, paused and in view. */
 export async function opensAt(page, index, t) {
+  // the page goes there once it has its size
+  const there = ([i, t]) => Math.abs(window.kinemark.replays[i].shown().t - t) <= 1.1e-3;
+  await page.waitForFunction(there, [index, t], { timeout: 3000 }).catch(() => {});
   const now = await shown(page, index);
   assert.ok(Math.abs(now.t - t) <= 1.1e-3, `shows ${now.t} s, not ${t} s`);
   const { replay } = (await places(page))[index];

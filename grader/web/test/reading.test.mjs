@@ -215,6 +215,8 @@ test("the arm's contacts are marked stronger than those of bodies among themselv
   const contact = (first, second, impulse) => ({ from: 10, to: 20, first, second, point: [0, 0, 0], impulse });
   const marks = contactMarks({ nodes: [{ kind: "link", name: "forearm" }, { kind: "free", name: "can" }], contacts: [contact("shelf", "can", 16), contact("forearm", "can", 0.6), contact("can", "forearm", 0.1)] }, 2);
   assert.deepEqual(marks.map(({ size }) => size), [1, 0.65 + 0.35 * Math.sqrt(1 / 6)]);
+  const second = contactMarks({ ghostLabel: "B", nodes: [{ kind: "link", name: "forearm" }], contacts: [contact("B/shelf", "B/can", 16), contact("B/forearm", "B/can", 0.6)] }, 2);
+  assert.deepEqual(second.map(({ lasting }) => lasting), [1, 0.45], "a second run's arm counts as one");
   const all = contactMarks({ nodes: [], contacts: [contact("shelf", "can", 16)] }, 9);
   assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(all[0], tick)), [0, 0.45, 0.45, 0.2]);
   assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(marks[0], tick)), [0, 1, 1, 0.6]);
@@ -310,6 +312,8 @@ test("a ghost's base that stands in the arm's is not drawn", () => {
   const run = replay();
   const base = run.nodes.find((node) => node.name === "base");
   run.nodes.push({ ...base, name: "reference/base", kind: "ghost" });
+  // of another shape it is another thing, which stands in the same place
+  run.nodes.push({ ...base, shapes: base.shapes.slice(1), name: "reference/plinth", kind: "ghost" });
   const data = read(JSON.stringify(run));
   assert.deepEqual(data.nodes.filter((node) => hidden(data, node)).map((node) => node.name), ["reference/base"]);
 });

@@ -183,6 +183,8 @@ test("without scripts the page is whole, and the replay takes no room", async ()
     await visit(lab, { javaScriptEnabled: false }, async (page) => {
       for (const place of await page.locator("[data-replay]").all()) assert.ok(((await place.boundingBox())?.height ?? 0) < 1);
       assert.ok((await page.locator("section").count()) > 0);
+      // what is folded unfolds by itself
+      for (const summary of await page.locator("details.more > summary").all()) await summary.click();
       assert.ok(await page.locator("figure svg").first().isVisible());
     });
   }

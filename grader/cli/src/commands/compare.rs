@@ -64,7 +64,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     write(&args.out, &comparison, &a.graded, &b.graded)?;
     if !args.json {
         let page = args.out.join(PAGE);
-        output::print(&format!("comparison: {}\n", page.display()))?;
+        output::print(&format!("comparison: {}\n", output::path(&page)))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -46,8 +46,7 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     }
     write(args, &work)?;
     if !args.json {
-        let report = args.out.join("report.html");
-        let report = report.display();
+        let report = output::path(&args.out.join("report.html"));
         output::print(&format!("report: {report}\n"))?;
         if let Some(loss) = report::moment::first_loss(grade) {
             let place = loss.fragment();
@@ -143,7 +142,7 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
     }
     let lines = graded.runs.iter().map(|run| {
         let path = out.join(&run.task).join(report_folder::STORYBOARD);
-        format!("storyboard: {}\n", path.display())
+        format!("storyboard: {}\n", output::path(&path))
     });
     lines.collect()
 }

@@ -9,7 +9,7 @@ use crate::{interrupt, output};
 
 /// Serves the folder.
 pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
-    let shown = args.folder.display();
+    let shown = output::path(&args.folder);
     if !args.folder.is_dir() {
         return Err(Failure::usage(
             format!("there is no folder `{shown}`"),
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
     let server = Server::bind(&args.folder, args.serve.port, None)?;
     let address = server.address();
     if args.json {
-        let line = serde_json::json!({ "folder": shown.to_string(), "address": address });
+        let line = serde_json::json!({ "folder": shown, "address": address });
         output::print(&format!("{line}\n"))?;
     } else {
         output::print(&format!("{shown} is open at {address}\nend with Ctrl-C\n"))?;

@@ -48,7 +48,7 @@ pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
         args,
         &format!(
             "{} is open at {address}\ngraded again on every save; end with Ctrl-C\n",
-            args.grade.out.display()
+            output::path(&args.grade.out)
         ),
     )?;
     if !args.serve.no_open {
