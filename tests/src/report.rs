@@ -2,20 +2,7 @@
 
 use serde_json::Value;
 
-use crate::testbed::{TestBed, files_below, root};
-
-/// A folder with the labs and a submission that is a little off.
-fn bed() -> TestBed {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    let submission = root().join("tests/submissions/01-kinematics/four-millimetres-off");
-    std::fs::copy(
-        submission.join("submission.rhai"),
-        bed.path("submission.rhai"),
-    )
-    .expect("copied");
-    bed
-}
+use crate::testbed::{TestBed, files_below};
 
 const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
 
@@ -54,7 +41,7 @@ fn log(bytes: &[u8]) -> (Vec<String>, Vec<String>) {
 
 #[test]
 fn every_lost_point_with_a_moment_has_its_link() {
-    let bed = bed();
+    let bed = TestBed::a_little_off();
     let ran = bed.run(&GRADE);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     let last = ran.stdout.lines().last().expect("lines");
@@ -86,7 +73,7 @@ fn every_lost_point_with_a_moment_has_its_link() {
 
 #[test]
 fn nothing_of_the_reference_but_its_path_is_in_a_report() {
-    let bed = bed();
+    let bed = TestBed::a_little_off();
     assert_eq!(bed.run(&GRADE).code, Some(1));
     let files = files_below(&bed.path("out"));
     let (_, page) = files
@@ -114,7 +101,7 @@ fn nothing_of_the_reference_but_its_path_is_in_a_report() {
 
 #[test]
 fn staff_may_see_the_reference_move() {
-    let bed = bed();
+    let bed = TestBed::a_little_off();
     assert_eq!(bed.run(&GRADE).code, Some(1));
     let without = std::fs::read(bed.path("out/grade.json")).expect("record");
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--ghost"]);

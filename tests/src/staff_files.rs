@@ -1,23 +1,10 @@
 //! The staff's own submissions, broken: whoever grades is told, with file and line, and no student pays for it.
 
-use crate::testbed::{TestBed, root};
+use crate::testbed::TestBed;
 
 const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
 const SOLUTION: &str = "reference/01-kinematics/solution.rhai";
 const MUTANT: &str = "reference/01-kinematics/mutants/degrees.rhai";
-
-/// The course, and a submission that loses points in the move, where the reference solution is asked for.
-fn bed() -> TestBed {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    let submission = root().join("tests/submissions/01-kinematics/four-millimetres-off");
-    std::fs::copy(
-        submission.join("submission.rhai"),
-        bed.path("submission.rhai"),
-    )
-    .expect("copied");
-    bed
-}
 
 #[test]
 fn what_is_no_program_ends_a_grade_and_a_check_at_its_line() {
@@ -25,7 +12,7 @@ fn what_is_no_program_ends_a_grade_and_a_check_at_its_line() {
         (SOLUTION, "staff::solution", 6),
         (MUTANT, "staff::mutant", 1),
     ] {
-        let bed = bed();
+        let bed = TestBed::a_little_off();
         let text = std::fs::read_to_string(bed.path(file)).expect("file");
         let found = text
             .lines()
@@ -48,7 +35,7 @@ fn what_is_no_program_ends_a_grade_and_a_check_at_its_line() {
 
 #[test]
 fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
-    let bed = bed();
+    let bed = TestBed::a_little_off();
     let before = bed.run(&GRADE);
     assert!(before.stdout.contains("first differs"), "{before:?}");
     assert_eq!(before.stderr, "", "{before:?}");
@@ -73,7 +60,7 @@ fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
 
 #[test]
 fn a_check_tells_where_the_solution_stops() {
-    let bed = bed();
+    let bed = TestBed::a_little_off();
     bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
     let ran = bed.run(&[
         "lab",

@@ -125,6 +125,19 @@ impl TestBed {
         self.command(args).output().expect("the binary runs").into()
     }
 
+    /// The course, and a submission of lab 1 that loses points in the move.
+    pub(crate) fn a_little_off() -> Self {
+        let bed = Self::new();
+        bed.copy_labs();
+        let submission = root().join("tests/submissions/01-kinematics/four-millimetres-off");
+        std::fs::copy(
+            submission.join("submission.rhai"),
+            bed.path("submission.rhai"),
+        )
+        .expect("copied");
+        bed
+    }
+
     /// Copies the labs and the staff's reference into this folder, to be changed there.
     pub(crate) fn copy_labs(&self) {
         for folder in ["labs", "reference"] {
