@@ -137,17 +137,33 @@ test("a context that stays lost gives way to the flat picture, without a word in
   await close();
 });
 
-test("a window that moves to a screen of other pixels is drawn in these", async () => {
-  const { page, close } = await open(one, { width: 600, height: 600 });
-  await page.waitForSelector(".replay canvas");
+/** Gives the screen other pixels, one ratio after another, and waits each time until the canvas has them. */
+async function changePixels(page, act = async () => {}) {
   const tools = await page.context().newCDPSession(page);
   for (const ratio of [2, 1.5, 1]) {
     await tools.send("Emulation.setDeviceMetricsOverride", { width: 600, height: 600, deviceScaleFactor: ratio, mobile: false });
+    await page.waitForFunction((ratio) => devicePixelRatio === ratio, ratio);
+    await act();
     await page.waitForFunction((ratio) => {
       const canvas = document.querySelector(".replay canvas");
       return Math.abs(canvas.width / canvas.clientWidth - ratio) < 0.01;
     }, ratio);
   }
+}
+
+test("a window that moves to a screen of other pixels is drawn in these", async () => {
+  const { page, close } = await open(one, { width: 600, height: 600 });
+  await page.waitForSelector(".replay canvas");
+  await changePixels(page);
+  await close();
+});
+
+test("a picture is drawn in the pixels of its moment, also where no event and no timer says that they changed", async () => {
+  const first = "window.ResizeObserver = class { constructor(act) { this.act = act; } observe() { setTimeout(this.act); } disconnect() {} }; window.setInterval = () => 0;";
+  const { page, close } = await open(one, { width: 600, height: 600, first });
+  await page.waitForSelector(".replay canvas");
+  let t = 0;
+  await changePixels(page, () => seek(page, ++t));
   await close();
 });
 
