@@ -38,7 +38,7 @@ fn main() -> ExitCode {
     };
     let command = std::thread::Builder::new()
         // submissions that run in this process (mutants, --in-process) may nest as deep as their budgets allow
-        .stack_size(2 * kinemark_grader::submission::STACK_BYTES)
+        .stack_size(2 * kinemark_grader::submission::rhai::STACK_BYTES)
         .spawn(|| match commands::run(args) {
             Ok(code) => code,
             Err(failure) => failure.report(),

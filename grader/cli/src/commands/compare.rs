@@ -4,12 +4,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use kinemark_grader::compare::{self, Comparison, Side};
-use kinemark_grader::grade::TaskKind;
-use kinemark_grader::graded::GradedRun;
-use kinemark_grader::grading;
+use kinemark_grader::judge;
 use kinemark_grader::lab::Lab;
-use kinemark_grader::report;
-use kinemark_grader::report::visible::visible;
+use kinemark_grader::record::grade::TaskKind;
+use kinemark_grader::record::graded::GradedRun;
+
+use kinemark_report::visible::visible;
 
 use crate::args::CompareArgs;
 use crate::disk::{self, plain};
@@ -59,7 +59,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     if args.json {
         output::print_json(&comparison)?;
     } else {
-        output::print(&report::compare_text::text(&comparison))?;
+        output::print(&kinemark_report::compare_text::text(&comparison))?;
     }
     write(&args.out, &comparison, &a.graded, &b.graded)?;
     if !args.json {
@@ -89,7 +89,7 @@ fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Fa
 /// motions that everyone may see.
 fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
     let (lab, _) = report_folder::lab_of(&report)?;
-    let graded = grading::grade(&lab, None, &report.submission, &mut WorkerHost::new(None));
+    let graded = judge::grade(&lab, None, &report.submission, &mut WorkerHost::new(None));
     let graded = graded.map_err(|_| Failure::interrupted())?;
     // what this machine did not do says nothing about either
     let mut undecided = graded
@@ -165,7 +165,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
 
 fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Result<(), Failure> {
     let record = output::json(comparison)?;
-    let page = report::html::comparison(comparison, a, b);
+    let page = kinemark_report::html::comparison(comparison, a, b);
     let written = FreshFolder::beside(out).and_then(|fresh| {
         fresh.write(PAGE, page.as_bytes())?;
         fresh.write(RECORD, record.as_bytes())?;

@@ -7,8 +7,8 @@ use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::log::{ReadError, Table, Tables, tables, write_csv};
-use kinemark_grader::report::visible::visible;
+use kinemark_report::log::{ReadError, Table, Tables, tables, write_csv};
+use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
 use crate::args::ExportArgs;

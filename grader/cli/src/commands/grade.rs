@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use kinemark_grader::ghost;
-use kinemark_grader::graded::GradedRun;
-use kinemark_grader::grading::{self, Host, InProcess};
+use kinemark_grader::judge::reference_run;
+use kinemark_grader::judge::{self, Host, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
-use kinemark_grader::report;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::record::verdict::Verdict;
+
 use kinemark_sim::source::Source;
 
 use crate::args::GradeArgs;
@@ -42,13 +42,13 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
         if let Some(note) = &work.note {
             output::print(&format!("{note}\n"))?;
         }
-        output::print(&report::text::text(grade))?;
+        output::print(&kinemark_report::text::text(grade))?;
     }
     write(args, &work)?;
     if !args.json {
         let report = output::path(&args.out.join("report.html"));
         output::print(&format!("report: {report}\n"))?;
-        if let Some(loss) = report::moment::first_loss(grade) {
+        if let Some(loss) = kinemark_report::moment::first_loss(grade) {
             let place = loss.fragment();
             output::print(&format!("first lost point: {report}{place}\n"))?;
         }
@@ -113,7 +113,7 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     } else {
         &mut workers
     };
-    let graded = grading::grade(&lab, staff.as_ref(), &submission, host);
+    let graded = judge::grade(&lab, staff.as_ref(), &submission, host);
     workers.finish();
     // a worker's processor is for workers alone
     drop(workers);
@@ -125,7 +125,7 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
         );
     }
     if let Some(staff) = staff.as_ref().filter(|_| args.ghost) {
-        ghost::show_reference(&lab, staff, &mut graded);
+        reference_run::show_reference(&lab, staff, &mut graded);
     }
     Ok(Work {
         lab,

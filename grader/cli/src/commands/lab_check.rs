@@ -8,8 +8,8 @@ use std::thread::ScopedJoinHandle;
 use indicatif::ProgressBar;
 use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
 use kinemark_grader::lab::{Files, Lab, Staff};
-use kinemark_grader::quantity::points;
-use kinemark_grader::submission::STACK_BYTES;
+use kinemark_grader::record::quantity::points;
+use kinemark_grader::submission::rhai::STACK_BYTES;
 use kinemark_sim::source::Source;
 use owo_colors::OwoColorize as _;
 

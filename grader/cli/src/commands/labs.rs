@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use kinemark_grader::lab::{Lab, load::lab_names};
-use kinemark_grader::quantity::points;
+use kinemark_grader::record::quantity::points;
 use serde::Serialize;
 
 use crate::args::LabsArgs;

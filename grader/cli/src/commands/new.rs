@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use kinemark_grader::lab::brief::{with_grading, with_numbers};
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_grader::report::brief_page::brief_page;
+use kinemark_report::brief_page::brief_page;
 use serde::Serialize;
 
 use crate::args::NewArgs;

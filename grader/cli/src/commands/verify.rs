@@ -2,11 +2,11 @@
 
 use std::process::ExitCode;
 
-use kinemark_grader::ghost;
-use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
-use kinemark_grader::grading;
+use kinemark_grader::judge;
+use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::Staff;
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -56,10 +56,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         }
     };
     let mut host = WorkerHost::new(None);
-    let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
+    let graded = judge::grade(&lab, staff.as_ref(), &report.submission, &mut host);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     if let Some(staff) = staff.as_ref().filter(|_| report.shows_reference) {
-        ghost::show_reference(&lab, staff, &mut graded);
+        reference_run::show_reference(&lab, staff, &mut graded);
     }
     let mut comparison = compare(&report.grade, &graded.grade)?;
     if comparison.differences.is_empty() && comparison.not_compared.is_empty() {

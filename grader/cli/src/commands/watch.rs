@@ -5,10 +5,10 @@ use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use kinemark_grader::grade::Grade;
-use kinemark_grader::quantity::{points, seconds};
-use kinemark_grader::report::moment::{FirstLoss, first_loss};
-use kinemark_grader::report::visible::visible;
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_report::moment::{FirstLoss, first_loss};
+use kinemark_report::visible::visible;
 use tokio::sync::watch;
 
 use super::grade::{self, Work};

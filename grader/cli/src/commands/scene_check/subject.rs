@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::scene::scene_names;
 use kinemark_grader::lab::{Lab, TaskWork};
-use kinemark_grader::quantity::metres;
+use kinemark_grader::record::quantity::metres;
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::robot::Robot;
