@@ -23,6 +23,7 @@
 //! | [`run`] | the tick loop: observe, control, servo, step |
 //! | [`runaway`] | when motion is beyond all reason |
 //! | [`event`] | what can happen in a run |
+//! | [`event_words`] | the same in words |
 //! | [`watch`] | what did happen: limits, singular positions, contacts, falls |
 //! | [`trace`] | the columns of one run and their digests |
 //!
@@ -43,6 +44,7 @@ pub mod control;
 pub mod dynamics;
 pub mod engine;
 pub mod event;
+pub mod event_words;
 pub mod hybrid;
 pub mod joint;
 pub mod kinematics;

@@ -1,6 +1,6 @@
 //! `kinemark compare`: two reports beside each other, their runs made again from the copies inside them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_grader::compare::{self, Comparison, Side};
@@ -11,13 +11,32 @@ use kinemark_grader::record::graded::GradedRun;
 
 use kinemark_report::visible::visible;
 
-use crate::args::CompareArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
+
+/// Hold two reports of a lab beside each other
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  kinemark compare before after\n\n\
+    Tells the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
+    The runs are made again from the copies in the folders.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is no report, 4 the grader or this machine failed.")]
+pub(crate) struct Args {
+    /// An output folder of `kinemark grade`
+    pub(crate) a: PathBuf,
+    /// Another, of the same lab
+    pub(crate) b: PathBuf,
+    /// Folder to write to; an earlier comparison there is replaced
+    #[arg(long, short, value_name = "DIR", default_value = "kinemark-compare")]
+    pub(crate) out: PathBuf,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// The page.
 const PAGE: &str = "compare.html";
@@ -32,7 +51,7 @@ struct Again {
 }
 
 /// Compares, writes the folder, prints.
-pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     refuse_foreign(&args.out)?;
     let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
@@ -69,7 +88,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Failure> {
+fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> {
     let (of_a, of_b) = (&a.grade.lab.name, &b.grade.lab.name);
     if of_a == of_b {
         return Ok(());

@@ -1,13 +1,20 @@
-//! Where labs and the staff's part are found: a folder given, a folder found upwards, or the copy inside the binary.
+//! Where labs are found: in the folder given, in a `labs` folder here or above, or in the copy inside the binary.
 
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::Files;
 use rust_embed::Embed;
 
-use crate::args::{PlaceArgs, StaffArgs};
 use crate::disk::Folder;
 use crate::failure::Failure;
+
+/// Which folder the labs come from.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct LabsFolderArgs {
+    /// Folder of the labs [default: a `labs` folder here or above, else the labs built in]
+    #[arg(long, value_name = "DIR", global = true)]
+    pub(crate) labs: Option<PathBuf>,
+}
 
 /// The labs as they were when the binary was built.
 #[derive(Embed)]
@@ -45,7 +52,7 @@ impl Files for BuiltIn {
 }
 
 /// The labs: those of `--labs`, else of a `labs` folder here or above, else those built in.
-pub(crate) fn labs(args: &PlaceArgs) -> Result<(Box<dyn Files>, Option<PathBuf>), Failure> {
+pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<PathBuf>), Failure> {
     if let Some(given) = &args.labs {
         if !given.is_dir() {
             return Err(Failure::usage(
@@ -83,31 +90,4 @@ fn relative(path: &Path, here: &Path) -> PathBuf {
         }
     }
     path.to_owned()
-}
-
-/// The staff's part: that of `--reference`, else a `reference` folder beside the labs folder; `None` in practice.
-pub(crate) fn reference(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folder>, Failure> {
-    if args.practice {
-        return Ok(None);
-    }
-    if let Some(given) = &args.reference {
-        if !given.is_dir() {
-            return Err(Failure::usage(
-                format!("`{}` is not a folder", given.display()),
-                "give the staff's folder, or leave it out to practise",
-            ));
-        }
-        return Ok(Some(Folder::new(given.clone())));
-    }
-    let beside = labs.map(|labs| {
-        let parent = labs
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        parent.unwrap_or(Path::new(".")).join("reference")
-    });
-    let beside = beside.filter(|folder| folder.is_dir());
-    Ok(beside.map(|folder| {
-        let plain = folder.strip_prefix(".").map(Path::to_owned);
-        Folder::new(plain.unwrap_or(folder))
-    }))
 }
