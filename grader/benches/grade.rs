@@ -1,7 +1,7 @@
 //! A whole lab, graded with hidden cases: in this process, without files.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use kinemark_grader::grading::{InProcess, grade};
+use kinemark_grader::judge::{InProcess, grade};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_sim::source::Source;
 

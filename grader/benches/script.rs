@@ -3,10 +3,10 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use kinemark_grader::controller::{
+use kinemark_grader::submission::controller::{
     Budgets, Call, Controller, Observation, Opening, RobotFacts, Value,
 };
-use kinemark_grader::submission::ScriptController;
+use kinemark_grader::submission::rhai::ScriptController;
 
 /// PD control along a quintic, written as a student would.
 const SCALARS: &str = r#"

@@ -3,21 +3,15 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`record`] | the grade and what is drawn with it, for every renderer |
+//! | [`submission`] | the seam to a student's code, and the script host behind it |
+//! | [`task`] | what a task asks for, its robot and its scene |
 //! | [`lab`] | labs, their hidden cases and known mistakes |
-//! | [`controller`] | the seam to a student's code: calls, answers, stops |
-//! | [`submission`] | the script host |
-//! | [`grading`] | the way from lab and submission to a graded run |
-//! | [`cases`], [`motion`] | a function task, a motion task |
-//! | [`jacobian`] | the Jacobian that answers are held against |
+//! | [`attempt`] | a submission tried on one task |
 //! | [`check`] | one file per check |
-//! | [`climb`] | the same motion under disturbances |
-//! | [`diagnose`] | known mistakes, recognised |
-//! | [`divergence`] | where a run first differs from the reference solution's |
+//! | [`judge`] | from attempts to a grade |
 //! | [`compare`] | two graded submissions beside each other |
 //! | [`audit`] | the grader of a lab, graded |
-//! | [`event_words`], [`blow_up`] | events, contacts and runaways in words |
-//! | [`grade`], [`verdict`] | the record every format is rendered from |
-//! | [`graded`] | the record with the runs it rests on |
 
 #![cfg_attr(
     test,
@@ -27,29 +21,12 @@
     )
 )]
 
-pub mod answer;
+pub mod attempt;
 pub mod audit;
-pub mod blow_up;
-pub mod cases;
 pub mod check;
-pub mod climb;
 pub mod compare;
-pub mod controller;
-pub mod diagnose;
-pub mod divergence;
-pub mod event_words;
-pub mod ghost;
-pub mod grade;
-pub mod graded;
-pub mod grading;
-mod hidden_runs;
-pub mod jacobian;
+pub mod judge;
 pub mod lab;
-#[cfg(not(target_family = "wasm"))]
-pub mod log;
-pub mod motion;
-pub mod quantity;
-pub mod report;
-pub mod stopped;
+pub mod record;
 pub mod submission;
-pub mod verdict;
+pub mod task;

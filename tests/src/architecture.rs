@@ -30,8 +30,11 @@ fn crates_depend_on_each_other_as_drawn() {
     }
     let drawn: BTreeSet<String> = [
         "kinemark -> kinemark-grader",
+        "kinemark -> kinemark-report",
         "kinemark -> kinemark-sim",
         "kinemark-grader -> kinemark-sim",
+        "kinemark-report -> kinemark-grader",
+        "kinemark-report -> kinemark-sim",
     ]
     .into_iter()
     .map(str::to_owned)

@@ -2,9 +2,9 @@
 //!
 //! A brief shows a plot by its name: `plot-PLOT.svg` of the reference's run, `plot-PLOT-by-MUTANT.svg` of a known mistake's.
 
-use kinemark_grader::graded::GradedRun;
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::report::plot::plots;
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_report::plot::plots;
 
 use crate::testbed::{Folder, grade, lab, root, staff};
 

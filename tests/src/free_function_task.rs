@@ -1,8 +1,8 @@
 //! A task of a function that the lab names itself: what earns its points, what its evidence says, and which labs are refused.
 
-use kinemark_grader::grade::{Grade, Outcome, TaskGrade};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 
 use crate::course::Course;
 use crate::testbed::{TestBed, grade};

@@ -1,12 +1,12 @@
 //! `grants`: what a task lends a submission of Kinemark's own model of the robot, and which labs may not.
 
-use kinemark_grader::controller::Opening;
-use kinemark_grader::grade::Grade;
-use kinemark_grader::grading::{InProcess, granted};
+use kinemark_grader::attempt::motion::{self, Session};
+use kinemark_grader::judge::{InProcess, granted};
 use kinemark_grader::lab::{Lab, MotionTask, TaskWork};
-use kinemark_grader::motion::{self, Session};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::submission::controller::Opening;
+use kinemark_report::text::text;
 
 use crate::course::Course;
 use crate::testbed::{TestBed, grade};

@@ -1,10 +1,10 @@
 //! A task of `jacobian`: what earns its points, what its evidence says, and which labs are refused.
 
-use kinemark_grader::grade::{Grade, Outcome, TaskGrade};
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::{Files, Lab, Staff};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 
 use crate::testbed::{Folder, grade, root};
 

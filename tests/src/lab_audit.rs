@@ -1,11 +1,11 @@
 //! The graders of labs are graded: starters must miss, references must pass on any salt, mutants must lose and be recognised.
 
 use kinemark_grader::audit::{Audit, Row};
-use kinemark_grader::graded::TaskRun;
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::{Lab, Staff, TaskWork};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::graded::TaskRun;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 
 use crate::testbed::{Folder, grade, lab, root, staff};

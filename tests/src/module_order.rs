@@ -116,8 +116,8 @@ fn violations(src: &Path, order: &[String]) -> Vec<String> {
 }
 
 fn parsed(path: &Path) -> syn::File {
-    let text = std::fs::read_to_string(path)
-        .unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let text =
+        std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
     syn::parse_file(&text).unwrap_or_else(|why| panic!("{}: {why}", path.display()))
 }
 
@@ -145,7 +145,9 @@ impl Crate {
                 leaves(&given.tree, None, &mut names);
                 self.given_on.extend(names);
             }
-            Item::Macro(defined) => self.own.extend(defined.ident.as_ref().map(Ident::to_string)),
+            Item::Macro(defined) => self
+                .own
+                .extend(defined.ident.as_ref().map(Ident::to_string)),
             Item::Const(defined) => self.own.push(defined.ident.to_string()),
             Item::Static(defined) => self.own.push(defined.ident.to_string()),
             Item::Fn(defined) => self.own.push(defined.sig.ident.to_string()),
@@ -176,7 +178,10 @@ impl Crate {
     fn module(&mut self, module: &ItemMod, file: &Path, folder: &Path, here: &mut Vec<String>) {
         let name = module.ident.to_string();
         assert!(
-            !module.attrs.iter().any(|attribute| attribute.path().is_ident("path")),
+            !module
+                .attrs
+                .iter()
+                .any(|attribute| attribute.path().is_ident("path")),
             "{}: module `{name}` lies elsewhere by `#[path]`, where this test does not look",
             file.display()
         );
@@ -285,12 +290,14 @@ impl Crate {
         let rank = |module: &str| self.order.iter().position(|known| known == module);
         match (rank(user), rank(&used)) {
             (Some(user_rank), Some(used_rank)) if used_rank > user_rank => {
-                self.found
-                    .push(format!("{place}: `{user}` uses `{used}`, which stands below it"));
+                self.found.push(format!(
+                    "{place}: `{user}` uses `{used}`, which stands below it"
+                ));
             }
             (_, None) if !self.own.contains(&used) && !self.modules.contains(&used) => {
-                self.found
-                    .push(format!("{place}: `{user}` uses `{used}`, of which nothing is known"));
+                self.found.push(format!(
+                    "{place}: `{user}` uses `{used}`, of which nothing is known"
+                ));
             }
             _ => {}
         }
@@ -312,16 +319,17 @@ fn leaves(tree: &UseTree, module: Option<&str>, names: &mut Vec<(String, String)
         }
         UseTree::Name(name) => named(&name.ident),
         UseTree::Rename(rename) => named(&rename.rename),
-        UseTree::Group(group) => group.items.iter().for_each(|item| leaves(item, module, names)),
+        UseTree::Group(group) => group
+            .items
+            .iter()
+            .for_each(|item| leaves(item, module, names)),
         UseTree::Glob(_) => {}
     }
 }
 
 /// Whether two colons stand at token `at`.
 fn is_colons(tokens: &[TokenTree], at: usize) -> bool {
-    let colon = |token: Option<&TokenTree>| {
-        matches!(token, Some(TokenTree::Punct(colon)) if colon.as_char() == ':')
-    };
+    let colon = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(colon)) if colon.as_char() == ':');
     colon(tokens.get(at)) && colon(tokens.get(at + 1))
 }
 
@@ -358,7 +366,8 @@ fn tests_follow(tokens: &[TokenTree]) -> bool {
     };
     let mut inside = attribute.stream().into_iter();
     let is_cfg = matches!(inside.next(), Some(TokenTree::Ident(word)) if word == "cfg");
-    is_cfg && matches!(inside.next(), Some(TokenTree::Group(condition)) if says_test(condition.stream()))
+    is_cfg
+        && matches!(inside.next(), Some(TokenTree::Group(condition)) if says_test(condition.stream()))
 }
 
 /// Behind the item that begins at token `at`: its block, or its semicolon.
@@ -406,14 +415,20 @@ fn every_spelling_of_a_path_against_the_order_is_found() {
         ("mod inner { use super::super::high::A; }", 1),
         ("mod inner { use super::{A, super::{low::B, high}}; }", 1),
         ("use crate::Tall;", 1),
-        ("impl A {\n #[cfg(test)] fn a() {}\n fn b() { crate::high::a() }\n}", 3),
+        (
+            "impl A {\n #[cfg(test)] fn a() {}\n fn b() { crate::high::a() }\n}",
+            3,
+        ),
         ("#[cfg(not(test))] use crate::high::A;", 1),
     ] {
         let found = found_in(&[ROOT, ("low.rs", text), ("middle.rs", ""), ("high.rs", "")]);
         let [only] = found.as_slice() else {
             panic!("{text}: {found:#?}");
         };
-        assert!(only.starts_with(&format!("/low.rs:{line}: `low` uses")), "{text}: {only}");
+        assert!(
+            only.starts_with(&format!("/low.rs:{line}: `low` uses")),
+            "{text}: {only}"
+        );
     }
 }
 
@@ -456,7 +471,12 @@ fn a_file_deep_in_a_module_is_read() {
 #[test]
 fn a_module_without_a_line_and_a_line_without_a_module_are_found() {
     let root = ("lib.rs", "mod low; mod high; mod stray;");
-    let files = [root, ("low.rs", "use crate::stray::A; use crate::unheard::B;"), ("high.rs", ""), ("stray.rs", "")];
+    let files = [
+        root,
+        ("low.rs", "use crate::stray::A; use crate::unheard::B;"),
+        ("high.rs", ""),
+        ("stray.rs", ""),
+    ];
     assert_eq!(
         found_in(&files),
         [

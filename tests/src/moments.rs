@@ -1,10 +1,10 @@
 //! Where points were lost: terminal, page, replay and storyboard tell one moment of the run that is shown, and no other run's.
 
-use kinemark_grader::grade::{Outcome, TaskGrade};
-use kinemark_grader::graded::GradedRun;
 use kinemark_grader::lab::{Lab, Staff};
-use kinemark_grader::report::moment::first_loss_of;
-use kinemark_grader::report::{html, replay::Replay, storyboard::storyboard, text::text};
+use kinemark_grader::record::grade::{Outcome, TaskGrade};
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_report::moment::first_loss_of;
+use kinemark_report::{html, replay::Replay, storyboard::storyboard, text::text};
 use serde_json::Value;
 
 use crate::testbed::{grade, lab, root, staff};

@@ -2,10 +2,10 @@
 //! and the first difference is told at its tick. The lab is its own, with six mistakes, and `lab check` finds nothing wrong with it.
 
 use kinemark_grader::audit::Audit;
-use kinemark_grader::grade::{Grade, TaskGrade};
 use kinemark_grader::lab::{Lab, Staff};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::grade::{Grade, TaskGrade};
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 
 use crate::testbed::{Folder, TestBed, grade};

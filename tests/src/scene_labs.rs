@@ -1,10 +1,10 @@
 //! A lab with a scene: graded with events and contacts, copied with its report, verified from the copy, logged for a viewer, copied
 //! in the middle of a run, and ended with its cause where a servo is beyond its limit.
 
-use kinemark_grader::controller::{Opening, Value};
-use kinemark_grader::grading::InProcess;
+use kinemark_grader::attempt::motion::{self, Session};
+use kinemark_grader::judge::InProcess;
 use kinemark_grader::lab::{Lab, MotionTask, TaskWork};
-use kinemark_grader::motion::{self, Session};
+use kinemark_grader::submission::controller::{Opening, Value};
 use serde_json::Value as Json;
 
 use crate::testbed::{Folder, TestBed, files_below};

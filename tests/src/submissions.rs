@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use kinemark_grader::grade::Outcome;
-use kinemark_grader::quantity::points;
-use kinemark_grader::report::text::text as shown;
+use kinemark_grader::record::grade::Outcome;
+use kinemark_grader::record::quantity::points;
+use kinemark_report::text::text as shown;
 use toml::Table;
 
 use crate::testbed::{grade, lab, root, staff};

@@ -1,7 +1,7 @@
 //! `target`: what a lab writes there is what `observation.target` holds, whatever its shape.
 
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 
 use crate::course::Course;
 use crate::testbed::grade;

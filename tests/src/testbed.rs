@@ -8,9 +8,9 @@ use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use kinemark_grader::graded::GradedRun;
-use kinemark_grader::grading::{self, InProcess};
+use kinemark_grader::judge::{self, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::record::graded::GradedRun;
 use kinemark_sim::source::Source;
 
 /// The checkout.
@@ -350,5 +350,5 @@ pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
 
 /// Grades a text in this process.
 pub(crate) fn grade(lab: &Lab, staff: Option<&Staff>, name: &str, text: &str) -> GradedRun {
-    grading::grade(lab, staff, &Source::new(name, text), &mut InProcess).expect("not interrupted")
+    judge::grade(lab, staff, &Source::new(name, text), &mut InProcess).expect("not interrupted")
 }

@@ -1,9 +1,9 @@
 //! Labs with numbers of each student's own: written by staff, taken by students, graded, reported, verified; and hidden runs.
 
-use kinemark_grader::grade::Grade;
 use kinemark_grader::lab::{Lab, Staff, Variant};
-use kinemark_grader::report::text::text;
-use kinemark_grader::verdict::Verdict;
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 use serde_json::Value as Json;
 

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::report::visible::visible;
+use kinemark_report::visible::visible;
 use tempfile::TempDir;
 
 use crate::disk::{self, plain};

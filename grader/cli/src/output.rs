@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
-use kinemark_grader::report::visible::visible;
+use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use crate::disk::plain;

@@ -3,14 +3,14 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::grade::{self, Grade};
-use kinemark_grader::graded::{GradedRun, TaskRun};
 use kinemark_grader::lab::files::text;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Files as _, Lab, LoadError, Variant};
-use kinemark_grader::log::{self, Attachment};
-use kinemark_grader::report::visible::visible;
-use kinemark_grader::report::{self, plot::Plot};
+use kinemark_grader::record::grade::{self, Grade};
+use kinemark_grader::record::graded::{GradedRun, TaskRun};
+use kinemark_report::log::{self, Attachment};
+use kinemark_report::plot::Plot;
+use kinemark_report::visible::visible;
 use kinemark_sim::source::Source;
 
 use crate::disk::{self, Folder, plain};
@@ -187,10 +187,14 @@ pub(crate) fn files(
     pictures: Pictures,
 ) -> Result<Vec<OutFile>, Failure> {
     let record = output::json(&graded.grade)?;
-    let plots: Vec<Vec<Plot>> = graded.runs.iter().map(report::plot::plots).collect();
+    let plots: Vec<Vec<Plot>> = graded
+        .runs
+        .iter()
+        .map(kinemark_report::plot::plots)
+        .collect();
     let mut files = vec![
         OutFile::new(RECORD, record.as_bytes()),
-        OutFile::new(PAGE, report::html::html(graded, &plots)),
+        OutFile::new(PAGE, kinemark_report::html::html(graded, &plots)),
         OutFile::new(SUBMISSION, submission.text()),
     ];
     for (path, bytes) in lab.copies().iter() {
@@ -208,7 +212,7 @@ pub(crate) fn files(
         }
         let task = graded.grade.tasks.iter().find(|t| t.name == run.task);
         if let Some(task) = task.filter(|_| pictures.storyboard) {
-            let svg = report::storyboard::storyboard(run, task);
+            let svg = kinemark_report::storyboard::storyboard(run, task);
             let path = format!("{}/{STORYBOARD}", run.task);
             files.push(OutFile::new(path, png(&svg)?));
             files.push(OutFile::new(format!("{}/storyboard.svg", run.task), svg));
@@ -225,7 +229,8 @@ pub(crate) fn files(
 }
 
 fn png(svg: &str) -> Result<Vec<u8>, Failure> {
-    report::png::png(svg).map_err(|error| Failure::fault(error.to_string(), "please report this"))
+    kinemark_report::png::png(svg)
+        .map_err(|error| Failure::fault(error.to_string(), "please report this"))
 }
 
 fn log_of(run: &TaskRun, lab: &Lab, grade: &Grade, record: &str) -> Result<Vec<u8>, Failure> {

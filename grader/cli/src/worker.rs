@@ -10,11 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use kinemark_grader::controller::{
+use kinemark_grader::judge::Host;
+use kinemark_grader::submission::controller::{
     Answer, Call, Controller, HostLimit, Memory, Opening, Said, Stop,
 };
-use kinemark_grader::grading::Host;
-use kinemark_grader::submission::{STACK_BYTES, ScriptController};
+use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
@@ -332,7 +332,7 @@ impl Drop for Worker {
 
 #[cfg(test)]
 mod tests {
-    use kinemark_grader::controller::{Budgets, Kept, Observation, RobotFacts, Value};
+    use kinemark_grader::submission::controller::{Budgets, Kept, Observation, RobotFacts, Value};
 
     use super::*;
 

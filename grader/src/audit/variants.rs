@@ -4,11 +4,11 @@ use kinemark_sim::robot::Dimension;
 use serde::Serialize;
 
 use super::{Audit, Tried, graded, loss_of};
-use crate::grade::{Grade, Measure};
 use crate::lab::model::Lab;
 use crate::lab::staff::Staff;
 use crate::lab::{Files, LoadError, Variant};
-use crate::verdict::Verdict;
+use crate::record::grade::{Grade, Measure};
+use crate::record::verdict::Verdict;
 
 /// What came of the variants of some students.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -6,7 +6,7 @@
 use kinemark_sim::control::Mode;
 
 use super::MotionFacts;
-use crate::quantity::trimmed;
+use crate::record::quantity::trimmed;
 
 /// Fewer samples say nothing.
 const LEAST_SAMPLES: usize = 6;

@@ -7,10 +7,10 @@ use kinemark_sim::event::{EventKind, SeenSide};
 use kinemark_sim::trace::Trace;
 
 use super::{Finding, MotionFacts};
-use crate::event_words::Names;
-use crate::grade::{Evidence, Measure};
 use crate::lab::watched::{Fall, TouchingParty};
-use crate::quantity::seconds;
+use crate::record::grade::{Evidence, Measure};
+use crate::record::names::Names;
+use crate::record::quantity::seconds;
 
 /// What happened to the body: first ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn what_did_happen_is_told_with_its_times() {
-        let run = crate::report::sample::task_run();
+        let run = crate::record::sample::task_run();
         let names = run.names();
         let told = |fate: Fate| fate.told(&FAR, &names, |tick| tick as f64 / 1000.0);
         let (message, tick, _) = told(fate(true, true, None));

@@ -4,8 +4,8 @@ use kinemark_sim::run::{Recorder as _, Row, Setup};
 use kinemark_sim::trace::TraceRecorder;
 
 use super::{Finding, MotionFacts, judge_motion};
-use crate::event_words::Names;
 use crate::lab::{Band, Files, Lab, TaskWork};
+use crate::record::names::Names;
 
 /// One row of the course's arm.
 #[derive(Debug, Clone, Copy, Default)]

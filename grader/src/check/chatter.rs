@@ -5,10 +5,10 @@
 //! divided by the length of the run; of several joints the worst counts. An effort that swings at `f` turns round `2 f` times a second.
 
 use super::{Finding, MotionFacts, alternation};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::seconds;
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::seconds;
 
 /// An effort comes back by more than this share of its limit to have turned round.
 const HYSTERESIS: f64 = 0.01;

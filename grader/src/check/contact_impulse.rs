@@ -6,11 +6,11 @@
 use kinemark_sim::watch::ContactSpan;
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
 use crate::lab::watched::TouchingParty;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// All contacts of two, together.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! effort-peak: the greatest effort of a joint, or of the joint with the greatest, whichever its sign \[N m or N\].
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, joint: Option<usize>, band: Band, check: &str) -> Finding {

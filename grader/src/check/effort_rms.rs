@@ -1,10 +1,10 @@
 //! effort-rms: the root mean square of a joint's effort over the run, or of the joint with the greatest \[N m or N\].
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::trimmed;
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::trimmed;
 
 /// The root mean square up to each tick, that included.
 fn so_far(efforts: impl Iterator<Item = f64>) -> Vec<f64> {

@@ -1,10 +1,10 @@
 //! effort-saturation: for how long some joint's effort is at its limit \[s\].
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

@@ -4,10 +4,10 @@
 //! Work against a motor counts as much as work of it: brakes get hot, too.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::trimmed;
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::trimmed;
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

@@ -1,9 +1,9 @@
 //! finish-time: when the last dwell was over \[s\]; never, where some goal earned nothing.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
 use crate::lab::model::Band;
-use crate::quantity::seconds;
+use crate::record::grade::{Evidence, Measure};
+use crate::record::quantity::seconds;
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, pose: Band) -> Finding {

@@ -2,9 +2,9 @@
 //! over the cases, hidden ones too, of the mean over their entries.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
-use crate::grade::Measure;
 use crate::lab::model::{Band, Function, Given};
-use crate::quantity::{significant, with_unit};
+use crate::record::grade::Measure;
+use crate::record::quantity::{significant, with_unit};
 
 /// Judges the check; with `entry`, by that entry alone.
 pub fn judge(

@@ -4,9 +4,9 @@
 //! for whole circles, scores nothing.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
-use crate::grade::Measure;
 use crate::lab::model::{Band, Function};
-use crate::quantity::metres;
+use crate::record::grade::Measure;
+use crate::record::quantity::metres;
 use kinemark_sim::robot::Robot;
 
 /// Judges the check.

@@ -4,9 +4,9 @@
 //! make no difference.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
-use crate::grade::Measure;
 use crate::lab::model::{Band, Function};
-use crate::quantity::metres;
+use crate::record::grade::Measure;
+use crate::record::quantity::metres;
 
 /// Judges the check.
 pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {

@@ -1,8 +1,8 @@
 //! ik-unreachable: targets out of reach are answered with an empty list.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
-use crate::grade::Measure;
 use crate::lab::model::Function;
+use crate::record::grade::Measure;
 
 /// Judges the check.
 pub fn judge(cases: &[CaseFacts<'_>], function: &Function) -> Finding {

@@ -2,10 +2,10 @@
 //! Frobenius norm. One answer that is no matrix of the right shape makes it infinite.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
-use crate::grade::Measure;
-use crate::jacobian;
+use crate::lab::jacobian;
 use crate::lab::model::{Band, Function};
-use crate::quantity::{trimmed, with_unit};
+use crate::record::grade::Measure;
+use crate::record::quantity::{trimmed, with_unit};
 
 /// Judges the check.
 pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {

@@ -4,10 +4,10 @@
 //! `|p[k+3] - 3 p[k+2] + 3 p[k+1] - p[k]| / T³`. A run of fewer than four calls has none.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

@@ -1,10 +1,10 @@
 //! joint-limits: how far a joint leaves its position limits \[rad or m\].
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
 use crate::lab::joint_units::JointUnits;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check. Inside the limits the value is negative: the room that was left.
 pub fn judge(facts: &MotionFacts<'_>, band: Band) -> Finding {

@@ -3,10 +3,10 @@
 //! Measured is the greatest distance from the position over the last `hold_s` \[rad or m\]; the band makes the score of it.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check.
 pub fn judge(

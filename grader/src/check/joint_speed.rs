@@ -1,11 +1,11 @@
 //! joint-speed: the greatest speed of any joint over the run \[rad/s or m/s\].
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::joint_units::JointUnits;
 use crate::lab::model::Band;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Judges the check. A speed that is no number earns nothing.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

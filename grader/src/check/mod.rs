@@ -44,11 +44,11 @@ use kinemark_sim::robot::Robot;
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 
-use crate::event_words::Names;
-use crate::grade::{Evidence, Measure};
-use crate::graded::{Curve, TcpPath};
 use crate::lab::joint_units::JointUnits;
 use crate::lab::model::{Band, Case, Check, CheckKind, Function, MotionTask};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::{Curve, TcpPath};
+use crate::record::names::Names;
 use robustness::RungFacts;
 use stay::Stay;
 

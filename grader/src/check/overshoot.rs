@@ -4,10 +4,10 @@
 //! line; being beside it does not count, so that every road is right.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{metres, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{metres, trimmed};
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

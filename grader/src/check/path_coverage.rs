@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 
 use super::road;
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
 use crate::lab::watched::{PathToFollow, Shares};
-use crate::quantity::{list, metres, with_unit};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::quantity::{list, metres, with_unit};
 
 /// Judges the check.
 pub fn judge(

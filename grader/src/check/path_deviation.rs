@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 
 use super::road::{self, Driven};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
 use crate::lab::watched::PathToFollow;
-use crate::quantity::{list, metres, seconds};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{list, metres, seconds};
 
 /// Judges the check.
 pub fn judge(

@@ -13,11 +13,11 @@ use nalgebra::Vector3;
 use super::path_deviation::which;
 use super::road::{self, Driven};
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::{Curve, StepBackdrop};
 use crate::lab::model::Band;
 use crate::lab::watched::PathToFollow;
-use crate::quantity::{list, metres, seconds, trimmed, with_unit};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::{Curve, StepBackdrop};
+use crate::record::quantity::{list, metres, seconds, trimmed, with_unit};
 
 /// How fast one segment was driven.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,10 +4,10 @@
 //! how near the arm settles before it leaves.
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
-use crate::quantity::{list, metres, seconds};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{list, metres, seconds};
 
 /// Judges the check.
 pub fn judge(facts: &MotionFacts<'_>, band: Band, check: &str) -> Finding {

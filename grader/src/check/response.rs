@@ -9,11 +9,11 @@
 use kinemark_sim::control::linear_step::Fed;
 
 use super::{Finding, MotionFacts, alternation};
-use crate::grade::{Evidence, Measure};
-use crate::graded::{Curve, StepBackdrop};
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::{Curve, StepBackdrop};
+use crate::record::quantity::{seconds, trimmed};
 
 /// A step is at least this share of the way to the target.
 const LEAST_WAY: f64 = 0.01;

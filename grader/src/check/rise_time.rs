@@ -5,10 +5,10 @@
 
 use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
-use crate::quantity::{seconds, trimmed, with_unit};
+use crate::record::grade::Evidence;
+use crate::record::quantity::{seconds, trimmed, with_unit};
 
 /// When the signal first reaches a share of the way from `start` to `end`, in ticks.
 fn first_at(values: &[f64], start: f64, end: f64, share: f64) -> Option<f64> {

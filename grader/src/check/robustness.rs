@@ -1,12 +1,12 @@
 //! robustness: an earlier check of the task, of the same motion under disturbances that grow like the rungs of a ladder.
 //!
-//! The grader runs the motion once under every rung ([`crate::climb`]) and has the earlier check judge it; measured is the mean of its
+//! The grader runs the motion once under every rung ([`crate::judge::robustness_sweep`]) and has the earlier check judge it; measured is the mean of its
 //! scores, each with its rung's share. The disturbances are the same for every submission.
 
 use super::Finding;
-use crate::grade::{Evidence, Measure};
 use crate::lab::ladder::{Ladder, Rung};
-use crate::quantity::{seconds, with_unit};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::quantity::{seconds, with_unit};
 
 /// How a motion went under one rung.
 #[derive(Debug, Clone)]

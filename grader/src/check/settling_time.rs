@@ -5,10 +5,10 @@
 
 use super::response::{Loss, Measured, Response};
 use super::{Finding, MotionFacts};
-use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
-use crate::quantity::{seconds, with_unit};
+use crate::record::grade::Evidence;
+use crate::record::quantity::{seconds, with_unit};
 
 /// When the signal is last further than `tolerance` from `end`, in ticks; 0 where it never is.
 fn last_off(values: &[f64], end: f64, tolerance: f64) -> f64 {

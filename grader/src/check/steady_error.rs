@@ -13,10 +13,10 @@ use kinemark_sim::dynamics::gravity_effort;
 
 use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
-use crate::quantity::trimmed;
+use crate::record::grade::Evidence;
+use crate::record::quantity::trimmed;
 
 /// Efforts below this are no reason for an error \[N m or N\].
 const LEAST_EFFORT: f64 = 1e-6;

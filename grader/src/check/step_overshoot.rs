@@ -2,10 +2,10 @@
 
 use super::response::{Loss, Measured, Response, SETTLED};
 use super::{Finding, MotionFacts};
-use crate::grade::Evidence;
 use crate::lab::model::Band;
 use crate::lab::step::StepResponse;
-use crate::quantity::{seconds, with_unit};
+use crate::record::grade::Evidence;
+use crate::record::quantity::{seconds, with_unit};
 
 /// The greatest share of the way from `start` to `end` beyond all of it, and its tick; none of it is 0, and NaN stays.
 fn beyond(values: &[f64], start: f64, end: f64) -> (f64, usize) {

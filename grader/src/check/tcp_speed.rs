@@ -7,11 +7,11 @@
 use kinemark_sim::trace::Trace;
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::Curve;
 use crate::lab::model::Band;
 use crate::lab::watched::{SpeedAt, TouchingParty};
-use crate::quantity::{seconds, trimmed};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::Curve;
+use crate::record::quantity::{seconds, trimmed};
 
 /// Speed of the TCP at every tick \[m/s\].
 fn speeds_m_s(trace: &Trace) -> Vec<f64> {
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn the_speed_of_a_turning_link_is_radius_times_rate() {
         // one joint at 0.5 rad/s; the TCP of this chain is the last link's frame, 0.2 m from the first axis of two
-        let run = crate::report::sample::chain(2, 100, |tick, joint| {
+        let run = crate::record::sample::chain(2, 100, |tick, joint| {
             if joint == 0 {
                 0.0005 * tick as f64
             } else {

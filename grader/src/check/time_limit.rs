@@ -8,10 +8,10 @@ use nalgebra::Vector3;
 
 use super::road;
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
 use crate::lab::model::Band;
 use crate::lab::watched::{PathToFollow, Until};
-use crate::quantity::{list, metres, seconds};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::quantity::{list, metres, seconds};
 
 /// The tick of the first fall of a body.
 fn fell(events: &[Event], body: usize) -> Option<usize> {

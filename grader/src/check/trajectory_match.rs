@@ -7,10 +7,10 @@
 use nalgebra::Vector3;
 
 use super::{Finding, MotionFacts};
-use crate::grade::{Evidence, Measure};
-use crate::graded::TcpPath;
 use crate::lab::model::{Band, MatchSpan, MotionGoal};
-use crate::quantity::{metres, seconds};
+use crate::record::grade::{Evidence, Measure};
+use crate::record::graded::TcpPath;
+use crate::record::quantity::{metres, seconds};
 
 /// Judges the check.
 pub fn judge(

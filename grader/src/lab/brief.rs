@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use kinemark_sim::robot::expression::evaluate_named;
 
 use super::model::{CheckKind, Lab};
-use crate::quantity::{points, trimmed, with_unit};
+use crate::record::quantity::{points, trimmed, with_unit};
 
 /// The line before the table.
 pub const BEGIN: &str = "<!-- grading: begin -->";

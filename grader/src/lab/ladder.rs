@@ -1,6 +1,6 @@
 //! Ladders of a robustness check: rungs under which a motion is run again, each harder than what was asked for in some way.
 
-use crate::quantity::{seconds, trimmed};
+use crate::record::quantity::{seconds, trimmed};
 
 /// What a robustness check climbs.
 #[derive(Debug, Clone, PartialEq)]

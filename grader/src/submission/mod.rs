@@ -1,30 +1,5 @@
-//! A student's code, run here behind the [`Controller`](crate::controller::Controller) seam.
-//!
-//! The language is Rhai without clocks, files, modules, randomness, closures and `eval`, with vectors and matrices as types
-//! and every transcendental function from `libm`. `docs/script-language.md` is its reference. What the code may use up is
-//! counted, never timed.
+//! The seam to a student's code ([`controller`]), what answers must look like ([`answer`]), and the script host ([`rhai`]).
 
-mod arithmetic;
-mod budget;
-mod convert;
-mod copies;
-mod engine;
-mod foreign;
-mod granted;
-mod hints;
-mod library;
-mod linear;
-mod list;
-mod math;
-mod memory;
-mod mistake;
-mod operand;
-mod output;
-mod range;
-mod script;
-#[cfg(test)]
-mod tests;
-mod vector;
-mod words;
-
-pub use script::{STACK_BYTES, ScriptController, refused_name};
+pub mod answer;
+pub mod controller;
+pub mod rhai;

@@ -81,7 +81,7 @@ export class Controls {
     };
     const shadows = toggle("Shadows", "shadows");
     const shown = group("Show", toggle("Frames", "frames"), shadows);
-    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Ghost arm" : `Run ${replay.ghostLabel}`, "ghost"));
+    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Reference arm" : `Run ${replay.ghostLabel}`, "ghost"));
     const views = this.camera(actions);
     this.cameraOnly.push(shadows, views);
     const link = button("Copy link", null, () => actions.copyLink());

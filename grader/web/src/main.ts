@@ -29,7 +29,7 @@ function start(root: HTMLElement): void {
 function visit(moment: Moment | null, atOnce = false): void {
   if (!moment) return;
   const said: string[] = [];
-  if (moment.unread !== null) said.push(`The time “${moment.unread}” of this link cannot be read. A time is told in seconds, as in #task=${moment.task}&t=2.35.`);
+  if (moment.unread !== null) said.push(`The time “${moment.unread}” of this link cannot be read. Give the time in seconds, as in #task=${moment.task}&t=2.35.`);
   const places = sections();
   const task = meant(moment.task, [...replays.map((one) => one.task), ...places.keys()]);
   const replay = replays.find((one) => one.task === task);

@@ -55,6 +55,8 @@ export class Stage implements View {
   private late = 0;
   private coarse = false;
   private settles = 0;
+  /** Pixels of the screen in a pixel of the page, as the canvas was sized for them. */
+  private pixels = 0;
   private width = 0;
   private height = 0;
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
@@ -84,7 +86,7 @@ export class Stage implements View {
       () => sizes.disconnect(),
       () => near.disconnect(),
       () => far.disconnect(),
-      onPixels(() => this.resize()),
+      onPixels(this.element, () => this.resize()),
       onTheme(() => {
         this.scene.colour(theme());
         this.invalidate();
@@ -209,7 +211,8 @@ export class Stage implements View {
     const { renderer } = this.drawn;
     this.coarse = coarse;
     this.late = 0;
-    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, devicePixelRatio) / (coarse ? COARSER : 1));
+    this.pixels = devicePixelRatio;
+    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, this.pixels) / (coarse ? COARSER : 1));
     renderer.setPixelRatio(ratio);
     renderer.setSize(this.width, this.height);
     // a canvas is empty once its size changed, so it is not left so until the next frame
@@ -222,6 +225,8 @@ export class Stage implements View {
 
   private readonly draw = (now: number): void => {
     if (!this.drawn || this.waits || this.width === 0) return;
+    // sizes the canvas and draws
+    if (devicePixelRatio !== this.pixels) return this.sharpen(false);
     clearTimeout(this.settles);
     // only pictures in frame after frame tell of a machine that cannot keep up
     if (now !== this.beaten) this.late = 0;

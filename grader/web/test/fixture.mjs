@@ -218,7 +218,7 @@ function plane(task, seconds) {
 
 /** The page of some runs; a text in place of a run is put in as its data, and `more` stands at the end. */
 export function page(replays, { bundle = join(root, "dist"), more = "" } = {}) {
-  const style = readFileSync(join(root, "../src/report/html/page.css"), "utf8");
+  const style = readFileSync(join(root, "../report/src/html/page.css"), "utf8");
   const viewer = readFileSync(join(bundle, "viewer.css"), "utf8");
   const script = readFileSync(join(bundle, "viewer.js"), "utf8");
   const digest = createHash("sha256").update(script).digest("base64");

@@ -224,7 +224,7 @@ test("the arm's contacts are marked stronger than those of bodies among themselv
 
 test("what is drawn stands out from the paper, in light and in dark, and the styles have the same colours", () => {
   const css = readFileSync(new URL("../src/viewer.css", import.meta.url), "utf8");
-  const page = readFileSync(new URL("../../src/report/html/page.css", import.meta.url), "utf8");
+  const page = readFileSync(new URL("../../report/src/html/page.css", import.meta.url), "utf8");
   const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
   const luminance = (hex) => [1, 3, 5].reduce((sum, at, c) => sum + [0.2126, 0.7152, 0.0722][c] * linear(parseInt(hex.slice(at, at + 2), 16) / 255), 0);
   const contrast = (a, b) => {

@@ -7,6 +7,7 @@ import { launch } from "./browser.mjs";
 import { courseLabs, hardLabs, logsOf, reports } from "./graded.mjs";
 import { open } from "./opened.mjs";
 import * as check from "./page_checks.mjs";
+import { soon } from "./waiting.mjs";
 
 const folder = reports();
 const browser = await launch();
@@ -96,13 +97,14 @@ test("a link to nowhere does no harm, and anchors of tasks keep working", async 
   ];
   for (const [fragment, t, says] of wrong) {
     await visit("01-kinematics", { fragment }, async (page) => {
-      await page.waitForTimeout(100);
-      assert.deepEqual(await page.evaluate(() => window.kinemark.replays.map((replay) => [replay.task, replay.shown().t])), [["warm-up", 0], ["move", t]], fragment);
-      assert.match(await page.locator(".replay-notice p").allTextContents().then((all) => all.join("")), says, fragment);
+      await soon(async () => {
+        assert.deepEqual(await page.evaluate(() => window.kinemark.replays.map((replay) => [replay.task, replay.shown().t])), [["warm-up", 0], ["move", t]], fragment);
+        assert.match(await page.locator(".replay-notice p").allTextContents().then((all) => all.join("")), says, fragment);
+      });
     });
   }
   await visit("01-kinematics", { fragment: "#task-4" }, async (page) => {
-    assert.ok(await page.evaluate(() => document.getElementById("task-4").getBoundingClientRect().top < innerHeight && scrollY > 0));
+    await page.waitForFunction(() => document.getElementById("task-4").getBoundingClientRect().top < innerHeight && scrollY > 0);
   });
 });
 

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { page as html, replay } from "./fixture.mjs";
 import { one, open, seek, three, write } from "./made.mjs";
+import { frames, soon } from "./waiting.mjs";
 
 /** A screen of which every frame takes so many ms by its own clock, however long it takes here. */
 const clock = (ms) => `{
@@ -22,7 +23,7 @@ test("a picture that turned coarse while it played is sharp again once it rests"
   const { page, close } = await open(one, { first: clock(80), width: 500, height: 500 });
   await page.waitForSelector(".replay canvas");
   assert.equal(await wide(page), 1);
-  await page.getByLabel("Speed").selectOption("0.1");
+  await page.getByRole("button", { name: "Loop" }).click();
   await page.getByRole("button", { name: "Play", exact: true }).click();
   await page.waitForFunction(() => document.querySelector(".replay canvas").width < 0.8 * document.querySelector(".replay canvas").clientWidth);
   await page.getByRole("button", { name: "Pause" }).click();
@@ -55,10 +56,10 @@ test("steps one by one do not make it coarse", async () => {
   const { page, close } = await open(one, { first: clock(80), width: 500, height: 500 });
   await page.waitForSelector(".replay canvas");
   await page.locator(".replay").focus();
-  await page.waitForTimeout(300);
   for (let i = 0; i < 25; i++) {
     await page.keyboard.press("ArrowRight");
-    await page.waitForTimeout(30);
+    // the step's own frame, the one that looks how late it was, and one in which nobody does anything
+    await frames(page, 3);
     assert.equal(await wide(page), 1, `after ${i + 1} steps`);
   }
   await close();
@@ -84,9 +85,11 @@ test("no context is held by what was scrolled past", async () => {
     }, i);
   };
   for (let round = 0; round < 4; round++) for (const i of [1, 0]) await visit(i);
-  await page.waitForTimeout(200);
   // the one in use, and perhaps the one that went last
-  assert.ok((await held()) <= 2, `${await held()} contexts`);
+  await soon(async () => {
+    const count = await held();
+    assert.ok(count <= 2, `${count} contexts`);
+  });
   assert.deepEqual(wrong.filter((text) => !/style/i.test(text)), []);
   await close();
 });
@@ -94,15 +97,19 @@ test("no context is held by what was scrolled past", async () => {
 /** The browser's own words about a context that a test takes away. */
 const own = /CONTEXT_LOST_WEBGL/;
 
+/** A clock on which the four seconds that a lost context is waited for never pass. */
+const patient = "{ const real = window.setTimeout; window.setTimeout = (act, ms, ...more) => real.call(window, act, ms === 4000 ? 2 ** 31 - 1 : ms, ...more); }";
+
 test("a context that was lost and comes back is drawn with again", async () => {
-  const { page, wrong, close } = await open(one);
+  const { page, wrong, close } = await open(one, { first: patient });
   await page.waitForSelector(".replay canvas");
   await page.evaluate(() => {
     window.first = document.querySelector(".replay canvas");
     window.taken = window.first.getContext("webgl2").getExtension("WEBGL_lose_context");
     window.taken.loseContext();
   });
-  await page.waitForTimeout(100);
+  await page.waitForFunction(() => window.first.getContext("webgl2").isContextLost());
+  await frames(page, 3);
   await seek(page, 2);
   await page.evaluate(() => window.taken.restoreContext());
   await page.waitForFunction(() => {
@@ -110,7 +117,7 @@ test("a context that was lost and comes back is drawn with again", async () => {
     return canvas && canvas !== window.first && !canvas.getContext("webgl2").isContextLost();
   });
   await seek(page, 2.35);
-  await page.waitForTimeout(300);
+  await frames(page, 3);
   assert.equal(await page.locator(".replay-note:visible").count(), 0);
   const painted = await page.evaluate(() => {
     dispatchEvent(new Event("beforeprint"));
@@ -132,22 +139,38 @@ test("a context that stays lost gives way to the flat picture, without a word in
   await seek(page, 1);
   await page.setViewportSize({ width: 700, height: 700 });
   await page.emulateMedia({ colorScheme: "dark" });
-  await page.waitForTimeout(300);
+  await frames(page, 5);
   assert.deepEqual(wrong.filter((text) => !own.test(text)), []);
   await close();
 });
 
-test("a window that moves to a screen of other pixels is drawn in these", async () => {
-  const { page, close } = await open(one, { width: 600, height: 600 });
-  await page.waitForSelector(".replay canvas");
+/** Gives the screen other pixels, one ratio after another, and waits each time until the canvas has them. */
+async function changePixels(page, act = async () => {}) {
   const tools = await page.context().newCDPSession(page);
   for (const ratio of [2, 1.5, 1]) {
     await tools.send("Emulation.setDeviceMetricsOverride", { width: 600, height: 600, deviceScaleFactor: ratio, mobile: false });
+    await page.waitForFunction((ratio) => devicePixelRatio === ratio, ratio);
+    await act();
     await page.waitForFunction((ratio) => {
       const canvas = document.querySelector(".replay canvas");
       return Math.abs(canvas.width / canvas.clientWidth - ratio) < 0.01;
     }, ratio);
   }
+}
+
+test("a window that moves to a screen of other pixels is drawn in these", async () => {
+  const { page, close } = await open(one, { width: 600, height: 600 });
+  await page.waitForSelector(".replay canvas");
+  await changePixels(page);
+  await close();
+});
+
+test("a picture is drawn in the pixels of its moment, also where no event and no timer says that they changed", async () => {
+  const first = "window.ResizeObserver = class { constructor(act) { this.act = act; } observe() { setTimeout(this.act); } disconnect() {} }; window.setInterval = () => 0;";
+  const { page, close } = await open(one, { width: 600, height: 600, first });
+  await page.waitForSelector(".replay canvas");
+  let t = 0;
+  await changePixels(page, () => seek(page, ++t));
   await close();
 });
 
@@ -172,8 +195,10 @@ test("names of frames are in the picture on paper, and not over it", async () =>
   });
   const before = await dark();
   await page.getByRole("button", { name: "Frames" }).click();
-  await page.waitForTimeout(200);
-  assert.ok((await dark()) > before + 100, `${await dark()} dark pixels, ${before} without names`);
+  await soon(async () => {
+    const now = await dark();
+    assert.ok(now > before + 100, `${now} dark pixels, ${before} without names`);
+  });
   await page.emulateMedia({ media: "print" });
   assert.equal(await page.locator(".replay-labels").isVisible(), false);
   await close();
@@ -185,7 +210,7 @@ test("a frame's name lies on none of its letters", async () => {
   await page.getByRole("button", { name: "Frames" }).click();
   for (const view of ["Fit", "Side", "Top"]) {
     await page.getByRole("button", { name: view, exact: true }).click();
-    await page.waitForTimeout(300);
+    await frames(page, 3);
     const meet = await page.evaluate(() => {
       const all = [...document.querySelectorAll(".replay-labels span")].map((label) => ({ text: label.textContent, letter: label.className !== "", box: label.getBoundingClientRect() }));
       // a name comes before its letters

@@ -7,6 +7,7 @@ import { createServer } from "node:http";
 import { test } from "node:test";
 import { page as html, replay } from "./fixture.mjs";
 import { browser, near, one, open, seek, shown, write } from "./made.mjs";
+import { frames, PATIENCE_MS, soon } from "./waiting.mjs";
 
 const two = write("two.html", html([replay({ seconds: 2 }), replay({ task: "again", seconds: 3 })], { more: '<section class="task" id="task-9" data-task="fk"><h2>A task that only calculates</h2></section>' }));
 const button = (page, name, i = 0) => page.getByRole("button", { name, exact: true }).nth(i);
@@ -25,9 +26,12 @@ test("a click on the slider seeks while it plays", async () => {
 
 test("one run plays at a time, and a single moment cannot be played", async () => {
   const { page, close } = await open(two);
-  await button(page, "Play").click();
-  await button(page, "Play").click();
-  assert.deepEqual(await page.locator(".replay-play").evaluateAll((all) => all.map((one) => one.ariaLabel)), ["Play", "Pause"]);
+  // both in one task, so that the first does not end before the second begins
+  const labels = await page.locator(".replay-play").evaluateAll((all) => {
+    for (const one of all) one.click();
+    return all.map((one) => one.ariaLabel);
+  });
+  assert.deepEqual(labels, ["Play", "Pause"]);
   await close();
   const run = replay({ seconds: 0.5 });
   const cut = (track) => ({ ...track, count: 1, ticks: "AA==" });
@@ -46,6 +50,8 @@ test("one run plays at a time, and a single moment cannot be played", async () =
 test("a key that is held steps on, and does not play and pause in turn", async () => {
   const { page, close } = await open(one);
   await page.locator(".replay").focus();
+  // a run that begins again does not end while the keys come
+  await page.keyboard.press("l");
   await page.keyboard.down(" ");
   for (let i = 0; i < 3; i++) await page.keyboard.down(" ");
   assert.equal(await button(page, "Pause").count(), 1);
@@ -80,7 +86,7 @@ test("what a drag does, buttons do: turn, tilt and move", async () => {
   await button(page, "Frames").click();
   const spot = () => page.locator(".replay-axis").first().evaluate((label) => label.style.transform);
   const moved = async (name) => {
-    await page.waitForTimeout(150);
+    await frames(page, 3);
     const before = await spot();
     await button(page, name).click();
     await page.waitForFunction((before) => document.querySelector(".replay-axis").style.transform !== before, before);
@@ -93,17 +99,21 @@ test("what a drag does, buttons do: turn, tilt and move", async () => {
 });
 
 test("a mark's tip can be pointed at, and Escape takes it away from anywhere", async () => {
-  const { page, close } = await open(one);
+  // a hand takes its time from the mark to the tip: here it has four times as long, since each step of the pointer comes late on a busy machine
+  const first = "{ const real = window.setTimeout; window.setTimeout = (act, ms, ...more) => real.call(window, act, ms === 250 ? 1000 : ms, ...more); }";
+  const { page, close } = await open(one, { first });
   const tip = page.getByRole("tooltip");
   const mark = page.locator(".replay-targets button").nth(1);
   await mark.hover();
+  await tip.waitFor();
   const box = await tip.boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 5 });
-  await page.waitForTimeout(500);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 2 });
+  await page.waitForTimeout(1500);
   assert.ok(await tip.isVisible(), "it goes away under the pointer");
   await page.mouse.move(5, 5);
   await tip.waitFor({ state: "hidden" });
   await mark.hover();
+  await tip.waitFor();
   // the focus is on the page itself
   assert.equal(await page.evaluate(() => document.activeElement === document.body), true);
   await page.keyboard.press("Escape");
@@ -146,7 +156,10 @@ test("where the run is, is said after a command, once for many", async () => {
     return page.evaluate(() => window.said.splice(0));
   };
   await page.locator(".replay").focus();
-  for (let i = 0; i < 5; i++) await page.keyboard.press("ArrowRight");
+  // five at once, as of a key that is held
+  await page.locator(".replay").evaluate((root) => {
+    for (let i = 0; i < 5; i++) root.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", repeat: i > 0, bubbles: true }));
+  });
   assert.deepEqual(await said(), ["0.05 s"]);
   await button(page, "One frame on").click();
   assert.deepEqual(await said(), ["0.06 s"]);
@@ -177,7 +190,7 @@ test("letters twice as large and narrow windows need no scrolling to the side", 
   for (const [width, size] of [[320, 100], [390, 200], [320, 200], [1280, 200]]) {
     const { page, close } = await open(path, { width, height: 800 });
     await page.evaluate((size) => (document.documentElement.style.fontSize = `${size}%`), size);
-    await page.waitForTimeout(100);
+    await frames(page, 3);
     const wide = await page.locator(".replay").evaluate((root) => {
       const right = root.getBoundingClientRect().right;
       return [...root.querySelectorAll("*")]
@@ -204,8 +217,11 @@ test("a link that cannot be followed is told, and the rest of it is followed", a
   await page.waitForFunction(() => window.kinemark.replays[1].shown().t === 1.5);
   assert.equal(await notice(page).count(), 0);
   const go = async (hash) => {
-    await page.evaluate((hash) => (location.hash = hash), hash);
-    await page.waitForTimeout(100);
+    // the page listens before this does
+    await page.evaluate((hash) => new Promise((done) => {
+      addEventListener("hashchange", done, { once: true });
+      location.hash = hash;
+    }), hash);
     return (await notice(page).allTextContents()).join("");
   };
   assert.match(await go("#task=nobody&t=1"), /no task “nobody”, which the link names\. It has: knock, again, fk\./);
@@ -240,19 +256,21 @@ test("the way back to the page as it was opened leads to the start", async () =>
 test("the address is written seldom enough for every browser", async () => {
   const { page, close } = await open(one, {
     first: () => {
-      window.written = 0;
+      window.written = [];
       const real = history.replaceState.bind(history);
-      history.replaceState = (...all) => (window.written++, real(...all));
+      history.replaceState = (...all) => (window.written.push(performance.now()), real(...all));
     },
   });
-  const count = await page.evaluate(async () => {
+  const written = await page.evaluate(async () => {
     for (let i = 0; i < 60; i++) {
       window.kinemark.replays[0].seek(i / 20);
       await new Promise((done) => setTimeout(done, 20));
     }
     return window.written;
   });
-  assert.ok(count >= 1 && count <= 5, `${count} times in 1.2 s`);
+  assert.ok(written.length >= 1, "never");
+  // the strictest browser allows a hundred in thirty seconds
+  written.slice(1).forEach((at, i) => assert.ok(at - written[i] >= 300, `${at - written[i]} ms apart`));
   await close();
 });
 
@@ -284,6 +302,7 @@ test("a page that is loaded anew by the server stands as it stood, also after on
   const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1000, height: 700 } });
   try {
     const page = await context.newPage();
+    page.setDefaultTimeout(PATIENCE_MS);
     await page.goto(`http://127.0.0.1:${server.address().port}/report.html`);
     await seek(page, 2.5, 1);
     await seek(page, 1.25, 0);
@@ -296,23 +315,22 @@ test("a page that is loaded anew by the server stands as it stood, also after on
       const loaded = page.waitForEvent("load");
       act();
       await loaded;
-      await page.waitForTimeout(300);
+      // it scrolls in the second frame
+      await frames(page, 4);
     };
     await anew(next);
     assert.match(await page.textContent("main"), /does not build/);
     await anew(next);
-    assert.deepEqual([(await shown(page, 0)).t, (await shown(page, 1)).t], [1.25, 2.5]);
+    await soon(async () => assert.deepEqual([(await shown(page, 0)).t, (await shown(page, 1)).t], [1.25, 2.5]));
     assert.deepEqual(await page.getByLabel("Speed").evaluateAll((all) => all.map((one) => one.value)), ["1", "0.25"]);
     assert.equal(await button(page, "Frames", 1).getAttribute("aria-pressed"), "true");
     assert.equal(await button(page, "Frames", 0).getAttribute("aria-pressed"), "false");
     assert.ok(await page.locator("details").evaluate((part) => part.open));
-    assert.equal(await page.evaluate(() => scrollY), 2000);
-    await page.waitForTimeout(600);
-    assert.match(page.url(), /#task=knock&t=1\.25$/);
+    await page.waitForFunction(() => scrollY === 2000);
+    await page.waitForURL(/#task=knock&t=1\.25$/);
     // by hand it is loaded as any page
     await page.reload();
-    await page.waitForTimeout(200);
-    assert.deepEqual([(await shown(page, 0)).t, (await shown(page, 1)).t], [1.25, 0]);
+    await soon(async () => assert.deepEqual([(await shown(page, 0)).t, (await shown(page, 1)).t], [1.25, 0]));
   } finally {
     await context.close();
     server.closeAllConnections();

@@ -6,6 +6,7 @@ import { launch } from "./browser.mjs";
 import { page as html, replay, truth } from "./fixture.mjs";
 import { near, one, open, shown, three, write } from "./made.mjs";
 import { violations } from "./page_checks.mjs";
+import { frames, soon } from "./waiting.mjs";
 
 test("starts at the beginning, paused, and complains of nothing", async () => {
   const { page, wrong, close } = await open(one);
@@ -40,16 +41,15 @@ test("what is shown at a moment is the run's", async () => {
 
 test("a link opens its moment, and the moment writes its link", async () => {
   const { page, close } = await open(`${one}#task=knock&t=2.35`);
-  await page.waitForTimeout(200);
-  assert.equal((await shown(page)).tick, 2350);
+  const at = (tick) => page.waitForFunction((tick) => window.kinemark.replays[0].shown().tick === tick, tick);
+  await at(2350);
   assert.ok(await page.locator(".replay").evaluate((root) => root.getBoundingClientRect().top < innerHeight && document.activeElement === root));
   await page.keyboard.press("ArrowRight");
   await page.waitForURL(/#task=knock&t=2\.36$/);
   await page.evaluate(() => (location.hash = "#task=knock&t=1"));
-  await page.waitForTimeout(200);
-  assert.equal((await shown(page)).tick, 1000);
-  await page.evaluate(() => (location.hash = "#task=nobody&t=1"));
-  await page.waitForTimeout(200);
+  await at(1000);
+  await page.evaluate(() => (location.hash = "#task=nobody&t=2"));
+  await page.locator(".replay-notice p").waitFor();
   assert.equal((await shown(page)).tick, 1000);
   await page.locator("a.seek").nth(2).click();
   assert.equal((await shown(page)).tick, 2350);
@@ -90,8 +90,7 @@ test("the keys do what they say, and only while the replay has focus", async () 
   assert.equal(await tick(), 10);
   await page.keyboard.press("]");
   assert.equal(await page.locator(".replay-slider").getAttribute("aria-valuetext"), "0.8 s, shoulder at its greatest effort");
-  await page.waitForTimeout(150);
-  assert.match(await page.locator(".replay [role=status]").textContent(), /^0\.8 s, saturation: shoulder/);
+  await page.waitForFunction(() => /^0\.8 s, saturation: shoulder/.test(document.querySelector(".replay [role=status]").textContent));
   await close();
 });
 
@@ -101,23 +100,31 @@ test("it plays to the end at the speed that is set, and stops there", async () =
   await page.getByRole("button", { name: "Play", exact: true }).click();
   await page.waitForFunction(() => window.kinemark.replays[0].shown().tick === 500);
   await page.waitForSelector("button[aria-label=Play]");
-  await page.getByRole("button", { name: "Play", exact: true }).click();
-  assert.ok((await shown(page)).tick < 500);
+  // from its start again; looked at in the same task, before a frame goes on
+  const tick = await page.evaluate(() => {
+    document.querySelector("button[aria-label=Play]").click();
+    return window.kinemark.replays[0].shown().tick;
+  });
+  assert.equal(tick, 0);
   await close();
 });
 
 test("nothing is drawn while nothing moves", async () => {
   const { page, close } = await open(one);
   await page.waitForSelector(".replay canvas");
-  await page.waitForTimeout(500);
-  const asked = await page.evaluate(async () => {
-    let count = 0;
+  await page.evaluate(() => {
+    window.asked = 0;
     const real = window.requestAnimationFrame.bind(window);
-    window.requestAnimationFrame = (f) => (count++, real(f));
-    await new Promise((done) => setTimeout(done, 500));
-    return count;
+    window.requestAnimationFrame = (f) => (window.asked++, real(f));
   });
-  assert.equal(asked, 0);
+  // a page that was just opened may have a few frames to come
+  await soon(async () => {
+    const asked = await page.evaluate(() => new Promise((done) => {
+      window.asked = 0;
+      setTimeout(() => done(window.asked), 1000);
+    }));
+    assert.equal(asked, 0);
+  });
   await close();
 });
 
@@ -134,7 +141,7 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
     for (const x of [at.x, at.quarter]) {
       await page.mouse.move(x, at.y);
       const values = figure.locator(".replay-values");
-      assert.ok(await values.isVisible());
+      await values.waitFor();
       const text = await values.textContent();
       assert.match(text, /s.*shoulder.*rad.*elbow.*rad|s.*elbow.*rad.*shoulder.*rad/);
       const [box, frame] = [await values.boundingBox(), await figure.boundingBox()];
@@ -186,7 +193,7 @@ test("the link of the moment can be copied", async () => {
   await page.getByRole("button", { name: "Copy link" }).click();
   await page.waitForSelector(".replay-shared code");
   assert.equal(await page.locator(".replay-shared code").textContent(), "one.html#task=knock&t=0.8");
-  assert.match(page.url(), /#task=knock&t=0\.8$/);
+  await page.waitForURL(/#task=knock&t=0\.8$/);
   await close();
 });
 
@@ -249,7 +256,8 @@ test("an event's mark is named, pressed, and told by shape", async () => {
 test("no serious barrier is found, light, dark and narrow", async () => {
   for (const options of [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } }]) {
     const { page, close } = await open(`${one}#task=knock&t=2.35`, options);
-    await page.waitForTimeout(200);
+    await page.waitForFunction(() => window.kinemark.replays[0].shown().tick === 2350);
+    await frames(page, 3);
     assert.deepEqual((await violations(page, ".replay")).map(({ told }) => told), []);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${wide} px too wide`);
@@ -291,15 +299,15 @@ test("without WebGL the run is drawn flat, with the same cursor and controls", a
     assert.match(await page.locator(".replay-note").textContent(), /no WebGL, so the run is drawn flat/);
     assert.equal(await page.getByRole("button", { name: "Side" }).isVisible(), false);
     const dot = () => page.locator(".side-tcp").evaluate((dot) => [Number(dot.getAttribute("cx")), Number(dot.getAttribute("cy"))]);
-    await page.waitForTimeout(200);
     const { tcp } = truth(2350);
-    const [x, y] = await dot();
-    near(x, tcp[0], 1e-3, "x");
-    near(-y, tcp[2], 1e-3, "z");
+    await soon(async () => {
+      const [x, y] = await dot();
+      near(x, tcp[0], 1e-3, "x");
+      near(-y, tcp[2], 1e-3, "z");
+    });
     await page.locator(".replay").focus();
     await page.keyboard.press("Home");
-    await page.waitForTimeout(100);
-    near((await dot())[0], truth(0).tcp[0], 1e-3, "x at the start");
+    await soon(async () => near((await dot())[0], truth(0).tcp[0], 1e-3, "x at the start"));
     assert.deepEqual(wrong.filter((text) => !/WebGL/.test(text)), []);
     await close();
   } finally {
@@ -351,12 +359,14 @@ test("on paper a picture stands in for the canvas", async () => {
 test("the time of its own code per frame is measured", async () => {
   const { page, close } = await open(write("many.html", html([replay({ seconds: 10, joints: 25 })])), { viewport: { width: 900, height: 700 } });
   await page.waitForSelector(".replay canvas");
-  await page.waitForTimeout(1500);
+  await page.getByRole("button", { name: "Loop" }).click();
+  const began = Date.now();
   await page.getByRole("button", { name: "Play", exact: true }).click();
-  await page.waitForFunction(() => window.kinemark.replays[0].frameTimes().length > 25, null, { timeout: 30000 });
+  await page.waitForFunction(() => window.kinemark.replays[0].frameTimes().length > 25);
   const times = (await page.evaluate(() => window.kinemark.replays[0].frameTimes())).sort((a, b) => a - b);
+  const passed = Date.now() - began;
   const median = times[times.length >> 1];
   console.log(`frames: median ${median.toFixed(2)} ms of own code (aim: 4 ms), ${times.length} frames`);
-  assert.ok(times.every((ms) => ms >= 0 && ms < 1000), "a time that is none");
+  assert.ok(times.every((ms) => ms >= 0) && times.reduce((sum, ms) => sum + ms, 0) <= passed, `${times} in ${passed} ms`);
   await close();
 });

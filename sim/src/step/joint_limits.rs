@@ -128,7 +128,13 @@ impl Stops {
     }
 
     /// Sets the joints that a step from `q` took beyond their stops back on them, and takes their speed into the stop.
-    pub(crate) fn catch(&mut self, robot: &Robot, q: &[f64], next_q: &mut [f64], next_qd: &mut [f64]) {
+    pub(crate) fn catch(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        next_q: &mut [f64],
+        next_qd: &mut [f64],
+    ) {
         let n = q.len();
         let mut signs = vec![0.0; n];
         for i in 0..n {

@@ -16,7 +16,7 @@ mod contact_scenes;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinemark_grader::grading::{self, InProcess};
+use kinemark_grader::judge::{self, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_sim::robot::RobotFile;
 use kinemark_sim::source::Source;
@@ -44,7 +44,7 @@ fn record(files: &Handed, lab: &str) -> Result<String, String> {
     let lab = Lab::load(&folder("labs"), lab).map_err(|error| error.to_string())?;
     let staff = Staff::load(&folder("reference"), &lab, None).map_err(|error| error.to_string())?;
     let submission = Source::new("submission.rhai", text(files, "submission.rhai")?);
-    let graded = grading::grade(&lab, staff.as_ref(), &submission, &mut InProcess)
+    let graded = judge::grade(&lab, staff.as_ref(), &submission, &mut InProcess)
         .map_err(|error| error.to_string())?;
     let json = serde_json::to_string_pretty(&graded.grade).map_err(|error| error.to_string())?;
     Ok(json + "\n")

@@ -1,20 +1,40 @@
 //! `kinemark verify`: a report's submission graded again, and every digest compared.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use kinemark_grader::ghost;
-use kinemark_grader::grade::{Grade, GradeMode, TaskGrade, TaskKind};
-use kinemark_grader::grading;
+use kinemark_grader::judge;
+use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::Staff;
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::args::VerifyArgs;
 use crate::failure::{Failure, LOST};
+use crate::labs_folder::{self, LabsFolderArgs};
 use crate::report_folder::Pictures;
+use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output, places, report_folder, variants};
+use crate::{disk, interrupt, output, report_folder, variants};
+
+/// Grade a report's submission again and compare every digest
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  kinemark verify out\n\n\
+    Uses the copies of lab, robot and submission inside the folder.\n\
+    Exit codes: 0 same bits, 1 something differs, 2 usage, 3 the folder is no report, 4 the grader or this machine failed.")]
+pub(crate) struct Args {
+    /// The output folder of `kinemark grade`
+    #[arg(default_value = "out")]
+    pub(crate) folder: PathBuf,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
 
 /// What the comparison found.
 #[derive(Serialize)]
@@ -38,15 +58,15 @@ struct Difference {
 }
 
 /// Grades again and compares.
-pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let report = report_folder::read(&args.folder)?;
     let (lab, copies) = report_folder::lab_of(&report)?;
     let staff = match report.grade.mode {
         GradeMode::Practice => None,
         GradeMode::Graded => {
-            let (_, labs_folder) = places::labs(&args.places)?;
-            match places::reference(&args.staff, labs_folder.as_deref())? {
+            let (_, labs_folder) = labs_folder::open(&args.labs_folder)?;
+            match staff_folder::open(&args.staff, labs_folder.as_deref())? {
                 Some(reference) => {
                     variants::refuse_forged(&lab, &copies, &reference, &args.staff, VARIANT_FILE)?;
                     Staff::load(&reference, &lab, args.staff.salt.as_deref())?
@@ -56,10 +76,10 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         }
     };
     let mut host = WorkerHost::new(None);
-    let graded = grading::grade(&lab, staff.as_ref(), &report.submission, &mut host);
+    let graded = judge::grade(&lab, staff.as_ref(), &report.submission, &mut host);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     if let Some(staff) = staff.as_ref().filter(|_| report.shows_reference) {
-        ghost::show_reference(&lab, staff, &mut graded);
+        reference_run::show_reference(&lab, staff, &mut graded);
     }
     let mut comparison = compare(&report.grade, &graded.grade)?;
     if comparison.differences.is_empty() && comparison.not_compared.is_empty() {

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use kinemark_grader::grade::Grade;
-use kinemark_grader::quantity::points;
-use kinemark_grader::report::moment::ADDRESS_PART;
-use kinemark_grader::report::visible::visible;
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::quantity::points;
+use kinemark_report::moment::ADDRESS_PART;
+use kinemark_report::visible::visible;
 use maud::{DOCTYPE, html};
 use percent_encoding::utf8_percent_encode;
 

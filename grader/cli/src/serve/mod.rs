@@ -22,6 +22,17 @@ use crate::disk::plain;
 use crate::failure::Failure;
 use crate::report_folder;
 
+/// Where a report is served.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct ServeArgs {
+    /// Port of this machine to serve it on [default: a free one]
+    #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) port: Option<u16>,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+}
+
 /// What is served, and to whom.
 #[derive(Debug)]
 struct Site {

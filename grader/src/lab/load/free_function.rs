@@ -8,7 +8,7 @@ use super::Reader;
 use crate::lab::file::{CaseTable, ExpectedTable, FunctionTable};
 use crate::lab::model::{Case, Function, Given};
 use crate::lab::problem::LabError;
-use crate::submission::refused_name;
+use crate::submission::rhai::refused_name;
 
 impl Reader<'_> {
     /// The function called `name`.

@@ -99,12 +99,12 @@ impl Reader<'_> {
                             format!(
                                 "a delay of {} ms is not 1 to {MOST_DELAY_PERIODS} whole control periods of {} ms",
                                 delay_ms.get_ref(),
-                                crate::quantity::trimmed(period_s * 1e3, 6)
+                                crate::record::quantity::trimmed(period_s * 1e3, 6)
                             ),
                             "does not divide",
                             Some(format!(
                                 "the nearest delay that fits is {} ms",
-                                crate::quantity::trimmed(nearest_ms, 6)
+                                crate::record::quantity::trimmed(nearest_ms, 6)
                             )),
                         );
                     }

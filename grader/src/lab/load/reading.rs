@@ -11,7 +11,7 @@ use crate::lab::parameters::refused;
 use crate::lab::problem::{LabError, LabProblem, LoadError};
 
 /// Reads a file as a [`Source`] whose name is its path.
-pub(in crate::lab) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
+pub(crate) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
     match files.read(path) {
         Ok(text) => Ok(text.map(|text| Source::new(path, text))),
         Err(why) => Err(LoadError::Unreadable {

@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::Reader;
-use crate::controller::{Budgets, Value};
 use crate::lab::problem::LabError;
+use crate::submission::controller::{Budgets, Value};
 
 impl Reader<'_> {
     pub(super) fn target(&self, typed: &Spanned<toml::Value>) -> Result<Value, LabError> {

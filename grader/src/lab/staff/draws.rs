@@ -36,10 +36,10 @@ pub(super) fn expect(
     else {
         return Ok(());
     };
-    let answers = crate::grading::answers(lab, task, function, cases, solution)?;
+    let answers = crate::judge::answers(lab, task, function, cases, solution)?;
     for (case, answer) in cases.iter_mut().zip(answers) {
         if let Given::Values { expected, .. } = &mut case.given {
-            *expected = crate::answer::named_entries(&answer, names)
+            *expected = crate::submission::answer::named_entries(&answer, names)
                 .map_err(|what| format!("`{}` of the solution returned {what}", function.name()))?;
         }
     }

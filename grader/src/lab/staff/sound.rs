@@ -6,12 +6,12 @@ use std::ops::Range;
 use kinemark_sim::source::Source;
 
 use super::Mutant;
-use crate::controller::Stop;
-use crate::grading::opening;
+use crate::attempt::stopped;
+use crate::judge::opening;
 use crate::lab::model::{Lab, Task};
 use crate::lab::problem::{LabError, LabProblem};
-use crate::stopped;
-use crate::submission::ScriptController;
+use crate::submission::controller::Stop;
+use crate::submission::rhai::ScriptController;
 
 /// What a submission of the staff is for.
 #[derive(Debug, Clone, Copy)]

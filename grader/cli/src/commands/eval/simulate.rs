@@ -1,8 +1,8 @@
 //! The operation `simulate`: a run under given commands, sampled, alone or in a scene.
 
-use kinemark_grader::event_words::Names;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::event::{Event, EventKind};
+use kinemark_sim::event_words::Names;
 use kinemark_sim::kinematics::closure::loop_gap_m;
 use kinemark_sim::run::{self, End, Recorder, Row, Setup};
 use kinemark_sim::scene::Scene;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use kinemark_grader::quantity::{metres, seconds, trimmed};
+use kinemark_grader::record::quantity::{metres, seconds, trimmed};
 use kinemark_sim::engine::{Overlap, Party};
 use kinemark_sim::scene_check::{Finding, Kind, LineStopCause, Severity};
 use owo_colors::OwoColorize as _;

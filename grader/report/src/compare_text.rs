@@ -1,0 +1,123 @@
+//! A comparison as text for a terminal.
+
+use owo_colors::OwoColorize as _;
+
+use super::visible::visible;
+use kinemark_grader::compare::{Comparison, MotionComparison, Pair, SideRecord};
+use kinemark_grader::judge::divergence::{JOINT_TOLERANCE_RAD, PLACE_TOLERANCE_M};
+use kinemark_grader::record::grade::Outcome;
+use kinemark_grader::record::quantity::{difference_of_points, metres, points, seconds};
+
+/// Renders a comparison.
+pub fn text(comparison: &Comparison) -> String {
+    let mut lines = vec![visible(&comparison.lab).bold().to_string()];
+    for (letter, side) in [("A", &comparison.a), ("B", &comparison.b)] {
+        lines.push(side_line(letter, side));
+    }
+    for note in &comparison.notes {
+        lines.push(visible(note).dimmed().to_string());
+    }
+    for task in &comparison.tasks {
+        lines.push(String::new());
+        let name = visible(&task.name);
+        let width = name.chars().count();
+        let name = name.bold().to_string();
+        let judged = [Outcome::Full; 2];
+        lines.push(format!(
+            "{}  {}",
+            row(&name, width, &task.points, judged),
+            visible(&task.title)
+        ));
+        for check in &task.checks {
+            let name = format!("  {}", visible(&check.name));
+            let outcomes = [check.outcome_a, check.outcome_b];
+            lines.push(format!(
+                "{}  {}",
+                row(&name, name.chars().count(), &check.points, outcomes),
+                visible(&check.title)
+            ));
+        }
+        for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
+            let words = ended.as_ref().map(|ended| ended.words(letter));
+            lines.extend(words.map(|words| format!("  {}", visible(&words).yellow())));
+        }
+        lines.extend(task.motion.as_ref().map(motion));
+    }
+    let total = difference_of_points(comparison.a.points, comparison.b.points);
+    lines.push(String::new());
+    lines.push(format!(
+        "{} in A, {} in B: {}",
+        points(comparison.a.points).bold(),
+        points(comparison.b.points).bold(),
+        change(total)
+    ));
+    let text: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
+    text.join("\n") + "\n"
+}
+
+fn side_line(letter: &str, side: &SideRecord) -> String {
+    format!(
+        "{letter}  {}: {}, {} of {} points, {}",
+        visible(&side.name),
+        visible(&side.submission),
+        points(side.points),
+        points(side.max_points),
+        side.verdict.name()
+    )
+}
+
+/// A name that is `width` wide, and the points of both; what is not judged has none.
+fn row(name: &str, width: usize, pair: &Pair, outcomes: [Outcome; 2]) -> String {
+    let space = " ".repeat(24_usize.saturating_sub(width));
+    let of = |earned: f64, outcome| format!("{}/{}", mark(earned, outcome), points(pair.max));
+    format!(
+        "{name}{space} {:>9} {:>9} {:>6}",
+        of(pair.a, outcomes[0]),
+        of(pair.b, outcomes[1]),
+        change(pair.difference)
+    )
+}
+
+/// Points earned; a dash where nothing was judged.
+fn mark(earned: f64, outcome: Outcome) -> String {
+    match outcome {
+        Outcome::NotJudged => "\u{2013}".to_owned(),
+        Outcome::Full | Outcome::Partial | Outcome::None => points(earned),
+    }
+}
+
+/// A difference of points with its sign.
+pub(crate) fn change(difference: f64) -> String {
+    if difference > 0.0 {
+        format!("+{}", points(difference))
+    } else if difference < 0.0 {
+        format!("\u{2212}{}", points(-difference))
+    } else {
+        "=".to_owned()
+    }
+}
+
+/// How two motions compare, in a line.
+fn motion(motion: &MotionComparison) -> String {
+    match &motion.first {
+        Some(first) => format!(
+            "  {} at {}: {} {}",
+            "first differ".cyan(),
+            seconds(first.time_s),
+            visible(&first.message),
+            format!("[tick {}, {}]", first.tick, first.signal).dimmed()
+        ),
+        None => format!("  {}", together(motion)),
+    }
+}
+
+/// What is said of motions that are never apart.
+pub(crate) fn together(motion: &MotionComparison) -> String {
+    if motion.same_bits {
+        return "the motions are the same, bit for bit".to_owned();
+    }
+    format!(
+        "the motions are never more than {JOINT_TOLERANCE_RAD} rad or {} apart, as far as both go",
+        metres(PLACE_TOLERANCE_M)
+    )
+}

@@ -1,0 +1,202 @@
+//! A comparison as a page: the points of both, both arms in one replay, what differs over time.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::figure::figure;
+use super::foreign;
+use super::viewer::{self, seek};
+use crate::compare_text::{change, together};
+use crate::plot::differences;
+use crate::replay::{Ghost, Replay};
+use crate::theme::plot_css;
+use crate::visible::visible;
+use kinemark_grader::compare::{
+    Comparison, Ended, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,
+};
+use kinemark_grader::record::grade::Outcome;
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::record::quantity::{points, seconds};
+
+/// The page of a comparison of `a` and `b`, whose runs were made again. The same two give the same bytes.
+pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> String {
+    let replays: Vec<(usize, String)> = comparison
+        .tasks
+        .iter()
+        .enumerate()
+        .filter_map(|(i, task)| Some((i, replay(task, a, b)?)))
+        .collect();
+    let shows = !replays.is_empty();
+    let title = format!(
+        "{}: {} and {} compared",
+        visible(&comparison.lab),
+        visible(&comparison.a.name),
+        visible(&comparison.b.name)
+    );
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(viewer::policy(shows));
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="referrer" content="no-referrer";
+                title { (title) }
+                style { (PreEscaped(include_str!("page.css"))) (PreEscaped(include_str!("comparison.css"))) (PreEscaped(plot_css())) (viewer::style(shows)) }
+            }
+            body {
+                a class="skip" href="#scores" { "Skip to the scores" }
+                header {
+                    h1 { "Two submissions of " (foreign(&comparison.lab)) }
+                    p class="lead" { "B is shown translucent beside A. A difference is B's points above A's." }
+                }
+                main {
+                    (scores(comparison))
+                    @for (i, task) in comparison.tasks.iter().enumerate() {
+                        (section(i, task, a, b))
+                    }
+                }
+                @for (i, json) in &replays { (viewer::data(*i, json)) }
+                @if shows { (viewer::script()) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn replay(task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Option<String> {
+    let (run_a, run_b) = runs(&task.name, a, b)?;
+    comparable(run_a, run_b).ok()?;
+    let [of_a, of_b] = [a, b].map(|graded| {
+        let mut tasks = graded.grade.tasks.iter();
+        tasks.find(|graded| graded.name == task.name)
+    });
+    let ghost = Ghost {
+        robot: &run_b.robot,
+        scene: run_b.scene.as_ref().map(|scene| &scene.scene),
+        trace: &run_b.trace,
+        label: "B",
+        run: Some((run_b, of_b)),
+    };
+    Some(Replay::of(run_a, of_a).beside("A", ghost).json())
+}
+
+fn scores(comparison: &Comparison) -> Markup {
+    let side = |letter: &str, side: &SideRecord| {
+        html! {
+            tr {
+                th scope="row" { (letter) }
+                td { (foreign(&side.name)) }
+                td { (foreign(&side.submission)) }
+                td { (side.verdict.name()) }
+                td class="number" { (points(side.points)) " of " (points(side.max_points)) }
+            }
+        }
+    };
+    html! {
+        section id="scores" aria-labelledby="scores-title" {
+            h2 id="scores-title" { "Scores" }
+            div class="wide" tabindex="0" role="group" aria-label="Both submissions" {
+                table class="compared" {
+                    thead { tr {
+                        th scope="col" { "" span class="unseen" { "Letter" } }
+                        th scope="col" { "Report" } th scope="col" { "Submission" } th scope="col" { "Verdict" }
+                        th scope="col" class="number" { "Points" }
+                    } }
+                    tbody { (side("A", &comparison.a)) (side("B", &comparison.b)) }
+                }
+            }
+            @if !comparison.notes.is_empty() {
+                ul { @for note in &comparison.notes { li { (foreign(note)) } } }
+            }
+        }
+    }
+}
+
+fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Markup {
+    let id = format!("task-{}", index + 1);
+    let found = runs(&task.name, a, b).filter(|(a, b)| comparable(a, b).is_ok());
+    let first = task
+        .motion
+        .as_ref()
+        .and_then(|motion| motion.first.as_ref());
+    let plots = found.map_or_else(Vec::new, |(a, b)| differences(a, b, first));
+    html! {
+        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
+            h2 id={ (id) "-title" } { (foreign(&task.title)) }
+            @for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
+                @if let Some(ended) = ended { (stopped(&task.name, letter, ended)) }
+            }
+            @if let Some(motion) = &task.motion { (apart(&task.name, motion)) }
+            @if found.is_some() { (viewer::place(index, &task.name)) }
+            div class="wide" tabindex="0" role="group" aria-label="Points of both" {
+                table class="compared" {
+                    thead { tr {
+                        th scope="col" { "Check" }
+                        th scope="col" class="number" { "A" } th scope="col" class="number" { "B" }
+                        th scope="col" class="number" { "of" } th scope="col" class="number" { "Difference" }
+                    } }
+                    tbody { @for check in &task.checks { (row(&check.title, &check.points, [check.outcome_a, check.outcome_b])) } }
+                    tfoot { (row("All", &task.points, [Outcome::Full; 2])) }
+                }
+            }
+            p class="quiet" { "A: " (task.verdict_a.name()) ", B: " (task.verdict_b.name()) }
+            @if !plots.is_empty() {
+                h3 { "What differs over time" }
+                div class="plots" {
+                    @for plot in &plots {
+                        (figure(plot, &task.name))
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
+    html! {
+        tr {
+            th scope="row" { (foreign(title)) }
+            @for (earned, outcome) in [pair.a, pair.b].into_iter().zip(outcomes) {
+                td class="number" {
+                    @match outcome {
+                        Outcome::NotJudged => "not judged",
+                        Outcome::Full | Outcome::Partial | Outcome::None => (points(earned)),
+                    }
+                }
+            }
+            td class="number" { (points(pair.max)) }
+            td class="number" { (change(pair.difference)) }
+        }
+    }
+}
+
+/// When and why one of the two ended early.
+fn stopped(task: &str, letter: &str, ended: &Ended) -> Markup {
+    html! {
+        p {
+            (letter) " stopped"
+            @if let Some(time_s) = ended.time_s { " at " (seek(task, time_s, &seconds(time_s))) }
+            @if let Some(case) = &ended.case { " in case " code { (foreign(case)) } }
+            @if let Some(line) = ended.line { ", line " (line) }
+            ": " (super::prose(&ended.message))
+        }
+    }
+}
+
+fn apart(task: &str, motion: &MotionComparison) -> Markup {
+    let Some(first) = &motion.first else {
+        return html! { p { (together(motion)) "." } };
+    };
+    html! {
+        div class="note hint" {
+            h3 { "Where they first differ" }
+            p { (super::prose(&first.message)) }
+            p class="where" {
+                span { "at " (seek(task, first.time_s, &seconds(first.time_s))) }
+                span { "tick " (first.tick) }
+                span { "signal " code { (foreign(&first.signal)) } }
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Where to look first: what cost points first, in a few words, with a link to its moment.
+
+use maud::{Markup, html};
+
+use super::head::anchor;
+use super::viewer::seek;
+use super::{foreign, prose};
+use crate::moment::{first_loss, last_before};
+use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
+use kinemark_grader::record::quantity::{points, seconds};
+
+/// A card that tells what cost points first; nothing where nothing did, or where nothing is decided.
+pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup {
+    let first = first_loss(grade).filter(|_| grade.verdict.is_decided());
+    let Some(loss) = first else {
+        return html! {};
+    };
+    let task = loss.task;
+    let i = grade
+        .tasks
+        .iter()
+        .position(|other| std::ptr::eq(other, task));
+    let i = i.unwrap_or_default();
+    // a stop costs everything after it
+    let stop = task.stopped.as_ref();
+    let at = match stop {
+        Some(stop) => last_before(stop),
+        None => loss.at,
+    };
+    html! {
+        div class="note bad look" role="region" aria-labelledby="look-title" {
+            h2 id="look-title" { "Look here first" }
+            @if let Some(stop) = stop {
+                p {
+                    strong { (foreign(&task.title)) } " lost " (share(task.max_points - task.points, task.max_points)) ": "
+                    (prose(&stop.message))
+                    @if let Some(line) = stop.line { " (line " (line) ")" }
+                }
+            } @else if let Some(check) = loss.check {
+                p {
+                    strong { (foreign(&check.title)) } " lost " (share(check.max_points - check.points, check.max_points))
+                    @if let Some(fact) = telling(check) { ": " (prose(&fact.message)) } @else { "." }
+                }
+            }
+            @if let Some(diagnosis) = task.diagnoses.first() { p { "It looks like this: " (prose(&diagnosis.says)) } }
+            p class="go" {
+                @match at {
+                    Some(at) if has_replay(i) => { (seek(&task.name, at.time_s, &format!("See it at {}", seconds(at.time_s)))) }
+                    _ => { a href={ "#" (anchor(i)) } { "Go to " (foreign(&task.title)) } }
+                }
+            }
+        }
+    }
+}
+
+fn share(lost: f64, of: f64) -> String {
+    format!("{} of {} points", points(lost), points(of))
+}
+
+/// The fact of a check that tells most of its first loss: the earliest that has a time, else the first.
+fn telling(check: &CheckGrade) -> Option<&Evidence> {
+    let timed = check
+        .evidence
+        .iter()
+        .filter_map(|fact| Some((fact, fact.time_s?)));
+    let earliest = timed
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(fact, _)| fact);
+    earliest.or(check.evidence.first())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kinemark_grader::record::grade::{Instant, Outcome, Stopped};
+    use kinemark_grader::record::sample;
+    use kinemark_grader::record::verdict::Verdict;
+
+    /// The sample with its last task alone, a motion task that lost points.
+    fn moving() -> Grade {
+        let mut grade = sample::graded().grade;
+        grade.tasks.drain(..3);
+        grade.tasks[0].stopped = None;
+        grade.tasks[0].verdict = Verdict::Missed;
+        grade.verdict = Verdict::Missed;
+        grade
+    }
+
+    #[test]
+    fn the_card_tells_the_earliest_moment_of_all_checks_that_lost_points() {
+        let mut grade = moving();
+        let last = grade.tasks[0].checks.len() - 1;
+        let check = &mut grade.tasks[0].checks[last];
+        check.outcome = Outcome::Partial;
+        check.title = "The last one".to_owned();
+        check.first_lost = Some(Instant {
+            tick: 10,
+            time_s: 0.01,
+        });
+        check.evidence = vec![Evidence {
+            message: "it was `late`".to_owned(),
+            signal: String::new(),
+            tick: Some(10),
+            time_s: Some(0.01),
+            case: None,
+            run: None,
+            value: None,
+            limit: None,
+            unit: String::new(),
+        }];
+        let card = look(&grade, |_| true).into_string();
+        for part in [
+            "<strong><bdi>The last one</bdi></strong> lost ",
+            "it was <code>late</code>",
+            "<a class=\"seek\" href=\"#task=move&amp;t=0.01\">See it at 0.01 s</a>",
+        ] {
+            assert!(card.contains(part), "{part}: {card}");
+        }
+        // without a replay it leads to the section
+        let card = look(&grade, |_| false).into_string();
+        assert!(card.contains("href=\"#task-1\""), "{card}");
+    }
+
+    #[test]
+    fn what_stopped_a_task_is_told_before_its_checks() {
+        let mut grade = moving();
+        grade.tasks[0].stopped = Some(Stopped {
+            message: "`q` has no `x`".to_owned(),
+            help: None,
+            line: Some(7),
+            column: Some(3),
+            source_line: Some("  q.x".to_owned()),
+            tick: Some(1200),
+            time_s: Some(1.2),
+            case: None,
+        });
+        let card = look(&grade, |_| true).into_string();
+        for part in [
+            "<code>q</code> has no <code>x</code>",
+            "(line 7)",
+            "href=\"#task=move&amp;t=1.199\">See it at 1.199 s",
+        ] {
+            assert!(card.contains(part), "{part}: {card}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_told_where_nothing_was_lost_or_decided() {
+        let mut grade = moving();
+        grade.verdict = Verdict::HostLimit;
+        assert!(look(&grade, |_| true).into_string().is_empty());
+        let mut grade = moving();
+        grade.tasks[0]
+            .checks
+            .retain(|check| check.outcome == Outcome::Full);
+        assert!(look(&grade, |_| true).into_string().is_empty());
+    }
+}

@@ -1,0 +1,87 @@
+//! What makes a replay in a page: its place, its data, the viewer's code, and the rule that lets this code run and no other.
+
+use maud::{Markup, PreEscaped, html};
+
+use crate::moment::fragment;
+use crate::visible::visible;
+
+/// The viewer, built from `grader/web`.
+const CODE: &str = include_str!("../../../web/dist/viewer.js");
+/// Base64 of the SHA-256 of [`CODE`].
+const DIGEST: &str = include_str!("../../../web/dist/viewer.js.sha256");
+/// How the viewer looks.
+const STYLE: &str = include_str!("../../../web/dist/viewer.css");
+
+/// What a browser may load for a page: its own styles, and the viewer's code where it has replays.
+pub(crate) fn policy(has_replays: bool) -> String {
+    let (script, images) = if has_replays {
+        (
+            format!("script-src 'sha256-{}'; ", DIGEST.trim()),
+            "data: blob:",
+        )
+    } else {
+        (String::new(), "data:")
+    };
+    format!(
+        "default-src 'none'; {script}style-src 'unsafe-inline'; img-src {images}; base-uri 'none'; form-action 'none'"
+    )
+}
+
+/// The viewer's style sheet, where there are replays.
+pub(crate) fn style(has_replays: bool) -> Markup {
+    PreEscaped(if has_replays { STYLE } else { "" }.to_owned())
+}
+
+fn id(index: usize) -> String {
+    format!("replay-{}", index + 1)
+}
+
+/// Where the viewer puts the replay of the task of this index; empty, and without room, until then.
+pub(crate) fn place(index: usize, task: &str) -> Markup {
+    html! { div class="replay" data-replay=(id(index)) data-task=(visible(task)) {} }
+}
+
+/// The data of a replay.
+pub(crate) fn data(index: usize, json: &str) -> Markup {
+    html! { script type="application/json" id=(id(index)) { (PreEscaped(json)) } }
+}
+
+/// The viewer, once, after all data.
+pub(crate) fn script() -> Markup {
+    html! { script { (PreEscaped(CODE)) } }
+}
+
+/// Words that lead to a moment of a task's replay.
+pub(crate) fn seek(task: &str, time_s: f64, words: &str) -> Markup {
+    html! { a class="seek" href=(fragment(task, time_s)) { (words) } }
+}
+
+#[cfg(test)]
+mod tests {
+    use base64::Engine as _;
+    use base64::engine::general_purpose::STANDARD;
+    use sha2::Digest as _;
+
+    use super::*;
+
+    #[test]
+    fn the_viewer_cannot_end_its_own_element() {
+        let code = CODE.to_ascii_lowercase();
+        assert!(!code.contains("</script") && !code.contains("<!--") && !code.contains("<script"));
+        assert!(!STYLE.to_ascii_lowercase().contains("</style") && !STYLE.contains("url(http"));
+    }
+
+    /// A browser runs no code but that of the digest.
+    #[test]
+    fn the_digest_is_the_codes() {
+        let digest = sha2::Sha256::digest(CODE);
+        assert_eq!(STANDARD.encode(digest), DIGEST.trim());
+    }
+
+    #[test]
+    fn a_page_without_replays_runs_nothing() {
+        assert!(!policy(false).contains("script-src"));
+        assert!(policy(true).contains("script-src 'sha256-"));
+        assert_eq!(style(false).into_string(), "");
+    }
+}

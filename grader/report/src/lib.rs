@@ -1,0 +1,20 @@
+//! The grade, shown: text for a terminal, plots as SVG and PNG, and a page that holds everything.
+
+pub mod brief_page;
+pub mod compare_text;
+pub(crate) mod goal;
+pub mod html;
+#[cfg(feature = "log")]
+pub mod log;
+mod measured;
+pub mod moment;
+mod number;
+pub mod plot;
+#[cfg(feature = "png")]
+pub mod png;
+pub mod replay;
+mod standing;
+pub mod storyboard;
+pub mod text;
+mod theme;
+pub mod visible;

@@ -1,0 +1,143 @@
+//! What is told of a run: what the submission drew, what checks judged, and lines of events, prints and marks.
+
+use std::borrow::Cow;
+
+use kinemark_sim::event::EventKind;
+
+use super::mcap::LogError;
+use super::message::{Flat, Level, Log, Time};
+use super::messages::{Messages, SIGNAL_RATE_HZ};
+use super::names::fields;
+use super::schema;
+use crate::visible::visible;
+
+impl Messages<'_> {
+    /// What the submission drew, all values of a tick in one message.
+    pub(super) fn plots(&mut self) -> Result<(), LogError> {
+        let run = self.run;
+        if run.trace.plots.is_empty() {
+            return Ok(());
+        }
+        let names = fields(run.trace.plots.iter().map(|plot| plot.name.as_str()));
+        let described: Vec<_> = names
+            .iter()
+            .zip(&run.trace.plots)
+            .map(|(name, plot)| (name.clone(), visible(&plot.name).into_owned()))
+            .collect();
+        let topic = self.topic(
+            "/plots",
+            "kinemark.Plots",
+            schema::flat("kinemark.Plots", &described),
+        );
+        let mut samples: Vec<(u64, usize, f64)> = Vec::new();
+        for (i, plot) in run.trace.plots.iter().enumerate() {
+            samples.extend(plot.samples.iter().map(|(tick, value)| (*tick, i, *value)));
+        }
+        samples.sort_by_key(|(tick, i, _)| (*tick, *i));
+        for at_tick in samples.chunk_by(|a, b| a.0 == b.0) {
+            let mut values: Vec<(&str, f64)> = Vec::new();
+            for (_, i, value) in at_tick {
+                let name = names[*i].as_str();
+                // of two values of one tick the later stands
+                match values.last_mut() {
+                    Some(last) if last.0 == name => last.1 = *value,
+                    _ => values.push((name, *value)),
+                }
+            }
+            self.message(topic, self.ns(at_tick[0].0), &Flat { values })?;
+        }
+        Ok(())
+    }
+
+    /// What checks judged, with their bands.
+    pub(super) fn checks(&mut self) -> Result<(), LogError> {
+        let run = self.run;
+        let names = fields(run.curves.iter().map(|curve| curve.check.as_str()));
+        for (curve, name) in run.curves.iter().zip(&names) {
+            let what = visible(&format!("{} [{}]", curve.title, curve.unit)).into_owned();
+            let described = [
+                ("value", what.as_str()),
+                ("full", "earns all points"),
+                ("zero", "earns none"),
+            ];
+            let described = described.map(|(name, what)| (name.to_owned(), what.to_owned()));
+            let schema = schema::flat("kinemark.Judged", &described);
+            let topic = self.topic(format!("/checks/{name}"), "kinemark.Judged", schema);
+            let mut next_s = f64::NEG_INFINITY;
+            let last = curve.t_s.len().saturating_sub(1);
+            for (i, (t_s, value)) in curve.t_s.iter().zip(&curve.values).enumerate() {
+                let is_due = *t_s >= next_s || i == last;
+                if !t_s.is_finite() || *t_s < 0.0 || !is_due {
+                    continue;
+                }
+                // a hair early, so that rounding does not skip every second one
+                next_s = t_s + 0.999 / SIGNAL_RATE_HZ;
+                let mut values = vec![("value", *value)];
+                values.extend(curve.full.map(|full| ("full", full)));
+                values.extend(curve.zero.map(|zero| ("zero", zero)));
+                self.message(topic, (t_s * 1e9).round() as u64, &Flat { values })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Events, printed lines, and the moments checks marked.
+    pub(super) fn lines(&mut self) -> Result<(), LogError> {
+        let run = self.run;
+        let topic = self.topic("/log", "foxglove.Log", schema::log());
+        let mut lines: Vec<(u64, Level, Cow<'_, str>, &str)> = Vec::new();
+        let names = run.names();
+        for event in &run.trace.events {
+            let level = match event.kind {
+                EventKind::Diverged | EventKind::Stopped => Level::Error,
+                EventKind::Saturated { .. }
+                | EventKind::LimitHit { .. }
+                | EventKind::SpeedLimitHit { .. } => Level::Warning,
+                _ => Level::Info,
+            };
+            let message = names.event(&event.kind);
+            lines.push((self.ns(event.tick), level, message.into(), "run"));
+        }
+        for contact in &run.trace.contacts {
+            let [first, second] = contact.parties.map(|party| names.party(party));
+            let message = format!(
+                "`{first}` and `{second}` touch until {:.3} s: at most {:.3} N, {:.4} N s in all",
+                contact.last_tick as f64 * run.trace.step_s,
+                contact.peak_force_n,
+                contact.impulse_n_s
+            );
+            let ns = self.ns(contact.first_tick);
+            lines.push((ns, Level::Info, message.into(), "contact"));
+        }
+        for line in &run.trace.log {
+            lines.push((
+                self.ns(line.tick),
+                Level::Info,
+                line.text.as_str().into(),
+                "submission",
+            ));
+        }
+        for curve in &run.curves {
+            for (t_s, text) in curve
+                .marks
+                .iter()
+                .filter(|(t_s, _)| t_s.is_finite() && *t_s >= 0.0)
+            {
+                let ns = (t_s * 1e9).round() as u64;
+                lines.push((ns, Level::Info, text.as_str().into(), &curve.check));
+            }
+        }
+        for (ns, level, message, name) in lines {
+            let line = Log {
+                timestamp: Time::from_ns(ns),
+                level,
+                message: &visible(&message),
+                name,
+                file: "",
+                line: 0,
+            };
+            self.message(topic, ns, &line)?;
+        }
+        Ok(())
+    }
+}

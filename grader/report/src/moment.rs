@@ -1,0 +1,200 @@
+//! Moments of a run: the part of an address after the page, by which a report's replay goes there, and where points were lost first.
+
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+
+use super::visible::visible;
+use kinemark_grader::record::grade::{CheckGrade, Grade, Instant, Outcome, Stopped, TaskGrade};
+use kinemark_grader::record::quantity::trimmed;
+
+/// What does not stand for itself in a part of an address (RFC 3986, section 2.3).
+pub const ADDRESS_PART: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'_')
+    .remove(b'.')
+    .remove(b'~');
+
+/// The fragment of a task, such as `#task=move`, which leads to its section; characters that steer an address are written as `%XX`.
+pub fn of_task(task: &str) -> String {
+    let task = visible(task);
+    format!("#task={}", utf8_percent_encode(&task, ADDRESS_PART))
+}
+
+/// The fragment of a moment of a task, such as `#task=move&t=2.35`.
+pub fn fragment(task: &str, time_s: f64) -> String {
+    // a step shorter than a tenth of a millisecond is no lab's
+    format!("{}&t={}", of_task(task), trimmed(time_s.max(0.0), 4))
+}
+
+/// The last moment of a run that was stopped: the tick before the call that failed, whose own tick was never run. None where there is
+/// no such tick.
+pub fn last_before(stopped: &Stopped) -> Option<Instant> {
+    let (tick, time_s) = (stopped.tick?, stopped.time_s?);
+    let before = tick.checked_sub(1)?;
+    Some(Instant {
+        tick: before,
+        time_s: time_s * (before as f64 / tick as f64),
+    })
+}
+
+/// Where a task lost its first points.
+#[derive(Debug, Clone, Copy)]
+pub struct FirstLoss<'a> {
+    /// The task.
+    pub task: &'a TaskGrade,
+    /// The check that lost them; none where the submission was stopped.
+    pub check: Option<&'a CheckGrade>,
+    /// The moment of its run; none where no moment is told, as in a function task.
+    pub at: Option<Instant>,
+}
+
+impl FirstLoss<'_> {
+    /// Where a report shows it: the moment, else the section of the task.
+    pub fn fragment(&self) -> String {
+        let name = &self.task.name;
+        self.at
+            .map_or_else(|| of_task(name), |at| fragment(name, at.time_s))
+    }
+}
+
+/// Where the first task of the lab's order that lost points lost the first of them.
+pub fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
+    grade.tasks.iter().find_map(first_loss_of)
+}
+
+/// Where a task lost its first points: the earliest moment told of all its checks that lost some, or of what stopped it; of equal ones
+/// the stop, then the costliest check. Where no moment is told, the stop, or the first check that lost points.
+pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
+    let stop = task.stopped.as_ref().map(|stopped| FirstLoss {
+        task,
+        check: None,
+        at: last_before(stopped),
+    });
+    let lost = task.checks.iter().filter(|check| has_lost(check));
+    let mut all: Vec<FirstLoss<'_>> = stop.into_iter().collect();
+    all.extend(lost.map(|check| FirstLoss {
+        task,
+        check: Some(check),
+        at: check.first_lost,
+    }));
+    let cost = |loss: &FirstLoss<'_>| loss.check.map_or(f64::INFINITY, lost_points);
+    let timed = all.iter().filter_map(|loss| Some((loss.at?.tick, loss)));
+    let earliest = timed
+        .min_by(|(a, of_a), (b, of_b)| a.cmp(b).then_with(|| cost(of_b).total_cmp(&cost(of_a))));
+    match earliest {
+        Some((_, loss)) => Some(*loss),
+        // no moment is told, as in a function task: what cost the most, of equal ones the first
+        None => all
+            .into_iter()
+            .reduce(|a, b| if cost(&b) > cost(&a) { b } else { a }),
+    }
+}
+
+/// Whether a check was judged and lost points.
+pub fn has_lost(check: &CheckGrade) -> bool {
+    matches!(check.outcome, Outcome::Partial | Outcome::None)
+}
+
+/// The points a check lost.
+pub fn lost_points(check: &CheckGrade) -> f64 {
+    (check.max_points - check.points).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kinemark_grader::record::sample;
+
+    #[test]
+    fn a_moment_is_a_fragment_of_an_address() {
+        assert_eq!(fragment("move", 2.35), "#task=move&t=2.35");
+        assert_eq!(fragment("move", 0.0), "#task=move&t=0");
+        assert_eq!(
+            fragment("a b&t=9#<\">", 1.0004),
+            "#task=a%20b%26t%3D9%23%3C%22%3E&t=1.0004"
+        );
+        assert_eq!(
+            fragment("größe\u{202E}", 1.0),
+            "#task=gr%C3%B6%C3%9Fe%E2%9F%A8U%2B202E%E2%9F%A9&t=1"
+        );
+    }
+
+    fn motion() -> TaskGrade {
+        let mut graded = sample::graded();
+        graded.grade.tasks.remove(3)
+    }
+
+    fn at(tick: u64) -> Option<Instant> {
+        Some(Instant {
+            tick,
+            time_s: tick as f64 / 1000.0,
+        })
+    }
+
+    fn stop(tick: Option<u64>) -> Stopped {
+        let mut graded = sample::graded();
+        let stopped = graded
+            .grade
+            .tasks
+            .iter_mut()
+            .find_map(|task| task.stopped.take());
+        Stopped {
+            tick,
+            time_s: tick.map(|tick| tick as f64 / 1000.0),
+            ..stopped.expect("a task that was stopped")
+        }
+    }
+
+    #[test]
+    fn the_first_loss_is_the_earliest_of_all_checks_that_lost() {
+        let mut task = motion();
+        let first = |task: &TaskGrade| {
+            let loss = first_loss_of(task).expect("a loss");
+            (loss.fragment(), loss.check.map(|check| check.name.clone()))
+        };
+        // the saturation is told before the match in the lab, and came later in the run
+        let told = (
+            "#task=move&t=0.62".to_owned(),
+            Some("trajectory-match".to_owned()),
+        );
+        assert_eq!(first(&task), told);
+        // of one moment the costlier check
+        task.checks[2].first_lost = at(620);
+        assert_eq!(first(&task), told);
+        // a full check loses nothing, whatever is told of it
+        task.checks[0].first_lost = at(1);
+        assert_eq!(first(&task), told);
+        // the run ends with the tick before the call that failed
+        task.stopped = Some(stop(Some(501)));
+        assert_eq!(first(&task), ("#task=move&t=0.5".to_owned(), None));
+        task.stopped = Some(stop(Some(3000)));
+        assert_eq!(first(&task), told);
+    }
+
+    #[test]
+    fn a_loss_without_a_moment_leads_to_its_task() {
+        let mut task = motion();
+        for check in &mut task.checks {
+            check.first_lost = None;
+        }
+        let loss = first_loss_of(&task).expect("a loss");
+        assert_eq!(loss.fragment(), "#task=move");
+        assert_eq!(
+            loss.check.map(|check| check.name.as_str()),
+            // the costliest
+            Some("trajectory-match")
+        );
+        // nothing was run before the first call
+        for tick in [None, Some(0)] {
+            task.stopped = Some(stop(tick));
+            assert_eq!(
+                first_loss_of(&task).expect("a loss").fragment(),
+                "#task=move"
+            );
+        }
+        for check in &mut task.checks {
+            check.outcome = Outcome::Full;
+        }
+        task.stopped = None;
+        assert!(first_loss_of(&task).is_none());
+    }
+}

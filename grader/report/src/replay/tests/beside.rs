@@ -1,0 +1,95 @@
+//! Two runs in one replay.
+
+use super::*;
+
+fn ghost(run: &TaskRun) -> Ghost<'_> {
+    Ghost {
+        robot: &run.robot,
+        scene: run.scene.as_ref().map(|scene| &scene.scene),
+        trace: &run.trace,
+        label: "B",
+        run: Some((run, None)),
+    }
+}
+
+fn names(record: &Value) -> Vec<&str> {
+    let nodes = record["nodes"].as_array().expect("nodes");
+    let names = nodes.iter().filter_map(|node| node["name"].as_str());
+    names.collect()
+}
+
+#[test]
+fn the_path_is_that_of_the_other_run_up_to_where_it_ended() {
+    let (a, b) = (sample::task_run(), sample::stopped_after(700));
+    let record = record(Replay::of(&a, None).beside("A", ghost(&b)));
+    let (_, path) = rows(&record["reference"]["path"]);
+    let every = record["reference"]["periodS"].as_f64().expect("a period") / b.trace.step_s;
+    let every = every.round() as usize;
+    assert_eq!(path.len(), b.trace.len().div_ceil(every));
+    for (i, tick) in (0..b.trace.len()).step_by(every).enumerate() {
+        for (told, place) in path[i].iter().zip(b.trace.tcp.at(tick)) {
+            assert!((told - place).abs() < 0.6 * PLACE);
+        }
+    }
+    assert_eq!(record["ended"], "B: the submission was stopped");
+    let events = record["events"].as_array().expect("events");
+    let stop = events.iter().find(|event| event["kind"] == "stop");
+    assert_eq!(
+        stop.expect("a stop")["text"],
+        "B: the submission was stopped"
+    );
+    let ours = |event: &Value| {
+        event["text"]
+            .as_str()
+            .is_some_and(|text| text.starts_with("A: "))
+    };
+    assert!(events.iter().any(ours));
+    // the surroundings are the same
+    assert!(!names(&record).iter().any(|name| name.contains("goal")));
+}
+
+#[test]
+fn the_replay_goes_on_as_long_as_either_run() {
+    let (a, b) = (sample::stopped_after(700), sample::task_run());
+    let record = record(Replay::of(&a, None).beside("A", ghost(&b)));
+    let end = b.trace.len() - 1;
+    assert_eq!(steps_of(&record).last(), Some(&end));
+    let last = a.trace.tcp.at(a.trace.len() - 1);
+    assert!((shown(&rows(&record["tcp"]), end)[0] - last[0]).abs() < 0.6 * PLACE);
+    assert_eq!(record["ended"], "A: the submission was stopped");
+}
+
+#[test]
+fn what_stands_elsewhere_is_shown_where_it_stands() {
+    let a = sample::task_run();
+    let mut b = a.clone();
+    b.goals[0].position_m[0] += 0.25;
+    b.paths = vec![kinemark_grader::record::graded::AskedPath {
+        name: "edge".to_owned(),
+        points_m: vec![[0.0, 1.0, 0.0], [0.0, 1.0, 0.5], [0.0, 1.0, 0.0]],
+        tube_m: None,
+    }];
+    let told = record(Replay::of(&a, None).beside("A", ghost(&b)));
+    let nodes = told["nodes"].as_array().expect("nodes");
+    let named = |name: &str| nodes.iter().find(|node| node["name"] == name);
+    let goal = named("B/goal 1").expect("the goal that differs");
+    assert_eq!(goal["kind"], "ghost");
+    assert!(named("B/goal 2").is_none(), "the same in both");
+    // (x, y, z) of the lab is (Z, X, Y) of the world
+    let at = b.goals[0].position_m;
+    let pose = numbers(&goal["pose"]);
+    for (told, expected) in pose.iter().zip([at[1], at[2], at[0]]) {
+        assert!((told - expected).abs() < 1e-8, "{pose:?}");
+    }
+    // there and back, each a rod
+    let edge = named("B/edge").expect("the path that differs");
+    let rods = edge["shapes"].as_array().expect("shapes");
+    assert_eq!(rods.len(), 2);
+    for rod in rods {
+        assert_eq!(rod["solid"]["cylinder"]["length"].as_f64(), Some(0.5));
+        assert_eq!(numbers(&rod["pose"])[..3], [0.0, 0.0, 0.25]);
+    }
+    // two that are the same in everything have nothing of their own
+    let same = record(Replay::of(&a, None).beside("A", ghost(&a)));
+    assert!(!names(&same).iter().any(|name| name.contains("goal")));
+}

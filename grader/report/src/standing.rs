@@ -1,0 +1,20 @@
+//! What stands on another from the start: a contact that is there before anything has moved, and so no news.
+
+use kinemark_sim::engine::Party;
+use kinemark_sim::event::EventKind;
+
+use kinemark_grader::record::graded::TaskRun;
+
+/// Bodies that touch each other before this have stood so from the start: they settle in less \[s\].
+const SETTLED_S: f64 = 0.1;
+
+/// Whether two that first touch each other at `tick` have stood so from the start. What the arm touches is always news.
+pub(super) fn stand(parties: [Party; 2], tick: u64, run: &TaskRun) -> bool {
+    let arm = parties.iter().any(|party| matches!(party, Party::Link(_)));
+    !arm && tick as f64 * run.trace.step_s < SETTLED_S
+}
+
+/// The same of an event: whether it tells such a contact.
+pub(super) fn stands(kind: &EventKind, tick: u64, run: &TaskRun) -> bool {
+    matches!(kind, EventKind::Touched { parties } if stand(*parties, tick, run))
+}

@@ -1,0 +1,279 @@
+//! The grade as text for a terminal: points, values against bands, the first moment it went wrong, one next step.
+//!
+//! Colours are ANSI sequences; whoever prints strips them where they do not belong. The text makes sense without them.
+
+use std::fmt::Write as _;
+
+use owo_colors::OwoColorize as _;
+
+use super::measured::Measured;
+use super::moment::{fragment, last_before, of_task};
+use super::visible::visible;
+use kinemark_grader::record::grade::{
+    CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
+};
+use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_grader::record::verdict::Verdict;
+
+/// Renders `grade`.
+pub fn text(grade: &Grade) -> String {
+    let mut out = String::new();
+    let mode = match grade.mode {
+        GradeMode::Graded => "graded on visible and hidden cases",
+        GradeMode::Practice => "practice: visible cases only",
+    };
+    line(
+        &mut out,
+        &format!(
+            "{}  {}",
+            grade.lab.name.bold(),
+            visible(&grade.submission.name)
+        ),
+    );
+    line(&mut out, &mode.dimmed().to_string());
+    if let Some(variant) = &grade.variant {
+        line(&mut out, &visible(&variant.words()).dimmed().to_string());
+    }
+    for task in &grade.tasks {
+        out.push('\n');
+        push_task(&mut out, task, &grade.submission.name);
+    }
+    out.push('\n');
+    let total = format!(
+        "{} of {} points",
+        points(grade.points),
+        points(grade.max_points)
+    );
+    let undecided = grade.tasks.iter().any(|task| !task.verdict.is_decided());
+    if undecided {
+        line(
+            &mut out,
+            &format!("{}, but not all is decided: grade it again", total.bold()),
+        );
+    } else {
+        line(&mut out, &total.bold().to_string());
+    }
+    out
+}
+
+fn line(out: &mut String, text: &str) {
+    out.push_str(text.trim_end());
+    out.push('\n');
+}
+
+fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
+    let verdict = match task.verdict {
+        Verdict::Passed => task.verdict.name().green().to_string(),
+        Verdict::Missed => task.verdict.name().yellow().to_string(),
+        _ => task.verdict.name().red().to_string(),
+    };
+    let earned = format!("{}/{}", points(task.points), points(task.max_points));
+    line(
+        out,
+        &format!(
+            "{:<10} {:>8}  {verdict}  {}",
+            task.name.bold(),
+            earned,
+            visible(&task.title)
+        ),
+    );
+    if let Some(stopped) = &task.stopped {
+        push_stopped(out, stopped, file, &task.name);
+    }
+    for diagnosis in &task.diagnoses {
+        line(
+            out,
+            &format!(
+                "  {} {} {}",
+                "likely:".magenta().bold(),
+                diagnosis.says,
+                format!(
+                    "({} of {} telling {} agree)",
+                    diagnosis.agreeing,
+                    diagnosis.telling,
+                    match task.kind {
+                        TaskKind::Function => "answers",
+                        TaskKind::Motion => "moments",
+                    }
+                )
+                .dimmed()
+            ),
+        );
+    }
+    if let Some(differs) = &task.divergence {
+        line(
+            out,
+            &format!(
+                "  {} at {}: {} {}",
+                "first differs".cyan(),
+                seconds(differs.time_s),
+                visible(&differs.message),
+                format!(
+                    "[tick {}, {}] {}",
+                    differs.tick,
+                    differs.signal,
+                    fragment(&task.name, differs.time_s)
+                )
+                .dimmed()
+            ),
+        );
+    }
+    for check in &task.checks {
+        push_check(out, check, &task.name);
+    }
+    let lost: Vec<String> = task
+        .hidden
+        .iter()
+        .map(|class| format!("{} {}/{}", class.class, class.good, class.total))
+        .collect();
+    if !lost.is_empty() {
+        line(
+            out,
+            &format!(
+                "  {}",
+                format!("hidden {}: {}", hidden_word(task.kind), lost.join(", ")).dimmed()
+            ),
+        );
+    }
+}
+
+/// What is hidden in a task of this kind.
+fn hidden_word(kind: TaskKind) -> &'static str {
+    match kind {
+        TaskKind::Function => "cases",
+        TaskKind::Motion => "runs",
+    }
+}
+
+fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
+    let mut where_ = String::new();
+    if let Some(time_s) = stopped.time_s {
+        let _ = write!(
+            where_,
+            " (at {}, tick {})",
+            seconds(time_s),
+            stopped.tick.unwrap_or(0),
+        );
+    }
+    if stopped.time_s.is_some() {
+        // a first call that failed leaves the section alone
+        let link =
+            last_before(stopped).map_or_else(|| of_task(task), |last| fragment(task, last.time_s));
+        let _ = write!(where_, " {}", link.dimmed());
+    }
+    if let Some(case) = &stopped.case {
+        let _ = write!(where_, " (case \"{case}\")");
+    }
+    line(
+        out,
+        &format!(
+            "  {} {}{where_}",
+            "stopped:".red().bold(),
+            visible(&stopped.message)
+        ),
+    );
+    if let (Some(number), Some(source)) = (stopped.line, &stopped.source_line) {
+        let column = stopped.column.unwrap_or(1);
+        let place = format!("{}:{number}:{column}", visible(file));
+        line(out, &format!("    {}", place.dimmed()));
+        let gutter = number.to_string();
+        line(
+            out,
+            &format!("    {} {}", format!("{gutter} |").dimmed(), visible(source)),
+        );
+        if let Some(column) = stopped.column {
+            // as wide as what is shown before the caret
+            let head: String = source.chars().take(column.saturating_sub(1)).collect();
+            let before: String = visible(&head).chars().map(|_| ' ').collect();
+            let bar = format!("{:gutter$} |", "", gutter = gutter.len());
+            line(
+                out,
+                &format!("    {} {before}{}", bar.dimmed(), "^".red().bold()),
+            );
+        }
+    }
+    if let Some(help) = &stopped.help {
+        line(out, &format!("  {} {}", "next:".cyan(), visible(help)));
+    }
+}
+
+fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
+    let (mark, word) = match check.outcome {
+        Outcome::Full => ("+".green().to_string(), ""),
+        Outcome::Partial => ("~".yellow().to_string(), ""),
+        Outcome::None => ("-".red().to_string(), ""),
+        Outcome::NotJudged => (".".dimmed().to_string(), "  not judged"),
+    };
+    let earned = format!("{}/{}", points(check.points), points(check.max_points));
+    line(
+        out,
+        &format!("  {mark} {earned:>9}  {}{word}", visible(&check.title)),
+    );
+    if let Some(measure) = &check.measure {
+        line(
+            out,
+            &format!("               {}", band(measure, check.outcome).dimmed()),
+        );
+    }
+    if let Some(first) = untold(check) {
+        let at = format!("[tick {}] {}", first.tick, fragment(task, first.time_s));
+        line(
+            out,
+            &format!(
+                "               points are lost from {} on {}",
+                seconds(first.time_s),
+                at.dimmed()
+            ),
+        );
+    }
+    for evidence in &check.evidence {
+        line(out, &format!("               {}", told(evidence, task)));
+    }
+    if let Some(next) = &check.next_step {
+        line(out, &format!("               {} {next}", "next:".cyan()));
+    }
+}
+
+/// Where a check began to lose points, if its evidence tells other moments only.
+pub(crate) fn untold(check: &CheckGrade) -> Option<Instant> {
+    let first = check.first_lost?;
+    let told = check
+        .evidence
+        .iter()
+        .any(|fact| fact.tick == Some(first.tick));
+    (!told).then_some(first)
+}
+
+/// The value against its band, and the margin of a full check.
+pub fn band(measure: &Measure, outcome: Outcome) -> String {
+    let told = Measured::of(measure);
+    let (to, from) = if measure.zero >= measure.full {
+        ("up to", "from")
+    } else {
+        ("at", "at")
+    };
+    let mut text = format!(
+        "{}: {}; all points {to} {}, none {from} {}",
+        measure.quantity, told.value, told.full, told.zero
+    );
+    if let (Outcome::Full, Some(margin)) = (outcome, told.margin)
+        && measure.margin() > Some(0.0)
+    {
+        let _ = write!(text, "; {margin} to spare");
+    }
+    text
+}
+
+fn told(evidence: &Evidence, task: &str) -> String {
+    let message = visible(&evidence.message).into_owned();
+    match (evidence.tick, evidence.time_s) {
+        (Some(tick), Some(time_s)) => {
+            let link = fragment(task, time_s);
+            format!(
+                "{message} {}",
+                format!("[tick {tick}, {}] {link}", evidence.signal).dimmed()
+            )
+        }
+        _ => message,
+    }
+}

@@ -1,0 +1,374 @@
+//! The grader of a lab, graded: the starter must miss, the reference solution must have full marks whatever the hidden cases, every
+//! known mistake must lose points and be named.
+//!
+//! An [`Audit`] collects rows. A lab that can be had in several forms is audited form by form: each call takes the lab as it is
+//! there, and says in words which it is.
+
+mod variants;
+
+use kinemark_sim::source::Source;
+use serde::Serialize;
+
+use crate::judge::{InProcess, grade};
+use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
+use crate::lab::model::{Lab, TaskWork};
+use crate::lab::staff::{Mutant, Staff};
+use crate::record::grade::{Outcome, Stopped, TaskGrade};
+use crate::record::graded::{GradedRun, TcpPath};
+use crate::record::quantity::{metres, points, seconds};
+use crate::record::verdict::Verdict;
+
+pub use self::variants::{Room, Variants};
+
+/// The share of a lab's points that a starter may earn, for a warm-up that it solves.
+pub const MOST_STARTER_SHARE: f64 = 0.1;
+/// Known mistakes that a lab has at least.
+pub const LEAST_MUTANTS: usize = 6;
+/// The share of a function task's cases in which a known mistake must show.
+pub const LEAST_SHARE: f64 = 0.3;
+/// How far `reference-path.json` may be from the reference solution's path: its numbers are rounded to a tenth of a micrometre \[m\].
+const SAME_PATH_M: f64 = 1e-6;
+
+/// What was tried of a lab, and what is wrong with it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Audit {
+    /// The lab.
+    pub lab: String,
+    /// Points there are.
+    pub max_points: f64,
+    /// What was tried, in order.
+    pub rows: Vec<Row>,
+    /// The room of the reference solution in every band, over the variants that were tried; empty where none were.
+    pub rooms: Vec<Room>,
+}
+
+/// What was tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tried {
+    /// What students read.
+    Brief,
+    /// What students begin with.
+    Starter,
+    /// The reference solution.
+    Reference,
+    /// The reference solution's path that students see.
+    ReferencePath,
+    /// How many known mistakes there are.
+    Mutants,
+    /// A known mistake in one task.
+    Mutant,
+}
+
+impl Tried {
+    /// Its word in tables and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Brief => "brief",
+            Self::Starter => "starter",
+            Self::Reference => "reference",
+            Self::ReferencePath => "reference-path",
+            Self::Mutants => "mutants",
+            Self::Mutant => "mutant",
+        }
+    }
+}
+
+/// One thing tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// What.
+    pub tried: Tried,
+    /// Which: the form of the lab, or the mistake; empty where there is one only.
+    pub name: String,
+    /// The task, where it is about one.
+    pub task: Option<String>,
+    /// Points earned, where something was graded.
+    pub points: Option<f64>,
+    /// Points there are.
+    pub max_points: Option<f64>,
+    /// What is wrong; `null` where nothing is.
+    pub problem: Option<String>,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Audit {
+    /// An audit of which nothing is tried yet.
+    pub fn new(lab: &Lab) -> Self {
+        Self {
+            lab: lab.name.clone(),
+            max_points: lab.tasks.iter().map(|task| task.max_points()).sum(),
+            rows: Vec::new(),
+            rooms: Vec::new(),
+        }
+    }
+
+    /// Rows in which something is wrong.
+    pub fn problems(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.problem.is_some())
+    }
+
+    fn add(
+        &mut self,
+        (tried, name): (Tried, &str),
+        task: Option<&str>,
+        earned: Option<(f64, f64)>,
+        problem: Option<(String, &str)>,
+    ) {
+        let (problem, help) = problem.map_or((None, None), |(problem, help)| {
+            (Some(problem), Some(help.to_owned()))
+        });
+        self.rows.push(Row {
+            tried,
+            name: name.to_owned(),
+            task: task.map(str::to_owned),
+            points: earned.map(|earned| earned.0),
+            max_points: earned.map(|earned| earned.1),
+            problem,
+            help,
+        });
+    }
+
+    /// Looks at what students read: it is there, its numbers can be told in every variant, and it has a place for the table of points.
+    pub fn brief(&mut self, lab: &Lab, brief: Option<&str>) {
+        let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
+            None => Some((
+                "there is no brief.md".to_owned(),
+                "write what students read beside lab.toml: `kinemark new` hands it out",
+            )),
+            Some((_, Err(why))) => Some((
+                format!("brief.md: {why}"),
+                "a mark is `<!-- = expression -->` behind the number it stands for",
+            )),
+            Some((brief, Ok(_))) if !has_place_for_grading(brief) => Some((
+                format!(
+                    "brief.md has no place for the table of points: `{BEGIN}` with `{END}` after it"
+                ),
+                "write the two marks, each on a line, where the table shall be",
+            )),
+            Some((_, Ok(_))) => None,
+        };
+        self.add((Tried::Brief, ""), None, None, problem);
+    }
+
+    /// Tries what students begin with: it runs, earns next to nothing, and makes no known mistake.
+    pub fn starter(&mut self, lab: &Lab, staff: &Staff, starter: &Source) {
+        let Some(GradedRun { grade, .. }) = graded(lab, staff, starter) else {
+            return;
+        };
+        let failed = grade
+            .tasks
+            .iter()
+            .find(|task| !matches!(task.verdict, Verdict::Passed | Verdict::Missed));
+        let most = MOST_STARTER_SHARE * grade.max_points;
+        let named = grade.tasks.iter().find(|task| !task.diagnoses.is_empty());
+        let problem = if let Some(task) = failed {
+            let stopped = task.stopped.as_ref();
+            let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, starter));
+            let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
+            Some((what, "a starter runs as it is, and misses"))
+        } else if grade.points > most {
+            let what = format!(
+                "{} points for nothing done, and at most {} may be",
+                points(grade.points),
+                points(most)
+            );
+            Some((what, "let the checks that it passes need one that it fails"))
+        } else {
+            named.map(|task| {
+                let what = format!(
+                    "task `{}` is told the mistake `{}`",
+                    task.name, task.diagnoses[0].mistake
+                );
+                (
+                    what,
+                    "a starter makes no mistake yet: change it or the mutant",
+                )
+            })
+        };
+        let earned = Some((grade.points, grade.max_points));
+        self.add((Tried::Starter, ""), None, earned, problem);
+    }
+
+    /// Tries the reference solution in one form of the lab, named in words.
+    pub fn reference(&mut self, lab: &Lab, staff: &Staff, form: &str) -> Option<GradedRun> {
+        let run = graded(lab, staff, &staff.solution)?;
+        let grade = &run.grade;
+        let lost = grade
+            .tasks
+            .iter()
+            .find(|task| task.verdict != Verdict::Passed);
+        let problem = lost.map(|task| match &task.stopped {
+            Some(stopped) => {
+                let place = place_of(stopped, &staff.solution);
+                let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
+                (what, "mend the solution: it runs, and has full marks")
+            }
+            None => {
+                let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
+                (what, "widen the band, or mend the solution")
+            }
+        });
+        let earned = Some((grade.points, grade.max_points));
+        self.add((Tried::Reference, form), None, earned, problem);
+        Some(run)
+    }
+
+    /// Holds `reference-path.json` against the reference solution's run, in the lab as its file has it.
+    pub fn reference_paths(&mut self, lab: &Lab, reference: &GradedRun) {
+        for (task, path) in &lab.reference_paths.paths {
+            let run = reference.runs.iter().find(|run| run.task == *task);
+            let problem = match run {
+                None => Some("there is no such motion task".to_owned()),
+                Some(run) => path_problem(path, &run.trace),
+            };
+            let problem = problem.map(|what| (what, "write the reference solution's path anew"));
+            self.add((Tried::ReferencePath, ""), Some(task), None, problem);
+        }
+    }
+
+    /// Tries every known mistake in each of its tasks: it loses points, shows in enough cases, and is named.
+    pub fn mutants(&mut self, lab: &Lab, staff: &Staff) {
+        let count = staff.mutants.len();
+        let few = (count < LEAST_MUTANTS).then(|| {
+            let what = format!("{count} known mistakes, and a lab has at least {LEAST_MUTANTS}");
+            (what, "add what students really do wrong to mutants.toml")
+        });
+        self.add((Tried::Mutants, ""), None, None, few);
+        for mutant in &staff.mutants {
+            self.mutant(lab, staff, mutant);
+        }
+    }
+
+    /// Tries one known mistake.
+    pub fn mutant(&mut self, lab: &Lab, staff: &Staff, mutant: &Mutant) {
+        // only the tasks that are looked at are run
+        let mut part = lab.clone();
+        part.tasks.retain(|task| mutant.tasks.contains(&task.name));
+        let Some(GradedRun { grade, .. }) = graded(&part, staff, &mutant.source) else {
+            return;
+        };
+        for task in &grade.tasks {
+            let earned = Some((task.points, task.max_points));
+            let problem = mutant_problem(task, mutant);
+            self.add(
+                (Tried::Mutant, &mutant.name),
+                Some(&task.name),
+                earned,
+                problem,
+            );
+        }
+    }
+}
+
+/// The grade of a submission of the staff's own, which runs in this process.
+fn graded(lab: &Lab, staff: &Staff, submission: &Source) -> Option<GradedRun> {
+    // nobody can interrupt this host
+    grade(lab, Some(staff), submission, &mut InProcess).ok()
+}
+
+fn mutant_problem(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static str)> {
+    if task.verdict == Verdict::Passed {
+        let what = "loses no point".to_owned();
+        return Some((what, "narrow the band, or add cases in which it shows"));
+    }
+    if !matches!(task.verdict, Verdict::Missed | Verdict::InvalidOutput) {
+        let stopped = task.stopped.as_ref();
+        let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, &mutant.source));
+        let what = format!("{}{place}", stop_of(task));
+        return Some((what, "a known mistake runs, and is wrong"));
+    }
+    let hidden = |of: fn(&crate::record::grade::HiddenClass) -> u32| -> usize {
+        task.hidden.iter().map(|class| of(class) as usize).sum()
+    };
+    let total = task.cases.len() + hidden(|class| class.total);
+    let good = task.cases.iter().filter(|case| case.good).count() + hidden(|class| class.good);
+    let wrong = total - good;
+    if total > 0 && (wrong as f64) < LEAST_SHARE * total as f64 {
+        let what = format!("shows in {wrong} of {total} cases only");
+        return Some((
+            what,
+            "add cases in which it shows, or leave the task out of it",
+        ));
+    }
+    match task.diagnoses.as_slice() {
+        [told] if told.mistake == mutant.name => None,
+        [told, ..] => Some((
+            format!("is told as `{}`", told.mistake),
+            "two mistakes that cannot be told apart are one: leave one out",
+        )),
+        [] => Some((
+            "is not named".to_owned(),
+            "it differs too little from the solution, or does the same as another mistake: see docs/lab-format.md, how diagnoses are decided",
+        )),
+    }
+}
+
+/// Why a task was stopped, or its verdict.
+fn stop_of(task: &TaskGrade) -> String {
+    match &task.stopped {
+        Some(stopped) => format!("{}: {}", task.verdict.name(), stopped.message),
+        None => task.verdict.name().to_owned(),
+    }
+}
+
+/// Where a submission of the staff stopped: file, line and column, and below them the line with a caret.
+fn place_of(stopped: &Stopped, source: &Source) -> String {
+    let (Some(line), Some(text)) = (stopped.line, &stopped.source_line) else {
+        return String::new();
+    };
+    let column = stopped.column.unwrap_or(1);
+    let indent = " ".repeat(column.saturating_sub(1));
+    format!(
+        "\n    {}:{line}:{column}\n    {text}\n    {indent}^",
+        source.name()
+    )
+}
+
+/// Why a task lost points, in its own words.
+fn loss_of(task: &TaskGrade) -> String {
+    let lost = task
+        .checks
+        .iter()
+        .find(|check| check.outcome != Outcome::Full);
+    lost.map_or_else(String::new, |check| {
+        let why = check.evidence.first().map(|evidence| &evidence.message);
+        match why {
+            Some(why) => format!("{} ({why})", check.title),
+            None => check.title.clone(),
+        }
+    })
+}
+
+fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<String> {
+    let mut told = 0;
+    for (i, place) in path.points_m.iter().enumerate() {
+        let time_s = i as f64 * path.period_s;
+        let tick = (time_s / trace.step_s).round() as usize;
+        if tick >= trace.len() {
+            return Some(format!(
+                "reference-path.json goes on beyond the run, from {}",
+                seconds(time_s)
+            ));
+        }
+        told = tick;
+        let apart = (trace.tcp_position(tick) - nalgebra::Vector3::from(*place)).norm();
+        if apart > SAME_PATH_M {
+            return Some(format!(
+                "reference-path.json is {} from the path of the reference solution at {}",
+                metres(apart),
+                seconds(time_s)
+            ));
+        }
+    }
+    let rest_s = trace.len().saturating_sub(told + 1) as f64 * trace.step_s;
+    (rest_s >= path.period_s)
+        .then(|| "reference-path.json ends before the reference solution does".to_owned())
+}
+
+/// Whether a lab has tasks whose hidden cases depend on the salt.
+pub fn depends_on_salt(lab: &Lab) -> bool {
+    let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(_));
+    lab.tasks.iter().any(|task| is_function(&task.work))
+}

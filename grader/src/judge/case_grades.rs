@@ -1,0 +1,125 @@
+//! The cases of a function task as the record tells them: visible ones with their numbers, hidden ones by class.
+
+use kinemark_sim::robot::Dimension;
+
+use crate::attempt::function as cases;
+use crate::check::function_cases::{as_slice, written};
+use crate::check::{Answered, CaseError, CaseFacts};
+use crate::lab::model::{Band, Given, Lab};
+use crate::record::grade::{CaseGrade, HiddenClass};
+use crate::record::quantity::{list, lists, trimmed};
+
+pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
+    let (given, expected) = match &facts.case.given {
+        Given::Q(q) => {
+            let truth = match &facts.error {
+                CaseError::Jacobian { truth, .. } => Some(lists(truth)),
+                _ => cases::tcp_in_lab(lab, &facts.robot, q)
+                    .map(|p| format!("{} m", list(p.as_slice()))),
+            };
+            (format!("q = {} rad", list(q)), truth)
+        }
+        Given::Position {
+            position_m,
+            branches,
+        } => (
+            format!("position = {} m", list(position_m)),
+            // the angles would be the answer of the task itself
+            (*branches == 0).then(|| "[] (out of reach)".to_owned()),
+        ),
+        Given::Values { given, expected } => (entries(given), Some(entries(expected))),
+    };
+    let changed = facts.case.dimensions.iter().map(|(name, dimension)| {
+        let value = match dimension {
+            Dimension::Number(number) => trimmed(*number, 4),
+            Dimension::List(numbers) => list(numbers),
+        };
+        format!(", {name} = {value}")
+    });
+    let error_m = match &facts.error {
+        CaseError::Position(error_m) => Some(*error_m),
+        CaseError::Reach { branches_m, .. } => branches_m.first().copied(),
+        CaseError::Unreachable { .. } | CaseError::Jacobian { .. } | CaseError::Entries(_) => None,
+    };
+    let relative_error = match &facts.error {
+        CaseError::Jacobian { relative, .. } => Some(*relative),
+        CaseError::Entries(relative) => relative.iter().copied().max_by(f64::total_cmp),
+        _ => None,
+    };
+    CaseGrade {
+        name: facts.case.name.clone(),
+        given: given + changed.collect::<String>().as_str(),
+        answer: match &facts.answer {
+            Answered::Position(p) => format!("{} m", list(p.as_slice())),
+            Answered::Branches(rows) | Answered::Matrix(rows) => lists(rows),
+            Answered::Entries(answer) => match &facts.case.given {
+                Given::Values { expected, .. } => named(
+                    expected
+                        .iter()
+                        .zip(answer)
+                        .map(|((name, _), numbers)| (name.as_str(), numbers.as_slice())),
+                ),
+                _ => lists(answer),
+            },
+            Answered::Invalid(what) => what.clone(),
+            Answered::Stopped => "no answer".to_owned(),
+        },
+        expected,
+        error_m: error_m.filter(|error_m| error_m.is_finite()),
+        relative_error: relative_error.filter(|relative| relative.is_finite()),
+        good: is_good(facts, band),
+    }
+}
+
+pub(super) fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenClass> {
+    let mut classes: Vec<HiddenClass> = Vec::new();
+    for facts in facts {
+        let Some(class) = &facts.case.hidden_class else {
+            continue;
+        };
+        let good = u32::from(is_good(facts, band));
+        match classes.iter_mut().find(|known| known.class == *class) {
+            Some(known) => {
+                known.good += good;
+                known.total += 1;
+            }
+            None => classes.push(HiddenClass {
+                class: class.clone(),
+                good,
+                total: 1,
+            }),
+        }
+    }
+    classes
+}
+
+fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
+    match &facts.error {
+        CaseError::Position(error_m) => *error_m <= band.full,
+        CaseError::Reach { branches_m, .. } => branches_m
+            .first()
+            .is_some_and(|error_m| *error_m <= band.full),
+        CaseError::Unreachable { said_so } => *said_so,
+        CaseError::Jacobian { relative, .. } => *relative <= band.full,
+        CaseError::Entries(relative) => relative.iter().all(|relative| *relative <= band.full),
+    }
+}
+
+/// Entries as people read them: `kp = 100, inertia = 0.1668`.
+fn entries(entries: &[(String, Dimension)]) -> String {
+    named(
+        entries
+            .iter()
+            .map(|(name, value)| (name.as_str(), as_slice(value))),
+    )
+}
+
+fn named<'e>(entries: impl Iterator<Item = (&'e str, &'e [f64])>) -> String {
+    let texts: Vec<String> = entries
+        .map(|(name, numbers)| match name {
+            "" => written(numbers, 6),
+            name => format!("{name} = {}", written(numbers, 6)),
+        })
+        .collect();
+    texts.join(", ")
+}

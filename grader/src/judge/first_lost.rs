@@ -1,0 +1,123 @@
+//! Where a check of a motion task began to lose points: the moment at which the curve it judged left the band of full points, or the
+//! earliest moment its evidence tells.
+
+use kinemark_sim::ticks::Periods;
+
+use crate::lab::model::CheckKind;
+use crate::lab::watched::SpeedAt;
+use crate::record::grade::{CheckGrade, Instant, Outcome};
+use crate::record::graded::Curve;
+
+/// How a curve is held against its band.
+enum Held {
+    /// Its greatest value counts, so that the first one beyond costs points.
+    Greatest,
+    /// A mean of it counts, so that points are lost where it goes to what the evidence tells.
+    Mean,
+    /// It tells what has come together so far; its last value counts.
+    SoFar,
+}
+
+/// How the curve of a check is held against its band; none where moments beyond it may cost nothing, as on the way to a goal.
+fn held(kind: &CheckKind) -> Option<Held> {
+    match kind {
+        CheckKind::Overshoot(_)
+        | CheckKind::EffortPeak { .. }
+        | CheckKind::JointSpeed(_)
+        | CheckKind::TcpSpeed {
+            at: SpeedAt::Run, ..
+        } => Some(Held::Greatest),
+        CheckKind::PathDeviation { .. } | CheckKind::Jerk(_) => Some(Held::Mean),
+        CheckKind::EffortSaturation(_)
+        | CheckKind::EffortRms { .. }
+        | CheckKind::Energy(_)
+        | CheckKind::Chatter { .. } => Some(Held::SoFar),
+        _ => None,
+    }
+}
+
+/// Where `check` began to lose points in the visible run, if it lost some and a moment of it is told.
+pub(super) fn first_lost(
+    kind: &CheckKind,
+    check: &CheckGrade,
+    curve: Option<&Curve>,
+    periods: &Periods,
+) -> Option<Instant> {
+    if !matches!(check.outcome, Outcome::Partial | Outcome::None) {
+        return None;
+    }
+    let told = || check.evidence.iter().filter_map(|fact| fact.time_s);
+    let left = curve.and_then(|curve| match held(kind)? {
+        Held::Greatest => first_beyond(curve),
+        Held::Mean => told()
+            .filter_map(|time_s| went_beyond(curve, time_s))
+            .min_by(f64::total_cmp),
+        Held::SoFar => went_beyond(curve, f64::INFINITY),
+    });
+    let time_s = left.or_else(|| told().min_by(f64::total_cmp))?;
+    // times of curves and of evidence are those of ticks
+    let tick = (time_s / periods.step_s).round() as u64;
+    Some(Instant {
+        tick,
+        time_s: periods.time_s(tick),
+    })
+}
+
+/// The first moment beyond the band of full points \[s\].
+fn first_beyond(curve: &Curve) -> Option<f64> {
+    let full = curve.full?;
+    let mut samples = curve.t_s.iter().zip(&curve.values);
+    let first = samples.find(|(_, value)| **value > full);
+    first.map(|(t_s, _)| *t_s)
+}
+
+/// The moment at which the curve went beyond the band of full points for the stretch that holds the last sample up to `until_s` \[s\];
+/// none if it is inside there. Samples that are no number are gaps, over which a stretch goes on.
+fn went_beyond(curve: &Curve, until_s: f64) -> Option<f64> {
+    let full = curve.full?;
+    let samples = curve.t_s.iter().zip(&curve.values);
+    let before = samples.rev().filter(|(t_s, _)| **t_s <= until_s);
+    let numbers = before.filter(|(_, value)| !value.is_nan());
+    let beyond = numbers.take_while(|(_, value)| **value > full);
+    beyond.last().map(|(t_s, _)| *t_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Samples 0.1 s apart against a band that is full up to 1.
+    fn curve(values: &[f64]) -> Curve {
+        Curve {
+            check: "check".to_owned(),
+            title: "value".to_owned(),
+            unit: String::new(),
+            t_s: (0..values.len()).map(|i| i as f64 * 0.1).collect(),
+            values: values.to_vec(),
+            full: Some(1.0),
+            zero: Some(2.0),
+            marks: Vec::new(),
+            step: None,
+        }
+    }
+
+    #[test]
+    fn the_first_sample_beyond_counts_where_the_greatest_does() {
+        assert_eq!(first_beyond(&curve(&[0.0, 1.0, 1.5, 0.5, 9.0])), Some(0.2));
+        assert_eq!(first_beyond(&curve(&[0.0, 1.0, f64::NAN])), None);
+    }
+
+    #[test]
+    fn a_stretch_beyond_begins_where_the_band_was_left_for_it() {
+        let twice = curve(&[0.0, 1.5, 0.5, 1.5, f64::NAN, 4.0, 1.5]);
+        // the worst at 0.5 s is of the stretch from 0.3 s on, over the gap
+        assert_eq!(went_beyond(&twice, 0.5), Some(curve(&[0.0; 4]).t_s[3]));
+        assert_eq!(went_beyond(&twice, 0.1), Some(0.1));
+        assert_eq!(went_beyond(&twice, 0.2), None);
+        // what has come together so far
+        assert_eq!(
+            went_beyond(&curve(&[0.0, 3.0, 0.5, 2.0, 2.0]), f64::INFINITY),
+            Some(curve(&[0.0; 4]).t_s[3])
+        );
+    }
+}

@@ -1,0 +1,23 @@
+//! The reference solution's motion beside a graded run: for staff, who know the answer.
+
+use crate::attempt::motion;
+use crate::judge::{InProcess, opening};
+use crate::lab::model::TaskWork;
+use crate::lab::{Lab, Staff};
+use crate::record::graded::GradedRun;
+
+/// Puts the reference solution's motion beside every run of `graded`, to be shown by its report and its logs; a solution that stops
+/// early is not shown. The grade is not touched.
+pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
+    for run in &mut graded.runs {
+        let Some(task) = lab.tasks.iter().find(|task| task.name == run.task) else {
+            continue;
+        };
+        let TaskWork::Motion(work) = &task.work else {
+            continue;
+        };
+        let opening = opening(lab, task, &staff.solution);
+        let reference = motion::run(lab, work, &opening, &mut InProcess);
+        run.ghost = reference.ended.is_none().then_some(reference.trace);
+    }
+}

@@ -1,0 +1,141 @@
+//! A graded run: the record, and what the renderers draw from besides it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use kinemark_sim::control::Mode;
+use kinemark_sim::robot::Robot;
+use kinemark_sim::sensor::Sensor;
+use kinemark_sim::trace::Trace;
+
+use crate::lab::{LabError, LabScene};
+use crate::record::grade::{Divergence, Grade};
+use crate::record::names::Names;
+
+/// The grade of a submission with the runs it rests on.
+#[derive(Debug, Clone)]
+pub struct GradedRun {
+    /// The record.
+    pub grade: Grade,
+    /// The lab's title.
+    pub title: String,
+    /// What of the staff's own stopped, so that it told nothing of the submission: the reference solution, or a known mistake.
+    pub staff_faults: Vec<Arc<LabError>>,
+    /// The motion tasks that ran, in the lab's order.
+    pub runs: Vec<TaskRun>,
+}
+
+/// One motion task as it ran.
+#[derive(Debug, Clone)]
+pub struct TaskRun {
+    /// The task's name.
+    pub task: String,
+    /// The robot that moved.
+    pub robot: Robot,
+    /// What was around it, where anything was.
+    pub scene: Option<Arc<LabScene>>,
+    /// What the robot measured, in the order of the trace's readings.
+    pub sensors: Vec<Sensor>,
+    /// The frame in which the TCP, the goals and the paths are told.
+    pub seen_from: String,
+    /// The servo's mode: what the command means.
+    pub mode: Mode,
+    /// Effort limits of the servo, shape `(n)`; infinity where there is none \[N m or N\].
+    pub effort_limits: Vec<f64>,
+    /// What the run recorded, up to its end or to where it stopped.
+    pub trace: Trace,
+    /// Where the TCP was to go, in order.
+    pub goals: Vec<Goal>,
+    /// The reference solution's TCP path, if the lab has one.
+    pub reference_tcp: Option<TcpPath>,
+    /// Paths that the TCP was to follow.
+    pub paths: Vec<AskedPath>,
+    /// The curves that checks judged, in the lab's order.
+    pub curves: Vec<Curve>,
+    /// The titles of the task's checks by their names.
+    pub check_titles: BTreeMap<String, String>,
+    /// Where it first differs from the reference solution's, where that is told.
+    pub divergence: Option<Divergence>,
+    /// The reference solution's run, where staff asked for it to be shown: its joint motion is the answer.
+    pub ghost: Option<Trace>,
+}
+
+impl TaskRun {
+    /// The names in it, for events and contacts.
+    pub fn names(&self) -> Names<'_> {
+        Names {
+            robot: &self.robot,
+            scene: self.scene.as_ref().map(|scene| &scene.scene),
+            seen_from: &self.seen_from,
+        }
+    }
+}
+
+/// A place the TCP is to reach and to stay at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Position in the lab's frame \[m\].
+    pub position_m: [f64; 3],
+    /// How long to stay \[s\].
+    pub dwell_s: f64,
+    /// Distance that earns all points \[m\].
+    pub full_m: f64,
+    /// Distance that earns none \[m\].
+    pub zero_m: f64,
+    /// First and last tick of the stay that was judged, if one was found.
+    pub stay: Option<(u64, u64)>,
+}
+
+/// A path of straight segments that the TCP was to follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AskedPath {
+    /// Its name.
+    pub name: String,
+    /// Its points in the lab's frame \[m\].
+    pub points_m: Vec<[f64; 3]>,
+    /// Distances from it that earn all points and none \[m\], where a check measures them.
+    pub tube_m: Option<[f64; 2]>,
+}
+
+/// TCP positions at a fixed period, from time zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TcpPath {
+    /// Time from one point to the next \[s\].
+    pub period_s: f64,
+    /// Positions in the lab's frame \[m\].
+    pub points_m: Vec<[f64; 3]>,
+}
+
+/// A curve over time that a check judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The check's name.
+    pub check: String,
+    /// What is drawn, such as `distance to the goal`.
+    pub title: String,
+    /// Unit of the values; empty for a ratio.
+    pub unit: String,
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Values.
+    pub values: Vec<f64>,
+    /// The value that earns all points, drawn as a line.
+    pub full: Option<f64>,
+    /// The value that earns none, drawn as a line.
+    pub zero: Option<f64>,
+    /// Moments worth a mark, with what they are.
+    pub marks: Vec<(f64, String)>,
+    /// What a step response is drawn with.
+    pub step: Option<StepBackdrop>,
+}
+
+/// What is drawn with a step response besides the run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StepBackdrop {
+    /// What a linear loop would have done, at the times of the curve.
+    pub prediction: Option<Vec<f64>>,
+    /// Where the joint was to go, drawn as a line.
+    pub target: Option<f64>,
+    /// Values from and to that are shaded, with what they are.
+    pub band: Option<(f64, f64, String)>,
+}

@@ -1,0 +1,51 @@
+//! What a record keeps of what happened in a run: events and contacts, in words.
+
+use kinemark_sim::event::EventKind;
+pub use kinemark_sim::event_words::Names;
+use kinemark_sim::ticks::Periods;
+use kinemark_sim::trace::Trace;
+
+use crate::record::grade::{ContactRecord, EventRecord};
+
+/// Contacts, and events of bodies, that a record keeps.
+const MOST_RECORDS: usize = 200;
+/// Events of joints and singular positions that a record keeps beside them: a loop that buzzes makes thousands.
+const MOST_OF_JOINTS: usize = 100;
+
+/// The events of a run, as far as a record keeps them.
+pub fn events(names: &Names<'_>, trace: &Trace, periods: &Periods) -> Vec<EventRecord> {
+    let (mut of_joints, mut others) = (0, 0);
+    let kept = trace.events.iter().filter(|event| {
+        let joints = event.kind.joint().is_some() || event.kind == EventKind::NearSingular;
+        let (count, most) = if joints {
+            (&mut of_joints, MOST_OF_JOINTS)
+        } else {
+            (&mut others, MOST_RECORDS)
+        };
+        *count += 1;
+        // how a run ended is never left out
+        *count <= most || matches!(event.kind, EventKind::Diverged | EventKind::Stopped)
+    });
+    kept.map(|event| EventRecord {
+        tick: event.tick,
+        time_s: periods.time_s(event.tick),
+        event: event.kind.name().to_owned(),
+        message: names.event(&event.kind),
+    })
+    .collect()
+}
+
+/// The contacts of a run, as far as a record keeps them.
+pub fn contacts(names: &Names<'_>, trace: &Trace) -> Vec<ContactRecord> {
+    let contacts = trace.contacts.iter().take(MOST_RECORDS);
+    contacts
+        .map(|contact| ContactRecord {
+            parties: contact.parties.map(|party| names.party(party).to_owned()),
+            first_tick: contact.first_tick,
+            last_tick: contact.last_tick,
+            peak_force_n: contact.peak_force_n,
+            peak_tick: contact.peak_tick,
+            impulse_n_s: contact.impulse_n_s,
+        })
+        .collect()
+}

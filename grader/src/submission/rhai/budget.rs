@@ -1,0 +1,303 @@
+//! What a script has used up, and what it printed and plotted.
+
+use std::cell::{Cell, RefCell};
+
+use rhai::Position;
+
+use super::copies;
+use super::mistake::Problem;
+use crate::submission::controller::{Budget, Budgets, Place, Said};
+
+/// A built-in that walks over elements costs one operation for this many of them, which takes it about as long.
+const ELEMENTS_PER_OPERATION: usize = 8;
+
+/// Copies of vectors are charged this often, in operations.
+const COPIES_EVERY: u64 = 64;
+
+/// Counts one task; shared by the engine and all built-ins.
+#[derive(Debug)]
+pub(super) struct Meter {
+    budgets: Budgets,
+    /// Operations of the calls before this one.
+    spent: Cell<u64>,
+    /// What this call may use.
+    allowed: Cell<u64>,
+    /// The engine's count, which goes on from call to call.
+    counted: Cell<u64>,
+    /// That count when this call began.
+    counted_before: Cell<u64>,
+    /// What built-ins charged in this call beyond that.
+    charged: Cell<u64>,
+    /// The budget that ran out first.
+    exhausted: Cell<Option<Budget>>,
+    /// Where a built-in or an operator was last called.
+    position: Cell<Position>,
+    /// Where the first result of this call came from that is not a number.
+    not_a_number: RefCell<Option<String>>,
+    log: RefCell<Vec<String>>,
+    log_lines: Cell<u64>,
+    plots: RefCell<Vec<(String, f64)>>,
+    plot_samples: Cell<u64>,
+}
+
+impl Meter {
+    pub(super) fn new(budgets: Budgets) -> Self {
+        Self {
+            budgets,
+            spent: Cell::new(0),
+            allowed: Cell::new(0),
+            counted: Cell::new(0),
+            counted_before: Cell::new(0),
+            charged: Cell::new(0),
+            exhausted: Cell::new(None),
+            position: Cell::new(Position::NONE),
+            not_a_number: RefCell::default(),
+            log: RefCell::default(),
+            log_lines: Cell::new(0),
+            plots: RefCell::default(),
+            plot_samples: Cell::new(0),
+        }
+    }
+
+    /// Begins a call.
+    pub(super) fn start(&self) {
+        let left = self
+            .budgets
+            .operations_per_task
+            .saturating_sub(self.spent.get());
+        self.allowed.set(left.min(self.budgets.operations_per_call));
+        self.counted_before.set(self.counted.get());
+        self.charged.set(0);
+        // what another script on this thread copied, or this one between calls, is not of this call
+        copies::take();
+        self.exhausted.set(None);
+        self.not_a_number.take();
+        self.position.set(Position::NONE);
+    }
+
+    /// Ends a call and returns the operations it used.
+    pub(super) fn finish(&self) -> u64 {
+        let used = self.used();
+        self.spent.set(self.spent.get().saturating_add(used));
+        used
+    }
+
+    /// Operations, lines and values of the task so far.
+    pub(super) fn spent(&self) -> [u64; 3] {
+        [
+            self.spent.get(),
+            self.log_lines.get(),
+            self.plot_samples.get(),
+        ]
+    }
+
+    /// Goes back, or on, to what [`Meter::spent`] told.
+    pub(super) fn spend(&self, [operations, log_lines, plot_samples]: [u64; 3]) {
+        self.spent.set(operations);
+        self.log_lines.set(log_lines);
+        self.plot_samples.set(plot_samples);
+    }
+
+    /// Takes over the engine's count; false if that is more than the call may use.
+    pub(super) fn count(&self, counted: u64) -> bool {
+        self.counted.set(counted);
+        if (counted - self.counted_before.get()).is_multiple_of(COPIES_EVERY) {
+            // a copy of a vector takes about as long as an operation; the few that every call makes are free
+            let copies = copies::take().saturating_sub(COPIES_EVERY as usize);
+            self.charged.set(self.charged.get() + copies as u64);
+        }
+        let within = self.used() <= self.allowed.get();
+        if !within {
+            self.note(self.operations_budget());
+        }
+        within
+    }
+
+    /// Operations of this call.
+    fn used(&self) -> u64 {
+        (self.counted.get() - self.counted_before.get()).saturating_add(self.charged.get())
+    }
+
+    /// Charges a built-in a number of operations.
+    pub(super) fn operations(&self, cost: u64) -> Result<(), Problem> {
+        self.charged.set(self.charged.get().saturating_add(cost));
+        if self.count(self.counted.get()) {
+            Ok(())
+        } else {
+            Err(Problem::Exhausted)
+        }
+    }
+
+    /// Charges a built-in for walking over `elements`.
+    pub(super) fn charge(&self, elements: usize) -> Result<(), Problem> {
+        if elements < ELEMENTS_PER_OPERATION {
+            return Ok(());
+        }
+        self.operations((elements / ELEMENTS_PER_OPERATION) as u64)
+    }
+
+    /// Refuses a list, vector or matrix of more than the budget's elements, and charges for making it.
+    pub(super) fn list(&self, elements: usize) -> Result<(), Problem> {
+        self.within(Budget::ListSize, elements)?;
+        self.charge(elements)
+    }
+
+    /// Refuses a text of more than the budget's bytes, and charges for making it.
+    pub(super) fn text(&self, bytes: usize) -> Result<(), Problem> {
+        self.within(Budget::TextSize, bytes)?;
+        self.charge(bytes)
+    }
+
+    /// Refuses `amount` of something beyond its budget.
+    pub(super) fn within(&self, budget: Budget, amount: usize) -> Result<(), Problem> {
+        if amount as u64 <= self.limit(budget) {
+            Ok(())
+        } else {
+            Err(self.exhaust(budget))
+        }
+    }
+
+    /// Adds a line to the log. Beyond the most that are kept it only says so, once: what a student looks at must not end the run.
+    pub(super) fn print(&self, line: String) {
+        let most = self.budgets.log_lines;
+        let printed = self.log_lines.get().saturating_add(1);
+        self.log_lines.set(printed);
+        if printed <= most {
+            self.log.borrow_mut().push(line);
+        } else if printed == most + 1 {
+            let told = format!("more than {most} lines are printed: the rest is not kept");
+            self.log.borrow_mut().push(told);
+        }
+    }
+
+    /// Adds a value to a signal; beyond the most that are kept it only says so, once.
+    pub(super) fn plot(&self, name: String, value: f64) {
+        let most = self.budgets.plot_samples;
+        let plotted = self.plot_samples.get().saturating_add(1);
+        self.plot_samples.set(plotted);
+        if plotted <= most {
+            self.plots.borrow_mut().push((name, value));
+        } else if plotted == most + 1 {
+            let told = format!("more than {most} values are plotted: the rest is not kept");
+            self.log.borrow_mut().push(told);
+        }
+    }
+
+    /// Remembers the first result of a call that is not a number.
+    pub(super) fn note_not_a_number(&self, words: impl FnOnce() -> String) {
+        let mut noted = self.not_a_number.borrow_mut();
+        if noted.is_none() {
+            let place = self.last_place();
+            let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line));
+            *noted = Some(format!("{line}{}", words()));
+        }
+    }
+
+    /// Adds to the log where an answer that is not a number may come from.
+    pub(super) fn log_not_a_number(&self) {
+        if let Some(note) = self.not_a_number.take() {
+            self.log.borrow_mut().push(note);
+        }
+    }
+
+    /// Hands over what was printed and plotted since the last time.
+    pub(super) fn take_output(&self) -> Said {
+        Said {
+            log: self.log.take(),
+            plots: self.plots.take(),
+        }
+    }
+
+    /// The budget that ran out in this call.
+    pub(super) fn exhausted(&self) -> Option<Budget> {
+        self.exhausted.get()
+    }
+
+    /// Remembers where a built-in is called, because the engine counts some operations without a place.
+    pub(super) fn at(&self, position: Position) {
+        self.position.set(position);
+    }
+
+    /// Where a built-in was last called.
+    pub(super) fn last_place(&self) -> Option<Place> {
+        place(self.position.get())
+    }
+
+    pub(super) fn limit(&self, budget: Budget) -> u64 {
+        let budgets = &self.budgets;
+        match budget {
+            Budget::OperationsPerCall => budgets.operations_per_call,
+            Budget::OperationsPerTask => budgets.operations_per_task,
+            Budget::CallDepth => budgets.call_depth,
+            Budget::ExpressionDepth => budgets.expression_depth,
+            Budget::ListSize => budgets.list_size,
+            Budget::TextSize => budgets.text_size,
+            Budget::MapSize => budgets.map_size,
+            Budget::SourceBytes => budgets.source_bytes,
+        }
+    }
+
+    fn exhaust(&self, budget: Budget) -> Problem {
+        self.note(budget);
+        Problem::Exhausted
+    }
+
+    fn note(&self, budget: Budget) {
+        if self.exhausted.get().is_none() {
+            self.exhausted.set(Some(budget));
+        }
+    }
+
+    /// Which of the two budgets of operations bounds this call.
+    fn operations_budget(&self) -> Budget {
+        if self.allowed.get() < self.budgets.operations_per_call {
+            Budget::OperationsPerTask
+        } else {
+            Budget::OperationsPerCall
+        }
+    }
+}
+
+/// The engine's position as a place in the file.
+pub(super) fn place(position: Position) -> Option<Place> {
+    Some(Place {
+        line: position.line()?,
+        column: position.position().unwrap_or(1),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn meter(per_call: u64, per_task: u64) -> Meter {
+        let meter = Meter::new(Budgets {
+            operations_per_call: per_call,
+            operations_per_task: per_task,
+            ..Budgets::default()
+        });
+        meter.start();
+        meter
+    }
+
+    #[test]
+    fn the_smaller_of_the_two_operation_budgets_is_named() {
+        let meter = meter(10, 15);
+        assert!(meter.count(10));
+        assert_eq!(meter.finish(), 10);
+        meter.start();
+        // the engine's own count goes on
+        assert!(meter.count(15));
+        assert!(!meter.count(16));
+        assert_eq!(meter.exhausted(), Some(Budget::OperationsPerTask));
+    }
+
+    #[test]
+    fn charges_and_counts_add_up() {
+        let meter = meter(10, 1000);
+        assert!(meter.charge(40).is_ok());
+        assert!(meter.count(5));
+        assert!(!meter.count(6));
+        assert_eq!(meter.exhausted(), Some(Budget::OperationsPerCall));
+    }
+}

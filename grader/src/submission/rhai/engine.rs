@@ -1,0 +1,142 @@
+//! The language: what is in it and, by leaving it out, what is not.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use rhai::{Dynamic, Engine, EvalAltResult, Position};
+
+use super::budget::Meter;
+use super::granted::{self, Model};
+use super::hints::Names;
+use super::library::Library;
+use super::mistake::raise;
+use super::{arithmetic, linear, list, math, output};
+use crate::submission::controller::{Budgets, Grant};
+
+/// What variables stand for that no function declares.
+#[derive(Default)]
+pub(super) struct Globals {
+    /// Constants, built-in and of the file, filled as its top level runs.
+    pub(super) constants: RefCell<BTreeMap<String, Dynamic>>,
+    /// Arguments of the call to come, each moved out when it is read.
+    pub(super) arguments: [Cell<Dynamic>; 2],
+}
+
+/// The variables through which a call reads its arguments; a script that uses one finds nothing in it.
+pub(super) const ARGUMENTS: [&str; 2] = ["argument_0_of_the_call", "argument_1_of_the_call"];
+
+/// What can be reached by name although nothing registers it.
+const DISABLED: [&str; 8] = [
+    "eval",
+    "Fn",
+    "call",
+    "curry",
+    "is_def_var",
+    "is_def_fn",
+    "is_shared",
+    "type_of",
+];
+
+/// Builds an engine for one task, with what that grants, and the names of what is built in.
+pub(super) fn build(
+    budgets: &Budgets,
+    meter: &Rc<Meter>,
+    globals: &Rc<Globals>,
+    granted: Option<(&Rc<Model>, &[Grant])>,
+) -> (Engine, Names) {
+    let mut engine = Engine::new_raw();
+    let mut library = Library::new(Rc::clone(meter));
+    arithmetic::register(&mut library);
+    math::register(&mut library);
+    linear::register(&mut library);
+    list::register(&mut library);
+    output::register(&mut library);
+    if let Some((model, grants)) = granted {
+        granted::register(&mut library, model, grants);
+    }
+    let (module, built_in) = library.finish();
+    engine.register_global_module(module.into());
+
+    for symbol in DISABLED {
+        engine.disable_symbol(symbol);
+    }
+    // the optimiser would calculate `1 / 2` and `2.0 ** 0.5` by rules of its own
+    engine.set_optimization_level(rhai::OptimizationLevel::None);
+    // these rules of its own compare floats with a tolerance and take powers from the platform
+    engine.set_fast_operators(false);
+    engine.set_fail_on_invalid_map_property(true);
+    engine.set_allow_anonymous_fn(false);
+    set_limits(&mut engine, budgets, meter);
+    set_callbacks(&mut engine, meter, globals);
+
+    let mut names = Names {
+        built_in,
+        ..Names::default()
+    };
+    for (name, value) in math::CONSTANTS {
+        names.constants.insert((*name).to_owned());
+        globals
+            .constants
+            .borrow_mut()
+            .insert((*name).to_owned(), (*value).into());
+    }
+    (engine, names)
+}
+
+fn set_limits(engine: &mut Engine, budgets: &Budgets, meter: &Rc<Meter>) {
+    let size = |budget: u64| usize::try_from(budget).unwrap_or(usize::MAX);
+    let depth = size(budgets.expression_depth);
+    engine
+        .set_max_call_levels(size(budgets.call_depth))
+        .set_max_expr_depths(depth, depth)
+        .set_max_array_size(size(budgets.list_size))
+        .set_max_map_size(size(budgets.map_size))
+        .set_max_string_size(size(budgets.text_size));
+    let meter = Rc::clone(meter);
+    engine.on_progress(move |counted| (!meter.count(counted)).then_some(Dynamic::UNIT));
+}
+
+#[expect(
+    deprecated,
+    reason = "`on_var` is the only way to constants inside functions; the engine's version is pinned by the lock file"
+)]
+fn set_callbacks(engine: &mut Engine, meter: &Rc<Meter>, globals: &Rc<Globals>) {
+    let globals = Rc::clone(globals);
+    let reader = Rc::clone(meter);
+    engine.on_var(move |name, offset, context| {
+        // a local variable lies so far from the end of the scope; the engine finds it itself
+        if let Some(distance) = offset.checked_sub(1) {
+            if let Some((_, _, value)) = context.scope().iter_raw().nth(distance) {
+                charge_for_copy(&reader, value)?;
+            }
+            return Ok(None);
+        }
+        if let Some(argument) = ARGUMENTS.iter().position(|known| *known == name) {
+            return Ok(Some(globals.arguments[argument].take()));
+        }
+        match globals.constants.borrow().get(name) {
+            Some(value) => {
+                charge_for_copy(&reader, value)?;
+                Ok(Some(value.clone()))
+            }
+            None => Ok(None),
+        }
+    });
+    let meter = Rc::clone(meter);
+    engine.on_invalid_array_index(move |list, index, _| {
+        meter.at(Position::NONE);
+        Err(raise(linear::list_index_fault(list, index), Position::NONE))
+    });
+}
+
+/// Charges for mentioning a variable as if it were copied, because the engine mostly does and never says when.
+fn charge_for_copy(meter: &Meter, value: &Dynamic) -> Result<(), Box<EvalAltResult>> {
+    if value.is_array() || value.is_map() || value.is_string() {
+        let size = list::size(value);
+        meter
+            .charge(size)
+            .map_err(|problem| raise(problem, Position::NONE))?;
+    }
+    Ok(())
+}

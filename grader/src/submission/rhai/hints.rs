@@ -1,0 +1,283 @@
+//! What to say about names nobody knows: the nearest known one, and where it is to be found.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::foreign;
+use crate::submission::controller::Grant;
+
+/// Everything that has a name in one submission.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    /// Built-in functions, with their numbers of parameters.
+    pub(super) built_in: BTreeMap<String, BTreeSet<usize>>,
+    /// The file's functions, with their parameters.
+    pub(super) functions: Vec<(String, Vec<String>)>,
+    /// Constants, built-in and of the file.
+    pub(super) constants: BTreeSet<String>,
+    /// Variables that the file declares outside of its functions.
+    pub(super) top_level: BTreeSet<String>,
+    /// Variables and parameters inside of functions.
+    pub(super) local: BTreeSet<String>,
+    /// Keys of `observation`.
+    pub(super) observation: BTreeSet<String>,
+    /// Keys of `robot`.
+    pub(super) robot: BTreeSet<String>,
+    /// Parameters that stand for the observation, whatever the file calls them.
+    pub(super) observation_parameters: BTreeSet<String>,
+    /// Keys of `observation.target`, where it is a map.
+    pub(super) target: BTreeSet<String>,
+    /// Parameters that stand for the robot.
+    pub(super) robot_parameters: BTreeSet<String>,
+    /// Keys of what a function of the lab's own is given.
+    pub(super) given: BTreeSet<String>,
+    /// Parameters that stand for that.
+    pub(super) given_parameters: BTreeSet<String>,
+}
+
+/// What a submission's functions are called with.
+pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
+    ("forward_kinematics", &["robot", "q"]),
+    ("inverse_kinematics", &["robot", "position"]),
+    ("jacobian", &["robot", "q"]),
+    ("init", &["robot", "task"]),
+    ("control", &["observation"]),
+];
+
+type Words = (String, Option<String>);
+
+impl Names {
+    pub(super) fn unknown_function(&self, name: &str, arguments: &[&str]) -> Words {
+        let given = match arguments.len() {
+            0 => "none".to_owned(),
+            count => count.to_string(),
+        };
+        let may_be_granted = Grant::ALL.iter().any(|grant| grant.name() == name);
+        let of_a_map = may_be_granted && arguments.first() == Some(&"map");
+        if let Some((_, parameters)) = self.functions.iter().find(|(known, _)| known == name) {
+            if of_a_map && parameters.len() == arguments.len() && !self.built_in.contains_key(name)
+            {
+                return (
+                    format!("`robot.{name}` is not granted in this task"),
+                    Some(format!("call your own: {name}({})", parameters.join(", "))),
+                );
+            }
+            return (
+                format!(
+                    "`{name}` takes {} ({}), got {given}",
+                    arguments_words(parameters.len()),
+                    parameters.join(", ")
+                ),
+                None,
+            );
+        }
+        if let Some(counts) = self.built_in.get(name) {
+            let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
+            let noun = if counts == ["1"] {
+                "argument"
+            } else {
+                "arguments"
+            };
+            return (
+                format!("`{name}` takes {} {noun}, got {given}", counts.join(" or ")),
+                None,
+            );
+        }
+        if of_a_map {
+            return (
+                format!("`robot.{name}` is not granted in this task"),
+                Some("write it yourself: the dimensions are in `robot`".to_owned()),
+            );
+        }
+        let message = format!("`{name}` is not a function");
+        if let Some(help) = foreign::function(name) {
+            return (message, Some(help));
+        }
+        let known = self
+            .functions
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .chain(self.built_in.keys().map(String::as_str));
+        match nearest(name, known) {
+            Some(near) => (format!("{message}: did you mean `{near}`?"), None),
+            None => (message, None),
+        }
+    }
+
+    pub(super) fn unknown_variable(&self, name: &str) -> Words {
+        let message = format!("variable `{name}` is not known here");
+        if let Some(help) = foreign::variable(name) {
+            return (message, Some(help));
+        }
+        if self.top_level.contains(name) {
+            return (
+                message,
+                Some(format!(
+                    "a `let` outside of a function is not seen inside: write const {name} = ..., or keep it in `this`"
+                )),
+            );
+        }
+        if self.is_function(name) {
+            return (
+                format!("`{name}` is a function"),
+                Some(format!("call it: {name}(...)")),
+            );
+        }
+        if self.observation.contains(name) {
+            return (message, Some(format!("write observation.{name}")));
+        }
+        if self.robot.contains(name) {
+            return (message, Some(format!("write robot.{name}")));
+        }
+        let known = self
+            .local
+            .iter()
+            .chain(&self.top_level)
+            .chain(&self.constants);
+        match nearest(name, known.map(String::as_str)) {
+            Some(near) => (format!("{message}: did you mean `{near}`?"), None),
+            None => (
+                message,
+                Some(format!("declare it first: let {name} = ...;")),
+            ),
+        }
+    }
+
+    pub(super) fn unknown_key(&self, owner: Option<&str>, key: &str) -> Words {
+        if owner == Some("this") {
+            return (
+                format!("`this.{key}` is not set yet"),
+                Some("set it in init(robot, task)".to_owned()),
+            );
+        }
+        let keys = match owner {
+            Some(name) if name == "observation" || self.observation_parameters.contains(name) => {
+                &self.observation
+            }
+            Some("target") if !self.target.is_empty() => &self.target,
+            Some(name) if self.given_parameters.contains(name) => &self.given,
+            Some(name) if name == "robot" || self.robot_parameters.contains(name) => &self.robot,
+            _ => {
+                let both = self.observation.iter().chain(&self.robot);
+                let message = match owner {
+                    Some(owner) => format!("`{owner}` has no `{key}`"),
+                    None => format!("the map has no `{key}`"),
+                };
+                return match nearest(key, both.map(String::as_str)) {
+                    Some(near) => (format!("{message}: did you mean `{near}`?"), None),
+                    None => (
+                        message,
+                        Some("get(map, key, otherwise) asks without failing".to_owned()),
+                    ),
+                };
+            }
+        };
+        let owner = owner.unwrap_or("it");
+        let message = format!("`{owner}` has no `{key}`");
+        let help = format!(
+            "it has {}",
+            keys.iter().cloned().collect::<Vec<_>>().join(", ")
+        );
+        match nearest(key, keys.iter().map(String::as_str)) {
+            Some(near) => (format!("{message}: did you mean `{near}`?"), Some(help)),
+            None => (message, Some(help)),
+        }
+    }
+
+    /// What to do when the function a task calls is missing.
+    pub(super) fn missing(&self, name: &str, parameters: &[&str]) -> Option<String> {
+        let wanted = format!("{name}({})", parameters.join(", "));
+        if let Some((_, got)) = self.functions.iter().find(|(known, _)| known == name) {
+            return Some(format!(
+                "`{name}` takes {}, yours takes {}: write fn {wanted}",
+                arguments_words(parameters.len()),
+                got.len()
+            ));
+        }
+        let candidates = self
+            .functions
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .filter(|known| ENTRY_POINTS.iter().all(|(entry, _)| entry != known));
+        match nearest(name, candidates) {
+            Some(near) => Some(format!("rename `{near}` to `{name}`")),
+            None => Some(format!("write fn {wanted} {{ ... }}")),
+        }
+    }
+
+    pub(super) fn is_function(&self, name: &str) -> bool {
+        self.built_in.contains_key(name) || self.functions.iter().any(|(known, _)| known == name)
+    }
+}
+
+/// Says that an index is past the end of the variable `name`.
+pub(super) fn past_the_end(index: usize, length: usize, name: &str) -> Words {
+    const JOINT_VECTORS: [&str; 6] = ["q", "qd", "effort", "lower", "upper", "joint_names"];
+    let message = match length.checked_sub(1) {
+        None => format!("index {index} is past the end: `{name}` is empty"),
+        Some(last) if index == length && JOINT_VECTORS.contains(&name) => format!(
+            "index {index} is past the end: joint {length} is {name}[{last}], counting starts at 0"
+        ),
+        Some(last) => format!(
+            "index {index} is past the end: the last is {name}[{last}], counting starts at 0"
+        ),
+    };
+    (message, None)
+}
+
+/// The name and the types of the arguments in the engine's `name (type, type)`.
+pub(super) fn signature(text: &str) -> (&str, Vec<&str>) {
+    let (name, rest) = text.split_once(" (").unwrap_or((text, ")"));
+    let inside = rest.strip_suffix(')').unwrap_or(rest);
+    let types = inside.split(", ").filter(|kind| !kind.is_empty()).collect();
+    (name, types)
+}
+
+fn arguments_words(count: usize) -> String {
+    match count {
+        0 => "no arguments".to_owned(),
+        1 => "1 argument".to_owned(),
+        count => format!("{count} arguments"),
+    }
+}
+
+/// The known name that is a slip of the keyboard away, the first of equals.
+fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let slips = 1 + name.chars().count() / 5;
+    let lower = name.to_lowercase();
+    known
+        // one letter is a slip away from every other
+        .filter(|known| *known != name && known.len() > 1 && name.len() > 1)
+        .map(|known| {
+            let known_lower = known.to_lowercase();
+            let shared = lower.chars().zip(known_lower.chars());
+            // of equally near names the one that begins alike
+            let unlike = lower.len() - shared.take_while(|(a, b)| a == b).count().min(lower.len());
+            ((strsim::osa_distance(&lower, &known_lower), unlike), known)
+        })
+        .filter(|((distance, _), _)| *distance <= slips)
+        .min_by_key(|(key, _)| *key)
+        .map(|(_, known)| known)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_keyboard_is_found_and_another_word_is_not() {
+        let known = ["sin", "sign", "observation", "q", "qd"];
+        let near = |name| nearest(name, known.into_iter());
+        assert_eq!(near("sinn"), Some("sin"));
+        assert_eq!(near("observaton"), Some("observation"));
+        assert_eq!(near("Observation"), Some("observation"));
+        assert_eq!(near("qdd"), Some("qd"));
+        assert_eq!(near("velocity"), None);
+        assert_eq!(near("x"), None);
+    }
+
+    #[test]
+    fn a_signature_falls_into_name_and_types() {
+        assert_eq!(signature("fk (map, vector)"), ("fk", vec!["map", "vector"]));
+        assert_eq!(signature("now ()"), ("now", vec![]));
+    }
+}

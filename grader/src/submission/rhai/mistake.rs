@@ -1,0 +1,364 @@
+//! From what stops the engine to what a student reads: plain words, the place, something to do.
+
+use rhai::{Dynamic, EvalAltResult, LexError, ParseError, ParseErrorType, Position};
+
+use super::budget::{Meter, place};
+use super::foreign;
+use super::hints::{self, Names};
+use crate::submission::controller::{Budget, Mistake, Place, Stop};
+
+/// What to do about a fraction as an index.
+const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
+
+/// Why a built-in has no result.
+#[derive(Debug)]
+pub(super) enum Problem {
+    /// The student asked for what cannot be.
+    Fault(Fault),
+    /// A budget ran out, the meter knows which; a script cannot catch this.
+    Exhausted,
+}
+
+/// A mistake without its place, which only the engine knows.
+#[derive(Debug, Clone)]
+pub(super) struct Fault {
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+    /// An index and the length it is past, where the name of the variable would help; only the source has it.
+    pub(super) past_the_end: Option<(usize, usize)>,
+}
+
+/// A fault with nothing to do about it but what the message says.
+pub(super) fn fault(message: impl Into<String>) -> Problem {
+    Problem::Fault(Fault {
+        message: message.into(),
+        help: None,
+        past_the_end: None,
+    })
+}
+
+/// A fault with something to do.
+pub(super) fn fault_with_help(message: impl Into<String>, help: impl Into<String>) -> Problem {
+    Problem::Fault(Fault {
+        message: message.into(),
+        help: Some(help.into()),
+        past_the_end: None,
+    })
+}
+
+/// Raises a problem in the engine.
+pub(super) fn raise(problem: Problem, position: Position) -> Box<EvalAltResult> {
+    Box::new(match problem {
+        Problem::Fault(fault) => EvalAltResult::ErrorRuntime(Dynamic::from(fault), position),
+        Problem::Exhausted => EvalAltResult::ErrorTerminated(Dynamic::UNIT, position),
+    })
+}
+
+/// What the words of a mistake are made from.
+pub(super) struct Context<'a> {
+    pub(super) source: &'a str,
+    pub(super) meter: &'a Meter,
+    pub(super) names: &'a Names,
+    /// Where the function that was called begins.
+    pub(super) beginning: Option<Place>,
+}
+
+impl Context<'_> {
+    /// Says why the file is no program.
+    pub(super) fn parsing(&self, error: &ParseError) -> Stop {
+        let ParseError(kind, position) = error;
+        // the engine's end of the file is a line after the last
+        let place = place(*position)
+            .filter(|place| self.line(place.line).is_some())
+            .or_else(|| self.end_of_source());
+        match &**kind {
+            ParseErrorType::ExprTooDeep => self.over(Budget::ExpressionDepth, place),
+            ParseErrorType::LiteralTooLarge(what, _) => self.over(size_budget(what), place),
+            kind => {
+                let (message, help) = self.parse_words(kind, place);
+                Stop::DidNotBuild(Mistake {
+                    message: shortened(message),
+                    place,
+                    help: help.map(shortened),
+                })
+            }
+        }
+    }
+
+    /// Says why the run ended.
+    pub(super) fn running(&self, error: &EvalAltResult) -> Stop {
+        let mut inner = error;
+        while let EvalAltResult::ErrorInFunctionCall(_, _, nested, _) = inner {
+            inner = nested;
+        }
+        // the engine puts the place of the call in the place of a limit that was reached inside
+        let own_place = (!inner.is_system_exception()).then(|| place(inner.position()));
+        let place = own_place
+            .flatten()
+            .or_else(|| self.meter.last_place())
+            .or(self.beginning);
+        if let Some(budget) = self.meter.exhausted() {
+            return self.over(budget, place);
+        }
+        let (message, help) = match inner {
+            EvalAltResult::ErrorParsing(kind, position) => {
+                return self.parsing(&ParseError(Box::new(kind.clone()), *position));
+            }
+            EvalAltResult::ErrorStackOverflow(_) => return self.over(Budget::CallDepth, place),
+            EvalAltResult::ErrorDataTooLarge(what, _) => {
+                return self.over(size_budget(what), place);
+            }
+            EvalAltResult::ErrorRuntime(thrown, _) => self.thrown(thrown, place),
+            EvalAltResult::ErrorFunctionNotFound(signature, _) => {
+                let (name, arguments) = hints::signature(signature);
+                self.names.unknown_function(name, &arguments)
+            }
+            EvalAltResult::ErrorVariableNotFound(name, _) => self.names.unknown_variable(name),
+            EvalAltResult::ErrorPropertyNotFound(key, _) => {
+                self.names.unknown_key(self.owner_of(place).as_deref(), key)
+            }
+            EvalAltResult::ErrorDotExpr(text, _) => (property_words(text), None),
+            EvalAltResult::ErrorIndexingType(text, _) => (
+                format!(
+                    "this cannot be indexed or set like that: {}",
+                    type_words(text)
+                ),
+                None,
+            ),
+            EvalAltResult::ErrorUnboundThis(_) => (
+                "`this` is not known in this function".to_owned(),
+                Some(
+                    "only `init` and `control` have `this`: pass what is needed as an argument"
+                        .to_owned(),
+                ),
+            ),
+            EvalAltResult::ErrorFor(_) => (
+                "`for` goes over a range, a list, a vector or a text".to_owned(),
+                Some(
+                    "count with `for i in 0..n`; go over a map with `for key in keys(m)`"
+                        .to_owned(),
+                ),
+            ),
+            EvalAltResult::ErrorAssignmentToConstant(name, _) if name.is_empty() => {
+                ("a constant cannot change".to_owned(), None)
+            }
+            EvalAltResult::ErrorAssignmentToConstant(name, _) => (
+                format!("`{name}` is a constant and cannot change"),
+                Some("keep what changes in `this`, or copy it with `let`".to_owned()),
+            ),
+            EvalAltResult::ErrorNonPureMethodCallOnConstant(..) => (
+                "a constant cannot change".to_owned(),
+                Some("copy it with `let` first".to_owned()),
+            ),
+            EvalAltResult::ErrorMismatchDataType(wanted, got, _)
+                if matches!(wanted.as_str(), "i64" | "INT") =>
+            {
+                (
+                    format!(
+                        "the index of a list is a whole number, got {}",
+                        type_words(got)
+                    ),
+                    Some(WHOLE_INDEX.to_owned()),
+                )
+            }
+            EvalAltResult::ErrorMismatchDataType(wanted, got, _)
+            | EvalAltResult::ErrorMismatchOutputType(wanted, got, _) => (
+                format!("expected {}, got {}", type_words(wanted), type_words(got)),
+                None,
+            ),
+            EvalAltResult::ErrorStringBounds(length, index, _) => (
+                format!("index {index} is outside of a text of {length}"),
+                None,
+            ),
+            other => (plain(&other.to_string()), None),
+        };
+        Stop::Crashed(Mistake {
+            message: shortened(message),
+            place,
+            help: help.map(shortened),
+        })
+    }
+
+    fn over(&self, budget: Budget, place: Option<Place>) -> Stop {
+        Stop::OverBudget {
+            budget,
+            limit: self.meter.limit(budget),
+            place,
+        }
+    }
+
+    /// A built-in's fault, or what the student's own `throw` carries.
+    fn thrown(&self, thrown: &Dynamic, place: Option<Place>) -> (String, Option<String>) {
+        let Some(fault) = thrown.read_lock::<Fault>() else {
+            let text = super::words::show_briefly(thrown);
+            return (format!("the script threw: {text}"), None);
+        };
+        if let (Some((index, length)), Some(name)) = (fault.past_the_end, self.owner_of(place)) {
+            return hints::past_the_end(index, length, &name);
+        }
+        (fault.message.clone(), fault.help.clone())
+    }
+
+    /// The name before the `[` or `.` at or before a place: `q` of `q[2]`.
+    fn owner_of(&self, place: Option<Place>) -> Option<String> {
+        let place = place?;
+        let before: Vec<char> = self.line(place.line)?.chars().take(place.column).collect();
+        let separator = before.iter().rposition(|&c| c == '[' || c == '.')?;
+        let name: String = before[..separator]
+            .iter()
+            .rev()
+            .take_while(|c| c.is_alphanumeric() || **c == '_')
+            .collect();
+        let name: String = name.chars().rev().collect();
+        (!name.is_empty()).then_some(name)
+    }
+
+    fn line(&self, number: usize) -> Option<&str> {
+        self.source.lines().nth(number.checked_sub(1)?)
+    }
+
+    fn end_of_source(&self) -> Option<Place> {
+        let line = self.source.lines().count().max(1);
+        Some(Place {
+            line,
+            column: self.line(line).map_or(1, |text| text.chars().count() + 1),
+        })
+    }
+
+    fn parse_words(&self, kind: &ParseErrorType, place: Option<Place>) -> (String, Option<String>) {
+        let line = place.and_then(|place| self.line(place.line)).unwrap_or("");
+        let foreign = place.and_then(|place| foreign::syntax(line, place.column));
+        let at = place.and_then(|place| line.chars().nth(place.column.checked_sub(1)?));
+        let (message, help) = match kind {
+            ParseErrorType::UnexpectedEOF => (
+                "the file ends in the middle of something".to_owned(),
+                Some("a closing `}`, `)` or `]` is missing".to_owned()),
+            ),
+            ParseErrorType::BadInput(LexError::UnterminatedString) => (
+                "a text is not closed".to_owned(),
+                Some("put a `\"` at its end".to_owned()),
+            ),
+            ParseErrorType::BadInput(LexError::MalformedChar(_)) => (
+                "a text goes in double quotes".to_owned(),
+                Some("write \"text\" instead of 'text'".to_owned()),
+            ),
+            ParseErrorType::Reserved(word)
+            | ParseErrorType::BadInput(LexError::ImproperSymbol(word, _)) => (
+                format!("`{word}` is not available here"),
+                foreign::reserved(word),
+            ),
+            ParseErrorType::MissingToken(token, _) if token == ";" => {
+                let near = place.and_then(|place| foreign::near_keyword(line, place.column));
+                let help = "end the statement before it with `;`".to_owned();
+                return (
+                    "a `;` is missing before this".to_owned(),
+                    foreign.or(near).or(Some(help)),
+                );
+            }
+            ParseErrorType::MissingToken(token, _) if token == "]" && at == Some(',') => (
+                "a `]` is missing before this".to_owned(),
+                Some("an element of a matrix is m[row][column]".to_owned()),
+            ),
+            ParseErrorType::MissingToken(token, what) if token == "," => {
+                let closing = if what.contains("array") {
+                    "]"
+                } else if what.contains("map") {
+                    "}"
+                } else {
+                    ")"
+                };
+                (
+                    format!("a `{closing}` or a `,` is missing before this"),
+                    None,
+                )
+            }
+            ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | "]" | "}") => {
+                (format!("a `{token}` is missing before this"), None)
+            }
+            ParseErrorType::MalformedIndexExpr(text) if text.contains("integer") => (
+                "the index of a list is a whole number".to_owned(),
+                Some(WHOLE_INDEX.to_owned()),
+            ),
+            ParseErrorType::MismatchedType(wanted, _) if wanted.contains("iterable") => (
+                "`for` goes over a range, a list, a vector or a text".to_owned(),
+                Some("count with `for i in 0..n`".to_owned()),
+            ),
+            ParseErrorType::BadInput(LexError::UnexpectedInput(sign)) if sign == "|" => {
+                ("unexpected `|`".to_owned(), foreign::reserved("|"))
+            }
+            ParseErrorType::AssignmentToConstant(name) => (
+                format!("`{name}` is a constant and cannot change"),
+                Some("declare it with `let`, or keep what changes in `this`".to_owned()),
+            ),
+            ParseErrorType::FnDuplicatedDefinition(name, _) => (
+                format!("there are two functions `{name}` with the same parameters"),
+                Some("remove or rename one of them".to_owned()),
+            ),
+            ParseErrorType::WrongFnDefinition => (
+                "a function stands inside another function or block".to_owned(),
+                Some("move it to the top level of the file; is a `}` missing above?".to_owned()),
+            ),
+            other => (plain(&other.to_string()), None),
+        };
+        (message, help.or(foreign))
+    }
+}
+
+/// Keeps a message readable when a name or text in it is endless.
+fn shortened(text: String) -> String {
+    const LONGEST: usize = 400;
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain("...".chars()).collect()
+}
+
+fn size_budget(what: &str) -> Budget {
+    if what.contains("tring") {
+        Budget::TextSize
+    } else if what.contains("map") {
+        Budget::MapSize
+    } else {
+        Budget::ListSize
+    }
+}
+
+/// The engine's sentence as a fragment of ours: `Expecting '(' ...` becomes ``expecting `(` ...``.
+fn plain(text: &str) -> String {
+    let text = text
+        .split(" (line ")
+        .next()
+        .unwrap_or(text)
+        .replace('\'', "`");
+    let mut characters = text.chars();
+    characters.next().map_or_else(String::new, |first| {
+        first.to_lowercase().chain(characters).collect()
+    })
+}
+
+/// ``a vector has no `y` `` from the engine's `Unknown property 'y' - a getter is not registered for type 'vector'`.
+fn property_words(text: &str) -> String {
+    let mut quoted = text.split('\'').skip(1).step_by(2);
+    match (quoted.next(), quoted.next()) {
+        (Some(property), Some(kind)) => format!("{} has no `{property}`", type_words(kind)),
+        _ => plain(text),
+    }
+}
+
+fn type_words(kind: &str) -> String {
+    match kind {
+        "i64" | "INT" | "integer" => "a whole number".to_owned(),
+        "f64" => "a number".to_owned(),
+        "bool" => "true or false".to_owned(),
+        "string" | "char" | "&str | ImmutableString | String" => "a text".to_owned(),
+        "array" => "a list".to_owned(),
+        "map" => "a map".to_owned(),
+        "()" => "nothing `()`".to_owned(),
+        "vector" => "a vector".to_owned(),
+        "matrix" => "a matrix".to_owned(),
+        other if other.contains("ImmutableString") => "a text".to_owned(),
+        other if other.ends_with("Vector") => "a vector".to_owned(),
+        other if other.ends_with("Matrix") => "a matrix".to_owned(),
+        other => other.to_owned(),
+    }
+}

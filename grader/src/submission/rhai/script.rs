@@ -1,0 +1,511 @@
+//! The script as a [`Controller`]: opened once per task, called once per case or control period.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use rhai::{
+    AST, ASTNode, Caches, Dynamic, Engine, EvalAltResult, Expr, GlobalRuntimeState, Map, Position,
+    Scope, Stmt,
+};
+
+use super::budget::{Meter, place};
+use super::convert;
+use super::engine::{self, ARGUMENTS, Globals};
+use super::granted::Model;
+use super::hints::{ENTRY_POINTS, Names};
+use super::list;
+use super::memory;
+use super::mistake::{Context, Problem, raise};
+use crate::submission::controller::{
+    Answer, Budget, Budgets, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said,
+    SensorFacts, Stop, Value,
+};
+
+/// The stack a thread needs on which scripts run.
+///
+/// The engine calls itself for functions within functions and expressions within expressions. The deepest script the default
+/// budgets allow takes 4 MiB of it in an optimised build and several times as much in one that is not.
+pub const STACK_BYTES: usize = 32 << 20;
+
+/// A script that has been read and may be called.
+pub struct ScriptController {
+    engine: Engine,
+    ast: AST,
+    source: String,
+    meter: Rc<Meter>,
+    globals: Rc<Globals>,
+    names: Names,
+    run: Run,
+    task: String,
+    robot: CachedRobot,
+    /// What granted functions ask, where any is granted.
+    model: Option<Rc<Model>>,
+    observation: Map,
+    sensors: Vec<SensorFacts>,
+    /// One statement for each function that may be called: `memory.control(argument)`.
+    ///
+    /// A method call, because that is how the engine gives a function its `this`.
+    statements: BTreeMap<String, AST>,
+    /// The function of the lab's own that is called, where one is.
+    free: Option<String>,
+}
+
+/// The engine's state, kept from call to call so that it need not look up every operator and built-in again.
+struct Run {
+    global: GlobalRuntimeState,
+    caches: Caches,
+    /// Holds [`MEMORY`].
+    scope: Scope<'static>,
+}
+
+/// The variable that is `this` in a call: a map that is kept between calls.
+const MEMORY: &str = "memory";
+
+/// The map `robot`, made again only for another robot.
+struct CachedRobot {
+    facts: RobotFacts,
+    map: Dynamic,
+}
+
+impl CachedRobot {
+    fn new(facts: &RobotFacts) -> Self {
+        Self {
+            facts: facts.clone(),
+            map: convert::robot(facts),
+        }
+    }
+
+    fn of(&mut self, facts: &RobotFacts) -> Dynamic {
+        if self.facts != *facts {
+            *self = Self::new(facts);
+        }
+        self.map.clone()
+    }
+}
+
+impl ScriptController {
+    /// Reads a script and runs what stands outside of its functions.
+    ///
+    /// # Errors
+    /// [`Stop::DidNotBuild`] if it is no program, [`Stop::OverBudget`] if it is too long or too deep, and whatever its top level
+    /// runs into.
+    pub fn open(opening: &Opening) -> Result<Self, Stop> {
+        let budgets = &opening.budgets;
+        if opening.source.len() as u64 > budgets.source_bytes {
+            return Err(Stop::OverBudget {
+                budget: Budget::SourceBytes,
+                limit: budgets.source_bytes,
+                place: None,
+            });
+        }
+        let meter = Rc::new(Meter::new(budgets.clone()));
+        let globals = Rc::new(Globals::default());
+        let model = match &opening.granted {
+            Some(granted) => Some(Rc::new(Model::new(granted, &opening.robot)?)),
+            None => None,
+        };
+        let grants = opening.granted.as_ref().map(|g| g.functions.as_slice());
+        let granted = model.as_ref().zip(grants);
+        let (engine, mut names) = engine::build(budgets, &meter, &globals, granted);
+        let observation = convert::observation_template(opening);
+        let robot = CachedRobot::new(&opening.robot);
+        names.observation = observation.keys().map(ToString::to_string).collect();
+        if let Value::Map(entries) = &opening.target {
+            names.target = entries.iter().map(|(key, _)| key.clone()).collect();
+        }
+        names.robot = robot
+            .map
+            .as_map_ref()
+            .map(|map| map.keys().map(ToString::to_string).collect())
+            .unwrap_or_default();
+
+        // an editor's mark of the encoding, which nobody sees
+        let source = opening.source.trim_start_matches('\u{feff}');
+        let context = Context {
+            source,
+            meter: &meter,
+            names: &names,
+            beginning: None,
+        };
+        let ast = engine
+            .compile(source)
+            .map_err(|error| context.parsing(&error))?;
+        refuse_known_slips(&ast)?;
+        collect_names(&ast, &mut names, opening.function.as_deref());
+
+        let mut global = engine.new_global_runtime_state();
+        global.lib.push(ast.shared_lib().clone());
+        let mut scope = Scope::new();
+        scope.push_dynamic(MEMORY, Dynamic::from_map(Map::new()));
+        let statements = call_statements(&engine, &scope, &names, opening.function.as_deref())?;
+        let mut caches = Caches::new();
+        caches.push_fn_resolution_cache();
+        let mut script = Self {
+            engine,
+            ast,
+            source: source.to_owned(),
+            meter,
+            globals,
+            names,
+            run: Run {
+                global,
+                caches,
+                scope,
+            },
+            task: opening.task.clone(),
+            robot,
+            model,
+            observation,
+            sensors: opening.sensors.clone(),
+            statements,
+            free: opening.function.clone(),
+        };
+        script.run_top_level()?;
+        Ok(script)
+    }
+
+    /// Runs the statements outside of functions one by one, so that a constant is known to the functions the next one calls.
+    #[expect(
+        deprecated,
+        reason = "the engine's other ways run all statements at once"
+    )]
+    fn run_top_level(&mut self) -> Result<(), Stop> {
+        self.meter.start();
+        let mut scope = Scope::new();
+        for statement in self.ast.statements() {
+            // a constant is found in the scope, and the value of a bare expression is of no use
+            let _ = self
+                .engine
+                .eval_statements_raw(
+                    &mut self.run.global,
+                    &mut self.run.caches,
+                    &mut scope,
+                    std::slice::from_ref(statement),
+                )
+                .map_err(|error| {
+                    let mut context = self.context(None);
+                    context.beginning = place(statement.position());
+                    context.running(&error)
+                })?;
+            if let Stmt::Var(declared, ..) = statement {
+                let name = declared.0.as_str();
+                if let (Some(true), Some(value)) = (scope.is_constant(name), scope.get(name)) {
+                    let mut constants = self.globals.constants.borrow_mut();
+                    constants.insert(name.to_owned(), value.clone());
+                    self.names.constants.insert(name.to_owned());
+                }
+            }
+        }
+        self.meter.finish();
+        Ok(())
+    }
+
+    /// What words are made from, for a run of `function` or of the top level.
+    fn context(&self, function: Option<&str>) -> Context<'_> {
+        let body = function.and_then(|name| {
+            let parameters = self.parameters_of(name).len();
+            self.ast
+                .iter_fn_def()
+                .find(|function| function.name == name && function.params.len() == parameters)
+                .map(|function| function.body.start_position())
+        });
+        Context {
+            source: &self.source,
+            meter: &self.meter,
+            names: &self.names,
+            beginning: body.and_then(place),
+        }
+    }
+
+    /// What the grader calls a function with; nothing for a function it does not call.
+    fn parameters_of(&self, name: &str) -> &'static [&'static str] {
+        match &self.free {
+            Some(free) if free == name => &FREE_PARAMETERS,
+            _ => entry_parameters(name),
+        }
+    }
+
+    #[expect(
+        deprecated,
+        reason = "the engine's other ways look up every operator and built-in again at each call"
+    )]
+    fn call_function(
+        &mut self,
+        name: &str,
+        arguments: impl IntoIterator<Item = Dynamic>,
+    ) -> Result<Value, Stop> {
+        let Some(statement) = self.statements.get(name) else {
+            return Err(Stop::GraderFault(format!("no statement calls `{name}`")));
+        };
+        for (cell, argument) in self.globals.arguments.iter().zip(arguments) {
+            cell.set(argument);
+        }
+        let Run {
+            global,
+            caches,
+            scope,
+        } = &mut self.run;
+        let result = self
+            .engine
+            .eval_statements_raw(global, caches, scope, statement.statements());
+        let value = result.map_err(|error| self.context(Some(name)).running(&error))?;
+        self.check_memory(name)?;
+        convert::to_value(&self.meter, &value).map_err(|problem| self.after_call(name, problem))
+    }
+
+    /// Holds `this` to the budgets of size as a whole, vectors included.
+    fn check_memory(&self, name: &str) -> Result<(), Stop> {
+        let memory = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
+        if !memory.is_map() {
+            return Err(Stop::Crashed(Mistake {
+                message: "`this` is no map any more".to_owned(),
+                place: None,
+                help: Some("keep values under names: this.count = 0".to_owned()),
+            }));
+        }
+        list::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
+    }
+
+    /// What a problem with the answer or `this` of `function` stops.
+    fn after_call(&self, function: &str, problem: Problem) -> Stop {
+        let error: Box<EvalAltResult> = raise(problem, Position::NONE);
+        self.context(Some(function)).running(&error)
+    }
+
+    /// The stop for a function that is not there, or has other parameters; none if it need not be there.
+    fn missing(&self, name: &str) -> Option<Stop> {
+        let parameters = self.parameters_of(name);
+        let has_namesake = self.names.functions.iter().any(|(known, _)| known == name);
+        (name != "init" || has_namesake).then(|| Stop::Missing {
+            function: format!("{name}({})", parameters.join(", ")),
+            help: self.names.missing(name, parameters),
+        })
+    }
+}
+
+impl Controller for ScriptController {
+    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
+        let name = match call {
+            Call::ForwardKinematics { .. } => "forward_kinematics",
+            Call::InverseKinematics { .. } => "inverse_kinematics",
+            Call::Jacobian { .. } => "jacobian",
+            Call::Free { function, .. } => function,
+            Call::Init => "init",
+            Call::Control(_) => "control",
+        };
+        let defined = self.statements.contains_key(name);
+        if !defined && let Some(missing) = self.missing(name) {
+            return Err(missing);
+        }
+        if let (Some(model), Some(facts)) = (&self.model, call.robot()) {
+            model.is_now(facts)?;
+        }
+        self.meter.start();
+        let vector =
+            |elements: &[f64]| Dynamic::from(super::vector::Vector::new(elements.to_vec()));
+        let value = match call {
+            Call::ForwardKinematics { robot, q } | Call::Jacobian { robot, q } => {
+                let robot = self.robot.of(robot);
+                self.call_function(name, [robot, vector(q)])
+            }
+            Call::InverseKinematics { robot, position_m } => {
+                let robot = self.robot.of(robot);
+                self.call_function(name, [robot, vector(position_m)])
+            }
+            Call::Free { given, .. } => {
+                self.names.given = given.iter().map(|(key, _)| key.clone()).collect();
+                let given = convert::to_dynamic(&Value::Map(given.clone()));
+                self.call_function(name, [given])
+            }
+            Call::Init if !defined => Ok(Value::Nothing),
+            Call::Init => {
+                let robot = self.robot.map.clone();
+                let task = self.task.as_str().into();
+                self.call_function(name, [robot, task])
+            }
+            Call::Control(observation) => {
+                let observation =
+                    convert::observation(&self.observation, &self.sensors, observation);
+                self.call_function(name, [observation])
+            }
+        };
+        let operations = self.meter.finish();
+        let value = value?;
+        if !convert::is_finite(&value) {
+            self.meter.log_not_a_number();
+        }
+        Ok(Answer {
+            value,
+            said: self.meter.take_output(),
+            operations,
+        })
+    }
+
+    fn unanswered(&mut self) -> Said {
+        self.meter.take_output()
+    }
+
+    fn memory(&mut self) -> Result<Memory, Stop> {
+        let this = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
+        let this = memory::keep(this).map_err(|what| {
+            Stop::Crashed(Mistake {
+                message: format!("`this` holds {what}, which cannot be kept"),
+                place: None,
+                help: Some("keep numbers, texts, vectors, matrices, lists and maps".to_owned()),
+            })
+        })?;
+        let [operations, log_lines, plot_samples] = self.meter.spent();
+        Ok(Memory {
+            this,
+            operations,
+            log_lines,
+            plot_samples,
+        })
+    }
+
+    fn recall(&mut self, memory: &Memory) -> Result<(), Stop> {
+        let this = memory::give_back(&memory.this);
+        self.run.scope.set_or_push(MEMORY, this);
+        self.meter
+            .spend([memory.operations, memory.log_lines, memory.plot_samples]);
+        Ok(())
+    }
+}
+
+/// Makes the statements that call the file's functions.
+fn call_statements(
+    engine: &Engine,
+    scope: &Scope<'_>,
+    names: &Names,
+    free: Option<&str>,
+) -> Result<BTreeMap<String, AST>, Stop> {
+    let defined = |name: &str, parameters: usize| {
+        let mut functions = names.functions.iter();
+        functions.any(|(known, got)| known == name && got.len() == parameters)
+    };
+    let free = free.map(|name| (name, &FREE_PARAMETERS[..]));
+    ENTRY_POINTS
+        .iter()
+        .copied()
+        .chain(free)
+        .filter(|(name, parameters)| defined(name, parameters.len()))
+        .map(|(name, parameters)| {
+            let arguments = ARGUMENTS[..parameters.len()].join(", ");
+            let text = format!("{MEMORY}.{name}({arguments})");
+            let statement = engine
+                .compile_with_scope(scope, text)
+                .map_err(|error| Stop::GraderFault(format!("the call of `{name}`: {error}")))?;
+            Ok((name.to_owned(), statement))
+        })
+        .collect()
+}
+
+/// What a function of the lab's own is called with.
+const FREE_PARAMETERS: [&str; 1] = ["given"];
+
+/// Why no function of a lab's own can be called `name`; `None` where one can.
+pub fn refused_name(name: &str) -> Option<&'static str> {
+    let first = name.starts_with(|c: char| c.is_ascii_lowercase());
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if !first || name.len() > 64 || !name.chars().all(plain) {
+        return Some("it is not in lower snake case");
+    }
+    if ENTRY_POINTS.iter().any(|(known, _)| *known == name) {
+        return Some("it is called in motion tasks");
+    }
+    let budgets = Budgets::default();
+    let meter = Rc::new(Meter::new(budgets.clone()));
+    let (engine, names) = engine::build(&budgets, &meter, &Rc::default(), None);
+    if names.is_function(name) || names.constants.contains(name) {
+        return Some("the language has something of this name");
+    }
+    match engine.compile(format!("fn {name}(given) {{ 0 }}")) {
+        Ok(_) => None,
+        Err(_) => Some("it is a word of the language"),
+    }
+}
+
+/// What the grader calls a function with; nothing for a function it does not call.
+fn entry_parameters(name: &str) -> &'static [&'static str] {
+    ENTRY_POINTS
+        .iter()
+        .find(|(entry, _)| *entry == name)
+        .map_or(&[], |(_, parameters)| parameters)
+}
+
+/// Refuses what the engine would run with another meaning than the student's.
+fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
+    let mut slips = Vec::new();
+    ast.walk(&mut |path| {
+        match path.last() {
+            Some(ASTNode::Expr(Expr::FnCall(call, position))) if call.name == "^" => {
+                slips.push((
+                    place(*position),
+                    "`^` is not a power here",
+                    "use ** for powers: x ** 2",
+                ));
+            }
+            Some(ASTNode::Expr(Expr::Index(index, _, position)))
+                if matches!(index.rhs, Expr::IntegerConstant(index, _) if index < 0) =>
+            {
+                slips.push((
+                    place(*position),
+                    "an index is negative",
+                    "counting starts at 0; the last is v[len(v) - 1]",
+                ));
+            }
+            _ => {}
+        }
+        true
+    });
+    // the first in the file, because the engine keeps functions in an order of its own
+    let first = slips
+        .into_iter()
+        .min_by_key(|(place, ..)| place.map(|place| (place.line, place.column)));
+    match first {
+        None => Ok(()),
+        Some((place, message, help)) => Err(Stop::DidNotBuild(Mistake {
+            message: message.to_owned(),
+            place,
+            help: Some(help.to_owned()),
+        })),
+    }
+}
+
+/// Notes what the file declares.
+fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
+    for function in ast.iter_functions() {
+        let parameters: Vec<String> = function.params.iter().map(ToString::to_string).collect();
+        names.local.extend(parameters.iter().cloned());
+        match (function.name, parameters.first()) {
+            ("control", Some(first)) => {
+                names.observation_parameters.insert(first.clone());
+            }
+            ("forward_kinematics" | "inverse_kinematics" | "jacobian" | "init", Some(first)) => {
+                names.robot_parameters.insert(first.clone());
+            }
+            (name, Some(first)) if Some(name) == free => {
+                names.given_parameters.insert(first.clone());
+            }
+            _ => {}
+        }
+        names.functions.push((function.name.to_owned(), parameters));
+    }
+    // the engine keeps functions in an order of its own
+    names.functions.sort();
+    let mut local = BTreeSet::new();
+    let mut top_level = BTreeSet::new();
+    for statement in ast.statements() {
+        if let Stmt::Var(declared, ..) = statement {
+            top_level.insert(declared.0.as_str().to_owned());
+        }
+    }
+    ast.walk(&mut |path| {
+        if let Some(ASTNode::Stmt(Stmt::Var(declared, ..))) = path.last() {
+            local.insert(declared.0.as_str().to_owned());
+        }
+        true
+    });
+    names.local.extend(local);
+    names.top_level = top_level;
+}

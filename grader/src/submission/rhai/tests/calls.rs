@@ -1,0 +1,144 @@
+//! What goes into a call and comes out of it, and what stays between calls.
+
+use super::{answer, assert_values, numbers, observation, opening, robot, run, stop};
+use crate::submission::controller::{Call, Controller, Mistake, Place, Stop, Value};
+use crate::submission::rhai::ScriptController;
+
+#[test]
+fn what_is_printed_and_plotted_comes_with_the_answer() {
+    let answer = answer(
+        "print(observation.q, 1, \"x\"); debug(#{a: [1, \"t\"]}); plot(\"e\", 1); plot(\"q\", observation.q); 0",
+    );
+    assert_eq!(answer.said.log, ["[0.25, 0.5] 1 x", "#{a: [1, \"t\"]}"]);
+    assert_eq!(
+        answer.said.plots,
+        [
+            ("e".to_owned(), 1.0),
+            ("q[0]".to_owned(), 0.25),
+            ("q[1]".to_owned(), 0.5)
+        ]
+    );
+    assert!(answer.operations > 10);
+}
+
+#[test]
+fn lines_printed_before_a_mistake_are_not_lost() {
+    let mut script = ScriptController::open(&opening("fn control(o) { print(1); o.zz }")).unwrap();
+    assert!(script.call(&Call::Control(observation())).is_err());
+    assert_eq!(script.unanswered().log, ["1"]);
+}
+
+#[test]
+fn observation_and_robot_hold_what_they_should() {
+    assert_values([
+        ("observation.task", Value::Text("move".into())),
+        ("observation.tick", Value::Number(30.0)),
+        ("observation.time", Value::Number(0.03)),
+        ("observation.target", numbers([2.0, 1.4, 0.0])),
+        ("observation.effort", numbers([0.5, -0.5])),
+        ("observation.sensors", Value::Map(vec![])),
+    ]);
+    let source = "fn forward_kinematics(robot, q) {
+        [robot.base_height, robot.link_lengths[1], robot.joints, len(robot.joint_names), robot.upper[0], robot.effort[1], q[0]]
+    }
+    fn inverse_kinematics(robot, position) { [[position.x, 1], [position[1], 2]] }";
+    let mut script = ScriptController::open(&opening(source)).unwrap();
+    let call = Call::ForwardKinematics {
+        robot: robot(),
+        q: vec![0.5, 0.0],
+    };
+    let answer = script.call(&call).unwrap();
+    assert_eq!(answer.value, numbers([2.0, 0.5, 2.0, 2.0, 6.3, 15.0, 0.5]));
+    // another robot in the next case
+    let mut other = robot();
+    other.dimensions[0].1 = Value::Number(3.0);
+    let call = Call::ForwardKinematics {
+        robot: other,
+        q: vec![0.5, 0.0],
+    };
+    let answer = script.call(&call).unwrap();
+    assert_eq!(answer.value, numbers([3.0, 0.5, 2.0, 2.0, 6.3, 15.0, 0.5]));
+    let call = Call::InverseKinematics {
+        robot: robot(),
+        position_m: [2.0, 1.4, 0.0],
+    };
+    let answer = script.call(&call).unwrap();
+    assert_eq!(
+        answer.value,
+        Value::List(vec![numbers([2.0, 1.0]), numbers([1.4, 2.0])])
+    );
+}
+
+#[test]
+fn this_is_shared_by_init_and_control_and_kept() {
+    let source = "fn init(robot, task) { this.count = robot.joints; this.task = task; }
+        fn control(o) { this.count += 1; if this.task == \"move\" { this.count } }";
+    let mut script = ScriptController::open(&opening(source)).unwrap();
+    assert_eq!(script.call(&Call::Init).unwrap().value, Value::Nothing);
+    for count in [3.0, 4.0, 5.0] {
+        let answer = script.call(&Call::Control(observation())).unwrap();
+        assert_eq!(answer.value, Value::Number(count));
+    }
+}
+
+#[test]
+fn constants_are_seen_in_functions_and_variables_are_not() {
+    let source = "const A = 2; const B = A * 3; fn double(x) { x * A } const C = double(B); fn control(o) { helper() } fn helper() { C + pi - PI }";
+    assert_eq!(run(source).unwrap().value, Value::Number(12.0));
+    let Stop::Crashed(mistake) = stop("let kp = 5;\nfn control(o) {\n  kp * 2\n}") else {
+        panic!("no crash");
+    };
+    assert_eq!(
+        mistake,
+        Mistake {
+            message: "variable `kp` is not known here".into(),
+            place: Some(Place { line: 3, column: 3 }),
+            help: Some("a `let` outside of a function is not seen inside: write const kp = ..., or keep it in `this`".into()),
+        }
+    );
+}
+
+#[test]
+fn a_missing_function_is_named_with_the_nearest_one() {
+    let help = |source: &str| match stop(source) {
+        Stop::Missing { function, help } => format!("{function} | {}", help.unwrap_or_default()),
+        other => panic!("{source}: {other:?}"),
+    };
+    assert_eq!(
+        help(""),
+        "control(observation) | write fn control(observation) { ... }"
+    );
+    assert_eq!(
+        help("fn controll(o) { 1 }"),
+        "control(observation) | rename `controll` to `control`"
+    );
+    assert_eq!(
+        help("fn control(q, qd) { 1 }"),
+        "control(observation) | `control` takes 1 argument, yours takes 2: write fn control(observation)"
+    );
+    let mut script = ScriptController::open(&opening("fn init() {} fn control(o) { 1 }")).unwrap();
+    assert!(matches!(
+        script.call(&Call::Init),
+        Err(Stop::Missing { function, .. }) if function == "init(robot, task)"
+    ));
+    let mut script = ScriptController::open(&opening("fn control(o) { 1 }")).unwrap();
+    assert_eq!(script.call(&Call::Init).unwrap().value, Value::Nothing);
+}
+
+#[test]
+fn the_same_calls_use_the_same_operations() {
+    let used = || {
+        let source = "fn control(o) { let s = 0; for i in 0..50 { s += norm(o.q) * i; } s }";
+        let mut script = ScriptController::open(&opening(source)).unwrap();
+        let mut call = || {
+            script
+                .call(&Call::Control(observation()))
+                .unwrap()
+                .operations
+        };
+        [call(), call(), call()]
+    };
+    let first = used();
+    assert_eq!(first, used());
+    assert_eq!(first[0], first[2]);
+}

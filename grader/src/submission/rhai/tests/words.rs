@@ -1,0 +1,248 @@
+//! What a student reads when something is wrong.
+
+use super::{answer, assert_words, numbers, stop};
+use crate::submission::controller::{Place, Stop};
+
+#[test]
+fn the_place_is_that_of_the_innermost_mistake() {
+    let source = "fn helper(x) {\n    let y = x;\n    sinn(y)\n}\nfn control(o) { helper(1) }";
+    let Stop::Crashed(mistake) = stop(source) else {
+        panic!("no crash");
+    };
+    assert_eq!(mistake.place, Some(Place { line: 3, column: 5 }));
+}
+
+#[test]
+fn mistakes_are_told_with_names_values_and_a_way_out() {
+    assert_words([
+        ("sinn(1)", "`sinn` is not a function: did you mean `sin`?"),
+        ("sin(1, [2, 3", "a `]` or a `,` is missing before this"),
+        ("let x = 1; sin(x", "a `)` or a `,` is missing before this"),
+        ("sin()", "`sin` takes 1 argument, got none"),
+        ("atan2(1)", "`atan2` takes 2 arguments, got 1"),
+        (
+            "sin(\"a\")",
+            "`sin` takes a number or a vector, got the text \"a\"",
+        ),
+        (
+            "let gain = 2; gian",
+            "variable `gian` is not known here: did you mean `gain`?",
+        ),
+        (
+            "kp * 2",
+            "variable `kp` is not known here | declare it first: let kp = ...;",
+        ),
+        (
+            "qd * 2",
+            "variable `qd` is not known here | write observation.qd",
+        ),
+        (
+            "observation.qdd",
+            "`observation` has no `qdd`: did you mean `qd`? | it has dt, effort, q, qd, sensors, target, task, tcp, tick, time",
+        ),
+        (
+            "this.x",
+            "`this.x` is not set yet | set it in init(robot, task)",
+        ),
+        (
+            "this.x += 1",
+            "cannot add nothing `()` and the number 1 | `()` means that nothing was set or returned: set what is in `this` in init, and end a function with `return`",
+        ),
+        (
+            "vector([1, 2]) + vector([1, 2, 3])",
+            "cannot add a vector of 2 and a vector of 3 | element by element needs as many on the left as on the right",
+        ),
+        (
+            "[1, 2] * eye(2)",
+            "cannot multiply a list of 2 by a 2x2 matrix | write the matrix first: m * v, or transpose(m) * v",
+        ),
+        (
+            "observation.q < 1",
+            "cannot compare a vector of 2 < the number 1 | compare elements, or one number of it: max(abs(v)), norm(v)",
+        ),
+        (
+            "observation.q[2]",
+            "index 2 is past the end: joint 2 is q[1], counting starts at 0",
+        ),
+        (
+            "let v = [1, 2]; v[5]",
+            "index 5 is past the end: the last is v[1], counting starts at 0",
+        ),
+        (
+            "let i = 0; observation.q[i - 1]",
+            "index -1 is negative | counting starts at 0; the last is [len(...) - 1]",
+        ),
+        (
+            "observation.q[-1]",
+            "an index is negative | counting starts at 0; the last is v[len(v) - 1]",
+        ),
+        (
+            "observation.q[0.5]",
+            "an index is a whole number, got the number 0.5",
+        ),
+        (
+            "[1, 2][1.0]",
+            "the index of a list is a whole number | round(i) makes it whole; a vector takes 2.0 for 2",
+        ),
+        (
+            "let a = [1, 2]; let i = 0.5 + 0.5; a[i]",
+            "the index of a list is a whole number, got a number | round(i) makes it whole; a vector takes 2.0 for 2",
+        ),
+        ("observation.tcp.w", "a vector has no `w`"),
+        ("let x = 1.5; x[0]", "the number 1.5 has no elements"),
+        (
+            "if observation.q { 1 }",
+            "expected true or false, got a vector",
+        ),
+        ("throw \"bad\"", "the script threw: bad"),
+        (
+            "const K = [1, 2]; K.push(5)",
+            "a constant cannot change | copy it with `let` first",
+        ),
+        (
+            "this = 5; 1",
+            "`this` is no map any more | keep values under names: this.count = 0",
+        ),
+        (
+            "clamp(1, 2, 0)",
+            "`clamp` from 2 to 0: the lower end is above the upper",
+        ),
+        (
+            "let r = robot.fk([1, 2]);",
+            "variable `robot` is not known here | declare it first: let robot = ...;",
+        ),
+        (
+            "observation.fk([1, 2])",
+            "`robot.fk` is not granted in this task | write it yourself: the dimensions are in `robot`",
+        ),
+    ]);
+}
+
+#[test]
+fn names_and_signs_of_other_languages_get_a_hint() {
+    assert_words([
+        (
+            "np.sin(1)",
+            "variable `np` is not known here | functions are built in: write sin(x) and pi, without a prefix",
+        ),
+        (
+            "math.pi",
+            "variable `math` is not known here | functions are built in: write sin(x) and pi, without a prefix",
+        ),
+        (
+            "arctan2(1, 2)",
+            "`arctan2` is not a function | write atan2(y, x)",
+        ),
+        ("arccos(1)", "`arccos` is not a function | write acos(x)"),
+        ("power(1, 2)", "`power` is not a function | write x ** y"),
+        ("length([1])", "`length` is not a function | write len(x)"),
+        ("numel([1])", "`numel` is not a function | write len(x)"),
+        ("disp(1)", "`disp` is not a function | write print(x)"),
+        (
+            "printf(1)",
+            "`printf` is not a function | write print(\"x =\", x)",
+        ),
+        (
+            "sleep(5)",
+            "`sleep` is not a function | nothing waits here: `control` is called every control period",
+        ),
+        (
+            "sleep(0.5)",
+            "`sleep` is not a function | nothing waits here: `control` is called every control period",
+        ),
+        (
+            "2 ^ 2",
+            "`^` is not a power here | use ** for powers: x ** 2",
+        ),
+        (
+            "let x = 2; x ^= 2; x",
+            "`^` is not a power here | use ** for powers: x ** 2",
+        ),
+        (
+            "if true and false { 1 }",
+            "expecting `{` to start a statement block | write && for \"and\"",
+        ),
+        (
+            "let x = true ? 2 : 3;",
+            "unknown operator: `?` | write if condition { a } else { b }",
+        ),
+        (
+            "observation.q .* 2",
+            "expecting name of a property | write *: vectors multiply element by element",
+        ),
+        ("let x = 1; x++;", "unknown operator: `++` | write x += 1"),
+        (
+            "let m = eye(2); m[0, 1]",
+            "a `]` is missing before this | an element of a matrix is m[row][column]",
+        ),
+        (
+            "'abc'",
+            "a text goes in double quotes | write \"text\" instead of 'text'",
+        ),
+        (
+            "let x = 1 let y = 2;",
+            "a `;` is missing before this | end the statement before it with `;`",
+        ),
+        (
+            "eval(\"1\")",
+            "`eval` is not available here | functions are called by name",
+        ),
+        (
+            "let f = |x| x;",
+            "unexpected `|` | functions without a name are not available: write fn name(x) { ... }",
+        ),
+        (
+            "import \"x\" as y;",
+            "`import` is not available here | everything there is, is built in",
+        ),
+        (
+            "for i in 3 { }",
+            "`for` goes over a range, a list, a vector or a text | count with `for i in 0..n`",
+        ),
+        (
+            "let n = 3; for i in n { }",
+            "`for` goes over a range, a list, a vector or a text | count with `for i in 0..n`; go over a map with `for key in keys(m)`",
+        ),
+        ("None", "variable `None` is not known here | write ()"),
+    ]);
+}
+
+#[test]
+fn of_two_slips_the_first_in_the_file_is_told() {
+    let source = "fn z(x) { x ^ 2 }\nfn a(x) { x ^ 2 }\nfn control(o) { o.q[-1] }";
+    let Stop::DidNotBuild(mistake) = stop(source) else {
+        panic!("it builds");
+    };
+    assert_eq!(
+        mistake.place,
+        Some(Place {
+            line: 1,
+            column: 13
+        })
+    );
+}
+
+#[test]
+fn an_unfinished_file_is_told_at_its_end() {
+    let Stop::DidNotBuild(mistake) = stop("fn control(o) {\n    let x = 1;\n") else {
+        panic!("it builds");
+    };
+    assert_eq!(mistake.place.map(|place| place.line), Some(2));
+    assert_eq!(mistake.message, "a `}` is missing before this");
+}
+
+#[test]
+fn an_answer_that_is_no_number_says_in_the_log_where_it_began() {
+    let answer = answer("let a = sqrt(4);\nlet b = acos([0.5, 1.5]);\na + sqrt(-b)");
+    assert_eq!(
+        answer.said.log,
+        ["line 2: `acos` takes a number from -1 to 1, got 1.5: the result is not a number"]
+    );
+}
+
+#[test]
+fn a_number_that_is_none_may_be_tested_for() {
+    let answer = answer("let x = acos(1.5); if is_nan(x) { [] } else { [x] }");
+    assert_eq!(answer.value, numbers([]));
+    assert!(answer.said.log.is_empty());
+}

@@ -1,0 +1,41 @@
+//! A mesh of a lab's robot or scene: it lies beside the file that names it, so that a copy of the lab has it too.
+
+use super::files::Files;
+
+/// A mesh as its file has it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshFile {
+    /// Its path inside the labs, such as `robots/meshes/hand.stl`.
+    pub path: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// Reads the mesh `name` below `folder`.
+pub(crate) fn read(files: &dyn Files, folder: &str, name: &str) -> Result<MeshFile, String> {
+    let inside = |part: &str| !matches!(part, "" | "." | "..") && !part.contains(['\\', ':']);
+    if !name.split('/').all(inside) {
+        return Err(format!(
+            "a mesh of a lab lies inside its {folder} folder, so its path is neither absolute nor has it `..`"
+        ));
+    }
+    let path = format!("{folder}/{name}");
+    match files.bytes(&path)? {
+        Some(bytes) => Ok(MeshFile { path, bytes }),
+        None => Err(format!("there is no file `{path}` in {}", files.name())),
+    }
+}
+
+/// What tells a file with its meshes from any other.
+pub(crate) fn digest(text: &str, meshes: &[MeshFile]) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(text.as_bytes());
+    for mesh in meshes {
+        // a length before each part, so that no two have the same bytes in all
+        for part in [mesh.path.as_bytes(), &mesh.bytes] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part);
+        }
+    }
+    hasher.finalize()
+}

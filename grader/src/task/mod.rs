@@ -1,0 +1,11 @@
+//! What a task is made of before anybody tries it: the robot, the scene, what is asked for; and the files they come from.
+
+pub mod files;
+pub mod jacobian;
+pub mod joint_units;
+pub mod mesh_file;
+pub mod model;
+pub mod problem;
+pub mod robot;
+pub mod scene;
+pub mod watched;

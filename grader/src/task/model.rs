@@ -1,0 +1,223 @@
+//! What a task asks for: a function with its cases, or a motion with its goals; and the band of partial credit.
+
+use std::sync::Arc;
+
+use kinemark_sim::control::ServoSettings;
+use kinemark_sim::robot::Dimension;
+use kinemark_sim::sensor::Sensor;
+use kinemark_sim::ticks::Periods;
+use nalgebra::Vector3;
+
+use super::scene::LabScene;
+use super::watched::PathToFollow;
+use crate::submission::controller::{Grant, Value};
+
+/// What a task asks for.
+#[derive(Debug, Clone)]
+pub enum TaskWork {
+    /// A function called on cases.
+    Function(FunctionTask),
+    /// A run under `control`.
+    Motion(Box<MotionTask>),
+}
+
+/// The function of a function task.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Function {
+    /// `forward_kinematics(robot, q)`.
+    ForwardKinematics,
+    /// `inverse_kinematics(robot, position)`.
+    InverseKinematics,
+    /// `jacobian(robot, q)`, a matrix of these rows and one column per joint that moves.
+    Jacobian(Rows),
+    /// A function of the lab's own, of this name: `name(given)`.
+    Free(String),
+}
+
+impl Function {
+    /// Its name in submissions.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::ForwardKinematics => "forward_kinematics",
+            Self::InverseKinematics => "inverse_kinematics",
+            Self::Jacobian(_) => "jacobian",
+            Self::Free(name) => name,
+        }
+    }
+}
+
+/// The rows of a Jacobian that a lab asks for, always in the order of [`Rows::NAMES`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rows([bool; 6]);
+
+impl Rows {
+    /// The rows there are: velocity of the TCP along the lab's axes \[m/s\], then its angular velocity about them \[rad/s\].
+    pub const NAMES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+    /// The velocity of the TCP's origin alone.
+    pub const LINEAR: Self = Self([true, true, true, false, false, false]);
+
+    /// The rows of these names; `None` unless each is a row, named once, in order.
+    pub fn named<'n>(names: impl IntoIterator<Item = &'n str>) -> Option<Self> {
+        let mut rows = [false; 6];
+        let mut next = 0;
+        for name in names {
+            let row = next + Self::NAMES[next..].iter().position(|row| *row == name)?;
+            rows[row] = true;
+            next = row + 1;
+        }
+        (next > 0).then_some(Self(rows))
+    }
+
+    /// Their indices among the six.
+    pub fn indices(self) -> impl Iterator<Item = usize> {
+        (0..6).filter(move |&row| self.0[row])
+    }
+
+    /// Their names.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        self.indices().map(|row| Self::NAMES[row])
+    }
+}
+
+/// A function task.
+#[derive(Debug, Clone)]
+pub struct FunctionTask {
+    /// The function.
+    pub function: Function,
+    /// Its visible cases.
+    pub cases: Vec<Case>,
+    /// Functions of `robot` that it grants.
+    pub grants: Vec<Grant>,
+}
+
+/// One call of a function, and what a right answer is like.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its name; of a hidden case, only its class is ever told.
+    pub name: String,
+    /// The class of a hidden case; `None` for a visible one.
+    pub hidden_class: Option<String>,
+    /// Dimensions that differ from the robot file's.
+    pub dimensions: Vec<(String, Dimension)>,
+    /// What the function is given.
+    pub given: Given,
+}
+
+/// What a function is given.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Given {
+    /// Joint positions, shape `(n)` \[rad or m\].
+    Q(Vec<f64>),
+    /// A position of the TCP in the lab's frame \[m\].
+    Position {
+        /// The position \[m\].
+        position_m: [f64; 3],
+        /// How many branches reach it; 0 where none does.
+        branches: u32,
+    },
+    /// Numbers and lists of numbers by name, and what a right answer holds.
+    Values {
+        /// The entries of the map `given`.
+        given: Vec<(String, Dimension)>,
+        /// The entries of the answer; a single one without a name where the answer is a number.
+        expected: Vec<(String, Dimension)>,
+    },
+}
+
+/// A motion task.
+#[derive(Debug, Clone)]
+pub struct MotionTask {
+    /// Step, servo period, control period.
+    pub periods: Periods,
+    /// Ticks to run.
+    pub ticks: u64,
+    /// The servos.
+    pub servo: ServoSettings,
+    /// What is around the robot, where anything is.
+    pub scene: Option<Arc<LabScene>>,
+    /// Gravity in the world: the scene's, or the usual one \[m/s²\].
+    pub gravity_m_s2: Vector3<f64>,
+    /// What the robot measures: its own sensors, with the task's in their place or after them.
+    pub sensors: Vec<Sensor>,
+    /// Joint positions at the start, shape `(n)` \[rad or m\].
+    pub start_q: Vec<f64>,
+    /// What `observation.target` holds where there are no goals.
+    pub target: Value,
+    /// Where the TCP is to go, in order.
+    pub goals: Vec<MotionGoal>,
+    /// Functions of `robot` that it grants.
+    pub grants: Vec<Grant>,
+    /// Paths for the TCP, which checks name.
+    pub paths: Vec<PathToFollow>,
+}
+
+/// A place the TCP is to reach and to stay at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionGoal {
+    /// Position in the lab's frame \[m\].
+    pub position_m: Vector3<f64>,
+    /// Ticks to stay.
+    pub dwell_ticks: u64,
+}
+
+/// A band of linear partial credit: `full` and better earn everything, `zero` and worse nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// The value that earns all points.
+    pub full: f64,
+    /// The value that earns none.
+    pub zero: f64,
+}
+
+impl Band {
+    /// The share of points that `value` earns, in `[0, 1]`; NaN and infinity earn nothing.
+    pub fn score(&self, value: f64) -> f64 {
+        if value <= self.full {
+            1.0
+        } else if value < self.zero {
+            (self.zero - value) / (self.zero - self.full)
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_falls_linearly_and_nan_earns_nothing() {
+        let band = Band {
+            full: 2.0,
+            zero: 4.0,
+        };
+        for (value, score) in [(1.0, 1.0), (2.0, 1.0), (3.0, 0.5), (4.0, 0.0), (9.0, 0.0)] {
+            assert_eq!(band.score(value), score);
+        }
+        assert_eq!(band.score(f64::NAN), 0.0);
+        assert_eq!(band.score(f64::INFINITY), 0.0);
+        assert_eq!(band.score(f64::NEG_INFINITY), 1.0);
+    }
+
+    #[test]
+    fn rows_are_named_once_and_in_order() {
+        let named = |names: &[&str]| Rows::named(names.iter().copied());
+        let rows = named(&["x", "y", "rz"]).unwrap();
+        assert_eq!(rows.indices().collect::<Vec<_>>(), [0, 1, 5]);
+        assert_eq!(rows.names().collect::<Vec<_>>(), ["x", "y", "rz"]);
+        assert_eq!(named(&["x", "y", "z"]), Some(Rows::LINEAR));
+        for wrong in [&[][..], &["y", "x"], &["x", "x"], &["w"], &["rz", "rz"]] {
+            assert_eq!(named(wrong), None, "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn a_band_of_no_width_is_a_threshold() {
+        let band = Band {
+            full: 1.0,
+            zero: 1.0,
+        };
+        assert_eq!((band.score(1.0), band.score(1.0 + 1e-12)), (1.0, 0.0));
+    }
+}
