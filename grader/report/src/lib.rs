@@ -9,6 +9,7 @@ pub mod log;
 mod measured;
 pub mod moment;
 mod number;
+pub mod output;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
