@@ -2,6 +2,7 @@
 //! and how drives keep speed limits.
 
 pub mod linear_step;
+mod matrix_functions;
 pub mod sampled_loop;
 pub mod servo;
 pub mod speed_limit;

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::dynamics::rnea::Rnea;
 use crate::kinematics::closure::independent_motions;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// What a command means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -267,8 +267,8 @@ fn bounded_integral(gains: &Gains, integral: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::dynamics::GRAVITY_M_S2;
-    use crate::robot::RobotFile;
-    use crate::source::Source;
+    use crate::format::RobotFile;
+    use crate::text::Source;
 
     fn slider() -> Robot {
         let text = r#"
