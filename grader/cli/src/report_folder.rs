@@ -13,7 +13,7 @@ use kinemark_report::output::{
     RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,
 };
 use kinemark_report::visible::visible;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;

@@ -14,6 +14,7 @@ pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod replay;
+mod solid;
 mod standing;
 pub mod storyboard;
 pub mod text;

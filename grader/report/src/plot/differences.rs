@@ -1,6 +1,6 @@
 //! Pictures of how far two runs are from each other: their TCPs, their joints, their efforts.
 
-use kinemark_sim::robot::Joint;
+use kinemark_sim::model::robot::Joint;
 use kinemark_sim::trace::Signal;
 
 use super::axis::Axis;

@@ -12,8 +12,8 @@ mod record;
 mod shapes;
 
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::scene::{BodyKind, Scene};
+use kinemark_sim::model::robot::{Frame, Robot};
+use kinemark_sim::model::scene::{BodyKind, Scene};
 use kinemark_sim::spatial::Pose;
 use kinemark_sim::trace::Trace;
 
