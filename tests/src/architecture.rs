@@ -41,3 +41,24 @@ fn crates_depend_on_each_other_as_drawn() {
     .collect();
     assert_eq!(arrows, drawn);
 }
+
+/// Reports are made from records and traces: of the grader they know nothing else, and no lab.
+#[test]
+fn reports_are_made_from_the_record() {
+    let folder = crate::testbed::root().join("grader/report/src");
+    let mut uses = 0;
+    for (name, source) in crate::testbed::files_below(&folder) {
+        let source = String::from_utf8_lossy(&source);
+        let mut parts = source.split("kinemark_grader");
+        parts.next();
+        for part in parts {
+            assert!(
+                part.starts_with("::record::"),
+                "grader/report/src/{name} reaches for `kinemark_grader{}`",
+                part.lines().next().unwrap_or_default()
+            );
+            uses += 1;
+        }
+    }
+    assert!(uses > 20, "{uses} uses: the sources are elsewhere");
+}

@@ -1,6 +1,13 @@
 //! What `kinemark robot eval` answers beyond the golden numbers: mimic joints, loops, inverse kinematics, manipulability, and the codes
 //! of what cannot be answered.
 
+use kinemark_sim::control::{Derivative, GainLists, Mode, ServoSettings};
+use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::kinematics::closure::closed_positions;
+use kinemark_sim::run::{End, Recorder, Row, Setup, run};
+use kinemark_sim::text::Source;
+use kinemark_sim::ticks::Periods;
 use serde_json::{Value, json};
 
 use crate::eval::{close, eval_with, numbers};
@@ -391,6 +398,79 @@ fn a_loop_that_does_not_reach_is_open() {
     assert!(answers[0].get("error").is_none(), "{}", answers[0]);
     let code = answers[1]["error"]["code"].as_str().expect("a code");
     assert!(["open-loop", "singular"].contains(&code), "{}", answers[1]);
+}
+
+#[test]
+fn a_robot_with_loops_moves_as_its_servos_would_move_it_in_a_lab() {
+    // no joint is marked as passive, so the two that the loop moves have motors too
+    let text = FOUR_BAR.replace("passive = true\n", "");
+    let file = RobotFile::parse(Source::new("four-bar.toml", text.as_str())).expect("a robot file");
+    let robot = file.build(&[]).expect("a robot");
+    let start_q = closed_positions(&robot, &[0.1]).expect("closed");
+    let (command, ticks) = ([0.5, 0.0, 0.2], 200);
+    let gains = GainLists {
+        kp: vec![5.0; 3],
+        kd: vec![0.5; 3],
+        ..GainLists::none(3)
+    };
+    let servo = ServoSettings::new(
+        &robot,
+        Mode::Position,
+        Derivative::Measurement,
+        &gains,
+        false,
+    );
+    let setup = Setup {
+        robot: &robot,
+        scene: None,
+        tcp: robot.tcp(),
+        seen_from: &robot.frames()[0],
+        periods: Periods::new(0.001, 0.001, 0.001).expect("periods"),
+        gravity_m_s2: GRAVITY_M_S2,
+        servo: servo.expect("settings"),
+        sensors: Vec::new(),
+        start_q: start_q.clone(),
+        start_qd: vec![0.0; 3],
+        ticks,
+    };
+    struct Last(Vec<f64>);
+    impl Recorder for Last {
+        fn row(&mut self, row: Row<'_>) {
+            self.0 = row.q.to_vec();
+        }
+    }
+    let mut last = Last(Vec::new());
+    let end = run(
+        &setup,
+        |_, slot| Ok::<(), ()>(slot.copy_from_slice(&command)),
+        &mut last,
+    );
+    assert_eq!(end, Ok(End::Finished));
+
+    let bed = TestBed::new();
+    bed.write("four-bar.toml", &text);
+    let request = json!({
+        "op": "simulate", "q0": start_q, "qd0": [0, 0, 0], "command": command, "duration_s": 0.2,
+        "servo_period_s": 0.001, "sample_period_s": 0.2,
+        "servo": { "mode": "position", "kp": 5, "kd": 0.5 },
+    });
+    let (answers, _) = eval_with(&bed, &["four-bar.toml"], &[request.to_string()]);
+    assert!(answers[0].get("error").is_none(), "{}", answers[0]);
+    assert_eq!(numbers(&answers[0]["q"][1]), last.0);
+    // and what a lab refuses is refused here
+    for servo in [
+        json!({ "mode": "position", "kp": -1 }),
+        json!({ "mode": "effort", "effort_limit": 0 }),
+    ] {
+        let mut refused = request.clone();
+        refused["servo"] = servo;
+        let (answers, _) = eval_with(&bed, &["four-bar.toml"], &[refused.to_string()]);
+        assert_eq!(
+            answers[0]["error"]["code"], "out-of-range",
+            "{}",
+            answers[0]
+        );
+    }
 }
 
 /// Asks the arm of the course; some answers are errors.

@@ -26,6 +26,7 @@ mod lab_audit;
 mod lab_truths;
 mod linkage_lab;
 mod mesh_labs;
+mod module_order;
 mod moments;
 mod own_lab;
 mod path_checks;

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::LabRobot;
@@ -11,10 +12,42 @@ use kinemark_sim::robot::urdf::{self, UrdfOptions};
 use kinemark_sim::robot::{Robot, RobotError, RobotFile, config_string};
 use kinemark_sim::source::{Source, suggest};
 
-use crate::args::RobotArgs;
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
 use crate::failure::{BROKEN, Failure, USAGE};
-use crate::places;
+use crate::labs_folder::{self, LabsFolderArgs};
+
+/// Which robot, and how it is read.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct RobotArgs {
+    /// A robot file (.toml or .urdf), a robot of the labs by its name, or its joints in a row such as RzRyRz
+    pub(crate) robot: OsString,
+    /// Height of the first joint of joints in a row, in metres [default: 0]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) base: Option<f64>,
+    /// Links of joints in a row: one lx,ly,lz per joint, in metres, with semicolons between
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub(crate) links: Option<String>,
+    /// Folder of a ROS package that a URDF names its meshes by; may be given several times
+    #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
+    pub(crate) packages: Vec<(String, PathBuf)>,
+    /// Give the mimic joints of a URDF entries of their own
+    #[arg(long)]
+    pub(crate) ignore_mimic: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
+/// Reads `NAME=DIR`.
+pub(crate) fn package(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => {
+            Ok((name.to_owned(), PathBuf::from(folder)))
+        }
+        _ => Err(
+            "write the package's name, `=` and its folder, such as ur_description=../ur".to_owned(),
+        ),
+    }
+}
 
 /// Above this a file is no robot's description.
 const MOST_BYTES: u64 = 16 << 20;
@@ -37,7 +70,7 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         return from_file(path, args);
     }
     let name = args.robot.to_string_lossy();
-    let (files, folder) = places::labs(&args.places)?;
+    let (files, folder) = labs_folder::open(&args.labs_folder)?;
     if let Some(LabRobot { file, meshes }) = LabRobot::load(files.as_ref(), &name)? {
         let what = format!("`{name}` is a robot of the labs");
         refuse_row_options(args, &what)?;

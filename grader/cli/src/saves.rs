@@ -7,10 +7,10 @@ use std::sync::mpsc::Sender;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use notify::{EventKind, RecursiveMode, Watcher as _};
 
-use crate::args::GradeArgs;
+use crate::commands::grade;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::places;
+use crate::{labs_folder, staff_folder};
 
 /// What is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(crate) struct Saves {
 
 impl Saves {
     /// Starts to tell `told` of every save that concerns the grade asked for.
-    pub(crate) fn listen(args: &GradeArgs, told: Sender<Told>) -> Result<Self, Failure> {
+    pub(crate) fn listen(args: &grade::Args, told: Sender<Told>) -> Result<Self, Failure> {
         let concerns = Concerns::of(args)?;
         let trees = concerns.trees.clone();
         // folders and not files: editors put another file in a file's place
@@ -86,7 +86,7 @@ struct Concerns {
 }
 
 impl Concerns {
-    fn of(args: &GradeArgs) -> Result<Self, Failure> {
+    fn of(args: &grade::Args) -> Result<Self, Failure> {
         let mut files = vec![
             real(&args.submission)?,
             real(&args.submission.with_file_name(VARIANT_FILE))?,
@@ -94,7 +94,7 @@ impl Concerns {
         if let Some(variant) = &args.variant.variant {
             files.push(real(variant)?);
         }
-        let (_, labs) = places::labs(&args.places)?;
+        let (_, labs) = labs_folder::open(&args.labs_folder)?;
         let mut trees = Vec::new();
         // any other text names no folder of the labs; grading says so
         let mut parts = Path::new(&args.lab).components();
@@ -105,7 +105,7 @@ impl Concerns {
         if let (Some(labs), true) = (&labs, is_name) {
             let parts = ["robots", "scenes", &args.lab];
             trees.extend(parts.map(|part| labs.join(part)));
-            if let Some(reference) = places::reference(&args.staff, Some(labs))? {
+            if let Some(reference) = staff_folder::open(&args.staff, Some(labs))? {
                 trees.push(reference.path().join(&args.lab));
             }
         }
@@ -191,8 +191,8 @@ mod tests {
                 "--labs",
                 &path("labs"),
             ];
-            let args = crate::args::Args::try_parse_from(args).unwrap();
-            let crate::args::Command::Grade(args) = args.command else {
+            let args = crate::command_line::CommandLine::try_parse_from(args).unwrap();
+            let crate::command_line::Command::Grade(args) = args.command else {
                 panic!("{args:?}")
             };
             let concerns = Concerns::of(&args).unwrap();

@@ -1,13 +1,24 @@
 //! Which variant of a lab is meant: one of a file, one beside the submission, one computed for a student, or none.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
 use kinemark_grader::lab::{Files, Lab, LoadError, Staff, Variant};
 
-use crate::args::{StaffArgs, VariantArgs};
 use crate::disk::{self, Folder};
 use crate::failure::Failure;
+use crate::staff_folder::StaffArgs;
+
+/// Which variant of the lab: the numbers of one student.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct VariantArgs {
+    /// The numbers of one student: a file that `kinemark variant` wrote
+    #[arg(long, value_name = "FILE", conflicts_with = "student")]
+    pub(crate) variant: Option<PathBuf>,
+    /// The numbers of this student, computed from the course's salt: for staff
+    #[arg(long, value_name = "ID", conflicts_with = "practice")]
+    pub(crate) student: Option<String>,
+}
 
 /// A variant is a few lines.
 const MOST_BYTES: u64 = 1 << 20;

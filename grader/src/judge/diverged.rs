@@ -10,14 +10,17 @@ use crate::record::quantity::trimmed;
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
-impl Names<'_> {
+/// Names that a runaway is described with.
+pub(crate) trait RunawayWords {
     /// What ended a run of `task`, and the next step.
-    pub fn blow_up(
-        &self,
-        what: &BlowUp,
-        cause: Option<&Cause>,
-        task: &MotionTask,
-    ) -> (String, String) {
+    fn blow_up(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask) -> (String, String);
+
+    /// Why the servo itself is the cause, with the limits that were computed.
+    fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String;
+}
+
+impl RunawayWords for Names<'_> {
+    fn blow_up(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask) -> (String, String) {
         let lost = match what {
             BlowUp::NotFinite { joint } => format!(
                 "the motion of `{}` grew beyond all numbers",
@@ -75,7 +78,6 @@ impl Names<'_> {
         }
     }
 
-    /// Why the servo itself is the cause, with the limits that were computed.
     fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String {
         let mut text = format!(
             "sampled every {} ms, its servo makes each error {} times as large from sample to sample",

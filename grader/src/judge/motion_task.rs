@@ -12,6 +12,7 @@ use crate::attempt::motion::{self, EarlyEnd, MotionRun, Session};
 use crate::attempt::stopped;
 use crate::check::{self, Climb, MotionFacts, stay};
 use crate::judge::diagnose;
+use crate::judge::diverged::RunawayWords as _;
 use crate::judge::divergence;
 use crate::judge::hidden_runs::HiddenRuns;
 use crate::judge::robustness_sweep::{self, Undecided};
@@ -23,7 +24,7 @@ use crate::record::grade::{
     Digests, LogEntry, Outcome, RungDigest, SecondDigests, Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{AskedPath, Goal, TaskRun, TcpPath};
-use crate::record::names::Names;
+use crate::record::names::{Names, contacts, events};
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Stop;
 
@@ -197,8 +198,8 @@ impl Grader<'_> {
             diagnoses,
             cases: Vec::new(),
             hidden,
-            events: names.events(&trace, &work.periods),
-            contacts: names.contacts(&trace),
+            events: events(&names, &trace, &work.periods),
+            contacts: contacts(&names, &trace),
             operations,
             log: trace
                 .log

@@ -7,6 +7,7 @@ use crate::attempt::stopped;
 use crate::check::robustness::{RungEnd, RungFacts};
 use crate::check::{self, Climb, MotionFacts, stay};
 use crate::judge::Host;
+use crate::judge::diverged::RunawayWords as _;
 use crate::lab::ladder::Rung;
 use crate::lab::model::{CheckKind, Lab, MotionTask, Task};
 use crate::submission::controller::{Opening, Stop};

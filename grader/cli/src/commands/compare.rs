@@ -1,23 +1,43 @@
 //! `kinemark compare`: two reports beside each other, their runs made again from the copies inside them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::compare::{self, Comparison, Side};
+use kinemark_grader::compare::{self, Side};
 use kinemark_grader::judge;
 use kinemark_grader::lab::Lab;
+use kinemark_grader::record::comparison::{self, Comparison};
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::GradedRun;
 
 use kinemark_report::visible::visible;
 
-use crate::args::CompareArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
+
+/// Hold two reports of a lab beside each other
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  kinemark compare before after\n\n\
+    Tells the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
+    The runs are made again from the copies in the folders.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is no report, 4 the grader or this machine failed.")]
+pub(crate) struct Args {
+    /// An output folder of `kinemark grade`
+    pub(crate) a: PathBuf,
+    /// Another, of the same lab
+    pub(crate) b: PathBuf,
+    /// Folder to write to; an earlier comparison there is replaced
+    #[arg(long, short, value_name = "DIR", default_value = "kinemark-compare")]
+    pub(crate) out: PathBuf,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// The page.
 const PAGE: &str = "compare.html";
@@ -32,7 +52,7 @@ struct Again {
 }
 
 /// Compares, writes the folder, prints.
-pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     refuse_foreign(&args.out)?;
     let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
@@ -69,7 +89,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Failure> {
+fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> {
     let (of_a, of_b) = (&a.grade.lab.name, &b.grade.lab.name);
     if of_a == of_b {
         return Ok(());
@@ -154,7 +174,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let record = disk::bytes_of(&out.join(RECORD), 64 << 20).ok();
     let record: Option<serde_json::Value> =
         record.and_then(|text| serde_json::from_slice(&text).ok());
-    let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
+    let is_ours = record.is_some_and(|record| record["format"] == comparison::FORMAT);
     let ours = |name: &str| match name {
         PAGE | RECORD if is_ours => Entry::Ours,
         _ => Entry::Foreign,

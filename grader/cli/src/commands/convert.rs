@@ -4,13 +4,32 @@ use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::args::ConvertArgs;
 use crate::disk::plain;
 use crate::failure::Failure;
-use crate::{output, robot_source};
+use crate::output;
+use crate::robot_source::{self, RobotArgs};
+
+/// Write any robot as a robot file (TOML)
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark robot convert panda.urdf --out panda.toml\n  \
+    kinemark robot convert RzRyRz --base 2 --links \"0,0,4; 3,0,0; 1,0,0\"\n\n\
+    Meshes are not copied: the file names them where they lie, seen from its own folder. Warnings go to standard error.\n\
+    Exit codes: 0 written, 2 usage, 3 the robot is broken, 4 the file cannot be written."
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    /// File to write [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
 
 /// Writes the robot file.
-pub(crate) fn run(args: &ConvertArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let folder = match &args.out {
         None => Path::new("."),
         Some(out) => {

@@ -11,11 +11,37 @@ use kinemark_report::log::{ReadError, Table, Tables, tables, write_csv};
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
-use crate::args::ExportArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::output;
+
+/// Write a log as tables
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark export out/move/run.mcap --csv\n  \
+    kinemark export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
+    Writes a CSV file per topic to the folder run-csv beside the log, with export.json, which lists them; an earlier export there is \
+    replaced.\n\
+    Reads every MCAP log with JSON messages. See docs/watch-and-compare.md.\n\
+    Exit codes: 0 written, 2 usage, 3 the log is broken, 4 the tables cannot be written."
+)]
+pub(crate) struct Args {
+    /// The log, such as out/move/run.mcap
+    pub(crate) log: PathBuf,
+    /// Write comma-separated values, which every spreadsheet reads
+    #[arg(long, required = true)]
+    pub(crate) csv: bool,
+    /// Only this topic; without --out it is printed
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) topic: Option<String>,
+    /// Folder to write to; an earlier export there is replaced [default: the log's name with -csv, beside it]
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// A log larger than this is not read.
 const MOST_LOG_BYTES: u64 = 512 << 20;
@@ -53,7 +79,7 @@ struct NotExported {
 }
 
 /// Reads the log and writes its tables.
-pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let log = read(&args.log)?;
     let broken = |error: ReadError| broken(&args.log, &error);
     let found = tables(&log).map_err(broken)?;

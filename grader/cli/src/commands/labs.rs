@@ -6,9 +6,19 @@ use kinemark_grader::lab::{Lab, load::lab_names};
 use kinemark_grader::record::quantity::points;
 use serde::Serialize;
 
-use crate::args::LabsArgs;
 use crate::failure::Failure;
-use crate::{output, places};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::output;
+
+/// List the labs
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Print the list as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
 
 #[derive(Serialize)]
 struct Row {
@@ -20,8 +30,8 @@ struct Row {
 }
 
 /// Lists the labs; each broken one is told after them, with its place.
-pub(crate) fn run(args: &LabsArgs) -> Result<ExitCode, Failure> {
-    let (files, _) = places::labs(&args.places)?;
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let (files, _) = labs_folder::open(&args.labs_folder)?;
     let mut rows = Vec::new();
     let mut broken = Vec::new();
     for name in lab_names(files.as_ref()) {

@@ -1,16 +1,47 @@
 //! `kinemark variant`: the numbers of one student, as the file that goes with the lab.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_grader::lab::{Lab, Variant};
 use kinemark_sim::robot::Dimension;
 use serde::Serialize;
 
-use crate::args::VariantCommandArgs;
 use crate::disk::plain;
 use crate::failure::Failure;
-use crate::{output, places, variants};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffArgs};
+use crate::{output, variants};
+
+/// Write the numbers of one student: for staff
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark variant 04-knock-with-velocity --student s1234567\n  \
+    kinemark variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
+    Needs the course's salt: the staff's hidden.toml, or --salt. The same salt, lab and student give the same numbers everywhere.\n\
+    Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
+)]
+pub(crate) struct Args {
+    /// The lab, as `kinemark labs` names it
+    pub(crate) lab: String,
+    /// The student's id, letter by letter as the course writes it
+    #[arg(long, value_name = "ID")]
+    pub(crate) student: String,
+    /// File to write [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    /// Print the numbers as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
 
 #[derive(Serialize)]
 struct Printed<'a> {
@@ -20,10 +51,10 @@ struct Printed<'a> {
 }
 
 /// Computes, and writes or prints.
-pub(crate) fn run(args: &VariantCommandArgs) -> Result<ExitCode, Failure> {
-    let (files, labs_folder) = places::labs(&args.places)?;
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
-    let reference = places::reference(&args.staff, labs_folder.as_deref())?;
+    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
     let variant = variants::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
     // numbers that make no lab are told now, and not when the student grades
     Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;

@@ -12,11 +12,27 @@ use kinemark_report::visible::visible;
 use tokio::sync::watch;
 
 use super::grade::{self, Work};
-use crate::args::WatchArgs;
 use crate::failure::Failure;
 use crate::saves::{Saves, Told};
-use crate::serve::{self, Server};
+use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
+
+/// Grade on every save, and keep the report open
+#[derive(Debug, clap::Args)]
+#[group(id = "watch")] // its own name is that of the arguments of `grade`
+#[command(
+    after_help = "Example:\n  kinemark watch 01-kinematics submission.rhai\n\n\
+    Grades at once, and again when the submission is saved, or the lab where it comes from a folder. The report opens in the browser \
+    and loads itself anew, at the moment and the place that are looked at. With --json each grade is one line.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) grade: grade::Args,
+    #[command(flatten)]
+    pub(crate) serve: ServeArgs,
+}
 
 /// How long nothing must happen after a save: editors write, rename and write again.
 const QUIET: Duration = Duration::from_millis(100);
@@ -24,7 +40,7 @@ const QUIET: Duration = Duration::from_millis(100);
 const MOST_HAPPENINGS: usize = 1_000;
 
 /// Grades at once and on every save, until Ctrl-C.
-pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (tell, told) = channel();
     let (stop, stopped) = watch::channel(false);
     let on_stop = tell.clone();
@@ -69,11 +85,7 @@ pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Grades whenever something was saved.
-fn follow(
-    args: &WatchArgs,
-    told: &Receiver<Told>,
-    count: &watch::Sender<u64>,
-) -> Result<(), Failure> {
+fn follow(args: &Args, told: &Receiver<Told>, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let mut is_gone = false;
     loop {
         // it lasts as long as whoever tells of saves
@@ -111,7 +123,7 @@ fn follow(
 }
 
 /// Tells a grade in a line, writes the folder, and lets open pages know.
-fn publish(args: &WatchArgs, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
+fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
     if args.grade.json {
         let text = serde_json::to_string(grade).map_err(|error| {
@@ -130,7 +142,7 @@ fn publish(args: &WatchArgs, work: &Work, count: &watch::Sender<u64>) -> Result<
 }
 
 /// What is for people alone stands beside the JSON.
-fn say(args: &WatchArgs, text: &str) -> Result<(), Failure> {
+fn say(args: &Args, text: &str) -> Result<(), Failure> {
     if args.grade.json {
         tell(text);
         return Ok(());

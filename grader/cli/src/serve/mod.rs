@@ -16,11 +16,22 @@ use axum::extract::{Path as Wanted, Query, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse as _, Response};
 use axum::routing::get;
+use kinemark_report::output::PAGE_FILE;
 use tokio::sync::watch;
 
 use crate::disk::plain;
 use crate::failure::Failure;
-use crate::report_folder;
+
+/// Where a report is served.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct ServeArgs {
+    /// Port of this machine to serve it on [default: a free one]
+    #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) port: Option<u16>,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+}
 
 /// What is served, and to whom.
 #[derive(Debug)]
@@ -151,7 +162,7 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
     // looked at before the file: a report written in between is loaded once more, never missed
     let seen = site.changes.as_ref().map(|changes| *changes.borrow());
     let kind = files::media_type(&path);
-    let is_report = path == report_folder::PAGE;
+    let is_report = path == PAGE_FILE;
     let read = off_thread(move || files::read(&site.folder, &path)).await;
     let bytes = match read {
         Some(Ok(bytes)) => bytes,

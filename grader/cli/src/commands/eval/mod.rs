@@ -9,15 +9,33 @@ mod state;
 mod trajectory;
 
 use std::io::{BufRead as _, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_sim::robot::Robot;
 use kinemark_sim::scene::Scene;
 use serde_json::{Map, Value};
 
-use crate::args::EvalArgs;
 use crate::failure::{Failure, LOST};
-use crate::{disk, robot_source, scene_source};
+use crate::robot_source::{self, RobotArgs};
+use crate::{disk, scene_source};
+
+/// Answer requests about a robot: one JSON object per line in, one per line out
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Example:\n  echo '{\"id\": 1, \"op\": \"fk\", \"q\": [0.3, -1.2]}' | kinemark robot eval labs/robots/rrbot.toml\n\n\
+    Operations: info, fk, jacobian, jacobian_derivative, manipulability, workspace, ik, com, rnea, bias, gravity, coriolis,\n\
+    inverse_dynamics, crba, aba, energy, trajectory, simulate.\n\
+    See docs/robot-eval.md.\n\
+    Exit codes: 0 every request answered, 1 some answered with an error, 2 usage, 3 the robot is broken."
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    /// What is around the robot in `simulate`: a scene file, or a scene of the labs by its name
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+}
 
 /// A longer line is refused unread.
 const MOST_LINE_BYTES: u64 = 16 << 20;
@@ -47,10 +65,10 @@ pub(super) struct Subject<'a> {
 }
 
 /// Answers requests until the input ends.
-pub(crate) fn run(args: &EvalArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let loaded = robot_source::load(&args.robot)?;
     let named = args.scene.as_deref();
-    let scene = named.map(|named| scene_source::load(named, &args.robot.places));
+    let scene = named.map(|named| scene_source::load(named, &args.robot.labs_folder));
     let scene = scene.transpose()?.map(|loaded| loaded.scene);
     let subject = Subject {
         robot: &loaded.robot,

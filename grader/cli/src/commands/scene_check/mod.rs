@@ -5,18 +5,60 @@ mod subject;
 mod typed;
 mod words;
 
+use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_sim::scene_check::{Finding, SceneCheckError, Severity, check};
 use serde_json::{Value, json};
 
-use crate::args::SceneCheckArgs;
 use crate::failure::{Failure, LOST};
+use crate::labs_folder::LabsFolderArgs;
 use crate::output;
+use crate::robot_source::package;
 use subject::Subject;
 
+/// Check a scene: overlaps at the start, bodies that do not stay, places a robot cannot get to
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark scene check shelf-and-can\n  kinemark scene check my-scene.toml --robot rrbot --start 1.57,0\n  \
+    kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  kinemark scene check labs/03-knock-with-position/lab.toml\n\n\
+    With --via, each point must be reached without a link in a fixed or driven body or in the ground, and so must the straight \
+    lines between them. A lab brings its own robot, starts and goals. See docs/scenes.md.\n\
+    Exit codes: 0 no errors (warnings and notes may be), 1 errors, 2 usage, 3 the scene, robot or lab is broken."
+)]
+pub(crate) struct Args {
+    /// A scene file, a scene of the labs by its name, or a lab: its name, its folder or its lab.toml
+    pub(crate) scene: PathBuf,
+    /// The robot in it: a robot file (.toml or .urdf), or a robot of the labs by its name
+    #[arg(long, value_name = "ROBOT")]
+    pub(crate) robot: Option<OsString>,
+    /// Folder of a ROS package that a URDF names its meshes by; may be given several times
+    #[arg(long = "package", value_name = "NAME=DIR", value_parser = package, requires = "robot")]
+    pub(crate) packages: Vec<(String, PathBuf)>,
+    /// Joint positions at the start, in rad or m, with commas between [default: where loops are closed, else zeros]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, requires = "robot")]
+    pub(crate) start: Option<String>,
+    /// Places of the TCP, in their order: x,y,z in metres, with semicolons between
+    #[arg(
+        long,
+        value_name = "POINTS",
+        allow_hyphen_values = true,
+        requires = "robot"
+    )]
+    pub(crate) via: Option<String>,
+    /// The robot's frame that places are told in [default: `lab` if the robot has it, else its first link]
+    #[arg(long, value_name = "FRAME", requires = "robot")]
+    pub(crate) frame: Option<String>,
+    /// Print all findings as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
 /// Checks the scene, or each scene of the lab.
-pub(crate) fn run(args: &SceneCheckArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let request = subject::load(args)?;
     let mut checked: Vec<(&Subject, Vec<Finding>)> = Vec::new();
     for subject in &request.subjects {

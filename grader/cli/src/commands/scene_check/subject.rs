@@ -15,11 +15,11 @@ use kinemark_sim::source::suggest;
 use kinemark_sim::spatial::Pose;
 use nalgebra::Vector3;
 
-use super::typed;
-use crate::args::{RobotArgs, SceneCheckArgs};
+use super::{Args, typed};
 use crate::disk::Folder;
 use crate::failure::Failure;
-use crate::{places, robot_source, scene_source};
+use crate::robot_source::{self, RobotArgs};
+use crate::{labs_folder, scene_source};
 
 /// People round the positions they type: loops may be open by this much \[m\].
 const MOST_GAP_M: f64 = 1e-3;
@@ -99,7 +99,7 @@ impl Arm {
 ///
 /// # Errors
 /// Exit code 2 for what was typed, 3 for a file that is not what it should be.
-pub(super) fn load(args: &SceneCheckArgs) -> Result<Request, Failure> {
+pub(super) fn load(args: &Args) -> Result<Request, Failure> {
     if let Some(lab) = lab(args)? {
         if args.robot.is_some() {
             return Err(Failure::usage(
@@ -109,7 +109,7 @@ pub(super) fn load(args: &SceneCheckArgs) -> Result<Request, Failure> {
         }
         return of_lab(lab);
     }
-    let loaded = scene_source::load(&args.scene, &args.places)?;
+    let loaded = scene_source::load(&args.scene, &args.labs_folder)?;
     let arm = arm(args)?;
     Ok(Request {
         lab: None,
@@ -123,7 +123,7 @@ pub(super) fn load(args: &SceneCheckArgs) -> Result<Request, Failure> {
 }
 
 /// The lab that was named, if it was one.
-fn lab(args: &SceneCheckArgs) -> Result<Option<Lab>, Failure> {
+fn lab(args: &Args) -> Result<Option<Lab>, Failure> {
     let named = &args.scene;
     if scene_source::is_file(named) {
         let folder = if named.file_name().is_some_and(|name| name == "lab.toml") {
@@ -137,7 +137,7 @@ fn lab(args: &SceneCheckArgs) -> Result<Option<Lab>, Failure> {
         let (labs, name) = place_of_lab(&folder);
         return Ok(Some(Lab::load(&Folder::new(labs), &name)?));
     }
-    let (files, _) = places::labs(&args.places)?;
+    let (files, _) = labs_folder::open(&args.labs_folder)?;
     let (scenes, labs) = (scene_names(files.as_ref()), lab_names(files.as_ref()));
     let name = named.to_string_lossy();
     if scenes.iter().any(|scene| *scene == name) {
@@ -214,7 +214,7 @@ fn of_lab(lab: Lab) -> Result<Request, Failure> {
     })
 }
 
-fn arm(args: &SceneCheckArgs) -> Result<Option<Arm>, Failure> {
+fn arm(args: &Args) -> Result<Option<Arm>, Failure> {
     let Some(named) = &args.robot else {
         return Ok(None);
     };
@@ -224,7 +224,7 @@ fn arm(args: &SceneCheckArgs) -> Result<Option<Arm>, Failure> {
         links: None,
         packages: args.packages.clone(),
         ignore_mimic: false,
-        places: args.places.clone(),
+        labs_folder: args.labs_folder.clone(),
     })?
     .robot;
     let start_q = match &args.start {
