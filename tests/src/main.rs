@@ -9,7 +9,6 @@ mod architecture;
 mod brief_pictures;
 mod commands;
 mod compare;
-mod course;
 mod determinism;
 mod docs;
 mod errors;
