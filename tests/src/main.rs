@@ -17,6 +17,7 @@ mod eval_golden;
 mod eval_operations;
 mod export;
 mod free_function_task;
+mod golden;
 mod grade;
 mod grants;
 mod hostile;
