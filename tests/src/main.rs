@@ -15,6 +15,8 @@ mod errors;
 mod eval;
 mod eval_golden;
 mod eval_operations;
+mod every_case;
+mod exact;
 mod export;
 mod free_function_task;
 mod golden;
