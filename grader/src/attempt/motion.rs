@@ -2,7 +2,7 @@
 
 use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::robot::Robot;
-use kinemark_sim::run::{self, Disturbance, End, Run, RunSnapshot, Setup};
+use kinemark_sim::run::{self, Disturbance, End, Run, Setup};
 use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
 use kinemark_sim::sensor::{Sensor, SensorKind};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
@@ -12,8 +12,8 @@ use crate::judge::Host;
 use crate::lab::model::{Lab, MotionTask};
 use crate::submission::answer;
 use crate::submission::controller::{
-    Answer, Call, Controller, Memory, Observation, Opening, Reads, RobotFacts, Said, SensorFacts,
-    Stop, Value,
+    Answer, Call, Controller, Observation, Opening, Reads, RobotFacts, Said, SensorFacts, Stop,
+    Value,
 };
 
 /// A motion task as it went.
@@ -115,16 +115,6 @@ pub struct Session<'a> {
 
 /// How a session ended.
 type Ended = Result<(), (u64, EarlyEnd)>;
-
-/// A session as it stood between two ticks: robot, scene, servos, sensors, the submission's memory, and what was recorded.
-#[derive(Debug, Clone)]
-pub struct SessionSnapshot<'a> {
-    run: RunSnapshot,
-    memory: Memory,
-    recorder: TraceRecorder<'a>,
-    told: Told,
-    ended: Option<Ended>,
-}
 
 impl<'a> Session<'a> {
     /// Starts the submission of `opening` and stands before the first tick.
@@ -248,33 +238,6 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// The session as it stands; another one of the same lab, task and submission can go on from it with the same bits.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission keeps something in `this` that cannot be kept, or no longer answers.
-    pub fn snapshot(&mut self) -> Result<SessionSnapshot<'a>, Stop> {
-        Ok(SessionSnapshot {
-            run: self.run.snapshot(),
-            memory: self.controller.memory()?,
-            recorder: self.recorder.clone(),
-            told: self.told.clone(),
-            ended: self.ended.clone(),
-        })
-    }
-
-    /// Goes back, or on, to `snapshot`.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission no longer answers.
-    pub fn restore(&mut self, snapshot: &SessionSnapshot<'a>) -> Result<(), Stop> {
-        self.controller.recall(&snapshot.memory)?;
-        self.run.restore(&snapshot.run);
-        self.recorder = snapshot.recorder.clone();
-        self.told = snapshot.told.clone();
-        self.ended = snapshot.ended.clone();
-        Ok(())
-    }
-
     /// What was recorded up to here.
     pub fn finish(self) -> MotionRun {
         let ended = self.ended.and_then(Result::err);
@@ -343,7 +306,7 @@ fn ask(
 }
 
 /// What a submission said in a run besides its commands.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 struct Told {
     log: Vec<LogLine>,
     plots: Vec<PlotSignal>,

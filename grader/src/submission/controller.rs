@@ -15,68 +15,6 @@ pub trait Controller {
 
     /// What the last call said before it was stopped, which no answer carries: a student looks there for the reason.
     fn unanswered(&mut self) -> Said;
-
-    /// What the submission keeps between calls: with it, another controller of the same opening goes on with the same answers.
-    ///
-    /// # Errors
-    /// [`Stop::Crashed`] if `this` holds something that cannot be kept, or whatever stops a worker.
-    fn memory(&mut self) -> Result<Memory, Stop>;
-
-    /// Goes back, or on, to a memory taken from a controller of the same opening.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission no longer answers.
-    fn recall(&mut self, memory: &Memory) -> Result<(), Stop>;
-}
-
-/// What a submission keeps between calls.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
-    /// The map `this`.
-    pub this: Kept,
-    /// Operations used so far in the task.
-    pub operations: u64,
-    /// Lines printed so far.
-    pub log_lines: u64,
-    /// Values plotted so far.
-    pub plot_samples: u64,
-}
-
-/// A value of a submission's memory, with its type.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Kept {
-    /// The unit value.
-    Nothing,
-    /// A truth value.
-    Boolean(bool),
-    /// A whole number.
-    Whole(i64),
-    /// A number.
-    Number(f64),
-    /// A character.
-    Character(char),
-    /// A text.
-    Text(String),
-    /// A vector.
-    Vector(Vec<f64>),
-    /// A matrix, row by row.
-    Matrix {
-        /// Its columns.
-        columns: usize,
-        /// Its elements.
-        elements: Vec<f64>,
-    },
-    /// The whole numbers from one up to, but not with, another.
-    Range {
-        /// The first.
-        from: i64,
-        /// The one after the last.
-        to: i64,
-    },
-    /// A list.
-    List(Vec<Kept>),
-    /// A map in the order of its keys.
-    Map(Vec<(String, Kept)>),
 }
 
 /// What a call says besides its value.
