@@ -10,10 +10,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use kinemark_grader::judge::Host;
 use kinemark_grader::submission::controller::{
     Answer, Call, Controller, HostLimit, Opening, Said, Stop,
 };
+use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
 use serde::{Serialize, de::DeserializeOwned};
 

@@ -9,6 +9,7 @@ use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 
 use crate::record::grade::{ContactRecord, EventRecord};
+use crate::task::watched::TouchingParty;
 
 /// Contacts, and events of bodies, that a record keeps.
 const MOST_RECORDS: usize = 200;
@@ -142,5 +143,17 @@ impl<'a> Names<'a> {
                 impulse_n_s: contact.impulse_n_s,
             })
             .collect()
+    }
+}
+
+impl TouchingParty {
+    /// Its name as it stands in a sentence.
+    pub fn told(self, names: &Names<'_>) -> String {
+        match self {
+            Self::Arm => "the arm".to_owned(),
+            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
+            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
+            Self::Ground => "the ground".to_owned(),
+        }
     }
 }

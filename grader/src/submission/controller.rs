@@ -5,6 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::task::grant::Grant;
+pub use crate::task::value::Value;
+
 /// Runs one submission for one task.
 pub trait Controller {
     /// Calls one of the submission's functions.
@@ -49,34 +52,6 @@ pub struct Opening {
     pub function: Option<String>,
 }
 
-/// A function of `robot` that a task may grant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Grant {
-    /// `robot.fk(q)`: position of the TCP in the lab's frame, shape `(3)` \[m\].
-    Fk,
-    /// `robot.jacobian(q)`: derivative of that by `q`, shape `(3, n)` \[m/rad or m/m\].
-    Jacobian,
-    /// `robot.gravity(q)`: efforts that hold the arm still at `q`, shape `(n)` \[N m or N\].
-    Gravity,
-    /// `robot.mass_matrix(q)`: the joint-space inertia, shape `(n, n)` \[kg m², kg m or kg\].
-    MassMatrix,
-}
-
-impl Grant {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Fk, Self::Jacobian, Self::Gravity, Self::MassMatrix];
-
-    /// Its name in labs and submissions.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fk => "fk",
-            Self::Jacobian => "jacobian",
-            Self::Gravity => "gravity",
-            Self::MassMatrix => "mass_matrix",
-        }
-    }
-}
-
 /// What a task grants, and what the robot's model is made from; its dimensions are those of [`RobotFacts`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Granted {
@@ -92,25 +67,6 @@ pub struct Granted {
     pub frame: String,
     /// Gravity in the world \[m/s²\].
     pub gravity_m_s2: [f64; 3],
-}
-
-/// A value as it crosses the boundary.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Value {
-    /// The unit value.
-    Nothing,
-    /// A truth value.
-    Boolean(bool),
-    /// A number; whole numbers too.
-    Number(f64),
-    /// A text.
-    Text(String),
-    /// A list, a vector, or a matrix as a list of rows.
-    List(Vec<Value>),
-    /// A map in the order of its keys.
-    Map(Vec<(String, Value)>),
-    /// Something that cannot cross; its type's name.
-    Other(String),
 }
 
 /// What a submission may know of the robot: the map `robot`.

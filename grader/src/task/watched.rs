@@ -4,8 +4,6 @@ use kinemark_sim::engine::Party;
 use kinemark_sim::event::SeenSide;
 use nalgebra::Vector3;
 
-use crate::record::names::Names;
-
 /// How a free body is to fall, and what less than that is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fall {
@@ -46,16 +44,6 @@ impl TouchingParty {
     /// Whether these two are the parties of a contact, in either order.
     pub fn meets(self, other: Self, [first, second]: [Party; 2]) -> bool {
         (self.is(first) && other.is(second)) || (self.is(second) && other.is(first))
-    }
-
-    /// Its name, as it stands in a sentence.
-    pub fn told(self, names: &Names<'_>) -> String {
-        match self {
-            Self::Arm => "the arm".to_owned(),
-            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
-            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
-            Self::Ground => "the ground".to_owned(),
-        }
     }
 }
 

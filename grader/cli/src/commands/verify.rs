@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::Staff;
@@ -49,7 +50,11 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
             match places::reference(&args.staff, labs_folder.as_deref())? {
                 Some(reference) => {
                     variants::refuse_forged(&lab, &copies, &reference, &args.staff, VARIANT_FILE)?;
-                    Staff::load(&reference, &lab, args.staff.salt.as_deref())?
+                    let staff = Staff::load(&reference, &lab, args.staff.salt.as_deref())?;
+                    if let Some(staff) = &staff {
+                        audit::staff_code(&lab, staff)?;
+                    }
+                    staff
                 }
                 None => None,
             }

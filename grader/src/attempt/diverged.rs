@@ -1,18 +1,18 @@
-//! A runaway in words: what was lost, the likely cause, and what to do about it.
+//! A simulation that diverged, in words: what grew without bound, the likely cause, and what to do about it.
 
 use kinemark_sim::control::{Mode, SampledLoop};
 use kinemark_sim::runaway::{BlowUp, Cause};
 
-use crate::lab::model::MotionTask;
 use crate::record::names::Names;
 use crate::record::quantity::trimmed;
+use crate::task::model::MotionTask;
 
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
 impl Names<'_> {
     /// What ended a run of `task`, and the next step.
-    pub fn blow_up(
+    pub fn diverged(
         &self,
         what: &BlowUp,
         cause: Option<&Cause>,
