@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_grader::audit;
+use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
-use kinemark_grader::judge::{self, Host, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::submission::host::{Host, InProcess};
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_sim::source::Source;
@@ -211,6 +213,9 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &Args) -> Result<Option<Staff>, Failure> {
     let staff = Staff::load(reference, lab, args.staff.salt.as_deref())?;
+    if let Some(staff) = &staff {
+        audit::staff_code(lab, staff)?;
+    }
     if staff.is_none() && args.staff.reference.is_some() {
         return Err(Failure::usage(
             format!(

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::variant::VARIANT_FILE;
@@ -72,7 +73,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             match staff_folder::open(&args.staff, labs_folder.as_deref())? {
                 Some(reference) => {
                     variants::refuse_forged(&lab, &copies, &reference, &args.staff, VARIANT_FILE)?;
-                    Staff::load(&reference, &lab, args.staff.salt.as_deref())?
+                    let staff = Staff::load(&reference, &lab, args.staff.salt.as_deref())?;
+                    if let Some(staff) = &staff {
+                        audit::staff_code(&lab, staff)?;
+                    }
+                    staff
                 }
                 None => None,
             }

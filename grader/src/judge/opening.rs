@@ -3,23 +3,24 @@
 use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::source::Source;
 
-use crate::attempt::function as cases;
+use crate::attempt::function;
 use crate::attempt::motion;
-use crate::attempt::stopped;
-use crate::lab::MeshFile;
-use crate::lab::model::{Case, Function, FunctionTask, Lab, Task, TaskWork};
-use crate::submission::controller::{Granted, Opening, Value};
+use crate::lab::model::{Lab, Task};
+use crate::submission::controller::{Granted, Opening};
+use crate::task::mesh_file::MeshFile;
+use crate::task::model::{Function, FunctionTask, TaskWork};
+use crate::task::value::Value;
 
 /// What a submission is opened with for `task` of `lab`.
 pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
     let (robot, target, sensors) = match &task.work {
         TaskWork::Function(_) => (
-            cases::robot_facts(&lab.robot, None),
+            function::robot_facts(&lab.robot, None),
             Value::Nothing,
             Vec::new(),
         ),
         TaskWork::Motion(motion) => (
-            motion::facts_of(lab, motion),
+            motion::facts_of(&lab.robot, motion),
             motion::target_of(motion),
             motion::sensors_of(motion),
         ),
@@ -44,7 +45,7 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
 }
 
 /// What a task grants, with what the robot's model is made from; none where it grants nothing.
-pub fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
+fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
     let (functions, gravity_m_s2) = match work {
         TaskWork::Function(function) => (&function.grants, GRAVITY_M_S2),
         TaskWork::Motion(motion) => (&motion.grants, motion.gravity_m_s2),
@@ -62,19 +63,4 @@ pub fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
         frame: lab.frame.clone(),
         gravity_m_s2: gravity_m_s2.into(),
     })
-}
-
-/// What `solution` answers to `cases` of a function of the lab's own, in this process.
-///
-/// # Errors
-/// Why it has no answer, in words.
-pub fn answers(
-    lab: &Lab,
-    task: &Task,
-    function: &Function,
-    cases: &[Case],
-    solution: &Source,
-) -> Result<Vec<Value>, String> {
-    cases::answers(function, cases, &opening(lab, task, solution))
-        .map_err(|stop| stopped::record(&stop, solution.text()).message)
 }

@@ -1,26 +1,32 @@
-//! A runaway in words: what was lost, the likely cause, and what to do about it.
+//! A simulation that diverged, in words: what grew without bound, the likely cause, and what to do about it.
 
 use kinemark_sim::control::{Mode, SampledLoop};
 use kinemark_sim::runaway::{BlowUp, Cause};
 
-use crate::lab::model::MotionTask;
 use crate::record::names::Names;
 use crate::record::quantity::trimmed;
+use crate::task::model::MotionTask;
 
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
-/// Names that a runaway is described with.
-pub(crate) trait RunawayWords {
+/// A diverged simulation in words, with the names of a run.
+pub(crate) trait DivergedWords {
     /// What ended a run of `task`, and the next step.
-    fn blow_up(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask) -> (String, String);
+    fn diverged(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask)
+    -> (String, String);
 
     /// Why the servo itself is the cause, with the limits that were computed.
     fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String;
 }
 
-impl RunawayWords for Names<'_> {
-    fn blow_up(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask) -> (String, String) {
+impl DivergedWords for Names<'_> {
+    fn diverged(
+        &self,
+        what: &BlowUp,
+        cause: Option<&Cause>,
+        task: &MotionTask,
+    ) -> (String, String) {
         let lost = match what {
             BlowUp::NotFinite { joint } => format!(
                 "the motion of `{}` grew beyond all numbers",
