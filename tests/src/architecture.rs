@@ -32,7 +32,9 @@ fn crates_depend_on_each_other_as_drawn() {
         "kinemark -> kinemark-grader",
         "kinemark -> kinemark-report",
         "kinemark -> kinemark-sim",
+        "kinemark -> kinemark-toolbox",
         "kinemark-grader -> kinemark-sim",
+        "kinemark-toolbox -> kinemark-sim",
         "kinemark-report -> kinemark-grader",
         "kinemark-report -> kinemark-sim",
     ]

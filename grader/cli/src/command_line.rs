@@ -5,8 +5,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, completions, convert, eval, export, grade, lab_check, labs, new, scene_check, show,
-    variant, verify, view, watch,
+    compare, completions, export, grade, lab_check, labs, new, robot_convert, robot_eval,
+    robot_show, scene_check, variant, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -57,9 +57,9 @@ pub(crate) enum Command {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotCommand {
-    Show(show::Args),
-    Convert(convert::Args),
-    Eval(eval::Args),
+    Show(robot_show::Args),
+    Convert(robot_convert::Args),
+    Eval(robot_eval::Args),
 }
 
 #[derive(Debug, Subcommand)]
@@ -85,9 +85,9 @@ impl CommandLine {
             Command::Labs(args) => labs::run(&args),
             Command::New(args) => new::run(&args),
             Command::Variant(args) => variant::run(&args),
-            Command::Robot(RobotCommand::Show(args)) => show::run(&args),
-            Command::Robot(RobotCommand::Convert(args)) => convert::run(&args),
-            Command::Robot(RobotCommand::Eval(args)) => eval::run(&args),
+            Command::Robot(RobotCommand::Show(args)) => robot_show::run(&args),
+            Command::Robot(RobotCommand::Convert(args)) => robot_convert::run(&args),
+            Command::Robot(RobotCommand::Eval(args)) => robot_eval::run(&args),
             Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
             Command::Completions(args) => completions::run(&args),

@@ -17,8 +17,10 @@ mod report_folder;
 mod robot_source;
 mod saves;
 mod scene_source;
+mod scenes_to_check;
 mod serve;
 mod staff_folder;
+mod typed_numbers;
 mod variants;
 mod worker;
 

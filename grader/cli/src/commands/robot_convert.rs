@@ -4,6 +4,8 @@ use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_toolbox::robot_convert::{Converted, robot_file};
+
 use crate::disk::plain;
 use crate::failure::Failure;
 use crate::output;
@@ -42,25 +44,17 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
     };
     let loaded = robot_source::load(&args.robot)?;
-    let mut warnings: Vec<String> = loaded.robot.warnings().to_vec();
-    let text = loaded
-        .robot
-        .to_toml(&mut |name| match loaded.meshes.get(name) {
-            Some(place) => seen_from(folder, place),
-            None => {
-                warnings.push(format!(
-                    "mesh `{name}` lies inside this program and has no path"
-                ));
-                name.to_owned()
-            }
-        });
+    let Converted { toml, warnings } = robot_file(&loaded.robot, |name| {
+        let path = loaded.meshes.get(name)?;
+        Some(seen_from(folder, path))
+    });
     for warning in &warnings {
         // a reader that has gone away is no failure
         let _ = writeln!(anstream::stderr(), "warning: {warning}");
     }
     match &args.out {
-        None => output::print(&text)?,
-        Some(out) => output::write_file(out, text.as_bytes()).map_err(|error| {
+        None => output::print(&toml)?,
+        Some(out) => output::write_file(out, toml.as_bytes()).map_err(|error| {
             Failure::fault(
                 format!("`{}` cannot be written: {}", out.display(), plain(&error)),
                 "choose another place with --out",

@@ -1,4 +1,4 @@
-//! Numbers typed on the command line: joint positions, and places.
+//! Numbers typed on the command line: joint positions, and points.
 
 use crate::failure::Failure;
 
@@ -6,7 +6,7 @@ use crate::failure::Failure;
 ///
 /// # Errors
 /// Exit code 2, with the part that is no number.
-pub(super) fn numbers(text: &str, option: &str, example: &str) -> Result<Vec<f64>, Failure> {
+pub(crate) fn numbers(text: &str, option: &str, example: &str) -> Result<Vec<f64>, Failure> {
     let number = |part: &str| match part.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => Err(Failure::usage(
@@ -17,22 +17,22 @@ pub(super) fn numbers(text: &str, option: &str, example: &str) -> Result<Vec<f64
     text.split(',').map(number).collect()
 }
 
-/// Places with semicolons between, each three numbers with commas.
+/// Points with semicolons between, each three numbers with commas.
 ///
 /// # Errors
-/// Exit code 2, with the place that has another count of numbers.
-pub(super) fn places(text: &str) -> Result<Vec<[f64; 3]>, Failure> {
+/// Exit code 2, with the point that has another count of numbers.
+pub(crate) fn points(text: &str) -> Result<Vec<[f64; 3]>, Failure> {
     const EXAMPLE: &str = "1.5,0.8,0.05; 1.4,1.3,0.05";
-    let mut places = Vec::new();
+    let mut points = Vec::new();
     let parts: Vec<&str> = text.trim().trim_end_matches(';').split(';').collect();
     for (index, part) in parts.iter().enumerate() {
         let found = numbers(part, "--via", EXAMPLE)?;
         match found[..] {
-            [x, y, z] => places.push([x, y, z]),
+            [x, y, z] => points.push([x, y, z]),
             _ => {
                 return Err(Failure::usage(
                     format!(
-                        "via point {} has {} numbers, and a place has three",
+                        "via point {} has {} numbers, and a point has three",
                         index + 1,
                         found.len()
                     ),
@@ -41,7 +41,7 @@ pub(super) fn places(text: &str) -> Result<Vec<[f64; 3]>, Failure> {
             }
         }
     }
-    Ok(places)
+    Ok(points)
 }
 
 #[cfg(test)]
@@ -49,8 +49,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_are_read_with_room_around_and_a_semicolon_at_the_end() {
-        let read = places(" 1.5, 0.8 ,0.05; -1,2e-1,3;").unwrap();
+    fn points_are_read_with_room_around_and_a_semicolon_at_the_end() {
+        let read = points(" 1.5, 0.8 ,0.05; -1,2e-1,3;").unwrap();
         assert_eq!(read, [[1.5, 0.8, 0.05], [-1.0, 0.2, 3.0]]);
         for wrong in [
             "",
@@ -61,7 +61,7 @@ mod tests {
             "1,2,inf",
             "1,2,NaN",
         ] {
-            assert!(places(wrong).is_err(), "{wrong}");
+            assert!(points(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -1,12 +1,11 @@
 //! The tree as a table: a link a line, with the joint that moves it.
 
-use std::fmt::Write as _;
-
 use kinemark_sim::robot::{Joint, JointKind, Robot};
 use nalgebra::Vector3;
-use owo_colors::OwoColorize as _;
 
-use super::tree::{Branch, branches};
+use super::link_tree::{Branch, branches};
+use crate::number::short;
+use crate::styled_text::{Emphasis, StyledText};
 
 const HEADS: [&str; 8] = [
     "link", "kg", "joint", "q", "type", "limits", "speed", "effort",
@@ -15,60 +14,34 @@ const HEADS: [&str; 8] = [
 /// A page \[characters\].
 pub(super) const WIDEST: usize = 100;
 
-/// A number with four digits that matter.
-pub(super) fn number(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let size = value.abs();
-    if !(1e-3..1e6).contains(&size) {
-        let text = format!("{value:.3e}");
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        return format!("{}e{exponent}", trimmed(mantissa));
-    }
-    // digits before the point take from those after it
-    let whole = [1.0, 10.0, 100.0, 1000.0]
-        .iter()
-        .filter(|power| size >= **power)
-        .count();
-    let decimals = 4 - whole;
-    trimmed(&format!("{value:.decimals$}")).to_owned()
-}
-
-fn trimmed(text: &str) -> &str {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        text
-    }
-}
-
 /// Three numbers with commas.
 pub(super) fn triple(values: &[f64; 3]) -> String {
-    values.map(number).join(", ")
+    values.map(short).join(", ")
 }
 
-/// The whole table, with a line end after each row; columns that say nothing are left out, and what a page has no room for.
-pub(super) fn table(robot: &Robot) -> String {
+/// The whole table, with a line end after each row; empty columns are left out, and what a page has no room for.
+pub(super) fn table(robot: &Robot) -> StyledText {
     let all = 0..HEADS.len();
     let short = 0..HEADS.len() - 2;
-    let whole = drawn(robot, true, all.clone());
+    let whole = columns_of(robot, true, all.clone());
     if whole.width <= WIDEST {
         return whole.text;
     }
-    let flat = drawn(robot, false, all);
+    let flat = columns_of(robot, false, all);
     if flat.width <= WIDEST {
         return flat.text;
     }
-    drawn(robot, false, short).text
+    columns_of(robot, false, short).text
 }
 
-struct Drawn {
-    text: String,
+/// A table with some of the columns.
+struct Table {
+    text: StyledText,
+    /// \[characters\].
     width: usize,
 }
 
-fn drawn(robot: &Robot, stairs: bool, columns: std::ops::Range<usize>) -> Drawn {
+fn columns_of(robot: &Robot, stairs: bool, columns: std::ops::Range<usize>) -> Table {
     let branches = branches(robot, stairs);
     let rows: Vec<[String; 8]> = branches.iter().map(|branch| row(robot, branch)).collect();
     let shown: Vec<usize> = columns
@@ -78,16 +51,16 @@ fn drawn(robot: &Robot, stairs: bool, columns: std::ops::Range<usize>) -> Drawn 
         let cells = rows.iter().map(|row| row[c].chars().count());
         cells.max().unwrap_or(0).max(HEADS[c].chars().count())
     };
-    let mut text = String::new();
+    let mut text = StyledText::default();
     let head: Vec<String> = shown.iter().map(|&c| padded(HEADS[c], width(c))).collect();
-    let _ = writeln!(text, "{}", head.join("  ").trim_end().dimmed());
+    text.push(Emphasis::Faint, head.join("  ").trim_end());
+    text.plain("\n");
     for row in &rows {
         let cells: Vec<String> = shown.iter().map(|&c| padded(&row[c], width(c))).collect();
-        text.push_str(cells.join("  ").trim_end());
-        text.push('\n');
+        text.plain(format!("{}\n", cells.join("  ").trim_end()));
     }
     let width = shown.iter().map(|&c| width(c) + 2).sum::<usize>() - 2;
-    Drawn { text, width }
+    Table { text, width }
 }
 
 fn padded(text: &str, width: usize) -> String {
@@ -100,7 +73,7 @@ fn row(robot: &Robot, branch: &Branch) -> [String; 8] {
     let mass = if mass_kg == 0.0 {
         String::new()
     } else {
-        number(mass_kg)
+        short(mass_kg)
     };
     let name = format!("{}{}", branch.lines, link.name);
     let Some(joint) = branch.joint.map(|j| &robot.joints()[j]) else {
@@ -110,7 +83,7 @@ fn row(robot: &Robot, branch: &Branch) -> [String; 8] {
     };
     let unit = if joint.kind.turns() { "rad" } else { "m" };
     let of = |limit: Option<f64>, unit: &str| {
-        limit.map_or_else(String::new, |limit| format!("{} {unit}", number(limit)))
+        limit.map_or_else(String::new, |limit| format!("{} {unit}", short(limit)))
     };
     [
         name,
@@ -167,32 +140,8 @@ fn kind(joint: &Joint) -> String {
 fn range(joint: &Joint, unit: &str) -> String {
     match (joint.limits.lower, joint.limits.upper) {
         (None, None) => String::new(),
-        (Some(low), None) => format!("from {} {unit}", number(low)),
-        (None, Some(high)) => format!("to {} {unit}", number(high)),
-        (Some(low), Some(high)) => format!("{} .. {} {unit}", number(low), number(high)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_lose_nothing_that_matters() {
-        for (value, text) in [
-            (0.0, "0"),
-            (-2.0, "-2"),
-            (0.5, "0.5"),
-            (1.234_56, "1.235"),
-            (12.345_6, "12.35"),
-            (1234.56, "1235"),
-            (99.999_9, "100"),
-            (0.012_345, "0.0123"),
-            (0.000_012_345, "1.234e-5"),
-            (12_345_678.0, "1.235e7"),
-            (-1e-9, "-1e-9"),
-        ] {
-            assert_eq!(number(value), text);
-        }
+        (Some(low), None) => format!("from {} {unit}", short(low)),
+        (None, Some(high)) => format!("to {} {unit}", short(high)),
+        (Some(low), Some(high)) => format!("{} .. {} {unit}", short(low), short(high)),
     }
 }

@@ -1,22 +1,19 @@
 //! `kinemark scene check`: what is wrong with a scene, before anything runs in it; for people, and as JSON for machines.
 
-mod record;
-mod subject;
-mod typed;
-mod words;
-
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use kinemark_sim::scene_check::{Finding, SceneCheckError, Severity, check};
+use kinemark_sim::scene_check::SceneCheckError;
+use kinemark_toolbox::scene_check::{CheckedScene, SceneToCheck, scene_record, scene_text};
+use kinemark_toolbox::styled_text::StyledText;
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, LOST};
 use crate::labs_folder::LabsFolderArgs;
 use crate::output;
 use crate::robot_source::package;
-use subject::Subject;
+use crate::scenes_to_check::scenes_to_check;
 
 /// Check a scene: overlaps at the start, bodies that do not stay, places a robot cannot get to
 #[derive(Debug, clap::Args)]
@@ -59,18 +56,13 @@ pub(crate) struct Args {
 
 /// Checks the scene, or each scene of the lab.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
-    let request = subject::load(args)?;
-    let mut checked: Vec<(&Subject, Vec<Finding>)> = Vec::new();
-    for subject in &request.subjects {
-        let findings = check(&subject.scene, subject.work().as_ref());
-        checked.push((subject, findings.map_err(failure)?));
-    }
+    let named = scenes_to_check(args)?;
+    let checked: Result<Vec<CheckedScene<'_>>, SceneCheckError> =
+        named.scenes.iter().map(SceneToCheck::check).collect();
+    let checked = checked.map_err(failure)?;
     if args.json {
-        let mut records: Vec<Value> = checked
-            .iter()
-            .map(|(subject, findings)| record::record(subject, findings))
-            .collect();
-        match (&request.lab, records.pop()) {
+        let mut records: Vec<Value> = checked.iter().map(scene_record).collect();
+        match (&named.lab, records.pop()) {
             (None, Some(record)) => output::print_json(&record)?,
             (lab, last) => {
                 records.extend(last);
@@ -78,14 +70,15 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             }
         }
     } else {
-        let texts = checked
-            .iter()
-            .map(|(subject, findings)| words::text(subject, findings));
-        output::print(&texts.collect::<Vec<String>>().join("\n"))?;
+        let mut text = StyledText::default();
+        for (i, checked) in checked.iter().enumerate() {
+            text.plain(if i > 0 { "\n" } else { "" });
+            text.append(scene_text(checked));
+        }
+        output::print_styled(&text)?;
     }
-    let mut findings = checked.iter().flat_map(|(_, findings)| findings);
-    let bad = findings.any(|finding| finding.severity == Severity::Error);
-    Ok(ExitCode::from(if bad { LOST } else { 0 }))
+    let has_errors = checked.iter().any(CheckedScene::has_errors);
+    Ok(ExitCode::from(if has_errors { LOST } else { 0 }))
 }
 
 fn failure(error: SceneCheckError) -> Failure {

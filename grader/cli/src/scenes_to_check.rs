@@ -1,105 +1,38 @@
-//! What is checked: a scene by itself, a scene with a robot, or every scene of a lab with the lab's robot, starts and goals.
+//! Which scenes are checked: one by itself, one with a robot, or every scene of a lab with the lab's robot, starts and goals.
 
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::scene::scene_names;
 use kinemark_grader::lab::{Lab, TaskWork};
-use kinemark_grader::record::quantity::metres;
-use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::{Scene, SceneFile};
-use kinemark_sim::scene_check::Work;
 use kinemark_sim::source::suggest;
-use kinemark_sim::spatial::Pose;
-use nalgebra::Vector3;
+use kinemark_toolbox::number::metres;
+use kinemark_toolbox::scene_check::{ArmInScene, SceneToCheck};
 
-use super::{Args, typed};
+use crate::commands::scene_check::Args;
 use crate::disk::Folder;
 use crate::failure::Failure;
 use crate::robot_source::{self, RobotArgs};
+use crate::typed_numbers::{numbers, points};
 use crate::{labs_folder, scene_source};
 
 /// People round the positions they type: loops may be open by this much \[m\].
 const MOST_GAP_M: f64 = 1e-3;
 
-/// A scene to check.
-pub(super) struct Subject {
-    /// The task of the lab it is in.
-    pub(super) task: Option<String>,
-    pub(super) file: SceneFile,
-    pub(super) scene: Scene,
-    pub(super) arm: Option<Arm>,
-}
-
-/// A robot in the scene.
-pub(super) struct Arm {
-    pub(super) robot: Robot,
-    start_q: Vec<f64>,
-    /// The frame that places are told in.
-    pub(super) frame: String,
-    world_from_frame: Pose,
-    /// Places of the TCP in that frame \[m\].
-    pub(super) via: Vec<[f64; 3]>,
-    /// What a place is called.
-    pub(super) place_name: &'static str,
-    in_straight_lines: bool,
-}
-
-/// What was asked for.
-pub(super) struct Request {
+/// The scenes that a person named.
+pub(crate) struct ScenesToCheck {
     /// The name of the lab, if it is one.
-    pub(super) lab: Option<String>,
-    pub(super) subjects: Vec<Subject>,
-}
-
-impl Subject {
-    /// The robot's part, as the check takes it.
-    pub(super) fn work(&self) -> Option<Work<'_>> {
-        self.arm.as_ref().map(|arm| Work {
-            robot: &arm.robot,
-            start_q: arm.start_q.clone(),
-            via_in_world: arm
-                .via
-                .iter()
-                .map(|&p| (arm.world_from_frame * nalgebra::Point3::from(p)).coords)
-                .collect(),
-            in_straight_lines: arm.in_straight_lines,
-        })
-    }
-}
-
-impl Arm {
-    fn new(robot: Robot, start_q: Vec<f64>, frame: &str) -> Option<Self> {
-        let mut poses = FramePoses::new(&robot);
-        poses.update(&robot, &start_q);
-        let world_from_frame = poses.world_from(robot.frame(frame)?);
-        Some(Self {
-            robot,
-            start_q,
-            frame: frame.to_owned(),
-            world_from_frame,
-            via: Vec::new(),
-            place_name: "via point",
-            in_straight_lines: true,
-        })
-    }
-
-    /// A place of the world in the frame that places are told in \[m\].
-    pub(super) fn seen(&self, p_in_world: &Vector3<f64>) -> [f64; 3] {
-        let p = self
-            .world_from_frame
-            .inverse_transform_point(&(*p_in_world).into());
-        p.coords.into()
-    }
+    pub(crate) lab: Option<String>,
+    pub(crate) scenes: Vec<SceneToCheck>,
 }
 
 /// Loads what was named.
 ///
 /// # Errors
 /// Exit code 2 for what was typed, 3 for a file that is not what it should be.
-pub(super) fn load(args: &Args) -> Result<Request, Failure> {
+pub(crate) fn scenes_to_check(args: &Args) -> Result<ScenesToCheck, Failure> {
     if let Some(lab) = lab(args)? {
         if args.robot.is_some() {
             return Err(Failure::usage(
@@ -111,9 +44,9 @@ pub(super) fn load(args: &Args) -> Result<Request, Failure> {
     }
     let loaded = scene_source::load(&args.scene, &args.labs_folder)?;
     let arm = arm(args)?;
-    Ok(Request {
+    Ok(ScenesToCheck {
         lab: None,
-        subjects: vec![Subject {
+        scenes: vec![SceneToCheck {
             task: None,
             file: loaded.file,
             scene: loaded.scene,
@@ -134,7 +67,7 @@ fn lab(args: &Args) -> Result<Option<Lab>, Failure> {
         if !folder.join("lab.toml").is_file() {
             return Ok(None);
         }
-        let (labs, name) = place_of_lab(&folder);
+        let (labs, name) = labs_folder_of(&folder);
         return Ok(Some(Lab::load(&Folder::new(labs), &name)?));
     }
     let (files, _) = labs_folder::open(&args.labs_folder)?;
@@ -154,7 +87,7 @@ fn lab(args: &Args) -> Result<Option<Lab>, Failure> {
 }
 
 /// The folder of labs that `folder` lies in, and its name there.
-fn place_of_lab(folder: &Path) -> (PathBuf, String) {
+fn labs_folder_of(folder: &Path) -> (PathBuf, String) {
     let plain = |folder: &Path| {
         let name = folder.file_name()?.to_string_lossy().into_owned();
         let labs = match folder.parent() {
@@ -175,8 +108,8 @@ fn place_of_lab(folder: &Path) -> (PathBuf, String) {
     found.unwrap_or_else(|| (PathBuf::from("."), folder.display().to_string()))
 }
 
-fn of_lab(lab: Lab) -> Result<Request, Failure> {
-    let mut subjects = Vec::new();
+fn of_lab(lab: Lab) -> Result<ScenesToCheck, Failure> {
+    let mut scenes = Vec::new();
     for task in &lab.tasks {
         let TaskWork::Motion(motion) = &task.work else {
             continue;
@@ -184,37 +117,37 @@ fn of_lab(lab: Lab) -> Result<Request, Failure> {
         let Some(scene) = &motion.scene else {
             continue;
         };
-        let mut arm = Arm::new(lab.robot.clone(), motion.start_q.clone(), &lab.frame);
+        let mut arm = ArmInScene::new(lab.robot.clone(), motion.start_q.clone(), &lab.frame);
         if let Some(arm) = &mut arm {
             arm.via = motion
                 .goals
                 .iter()
                 .map(|goal| goal.position_m.into())
                 .collect();
-            arm.place_name = "goal";
+            arm.via_name = "goal";
             // a lab says where to stand, not which way to go
             arm.in_straight_lines = false;
         }
-        subjects.push(Subject {
+        scenes.push(SceneToCheck {
             task: Some(task.name.clone()),
             file: scene.file.clone(),
             scene: scene.scene.clone(),
             arm,
         });
     }
-    if subjects.is_empty() {
+    if scenes.is_empty() {
         return Err(Failure::usage(
             format!("no motion task of lab `{}` has a scene", lab.name),
             "name a scene, or give a motion task of the lab `scene = \"NAME\"`",
         ));
     }
-    Ok(Request {
+    Ok(ScenesToCheck {
         lab: Some(lab.name),
-        subjects,
+        scenes,
     })
 }
 
-fn arm(args: &Args) -> Result<Option<Arm>, Failure> {
+fn arm(args: &Args) -> Result<Option<ArmInScene>, Failure> {
     let Some(named) = &args.robot else {
         return Ok(None);
     };
@@ -236,14 +169,14 @@ fn arm(args: &Args) -> Result<Option<Arm>, Failure> {
         None if robot.frame("lab").is_some() => "lab".to_owned(),
         None => robot.links()[0].name.clone(),
     };
-    let via = args.via.as_deref().map(typed::places).transpose()?;
+    let via = args.via.as_deref().map(points).transpose()?;
     let known: Vec<String> = robot
         .frames()
         .iter()
         .map(|frame| frame.name.clone())
         .collect();
     let name = robot.name().to_owned();
-    let Some(mut arm) = Arm::new(robot, start_q, &frame) else {
+    let Some(mut arm) = ArmInScene::new(robot, start_q, &frame) else {
         return Err(Failure::usage(
             format!("robot `{name}` has no frame `{frame}`"),
             &suggest(&frame, "frames", known.iter().map(String::as_str)),
@@ -260,7 +193,7 @@ fn start(robot: &Robot, text: &str) -> Result<Vec<f64>, Failure> {
         .map(|joint| joint.name.as_str())
         .collect();
     let example = vec!["0"; robot.n().max(1)].join(",");
-    let found = typed::numbers(text, "--start", &example)?;
+    let found = numbers(text, "--start", &example)?;
     if found.len() == robot.n() {
         let gap_m = loop_gap_m(robot, &found);
         if gap_m <= MOST_GAP_M {
