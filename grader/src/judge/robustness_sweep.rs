@@ -1,5 +1,6 @@
 //! Climbs the ladder of a robustness check: the same motion once more under every rung, judged by the check that is repeated.
 
+use kinemark_sim::random::KeyedStream;
 use kinemark_sim::run::Disturbance;
 
 use crate::attempt::motion::{self, EarlyEnd, MotionRun};
@@ -83,14 +84,7 @@ fn run(
 
 /// Where the noise of a rung starts: the same for every submission, everywhere.
 fn seed(names: [&str; 3]) -> u64 {
-    let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 noise of a rung");
-    for name in names {
-        hasher.update(&(name.len() as u64).to_le_bytes());
-        hasher.update(name.as_bytes());
-    }
-    let mut bytes = [0; 8];
-    hasher.finalize_xof().fill(&mut bytes);
-    u64::from_le_bytes(bytes)
+    KeyedStream::new("kinemark 2026 noise of a rung", &names, &[]).bits()
 }
 
 fn facts(
