@@ -1,5 +1,6 @@
 //! Robustness sweeps: the same motion once more under every level of disturbance, judged by the check that is repeated.
 
+use kinemark_sim::random::KeyedStream;
 use kinemark_sim::run::Disturbance;
 use kinemark_sim::trace::Trace;
 
@@ -79,14 +80,7 @@ fn attempt(judge: &MotionJudge<'_>, level: &Rung, host: &mut dyn Host) -> Attemp
 
 /// Where the noise of a level starts: the same for every submission, everywhere.
 fn seed(names: [&str; 3]) -> u64 {
-    let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 noise of a rung");
-    for name in names {
-        hasher.update(&(name.len() as u64).to_le_bytes());
-        hasher.update(name.as_bytes());
-    }
-    let mut bytes = [0; 8];
-    hasher.finalize_xof().fill(&mut bytes);
-    u64::from_le_bytes(bytes)
+    KeyedStream::new("kinemark 2026 noise of a rung", &names, &[]).bits()
 }
 
 /// What the repeated check finds in the run of a level, or how that run ended early.
