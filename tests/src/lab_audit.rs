@@ -74,7 +74,7 @@ fn the_starter_of_lab_1_earns_the_warm_up_alone() {
 /// The lab with its function tasks alone, whose hidden cases are many and quick.
 fn function_tasks(mut lab: Lab) -> Lab {
     lab.tasks
-        .retain(|task| matches!(task.work, TaskWork::Function(_)));
+        .retain(|task| matches!(task.work, TaskWork::Function(..)));
     lab
 }
 

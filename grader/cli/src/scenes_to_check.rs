@@ -111,7 +111,7 @@ fn labs_folder_of(folder: &Path) -> (PathBuf, String) {
 fn of_lab(lab: Lab) -> Result<ScenesToCheck, Failure> {
     let mut scenes = Vec::new();
     for task in &lab.tasks {
-        let TaskWork::Motion(motion) = &task.work else {
+        let TaskWork::Motion(motion, _) = &task.work else {
             continue;
         };
         let Some(scene) = &motion.scene else {

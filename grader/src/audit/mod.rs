@@ -13,13 +13,13 @@ use serde::Serialize;
 use crate::judge::grade;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::model::Lab;
+use crate::lab::model::TaskWork;
 use crate::lab::staff::{Mutant, Staff};
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TcpPath};
 use crate::record::quantity::{metres, points, seconds};
 use crate::record::verdict::Verdict;
 use crate::submission::host::InProcess;
-use crate::task::model::TaskWork;
 
 pub use self::staff_code::staff_code;
 pub use self::variants::{Room, Variants};
@@ -373,6 +373,6 @@ fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<St
 
 /// Whether a lab has tasks whose hidden cases depend on the salt.
 pub fn depends_on_salt(lab: &Lab) -> bool {
-    let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(_));
+    let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(..));
     lab.tasks.iter().any(|task| is_function(&task.work))
 }

@@ -5,7 +5,7 @@
 
 use kinemark_sim::control::Mode;
 
-use super::MotionFacts;
+use super::facts::MotionFacts;
 use crate::record::quantity::trimmed;
 
 /// Fewer samples say nothing.

@@ -70,7 +70,7 @@ fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> F
     let lab = Lab::load(&OneLab(text, arm.to_owned()), "by-hand")
         .unwrap_or_else(|error| panic!("{error:?}"));
     let task = &lab.tasks[0];
-    let TaskWork::Motion(motion) = &task.work else {
+    let TaskWork::Motion(motion, checks) = &task.work else {
         panic!("a motion task");
     };
     let robot = &lab.robot;
@@ -118,7 +118,7 @@ fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> F
         reference: None,
         climbs: Vec::new(),
     };
-    judge_motion(&task.checks[0], &facts)
+    judge_motion(&checks[0], &facts)
 }
 
 /// The value a finding measured; infinity where it has none.

@@ -15,7 +15,7 @@
 
 use nalgebra::Vector3;
 
-use crate::lab::watched::PathToFollow;
+use crate::task::watched::PathToFollow;
 
 /// One segment as it was driven.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use kinemark_sim::trace::Trace;
 
-use crate::lab::model::{Band, MotionGoal};
+use crate::task::model::{Band, MotionGoal};
 
 /// A window of a run at a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]

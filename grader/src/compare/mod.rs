@@ -233,8 +233,8 @@ fn motion(
     let same_bits = run_a.trace.len() == run_b.trace.len() && seconds(a.again) == seconds(b.again);
     let work = a.lab.tasks.iter().find(|task| task.name == name);
     let periods = work.and_then(|task| match &task.work {
-        TaskWork::Motion(motion) => Some(&motion.periods),
-        TaskWork::Function(_) => None,
+        TaskWork::Motion(motion, _) => Some(&motion.periods),
+        TaskWork::Function(..) => None,
     });
     let first = periods.and_then(|periods| {
         divergence::from_run(&run_a.trace, &run_b.trace, &run_a.robot, periods)

@@ -2,14 +2,14 @@
 
 use super::hidden_attempts::{HiddenAttempts, of_control};
 use super::judged::Judged;
-use crate::lab::model::Check;
+use crate::check::Check;
 use crate::record::grade::{CheckGrade, Evidence, Instant, Measure, Outcome};
 use crate::record::quantity::{points, whole_hundredths};
 
 /// The grades of a task's checks: `visible` and `first_lost` have one entry per check; `explained` says that a stop or a diagnosis
 /// explains the loss, beside which a check's general hint would read as another one.
-pub(super) fn check_grades(
-    checks: &[Check],
+pub(super) fn check_grades<K: ?Sized>(
+    checks: &[Check<K>],
     visible: &[Judged],
     first_lost: &[Option<Instant>],
     hidden: &HiddenAttempts,
@@ -63,7 +63,7 @@ impl Default for Parts {
 }
 
 /// What a check comes to in the visible attempt.
-fn visible_parts(checks: &[Check], check: &Check, judged: &Judged) -> Parts {
+fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &Judged) -> Parts {
     let loss = judged.loss();
     let next_step = match (loss, judged.unmet) {
         (Some(finding), _) => {
@@ -90,7 +90,7 @@ const OTHER_NUMBERS: &str = "The task is run with other numbers, too. If one is 
 
 impl Parts {
     /// The mean of the visible and the hidden attempts; `self` is what check `i` comes to in the visible one.
-    fn averaged(self, checks: &[Check], i: usize, hidden: &HiddenAttempts) -> Self {
+    fn averaged<K: ?Sized>(self, checks: &[Check<K>], i: usize, hidden: &HiddenAttempts) -> Self {
         let check = &checks[i];
         let was = self.outcome;
         let score = (self.score + hidden.sum_of_scores(i)) / (hidden.count() + 1) as f64;
@@ -127,7 +127,7 @@ impl Parts {
 }
 
 /// What to do where only hidden runs lost points.
-fn hidden_next_step(checks: &[Check], check: &Check, lost: &[Evidence]) -> String {
+fn hidden_next_step<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, lost: &[Evidence]) -> String {
     if !lost.is_empty() {
         return OTHER_NUMBERS.to_owned();
     }

@@ -5,9 +5,10 @@ use kinemark_sim::source::Source;
 use super::opening::opening;
 use crate::attempt::ended::record_of;
 use crate::attempt::function;
+use crate::lab::model::TaskWork;
 use crate::lab::model::{Lab, Task};
 use crate::submission::answer::named_entries;
-use crate::task::model::{Case, Function, FunctionTask, Given, TaskWork};
+use crate::task::model::{Case, Function, FunctionTask, Given};
 
 /// `cases` of `task` with what is expected in them: entry by entry as in the visible cases.
 ///
@@ -20,11 +21,14 @@ pub fn with_expected(
     solution: &Source,
 ) -> Result<Vec<Case>, String> {
     let mut cases = cases.to_vec();
-    let TaskWork::Function(FunctionTask {
-        function: function @ Function::Free(_),
-        cases: visible,
-        ..
-    }) = &task.work
+    let TaskWork::Function(
+        FunctionTask {
+            function: function @ Function::Free(_),
+            cases: visible,
+            ..
+        },
+        _,
+    ) = &task.work
     else {
         return Ok(cases);
     };

@@ -3,53 +3,25 @@
 
 use kinemark_sim::ticks::Periods;
 
-use crate::lab::model::CheckKind;
+use crate::check::FirstLoss;
 use crate::record::grade::{Evidence, Instant};
 use crate::record::graded::Curve;
-use crate::task::watched::SpeedAt;
-
-/// How a curve is held against its band.
-enum Held {
-    /// Its greatest value counts, so that the first one beyond costs points.
-    Greatest,
-    /// A mean of it counts, so that points are lost where it goes to what the evidence tells.
-    Mean,
-    /// It tells what has come together so far; its last value counts.
-    SoFar,
-}
-
-/// How the curve of a check is held against its band; none where moments beyond it may cost nothing, as on the way to a goal.
-fn held(kind: &CheckKind) -> Option<Held> {
-    match kind {
-        CheckKind::Overshoot(_)
-        | CheckKind::EffortPeak { .. }
-        | CheckKind::JointSpeed(_)
-        | CheckKind::TcpSpeed {
-            at: SpeedAt::Run, ..
-        } => Some(Held::Greatest),
-        CheckKind::PathDeviation { .. } | CheckKind::Jerk(_) => Some(Held::Mean),
-        CheckKind::EffortSaturation(_)
-        | CheckKind::EffortRms { .. }
-        | CheckKind::Energy(_)
-        | CheckKind::Chatter { .. } => Some(Held::SoFar),
-        _ => None,
-    }
-}
 
 /// Where a check that lost points in the visible run began to lose them, if its curve or its evidence says when.
 pub(super) fn first_lost(
-    kind: &CheckKind,
+    kind: FirstLoss,
     evidence: &[Evidence],
     curve: Option<&Curve>,
     periods: &Periods,
 ) -> Option<Instant> {
     let told = || evidence.iter().filter_map(|fact| fact.time_s);
-    let left = curve.and_then(|curve| match held(kind)? {
-        Held::Greatest => first_beyond(curve),
-        Held::Mean => told()
+    let left = curve.and_then(|curve| match kind {
+        FirstLoss::Greatest => first_beyond(curve),
+        FirstLoss::Mean => told()
             .filter_map(|time_s| went_beyond(curve, time_s))
             .min_by(f64::total_cmp),
-        Held::SoFar => went_beyond(curve, f64::INFINITY),
+        FirstLoss::SoFar => went_beyond(curve, f64::INFINITY),
+        FirstLoss::Evidence => None,
     });
     let time_s = left.or_else(|| told().min_by(f64::total_cmp))?;
     // times of curves and of evidence are those of ticks

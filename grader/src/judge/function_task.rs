@@ -1,7 +1,6 @@
 //! Grading a function task: its visible and hidden cases, its checks, and the known mistakes it shows.
 
 use super::Interrupted;
-use super::bands::answer_band;
 use super::case_grades::{case_grade, hidden_classes};
 use super::check_grades::check_grades;
 use super::diagnose;
@@ -11,7 +10,7 @@ use super::hidden_attempts::HiddenAttempts;
 use super::judged::{Judged, all_full, judge};
 use crate::attempt::answers::{Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
-use crate::check;
+use crate::check::{self, Check, FunctionCheck};
 use crate::lab::model::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{CheckGrade, Diagnosis, Digests, Stopped, TaskGrade, TaskKind};
@@ -20,13 +19,14 @@ use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Stop;
 use crate::submission::host::{Host, InProcess};
-use crate::task::model::{Case, FunctionTask};
+use crate::task::model::{Band, Case, Function, FunctionTask};
 
 impl Grader<'_> {
     pub(super) fn function(
         &self,
         task: &Task,
         work: &FunctionTask,
+        checks: &[Check<dyn FunctionCheck>],
         host: &mut dyn Host,
     ) -> Result<TaskGrade, Interrupted> {
         let (cases, fault) = self.cases(task, work);
@@ -39,20 +39,21 @@ impl Grader<'_> {
         let (mut verdict, stopped) = self.ended(&attempt)?;
         let facts = &attempt.recorded.facts;
         let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
-        let judged = judge(&task.checks, can_be_judged, |check| {
+        let judged = judge(checks, can_be_judged, |check| {
             check::judge_function(check, &work.function, facts)
         });
         if !all_full(&judged) {
             verdict = verdict.min(Verdict::Missed);
         }
+        let band = check::answer_band(checks);
         let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
             Vec::new()
         } else {
-            self.function_diagnoses(task, work, &cases, &attempt)
+            self.function_diagnoses(task, (&work.function, band), &cases, &attempt)
         };
         let explained = stopped.is_some() || !diagnoses.is_empty();
-        let checks = function_checks(task, &judged, explained);
-        Ok(self.function_grade(task, verdict, stopped, checks, diagnoses, attempt))
+        let checks = function_checks(checks, &judged, explained);
+        Ok(self.function_grade((task, band), verdict, stopped, checks, diagnoses, attempt))
     }
 
     /// All cases of a task, hidden ones with what is expected in them; with a fault, where the reference solution does not say what,
@@ -93,14 +94,13 @@ impl Grader<'_> {
 
     fn function_grade(
         &self,
-        task: &Task,
+        (task, band): (&Task, Band),
         verdict: Verdict,
         stopped: Option<Stopped>,
         checks: Vec<CheckGrade>,
         diagnoses: Vec<Diagnosis>,
         attempt: Attempt<Answers<'_>>,
     ) -> TaskGrade {
-        let band = answer_band(&task.checks);
         let Answers { facts, log, digest } = attempt.recorded;
         let has_hidden = facts.iter().any(|facts| !facts.is_visible());
         let digest = match self.staff.filter(|_| has_hidden) {
@@ -138,21 +138,20 @@ impl Grader<'_> {
     fn function_diagnoses(
         &self,
         task: &Task,
-        work: &FunctionTask,
+        (asked, band): (&Function, Band),
         cases: &[Case],
         student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &mutant.source);
             let cell = self.lab.workcell();
-            let run = function::run(cell, &work.function, cases, &opening, &mut InProcess);
+            let run = function::run(cell, asked, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
             (mutant, run.recorded.facts)
         });
         // mutants outlive the closure's borrow only if collected
         let answers: Vec<(&Mutant, Vec<CaseFacts<'_>>)> = mutants.collect();
-        let band = answer_band(&task.checks);
         diagnose::function_task(&student.recorded.facts, answers.into_iter(), band)
     }
 }
@@ -168,8 +167,12 @@ fn is_without_function(ended: Option<&Ended>) -> bool {
 }
 
 /// The grades of a function task's checks: hidden cases are among those judged, and no moment is the first.
-fn function_checks(task: &Task, judged: &[Judged], explained: bool) -> Vec<CheckGrade> {
+fn function_checks(
+    checks: &[Check<dyn FunctionCheck>],
+    judged: &[Judged],
+    explained: bool,
+) -> Vec<CheckGrade> {
     let first_lost = vec![None; judged.len()];
     let hidden = HiddenAttempts::default();
-    check_grades(&task.checks, judged, &first_lost, &hidden, explained)
+    check_grades(checks, judged, &first_lost, &hidden, explained)
 }

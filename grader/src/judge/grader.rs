@@ -10,6 +10,7 @@ use super::opening::opening;
 use super::staff_faults::staff_fault;
 use crate::attempt::Ended;
 use crate::lab::Staff;
+use crate::lab::model::TaskWork;
 use crate::lab::model::{Lab, Task};
 use crate::lab::staff::Mutant;
 use crate::record::grade::{
@@ -21,7 +22,6 @@ use crate::record::staff_fault::{StaffFault, StaffSubmission};
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
 use crate::submission::host::Host;
-use crate::task::model::TaskWork;
 use crate::task::robot::LabRobot;
 
 /// Lines of a submission's output that the record keeps.
@@ -54,9 +54,11 @@ pub fn grade(
     for task in &lab.tasks {
         host.begins(&task.title);
         let (grade, run) = match &task.work {
-            TaskWork::Function(function) => (grader.function(task, function, host)?, None),
-            TaskWork::Motion(motion) => {
-                let (grade, run) = grader.motion(task, motion, host)?;
+            TaskWork::Function(function, checks) => {
+                (grader.function(task, function, checks, host)?, None)
+            }
+            TaskWork::Motion(motion, checks) => {
+                let (grade, run) = grader.motion(task, motion, checks, host)?;
                 (grade, Some(run))
             }
         };
@@ -193,7 +195,7 @@ impl Grader<'_> {
     pub(super) fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
         let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
         let name = task.name.clone();
-        let is_run = matches!(task.work, TaskWork::Motion(_));
+        let is_run = matches!(task.work, TaskWork::Motion(..));
         all.iter().filter(move |mutant| {
             let is_refuted = is_run && mutant.tasks.iter().any(|task| self.passed.contains(task));
             mutant.tasks.contains(&name) && !is_refuted

@@ -185,10 +185,10 @@ fn attempt(
     let Some(task) = lab.tasks.iter().find(|task| task.name == name) else {
         return Ok(None);
     };
-    let TaskWork::Motion(work) = &task.work else {
+    let TaskWork::Motion(work, checks) = &task.work else {
         return Ok(None);
     };
-    let judge = MotionJudge::new(lab, task, work, submission, None);
+    let judge = MotionJudge::new(lab, task, (work, checks), submission, None);
     let attempt = judge.attempt(host);
     let disclosure = Disclosure::HiddenRun { class: &run.class };
     let judged = judge.judge(&attempt, disclosure, host)?;

@@ -1,7 +1,6 @@
 //! Judging an attempt: every check of its task in order, whether the attempt is a visible run, a hidden one or the answers to cases.
 
-use crate::check::Finding;
-use crate::lab::model::Check;
+use crate::check::{Check, Finding};
 use crate::record::grade::Outcome;
 
 /// What a check came to in one attempt.
@@ -58,10 +57,10 @@ impl Judged {
 
 /// Judges an attempt by its task's checks in order. A check that needs one which earned nothing is not judged, nor is any where the
 /// attempt cannot be judged.
-pub(super) fn judge(
-    checks: &[Check],
+pub(super) fn judge<K: ?Sized>(
+    checks: &[Check<K>],
     can_be_judged: bool,
-    find: impl Fn(&Check) -> Finding,
+    find: impl Fn(&Check<K>) -> Finding,
 ) -> Vec<Judged> {
     let mut judged: Vec<Judged> = Vec::with_capacity(checks.len());
     for check in checks {

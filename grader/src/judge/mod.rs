@@ -1,7 +1,6 @@
 //! From a lab and a submission to a graded run: every task is attempted, its checks judge the attempts, and the record is put together
 //! from what they found, once.
 
-mod bands;
 mod case_grades;
 mod check_grades;
 pub mod diagnose;

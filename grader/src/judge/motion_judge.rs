@@ -4,14 +4,13 @@ use kinemark_sim::source::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
-use super::bands::pose_band;
 use super::judged::{Judged, all_full, judge};
 use super::opening::opening;
 use super::robustness_sweep::{self, Undecided};
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::stay::{self, Stay};
-use crate::check::{self, Climb, MotionFacts};
+use crate::check::{self, Check, Climb, MotionCheck, MotionFacts};
 use crate::lab::model::{Lab, Task};
 use crate::record::grade::Stopped;
 use crate::record::graded::TcpPath;
@@ -26,6 +25,7 @@ pub(super) struct MotionJudge<'a> {
     pub(super) lab: &'a Lab,
     pub(super) task: &'a Task,
     pub(super) work: &'a MotionTask,
+    pub(super) checks: &'a [Check<dyn MotionCheck>],
     pub(super) opening: Opening,
     /// The reference solution's path, where the lab ships it.
     pub(super) reference: Option<&'a TcpPath>,
@@ -51,7 +51,7 @@ impl<'a> MotionJudge<'a> {
     pub(super) fn new(
         lab: &'a Lab,
         task: &'a Task,
-        work: &'a MotionTask,
+        (work, checks): (&'a MotionTask, &'a [Check<dyn MotionCheck>]),
         submission: &Source,
         reference: Option<&'a TcpPath>,
     ) -> Self {
@@ -59,9 +59,10 @@ impl<'a> MotionJudge<'a> {
             lab,
             task,
             work,
+            checks,
             opening: opening(lab, task, submission),
             reference,
-            pose_band: pose_band(&task.checks),
+            pose_band: check::dwell_band(checks),
         }
     }
 
@@ -116,7 +117,7 @@ impl<'a> MotionJudge<'a> {
                 Err(Undecided(stop)) => ended = Some(Ended::stopped_by(stop, 0)),
             }
         }
-        let checks = judge(&self.task.checks, ended.is_none(), |check| {
+        let checks = judge(self.checks, ended.is_none(), |check| {
             check::judge_motion(check, &facts)
         });
         let verdict = ended.as_ref().map_or(Some(Verdict::Passed), Ended::verdict);

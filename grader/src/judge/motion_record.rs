@@ -2,13 +2,11 @@
 
 use kinemark_sim::trace::{SecondDigest, Trace};
 
-use super::bands::path_band;
 use super::grader::MOST_LOG_LINES;
 use super::motion_judge::MotionJudge;
 use crate::attempt::Attempt;
-use crate::check::Climb;
 use crate::check::stay::Stay;
-use crate::lab::model::{CheckKind, Task};
+use crate::check::{self, Check, Climb, MotionCheck};
 use crate::record::grade::{
     CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LogEntry, RungDigest, SecondDigests,
     Stopped, TaskGrade, TaskKind,
@@ -70,13 +68,13 @@ impl MotionResult {
         curves: Vec<Curve>,
     ) -> TaskRun {
         let (lab, task, work) = (judge.lab, judge.task, judge.work);
-        let checks = &task.checks;
+        let checks = judge.checks;
         let titles = checks.iter();
         let titles = titles.map(|check| (check.name.clone(), check.title.clone()));
         let paths = work.paths.iter().map(|path| AskedPath {
             name: path.name.clone(),
             points_m: path.points_m.iter().map(|p| (*p).into()).collect(),
-            tube_m: path_band(checks, &path.name).map(|band| [band.full, band.zero]),
+            tube_m: check::path_band(checks, &path.name).map(|band| [band.full, band.zero]),
         });
         let gains = work.servo.gains.iter();
         TaskRun {
@@ -133,14 +131,14 @@ pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<Sec
 }
 
 /// Identities of the runs of all levels of robustness checks, in the lab's order.
-pub(super) fn rung_digests(task: &Task, sweeps: &[Climb]) -> Vec<RungDigest> {
+pub(super) fn rung_digests(checks: &[Check<dyn MotionCheck>], sweeps: &[Climb]) -> Vec<RungDigest> {
     let mut digests = Vec::new();
     for sweep in sweeps {
-        let check = task.checks.iter().find(|check| check.name == sweep.check);
-        let Some(CheckKind::Robustness(ladder)) = check.map(|check| &check.kind) else {
+        let check = checks.iter().find(|check| check.name == sweep.check);
+        let Some(asked) = check.and_then(|check| check.kind.sweep()) else {
             continue;
         };
-        for (level, facts) in ladder.rungs.iter().zip(&sweep.rungs) {
+        for (level, facts) in asked.rungs.iter().zip(&sweep.rungs) {
             digests.push(RungDigest {
                 check: sweep.check.clone(),
                 rung: level.name.clone(),

@@ -15,6 +15,7 @@ use super::motion_judge::MotionJudge;
 use super::motion_record::{MotionResult, rung_digests, second_digests};
 use crate::attempt::motion::Session;
 use crate::attempt::{Attempt, Disclosure, Ended};
+use crate::check::{Check, MotionCheck};
 use crate::lab::model::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{Diagnosis, Digests, Divergence, Instant, Outcome, TaskGrade};
@@ -29,10 +30,11 @@ impl Grader<'_> {
         &self,
         task: &Task,
         work: &MotionTask,
+        checks: &[Check<dyn MotionCheck>],
         host: &mut dyn Host,
     ) -> Result<(TaskGrade, TaskRun), Interrupted> {
         let path = self.reference_path(&task.name);
-        let judge = MotionJudge::new(self.lab, task, work, self.submission, path);
+        let judge = MotionJudge::new(self.lab, task, (work, checks), self.submission, path);
         let attempt = judge.attempt(host);
         let disclosure = Disclosure::Run {
             names: judge.names(),
@@ -42,15 +44,15 @@ impl Grader<'_> {
         let (differs, diagnoses) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
         let hidden = self.hidden(task, &attempt, host)?;
-        let checks = check_grades(
-            &task.checks,
+        let grades = check_grades(
+            checks,
             &visible.checks,
             &first_lost,
             &hidden,
             !diagnoses.is_empty(),
         );
         let mut verdict = visible.verdict;
-        if checks.iter().any(|check| check.outcome != Outcome::Full) {
+        if grades.iter().any(|check| check.outcome != Outcome::Full) {
             verdict = verdict.min(Verdict::Missed);
         }
         let digest = attempt.recorded.digest();
@@ -67,13 +69,13 @@ impl Grader<'_> {
         let result = MotionResult {
             verdict,
             stopped,
-            checks,
+            checks: grades,
             diagnoses,
             hidden: classes,
             digests: Digests {
                 all: all.to_hex().to_string(),
                 seconds: second_digests(&attempt.recorded, &digest.seconds),
-                rungs: rung_digests(task, &visible.sweeps),
+                rungs: rung_digests(checks, &visible.sweeps),
             },
             divergence: differs,
         };
@@ -179,7 +181,13 @@ impl Grader<'_> {
         whose: StaffSubmission,
         source: &Source,
     ) -> Attempt<Trace> {
-        let own = MotionJudge::new(self.lab, judge.task, judge.work, source, None);
+        let own = MotionJudge::new(
+            self.lab,
+            judge.task,
+            (judge.work, judge.checks),
+            source,
+            None,
+        );
         let run = own.attempt(&mut InProcess);
         self.note_stop(whose, judge.task, source, run.ended.as_ref());
         run
@@ -208,11 +216,16 @@ impl Grader<'_> {
 
 /// Where each check began to lose points in the visible run.
 fn first_losses(judge: &MotionJudge<'_>, judged: &[Judged]) -> Vec<Option<Instant>> {
-    let checks = judge.task.checks.iter().zip(judged);
+    let checks = judge.checks.iter().zip(judged);
     let losses = checks.map(|(check, judged)| {
         let finding = judged.loss()?;
         let curve = finding.curve.as_ref();
-        first_lost(&check.kind, &finding.evidence, curve, &judge.work.periods)
+        first_lost(
+            check.kind.first_loss(),
+            &finding.evidence,
+            curve,
+            &judge.work.periods,
+        )
     });
     losses.collect()
 }

@@ -5,21 +5,22 @@ use kinemark_sim::source::Source;
 
 use crate::attempt::function;
 use crate::attempt::motion;
+use crate::lab::model::TaskWork;
 use crate::lab::model::{Lab, Task};
 use crate::submission::controller::{Granted, Opening};
 use crate::task::mesh_file::MeshFile;
-use crate::task::model::{Function, FunctionTask, TaskWork};
+use crate::task::model::{Function, FunctionTask};
 use crate::task::value::Value;
 
 /// What a submission is opened with for `task` of `lab`.
 pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
     let (robot, target, sensors) = match &task.work {
-        TaskWork::Function(_) => (
+        TaskWork::Function(..) => (
             function::robot_facts(&lab.robot, None),
             Value::Nothing,
             Vec::new(),
         ),
-        TaskWork::Motion(motion) => (
+        TaskWork::Motion(motion, _) => (
             motion::facts_of(&lab.robot, motion),
             motion::target_of(motion),
             motion::sensors_of(motion),
@@ -35,10 +36,13 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
         budgets: lab.budgets.clone(),
         granted: granted(lab, &task.work),
         function: match &task.work {
-            TaskWork::Function(FunctionTask {
-                function: Function::Free(name),
-                ..
-            }) => Some(name.clone()),
+            TaskWork::Function(
+                FunctionTask {
+                    function: Function::Free(name),
+                    ..
+                },
+                _,
+            ) => Some(name.clone()),
             _ => None,
         },
     }
@@ -47,8 +51,8 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
 /// What a task grants, with what the robot's model is made from; none where it grants nothing.
 fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
     let (functions, gravity_m_s2) = match work {
-        TaskWork::Function(function) => (&function.grants, GRAVITY_M_S2),
-        TaskWork::Motion(motion) => (&motion.grants, motion.gravity_m_s2),
+        TaskWork::Function(function, _) => (&function.grants, GRAVITY_M_S2),
+        TaskWork::Motion(motion, _) => (&motion.grants, motion.gravity_m_s2),
     };
     let source = lab.robot_file.source();
     let mesh = |mesh: &MeshFile| {

@@ -2,10 +2,10 @@
 
 use crate::attempt::motion;
 use crate::judge::opening;
+use crate::lab::model::TaskWork;
 use crate::lab::{Lab, Staff};
 use crate::record::graded::GradedRun;
 use crate::submission::host::InProcess;
-use crate::task::model::TaskWork;
 
 /// Puts the reference solution's motion beside every run of `graded`, to be shown by its report and its logs; a solution that stops
 /// early is not shown. The grade is not touched.
@@ -14,7 +14,7 @@ pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
         let Some(task) = lab.tasks.iter().find(|task| task.name == run.task) else {
             continue;
         };
-        let TaskWork::Motion(work) = &task.work else {
+        let TaskWork::Motion(work, _) = &task.work else {
             continue;
         };
         let opening = opening(lab, task, &staff.solution);

@@ -7,10 +7,8 @@ use kinemark_sim::trace::Trace;
 use super::motion_judge::MotionJudge;
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
-use crate::check::robustness::{RungEnd, RungFacts};
-use crate::check::{self, Climb, MotionFacts};
-use crate::lab::ladder::Rung;
-use crate::lab::model::{Check, CheckKind};
+use crate::check::robustness::{Rung, RungEnd, RungFacts};
+use crate::check::{self, Check, Climb, MotionCheck, MotionFacts};
 use crate::submission::controller::Stop;
 use crate::submission::host::Host;
 use crate::task::workcell::Workcell;
@@ -29,15 +27,15 @@ pub(super) fn sweeps(
     host: &mut dyn Host,
 ) -> Result<Vec<Climb>, Undecided> {
     let mut sweeps = Vec::new();
-    for check in &judge.task.checks {
-        let CheckKind::Robustness(ladder) = &check.kind else {
+    for check in judge.checks {
+        let Some(sweep) = check.kind.sweep() else {
             continue;
         };
-        let repeated = &judge.task.checks[ladder.check];
+        let repeated = &judge.checks[sweep.check];
         let before = check::judge_motion(repeated, undisturbed);
         let mut levels = Vec::new();
         if before.score > 0.0 {
-            for level in &ladder.rungs {
+            for level in &sweep.rungs {
                 let attempt = attempt(judge, level, host);
                 levels.push(judged(judge, repeated, &attempt)?);
             }
@@ -86,7 +84,7 @@ fn seed(names: [&str; 3]) -> u64 {
 /// What the repeated check finds in the run of a level, or how that run ended early.
 fn judged(
     judge: &MotionJudge<'_>,
-    repeated: &Check,
+    repeated: &Check<dyn MotionCheck>,
     attempt: &Attempt<Trace>,
 ) -> Result<RungFacts, Undecided> {
     let outcome = match &attempt.ended {

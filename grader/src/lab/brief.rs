@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use kinemark_sim::robot::expression::evaluate_named;
 
-use super::model::{CheckKind, Lab};
-use crate::record::quantity::{points, trimmed, with_unit};
+use super::model::Lab;
+use crate::record::quantity::{points, trimmed};
 
 /// The line before the table.
 pub const BEGIN: &str = "<!-- grading: begin -->";
@@ -118,45 +118,15 @@ fn table(lab: &Lab) -> String {
     );
     let mut total = 0.0;
     for task in &lab.tasks {
-        for check in &task.checks {
+        let checks = task.checks();
+        let titles: Vec<&str> = checks.iter().map(|check| check.title).collect();
+        for check in &checks {
             total += check.points;
-            let (full, zero) = match (&check.kind, check.kind.band(&lab.robot)) {
-                (CheckKind::IkReach(band) | CheckKind::IkBranches(band), _) => (
-                    format!("every target within {}", with_unit(band.full, "m")),
-                    format!("every target {} off", with_unit(band.zero, "m")),
-                ),
-                (CheckKind::BodyFalls(fall), _) => (
-                    fall.side.map_or_else(
-                        || "it falls".to_owned(),
-                        |side| format!("it falls over the {} side", side.name()),
-                    ),
-                    format!(
-                        "it stays ({} if it topples, {} if it moves)",
-                        with_unit(fall.toppled, ""),
-                        with_unit(fall.moved, "")
-                    ),
-                ),
-                (CheckKind::PathCoverage { shares, .. }, _) => (
-                    format!("from {}", with_unit(shares.full, "")),
-                    format!("up to {}", with_unit(shares.zero, "")),
-                ),
-                (CheckKind::Robustness(ladder), _) => {
-                    let repeated = &task.checks[ladder.check].title;
-                    (
-                        format!("\"{repeated}\" in full on every rung"),
-                        "nothing on any rung".to_owned(),
-                    )
-                }
-                (_, Some((band, unit))) => (
-                    format!("up to {}", with_unit(band.full, unit)),
-                    format!("from {}", with_unit(band.zero, unit)),
-                ),
-                (_, None) => ("every one".to_owned(), "none".to_owned()),
-            };
+            let [full, zero] = check.kind.bounds(&lab.robot, &titles);
             let needs: Vec<String> = check
                 .needs
                 .iter()
-                .map(|&need| format!("\"{}\"", task.checks[need].title))
+                .map(|&need| format!("\"{}\"", titles[need]))
                 .collect();
             let note = if needs.is_empty() {
                 String::new()

@@ -7,6 +7,7 @@ pub mod joint_units;
 pub mod mesh_file;
 pub mod model;
 pub mod problem;
+pub(crate) mod reporter;
 pub mod robot;
 pub mod scene;
 pub mod tcp;

@@ -13,15 +13,6 @@ use super::scene::LabScene;
 use super::value::Value;
 use super::watched::PathToFollow;
 
-/// What a task asks for.
-#[derive(Debug, Clone)]
-pub enum TaskWork {
-    /// A function called on cases.
-    Function(FunctionTask),
-    /// A run under `control`.
-    Motion(Box<MotionTask>),
-}
-
 /// The function of a function task.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Function {

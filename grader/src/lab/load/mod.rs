@@ -5,13 +5,9 @@ mod checks;
 mod free_function;
 mod functions;
 mod grants;
-mod ladder;
 mod motion;
-mod path_checks;
-mod prediction;
+mod paths;
 mod reading;
-mod run_checks;
-mod step_checks;
 mod target;
 
 use std::collections::BTreeMap;
@@ -23,18 +19,18 @@ use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
-use super::model::{Check, Lab, ReferencePaths, Task};
+use super::model::{Lab, ReferencePaths, Task, TaskWork};
 use super::parameters;
 use super::variant::{self, Variant};
 use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
-use crate::task::model::TaskWork;
 use crate::task::problem::{LabError, LoadError};
 use crate::task::robot::{LabRobot, robot_names};
 use crate::task::scene::{LabScene, scene_names};
 
-pub(super) use reading::{Reporter, refuse_not_finite, tables};
+pub(super) use crate::task::reporter::Reporter;
+pub(super) use reading::{refuse_not_finite, tables};
 
 /// Names of the labs in `files`: folders that hold a `lab.toml`.
 pub fn lab_names(files: &dyn Files) -> Vec<String> {
@@ -227,9 +223,9 @@ fn of_dimensions(
 
 /// The first check that compares the whole run with `reference-path.json`.
 fn one_path(tasks: &[Task]) -> Option<&str> {
-    let mut checks = tasks.iter().flat_map(|task| &task.checks);
+    let mut checks = tasks.iter().flat_map(Task::checks);
     let found = checks.find(|check| check.kind.follows_one_path())?;
-    Some(&found.name)
+    Some(found.name)
 }
 
 /// Loads the scenes that motion tasks name, each once.
@@ -385,48 +381,26 @@ impl Reader<'_> {
                 Some("add a [[tasks]] table".to_owned()),
             );
         }
-        self.unique("task", lab.tasks.iter().map(|task| &task.name))?;
+        self.report
+            .unique("task", lab.tasks.iter().map(|task| &task.name))?;
         lab.tasks.iter().map(|task| self.task(task)).collect()
-    }
-
-    /// Names are used in file names and links: letters, digits, `-`.
-    fn unique<'n>(
-        &self,
-        what: &str,
-        names: impl Iterator<Item = &'n Spanned<String>>,
-    ) -> Result<(), LabError> {
-        let mut seen: Vec<&str> = Vec::new();
-        for at in names {
-            let name = at.get_ref().as_str();
-            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-            if name.is_empty() || !name.chars().all(plain) {
-                return self.report.err(
-                    at.span(),
-                    "lab::bad_name",
-                    format!("{what} name {name:?} cannot be used"),
-                    "this name",
-                    Some("use lower-case letters, digits and `-`".to_owned()),
-                );
-            }
-            if seen.contains(&name) {
-                return self.report.err(
-                    at.span(),
-                    "lab::duplicate",
-                    format!("{what} `{name}` is there twice"),
-                    "the second one",
-                    Some("give each its own name".to_owned()),
-                );
-            }
-            seen.push(name);
-        }
-        Ok(())
     }
 
     fn task(&self, table: &TaskTable) -> Result<Task, LabError> {
         let name = table.name.get_ref();
         let work = match (&table.function, &table.motion) {
-            (Some(function), None) => TaskWork::Function(self.function(function)?),
-            (None, Some(motion)) => TaskWork::Motion(Box::new(self.motion(motion)?)),
+            (Some(function), None) => {
+                let function = self.function(function)?;
+                self.has_checks(table)?;
+                let checks = self.function_checks(&table.checks, &function)?;
+                TaskWork::Function(function, checks)
+            }
+            (None, Some(motion)) => {
+                let motion = self.motion(motion)?;
+                self.has_checks(table)?;
+                let checks = self.motion_checks(&table.checks, &motion, name)?;
+                TaskWork::Motion(Box::new(motion), checks)
+            }
             _ => {
                 return self.report.err(
                     table.name.span(),
@@ -437,6 +411,16 @@ impl Reader<'_> {
                 );
             }
         };
+        Ok(Task {
+            name: name.clone(),
+            title: table.title.clone(),
+            work,
+        })
+    }
+
+    /// A task has checks, each with a name of its own.
+    fn has_checks(&self, table: &TaskTable) -> Result<(), LabError> {
+        let name = table.name.get_ref();
         if table.checks.is_empty() {
             return self.report.err(
                 table.name.span(),
@@ -446,35 +430,14 @@ impl Reader<'_> {
                 Some("add a [[tasks.checks]] table".to_owned()),
             );
         }
-        self.unique(
+        self.report.unique(
             "check",
             table.checks.iter().map(|check| &check.get_ref().name),
-        )?;
-        let mut checks: Vec<Check> = Vec::new();
-        for check in &table.checks {
-            let check = self.check(check, &checks, &work, name)?;
-            checks.push(check);
-        }
-        Ok(Task {
-            name: name.clone(),
-            title: table.title.clone(),
-            work,
-            checks,
-        })
+        )
     }
 
     fn positive(&self, number: &NumberAt, what: &str) -> Result<f64, LabError> {
-        let value = *number.get_ref();
-        if value > 0.0 && value.is_finite() {
-            return Ok(value);
-        }
-        self.report.err(
-            number.span(),
-            "lab::out_of_range",
-            format!("{what} must be positive and finite, got {value}"),
-            "out of range",
-            None,
-        )
+        self.report.positive(number, what)
     }
 
     fn counted<T>(&self, list: &Spanned<Vec<T>>, what: &str) -> Result<(), LabError> {

@@ -7,7 +7,8 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::lab::parameters::refused;
-use crate::task::problem::{LabError, LabProblem};
+use crate::task::problem::LabError;
+use crate::task::reporter::Reporter;
 
 /// Reads TOML into its tables.
 pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
@@ -51,30 +52,7 @@ fn not_finite(text: &str) -> Option<Range<usize>> {
         .find_map(within)
 }
 
-/// Where problems of one text are reported.
-#[derive(Clone, Copy)]
-pub(in crate::lab) struct Reporter<'a> {
-    pub(in crate::lab) source: &'a Source,
-}
-
 impl Reporter<'_> {
-    pub(in crate::lab) fn err<T>(
-        &self,
-        at: Range<usize>,
-        code: &'static str,
-        message: String,
-        label: &str,
-        help: Option<String>,
-    ) -> Result<T, LabError> {
-        let problem = LabProblem {
-            message,
-            code,
-            label: label.to_owned(),
-            help,
-        };
-        Err(LabError::new(problem, self.source, at))
-    }
-
     /// What the JSON reader refused, at its place.
     pub(in crate::lab) fn json<T>(&self, error: &serde_json::Error) -> Result<T, LabError> {
         let told = error.to_string();

@@ -8,7 +8,8 @@ use crate::lab::draw::{Draw, Drawn};
 use crate::lab::file::{DrawTable, Ranges};
 use crate::lab::load::Reporter;
 use crate::lab::model::Lab;
-use crate::task::model::{Function, FunctionTask, Given, TaskWork};
+use crate::lab::model::TaskWork;
+use crate::task::model::{Function, FunctionTask, Given};
 use crate::task::problem::LabError;
 
 /// A `[[draws]]` table as a draw that fits its lab.
@@ -55,7 +56,8 @@ impl<'a> DrawReader<'a> {
 
     /// The function task it is for; its count is within what a task may have.
     fn task(&self) -> Result<&'a FunctionTask, LabError> {
-        let TaskWork::Function(task) = known_task(self.report, self.lab, &self.table.task)? else {
+        let TaskWork::Function(task, _) = known_task(self.report, self.lab, &self.table.task)?
+        else {
             return self.refuse(
                 format!("task `{}` is no function task", self.table.task.get_ref()),
                 "hidden cases are drawn for function tasks",

@@ -9,7 +9,7 @@ use crate::lab::draw::parameters;
 use crate::lab::file::{HiddenRunsTable, Ranges};
 use crate::lab::load::Reporter;
 use crate::lab::model::Lab;
-use crate::task::model::TaskWork;
+use crate::lab::model::TaskWork;
 use crate::task::problem::LabError;
 
 /// The runs of one `[[runs]]` table, each a lab of its own.
@@ -24,7 +24,7 @@ pub(super) fn hidden_runs(
         let help = Some(help.to_owned());
         report.err(spanned.span(), "staff::runs", message, "these runs", help)
     };
-    let TaskWork::Motion(_) = known_task(report, lab, &table.task)? else {
+    let TaskWork::Motion(..) = known_task(report, lab, &table.task)? else {
         return refuse(
             format!("task `{}` is no motion task", table.task.get_ref()),
             "hidden cases of function tasks are [[draws]]",
@@ -43,7 +43,7 @@ pub(super) fn hidden_runs(
         .tasks
         .iter()
         .find(|task| task.name == *table.task.get_ref());
-    let mut checks = task.into_iter().flat_map(|task| &task.checks);
+    let mut checks = task.into_iter().flat_map(|task| task.checks());
     if let Some(check) = checks.find(|check| check.kind.follows_one_path()) {
         return refuse(
             format!(

@@ -11,8 +11,9 @@ use toml::Spanned;
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
 use super::load::{Reporter, tables};
 use super::model::Lab;
+use crate::lab::model::TaskWork;
 use crate::task::files::{Files, read_source};
-use crate::task::model::{Case, TaskWork};
+use crate::task::model::Case;
 use crate::task::problem::{LabError, LoadError};
 use draws::checked;
 use hidden_runs::hidden_runs;
@@ -169,7 +170,7 @@ fn hidden(
 ) -> Result<Hidden, LoadError> {
     let path = format!("{}/hidden.toml", lab.name);
     let Some(source) = own(files, &path)? else {
-        let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(_));
+        let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(..));
         if lab.tasks.iter().any(|task| is_function(&task.work)) {
             return Err(LoadError::Unreadable {
                 path: format!("{}/{path}", files.name()),

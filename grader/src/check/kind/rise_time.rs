@@ -1,0 +1,267 @@
+//! rise-time: how long a joint takes from one share of its step to another \[s\].
+//!
+//! The shares are of the way from the start to the final value. Each is passed where the signal first reaches it, on the straight
+//! line between two ticks.
+
+use std::ops::Range;
+
+use kinemark_sim::robot::Robot;
+use kinemark_sim::source::Problem;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
+use crate::check::facts::MotionFacts;
+use crate::check::finding::Finding;
+use crate::check::reading::{InTask, NumberAt};
+use crate::check::registry::MotionTable;
+use crate::check::step_keys::{StepResponse, step_table};
+use crate::check::step_response::{Loss, Measured, Response, SETTLED};
+use crate::record::grade::Evidence;
+use crate::record::quantity::{seconds, trimmed, with_unit};
+use crate::task::model::Band;
+use crate::task::problem::LabError;
+
+/// Shares that do not go up.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("a rise goes up: `from` must be below `to`, got {from} and {to}")]
+struct NoRise {
+    from: f64,
+    to: f64,
+}
+
+impl Problem for NoRise {
+    fn code(&self) -> &'static str {
+        "lab::step"
+    }
+
+    fn label(&self) -> String {
+        "this share of the step".to_owned()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some("left out they are 0.1 and 0.9".to_owned())
+    }
+}
+
+step_table! {
+    /// The time at the end of the run whose mean is the final value \[s\]; 0.2 where it is left out.
+    final_s = 0.2;
+    /// The lower share of the step, above 0; 0.1 where it is left out.
+    #[schemars(with = "Option<f64>")]
+    from: Option<NumberAt>,
+    /// The upper share of the step, below 1; 0.9 where it is left out.
+    #[schemars(with = "Option<f64>")]
+    to: Option<NumberAt>,
+    /// Time that earns all points \[s\].
+    full_s: f64,
+    /// Time that earns none \[s\].
+    zero_s: f64,
+}
+
+impl MotionTable for Table {
+    const NAME: &'static str = "rise-time";
+    type Check = RiseTime;
+
+    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<RiseTime, LabError> {
+        let from = reading.share_of_step(self.from.as_ref(), "`from`", 0.1)?;
+        let to = reading.share_of_step(self.to.as_ref(), "`to`", 0.9)?;
+        if from >= to {
+            let typed = self.from.as_ref().or(self.to.as_ref());
+            let at = typed.map_or(at, Spanned::span);
+            return reading.report.refuse(at, NoRise { from, to });
+        }
+        Ok(RiseTime {
+            response: reading.step_response(&self.keys(), at.clone())?,
+            shares: [from, to],
+            band: reading.report.band(self.full_s, self.zero_s, at)?,
+        })
+    }
+}
+
+/// The check as read.
+#[derive(Debug)]
+pub(crate) struct RiseTime {
+    response: StepResponse,
+    /// Where the time begins and ends, in `(0, 1)` and rising.
+    shares: [f64; 2],
+    band: Band,
+}
+
+impl CheckKind for RiseTime {
+    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
+        Some((self.band, "s"))
+    }
+}
+
+/// When the signal first reaches a share of the way from `start` to `end`, in ticks.
+fn first_at(values: &[f64], start: f64, end: f64, share: f64) -> Option<f64> {
+    let gone = |tick: usize| (values[tick] - start) / (end - start);
+    let tick = (0..values.len()).find(|tick| gone(*tick) >= share)?;
+    let Some(before) = tick.checked_sub(1) else {
+        return Some(0.0);
+    };
+    let (from, to) = (gone(before), gone(tick));
+    Some(before as f64 + (share - from) / (to - from))
+}
+
+/// When the signal passes both shares, in ticks.
+fn passes(values: &[f64], start: f64, end: f64, shares: [f64; 2]) -> Option<[f64; 2]> {
+    let [from, to] = shares.map(|share| first_at(values, start, end, share));
+    Some([from?, to?])
+}
+
+impl MotionCheck for RiseTime {
+    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+        let response = Response::new(facts, &self.response);
+        let fault = response.fault(SETTLED * response.step().abs());
+        let passed = match fault {
+            Some(_) => None,
+            None => passes(&response.values, response.start, response.end, self.shares),
+        };
+        let [from_s, to_s] = passed.map_or([f64::NAN; 2], |ticks| {
+            ticks.map(|ticks| response.time_s(ticks))
+        });
+        let value = if passed.is_some() {
+            to_s - from_s
+        } else {
+            f64::INFINITY
+        };
+        let told = self.shares.map(|share| with_unit(share, ""));
+        let mut marks = Vec::new();
+        if passed.is_some() {
+            marks.push((from_s, format!("{} of the step", told[0])));
+            marks.push((to_s, format!("{} of the step", told[1])));
+        }
+        let short = || {
+            let mut message = format!(
+                "{} takes {} from {} to {} of its step, from {} to {}",
+                response.what(),
+                seconds(value),
+                told[0],
+                told[1],
+                seconds(from_s),
+                seconds(to_s),
+            );
+            if let Some(predicted) = response.predicted() {
+                let end = response.predicted_end(&predicted);
+                if let Some([from, to]) = passes(&predicted, response.start, end, self.shares) {
+                    message += &format!(
+                        "; the linear loop takes {}",
+                        seconds(response.time_s(to - from))
+                    );
+                }
+            }
+            let tick = passed.map_or(0.0, |ticks| ticks[1]).max(0.0) as usize;
+            Loss {
+                evidence: Evidence {
+                    value: value.is_finite().then_some(value),
+                    limit: Some(self.band.full),
+                    unit: "s".to_owned(),
+                    ..response.evidence(message, tick.min(response.values.len() - 1))
+                },
+                next_step: "Make it faster: more proportional gain, or less damping.".to_owned(),
+            }
+        };
+        let measured = Measured {
+            quantity: format!(
+                "time of {} from {} to {} of its step of {} {}",
+                response.what(),
+                told[0],
+                told[1],
+                trimmed(response.step(), 4),
+                self.response.unit()
+            ),
+            value,
+            unit: "s",
+            band: self.band,
+        };
+        Response::finding(measured, fault, short, response.curve(marks, None))
+    }
+
+    fn first_loss(&self) -> FirstLoss {
+        FirstLoss::Evidence
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::by_hand::{HandRow, judged, value};
+
+    const MOTION: &str = "mode = \"effort\"\nduration_s = 2.0";
+    const KIND: &str = "rise-time = { joint = \"elbow\", full_s = 0.2, zero_s = 1.0 }";
+
+    fn elbow(q: f64) -> HandRow {
+        HandRow {
+            q: [0.0, q],
+            ..HandRow::default()
+        }
+    }
+
+    #[test]
+    fn a_ramp_takes_the_share_of_its_time() {
+        // from 0.5 to -0.5 in a second: 0.8 s between a tenth and nine tenths
+        let finding = judged(MOTION, KIND, |t_s| elbow(0.5 - t_s.min(1.0)));
+        // ticks are 1 ms apart and the ramp is straight between them
+        assert!((value(&finding) - 0.8).abs() < 1e-12);
+        assert!((finding.score - 0.25).abs() < 1e-12);
+        let message = &finding.evidence[0].message;
+        assert_eq!(
+            message,
+            "joint `elbow` takes 0.8 s from 10 % to 90 % of its step, from 0.1 s to 0.9 s"
+        );
+        let wide =
+            "rise-time = { joint = \"elbow\", from = 0.25, to = 0.75, full_s = 0.5, zero_s = 1.0 }";
+        let finding = judged(MOTION, wide, |t_s| elbow(0.5 - t_s.min(1.0)));
+        assert!((value(&finding) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_first_order_lag_rises_in_its_time_constant_times_ln_9() {
+        let lag = |t_s: f64| elbow(1.0 - libm::exp(-t_s / 0.1));
+        let finding = judged(MOTION, KIND, lag);
+        // the chord of 1 ms is off by (h/T)²/8 T = 1e-6 s, and the final value is reached but for exp(-18)
+        assert!((value(&finding) - 0.1 * libm::log(9.0)).abs() < 3e-6);
+        assert!((finding.score - (1.0 - value(&finding)) / 0.8).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_velocity_is_looked_at_where_it_is_asked_for() {
+        let kind =
+            "rise-time = { joint = \"elbow\", of = \"velocity\", full_s = 0.9, zero_s = 1.0 }";
+        let finding = judged(MOTION, kind, |t_s| HandRow {
+            qd: [0.0, 2.0 * t_s.min(1.0)],
+            ..HandRow::default()
+        });
+        assert!((value(&finding) - 0.8).abs() < 1e-12);
+        assert_eq!(finding.score, 1.0);
+    }
+
+    #[test]
+    fn no_step_has_no_rise() {
+        let with_target =
+            "rise-time = { joint = \"elbow\", target_rad = 1.0, full_s = 0.2, zero_s = 1.0 }";
+        for (kind, row, words) in [
+            (KIND, 0.0, "hardly moved"),
+            (KIND, 5e-4, "hardly moved"),
+            (with_target, 9e-3, "did not go to its target"),
+            (with_target, -1.0, "did not go to its target"),
+            (KIND, f64::NAN, ""),
+        ] {
+            let finding = judged(MOTION, kind, |t_s| elbow(row * t_s.min(1.0)));
+            assert_eq!(
+                (finding.score, value(&finding)),
+                (0.0, f64::INFINITY),
+                "{row}"
+            );
+            let message = &finding.evidence[0].message;
+            assert!(message.contains(words), "{message}");
+        }
+        // swings on for ever: 5 Hz, as wide as the step
+        let finding = judged(MOTION, KIND, |t_s| elbow(1.0 - libm::cos(31.4159 * t_s)));
+        assert_eq!(finding.score, 0.0);
+        let message = &finding.evidence[0].message;
+        assert!(message.contains("never settles"), "{message}");
+    }
+}

@@ -1,0 +1,317 @@
+//! time-limit: when a body fell, or when a path was over \[s\]; never, where that did not happen.
+//!
+//! A body has fallen at the tick of its first fall, over whatever side. A path is over when the TCP has come within `trim` of each of
+//! its points, in order, and then of the last: the earliest such tick. For goals, use `finish-time`.
+
+use std::ops::Range;
+
+use kinemark_sim::event::{Event, EventKind};
+use kinemark_sim::robot::Robot;
+use kinemark_sim::source::Problem;
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
+use crate::check::facts::MotionFacts;
+use crate::check::finding::Finding;
+use crate::check::reading::InTask;
+use crate::check::registry::MotionTable;
+use crate::check::road;
+use crate::record::quantity::{list, metres, seconds};
+use crate::task::model::Band;
+use crate::task::problem::LabError;
+use crate::task::watched::{PathToFollow, Until};
+
+/// What ends the time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum UntilName {
+    Fall,
+    Path,
+}
+
+/// A time limit that waits for nothing, or for two things.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("this time limit needs `{wanted}` and nothing else to wait for")]
+struct NotOneEnd {
+    wanted: &'static str,
+    example: &'static str,
+}
+
+impl Problem for NotOneEnd {
+    fn code(&self) -> &'static str {
+        "lab::time_limit"
+    }
+
+    fn label(&self) -> String {
+        "this check".to_owned()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some(format!("write `{}`", self.example))
+    }
+}
+
+/// The keys.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Table {
+    /// What ends the time: `fall` (of `body`) or `path` (the end of `path`).
+    until: UntilName,
+    /// A dynamic body of the scene.
+    #[schemars(with = "Option<String>")]
+    body: Option<Spanned<String>>,
+    /// A path of `[tasks.motion.paths]`.
+    #[schemars(with = "Option<String>")]
+    path: Option<Spanned<String>>,
+    /// Time that earns all points \[s\].
+    full_s: f64,
+    /// Time that earns none \[s\].
+    zero_s: f64,
+}
+
+impl MotionTable for Table {
+    const NAME: &'static str = "time-limit";
+    type Check = TimeLimit;
+
+    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<TimeLimit, LabError> {
+        let until = match (self.until, &self.body, &self.path) {
+            (UntilName::Fall, Some(body), None) => {
+                let scene = reading.scene(Self::NAME, at.clone())?;
+                Until::Fall(reading.free_body(scene, body)?)
+            }
+            (UntilName::Path, None, Some(path)) => Until::Path(reading.path(path)?),
+            (until, body, path) => {
+                let (wanted, other, example) = match until {
+                    UntilName::Fall => ("body", path, "until = \"fall\", body = \"can\""),
+                    UntilName::Path => ("path", body, "until = \"path\", path = \"line\""),
+                };
+                let given = other.as_ref().map_or(at, Spanned::span);
+                let problem = NotOneEnd { wanted, example };
+                return reading.report.refuse(given, problem);
+            }
+        };
+        Ok(TimeLimit {
+            until,
+            band: reading.report.band(self.full_s, self.zero_s, at)?,
+        })
+    }
+}
+
+/// The check as read.
+#[derive(Debug)]
+pub(crate) struct TimeLimit {
+    until: Until,
+    band: Band,
+}
+
+impl CheckKind for TimeLimit {
+    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
+        Some((self.band, "s"))
+    }
+}
+
+/// The tick of the first fall of a body.
+fn fell(events: &[Event], body: usize) -> Option<usize> {
+    let falls = events.iter().filter(|event| {
+        matches!(event.kind, EventKind::BodyFell { .. }) && event.kind.body() == Some(body)
+    });
+    falls.map(|event| event.tick as usize).min()
+}
+
+/// When a path was over, or why it was not.
+#[derive(Debug, Clone, PartialEq)]
+enum Over {
+    At(usize),
+    /// This point, counted from 0, was the one missed by most: how far off the TCP was, and when.
+    Missed {
+        point: usize,
+        off_m: f64,
+        tick: usize,
+    },
+    /// The TCP was at no numbers.
+    Nowhere,
+}
+
+fn over(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Over {
+    let Some(corners) = road::corners_of(p_tcp_m, path) else {
+        return Over::Nowhere;
+    };
+    let all = corners.iter().enumerate();
+    // of equal ones the first
+    let missed = all
+        .rev()
+        .max_by(|a, b| a.1.gap_m.total_cmp(&b.1.gap_m))
+        .filter(|(_, corner)| corner.gap_m > 0.0);
+    match (missed, corners.last()) {
+        (Some((point, corner)), _) => Over::Missed {
+            point,
+            off_m: corner.gap_m + path.trim_m,
+            tick: corner.tick,
+        },
+        (None, Some(last)) => Over::At(last.tick),
+        (None, None) => Over::Nowhere,
+    }
+}
+
+/// What a time limit waits for, and whether it happened.
+struct End {
+    /// What, such as `` `can` falls ``.
+    what: String,
+    /// The signal it shows in.
+    signal: String,
+    /// The tick, or why it never happened and where that shows.
+    done: Result<usize, (String, usize)>,
+    next_step: String,
+}
+
+fn end_of_fall(facts: &MotionFacts<'_>, body: usize) -> End {
+    let name = facts.names.body(body);
+    let never = format!("`{name}` never fell, so there is no time to judge");
+    End {
+        what: format!("`{name}` falls"),
+        signal: format!("body {name}"),
+        done: fell(&facts.trace.events, body).ok_or((never, facts.last_tick())),
+        next_step: format!(
+            "Bring `{name}` down sooner: start at once, and go to it by a shorter way."
+        ),
+    }
+}
+
+fn end_of_path(facts: &MotionFacts<'_>, path: &PathToFollow) -> End {
+    let name = &path.name;
+    let done = match over(&facts.p_tcp_m(), path) {
+        Over::At(tick) => Ok(tick),
+        Over::Missed { point, off_m, tick } => {
+            let message = format!(
+                "point {} of the path `{name}`, at {}, was missed by {}, and counts from {}: the path was never finished",
+                point + 1,
+                list(path.points_m[point].as_slice()),
+                metres(off_m),
+                metres(path.trim_m)
+            );
+            Err((message, tick))
+        }
+        Over::Nowhere => {
+            let message = format!("the path `{name}` was never finished");
+            Err((message, facts.last_tick()))
+        }
+    };
+    End {
+        what: format!("the path `{name}` is over"),
+        signal: "tcp".to_owned(),
+        done,
+        next_step: "Go along the path faster, or begin it sooner.".to_owned(),
+    }
+}
+
+impl MotionCheck for TimeLimit {
+    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+        let End {
+            what,
+            signal,
+            done,
+            next_step,
+        } = match &self.until {
+            Until::Fall(body) => end_of_fall(facts, *body),
+            Until::Path(path) => end_of_path(facts, path),
+        };
+        let tick = done.as_ref().ok().copied();
+        let value = tick.map_or(f64::INFINITY, |tick| facts.time_s(tick));
+        let quantity = format!("time until {what}");
+        let finding = Finding::against(self.band, value, "s", quantity).advise(next_step);
+        match done {
+            Ok(tick) => finding.shown_at(facts, || {
+                let message = format!(
+                    "{what} at {}, up to {} earns everything",
+                    seconds(value),
+                    seconds(self.band.full)
+                );
+                (message, signal, tick)
+            }),
+            Err((never, tick)) => finding.with(facts.evidence(never, signal, tick)),
+        }
+    }
+
+    fn first_loss(&self) -> FirstLoss {
+        FirstLoss::Evidence
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(tick: u64, kind: EventKind) -> Event {
+        Event { tick, kind }
+    }
+
+    #[test]
+    fn the_first_fall_of_that_body_counts() {
+        let fall = |body| EventKind::BodyFell { body, side: None };
+        let events = [
+            event(100, EventKind::Moved { body: 1 }),
+            event(150, fall(0)),
+            event(200, fall(1)),
+            event(900, fall(1)),
+        ];
+        assert_eq!(fell(&events, 1), Some(200));
+        assert_eq!(fell(&events, 0), Some(150));
+        assert_eq!(fell(&events, 2), None);
+    }
+
+    fn path(points: &[[f64; 2]]) -> PathToFollow {
+        PathToFollow {
+            name: "line".to_owned(),
+            points_m: points
+                .iter()
+                .map(|[x, y]| Vector3::new(*x, *y, 0.0))
+                .collect(),
+            trim_m: 0.05,
+        }
+    }
+
+    /// Through `points` in 100 steps each.
+    fn road(points: &[[f64; 2]]) -> Vec<Vector3<f64>> {
+        let ends = path(points).points_m;
+        let mut road = vec![ends[0]];
+        for ends in ends.windows(2) {
+            road.extend((1..=100).map(|k| ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 100.0)));
+        }
+        road
+    }
+
+    const CORNER: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+
+    #[test]
+    fn a_path_is_over_within_trim_of_its_last_point() {
+        // steps of 10 mm: the 95th of the second segment is 50 mm from its end, give or take round-off
+        let Over::At(tick) = over(&road(&CORNER), &path(&CORNER)) else {
+            panic!("not over");
+        };
+        assert!((195..=196).contains(&tick), "{tick}");
+        // what comes after does not count
+        let mut longer = road(&CORNER);
+        longer.extend(road(&[[1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
+        assert_eq!(over(&longer, &path(&CORNER)), Over::At(tick));
+    }
+
+    #[test]
+    fn who_cuts_a_corner_or_stands_never_ends() {
+        let found = over(&road(&[[0.0, 0.0], [1.0, 1.0]]), &path(&CORNER));
+        let Over::Missed { point, off_m, .. } = found else {
+            panic!("{found:?}");
+        };
+        assert_eq!(point, 1);
+        // the straight way passes the corner at half a diagonal
+        assert!((off_m - 0.5_f64.sqrt()).abs() < 1e-3, "{off_m}");
+        // at the only point of a round trip that is easy to reach
+        let round = path(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]]);
+        let standing = over(&[Vector3::zeros(); 50], &round);
+        assert!(matches!(standing, Over::Missed { point: 1, .. }));
+        assert_eq!(over(&[], &round), Over::Nowhere);
+        assert_eq!(over(&[Vector3::repeat(f64::NAN)], &round), Over::Nowhere);
+    }
+}

@@ -1,0 +1,277 @@
+//! The step response of a joint as its checks see it: where it starts, where it ends, whether it got anywhere, and its curve with
+//! the linear prediction.
+//!
+//! The signal is the joint's position or velocity at every tick. It *starts* at its value at tick 0; its *final value* is the mean over
+//! the last `final_s`; its *step* is the one from start to final value. A joint that *hardly moved*, by less than 1 % of the way to
+//! its target (or, without one, by less than 0.001), and one that *never settles*, with a tick of the final part further from
+//! the final value than a share of the step, have no step response: they earn nothing.
+
+use kinemark_sim::control::linear_step::Fed;
+
+use super::alternation;
+use super::facts::MotionFacts;
+use super::finding::{Finding, curve};
+use super::step_keys::StepResponse;
+use crate::record::grade::Evidence;
+use crate::record::graded::{Curve, StepBackdrop};
+use crate::record::quantity::{seconds, trimmed};
+use crate::task::model::Band;
+
+/// A step is at least this share of the way to the target.
+const LEAST_WAY: f64 = 0.01;
+/// A step is at least this, where no target is known \[rad or rad/s\].
+const LEAST_STEP: f64 = 1e-3;
+/// A response has settled where its final part stays this near its mean, as a share of the step; the settling time has its own.
+pub(super) const SETTLED: f64 = 0.05;
+
+/// A step response as measured.
+pub(super) struct Response<'a> {
+    pub(super) facts: &'a MotionFacts<'a>,
+    pub(super) asked: &'a StepResponse,
+    /// The signal at every tick.
+    pub(super) values: Vec<f64>,
+    pub(super) start: f64,
+    /// The final value.
+    pub(super) end: f64,
+    /// First tick of the final part.
+    pub(super) final_tick: usize,
+}
+
+/// Why points are lost, and what to do.
+pub(super) struct Loss {
+    pub(super) evidence: Evidence,
+    pub(super) next_step: String,
+}
+
+/// What a check measures of a step response.
+pub(super) struct Measured {
+    pub(super) quantity: String,
+    /// Infinite where there is none.
+    pub(super) value: f64,
+    pub(super) unit: &'static str,
+    pub(super) band: Band,
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+impl<'a> Response<'a> {
+    pub(super) fn new(facts: &'a MotionFacts<'a>, asked: &'a StepResponse) -> Self {
+        let signal = match asked.of {
+            Fed::Position => &facts.trace.q,
+            Fed::Velocity => &facts.trace.qd,
+        };
+        let values: Vec<f64> = signal.component(asked.joint).collect();
+        let final_tick = values.len().saturating_sub(1 + asked.final_ticks);
+        // a signal that is no number somewhere has no final value, and so earns nothing
+        let end = if values.iter().all(|value| value.is_finite()) {
+            mean(&values[final_tick..])
+        } else {
+            f64::NAN
+        };
+        Self {
+            facts,
+            asked,
+            start: values.first().copied().unwrap_or(f64::NAN),
+            end,
+            values,
+            final_tick,
+        }
+    }
+
+    pub(super) fn step(&self) -> f64 {
+        self.end - self.start
+    }
+
+    pub(super) fn name(&self) -> &str {
+        self.facts.joint_name(self.asked.joint)
+    }
+
+    /// The joint's signal in words.
+    pub(super) fn what(&self) -> String {
+        match self.asked.of {
+            Fed::Position => format!("joint `{}`", self.name()),
+            Fed::Velocity => format!("the velocity of joint `{}`", self.name()),
+        }
+    }
+
+    /// A value of the signal with its unit.
+    pub(super) fn told(&self, value: f64) -> String {
+        format!("{} {}", trimmed(value, 4), self.asked.unit())
+    }
+
+    /// Time of a tick and a part of one \[s\].
+    pub(super) fn time_s(&self, ticks: f64) -> f64 {
+        ticks * self.facts.motion.periods.step_s
+    }
+
+    /// Evidence at a tick.
+    pub(super) fn evidence(&self, message: String, tick: usize) -> Evidence {
+        let signal = format!("{}[{}]", self.asked.column(), self.asked.joint);
+        Evidence {
+            value: self
+                .values
+                .get(tick)
+                .copied()
+                .filter(|value| value.is_finite()),
+            unit: self.asked.unit().to_owned(),
+            ..self.facts.evidence(message, signal, tick)
+        }
+    }
+
+    /// Why there is no step response to judge, if there is none: the joint hardly moved, or never settles.
+    pub(super) fn fault(&self, tolerance: f64) -> Option<Loss> {
+        self.stayed().or_else(|| self.unsettled(tolerance))
+    }
+
+    /// Whether the joint hardly moved.
+    pub(super) fn stayed(&self) -> Option<Loss> {
+        let way = self.asked.target.map(|target| target - self.start);
+        let moved = match way {
+            Some(way) if way.abs() > LEAST_STEP => self.step() / way >= LEAST_WAY,
+            _ => self.step().abs() >= LEAST_STEP,
+        };
+        if moved {
+            return None;
+        }
+        let asked = self.asked.target.map_or_else(String::new, |target| {
+            format!("; {} was asked for", self.told(target))
+        });
+        let message = if self.step().abs() < LEAST_STEP {
+            format!(
+                "{} hardly moved: it ends at {}{asked}",
+                self.what(),
+                self.told(self.end)
+            )
+        } else {
+            format!(
+                "{} did not go to its target: it starts at {} and ends at {}{asked}",
+                self.what(),
+                self.told(self.start),
+                self.told(self.end)
+            )
+        };
+        let last = self.values.len().saturating_sub(1);
+        Some(Loss {
+            evidence: self.evidence(message, last),
+            next_step: format!("Bring {} to its target first.", self.what()),
+        })
+    }
+
+    /// Whether some tick of the final part is further than `tolerance` from the final value.
+    pub(super) fn unsettled(&self, tolerance: f64) -> Option<Loss> {
+        let part = &self.values[self.final_tick..];
+        let far = |value: &f64| {
+            let near = (value - self.end).abs() <= tolerance;
+            !near
+        };
+        let tick = self.final_tick + part.iter().rposition(far)?;
+        let (mut low, mut high, mut turns) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+        for pair in part.windows(2) {
+            (low, high) = (
+                low.min(pair[0]).min(pair[1]),
+                high.max(pair[0]).max(pair[1]),
+            );
+            if (pair[0] - self.end) * (pair[1] - self.end) < 0.0 {
+                turns += 1;
+            }
+        }
+        let length_s = self.time_s((part.len() - 1) as f64);
+        let last_s = seconds(length_s);
+        let mut message = format!(
+            "{} never settles: in the last {last_s} it still goes from {} to {}",
+            self.what(),
+            self.told(low),
+            self.told(high),
+        );
+        let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
+        // a swing passes the middle twice
+        if turns >= 3 {
+            message = format!(
+                "{} never settles: in the last {last_s} it still swings between {} and {}, about {} times a second",
+                self.what(),
+                self.told(low),
+                self.told(high),
+                trimmed(0.5 * f64::from(turns) / length_s, 0)
+            );
+            next_step =
+                "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
+                    .to_owned();
+        }
+        if let Some((why, help)) = alternation::told(self.facts, self.asked.joint, self.final_tick)
+        {
+            message = format!("{message}; {why}");
+            next_step = help;
+        }
+        Some(Loss {
+            evidence: self.evidence(message, tick),
+            next_step,
+        })
+    }
+
+    /// What the linear loop would have done, from the start to the target.
+    pub(super) fn predicted(&self) -> Option<Vec<f64>> {
+        let (prediction, target) = (self.asked.prediction?, self.asked.target?);
+        let step_s = self.facts.motion.periods.step_s;
+        let mut values = prediction.response(step_s, self.values.len())?;
+        for value in &mut values {
+            *value = self.start + (target - self.start) * *value;
+        }
+        Some(values)
+    }
+
+    /// Where the prediction ends, over the same final part.
+    pub(super) fn predicted_end(&self, predicted: &[f64]) -> f64 {
+        mean(&predicted[self.final_tick..])
+    }
+
+    /// The curve of the run, with what is drawn beside it.
+    pub(super) fn curve(
+        &self,
+        marks: Vec<(f64, String)>,
+        band: Option<(f64, f64, String)>,
+    ) -> Curve {
+        let what = match self.asked.of {
+            Fed::Position => "position",
+            Fed::Velocity => "velocity",
+        };
+        let title = format!("{what} of joint `{}`", self.name());
+        let ticks = 0..self.values.len();
+        let t_s = ticks.map(|tick| self.facts.time_s(tick)).collect();
+        Curve {
+            marks,
+            step: Some(StepBackdrop {
+                prediction: self.predicted(),
+                target: self.asked.target,
+                band,
+            }),
+            ..curve(title, self.asked.unit(), t_s, self.values.clone(), None)
+        }
+    }
+
+    /// The finding of a check: where there is no step response it insists on saying why, else `short` says why points are lost.
+    pub(super) fn finding(
+        measured: Measured,
+        fault: Option<Loss>,
+        short: impl FnOnce() -> Loss,
+        drawn: Curve,
+    ) -> Finding {
+        let Measured {
+            quantity,
+            value,
+            unit,
+            band,
+        } = measured;
+        let finding = Finding::against(band, value, unit, quantity).drawn(drawn);
+        let insists = fault.is_some();
+        let loss = fault.or_else(|| finding.is_lost().then(short));
+        let Some(loss) = loss else {
+            return finding;
+        };
+        Finding {
+            insists,
+            ..finding.with(loss.evidence).advise(loss.next_step)
+        }
+    }
+}
