@@ -265,13 +265,13 @@ fn push_escaped(svg: &mut String, text: &str) {
 #[cfg(test)]
 mod tests {
     use plotters::prelude::{RGBColor, ShapeStyle};
-    use plotters::style::Color as _;
+    use plotters::style::Color;
 
     use super::*;
     use crate::palette::{BLUE, GREEN};
 
     fn line(alpha: f64) -> ShapeStyle {
-        RGBColor(0, 0, 0).mix(alpha).stroke_width(20)
+        Color::stroke_width(&Color::mix(&RGBColor(0, 0, 0), alpha), 20)
     }
 
     #[test]

@@ -72,7 +72,7 @@ pub struct Replay<'a> {
 impl<'a> Replay<'a> {
     /// The replay of a run, with what was graded of it; beside it the reference solution's, where the run brings that.
     pub fn of(run: &'a TaskRun, task: Option<&'a TaskGrade>) -> Self {
-        let ghost = run.ghost.as_ref().map(|trace| Ghost {
+        let ghost = run.reference_overlay.as_ref().map(|trace| Ghost {
             robot: &run.robot,
             scene: run.scene.as_ref().map(|scene| &scene.scene),
             trace,
