@@ -10,6 +10,7 @@ mod measured;
 pub mod moment;
 mod number;
 pub mod output;
+mod palette;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
@@ -18,5 +19,4 @@ mod solid;
 mod standing;
 pub mod storyboard;
 pub mod text;
-mod theme;
 pub mod visible;

@@ -6,9 +6,9 @@ use super::figure::figure;
 use super::foreign;
 use super::viewer::{self, seek};
 use crate::compare_text::{change, together};
+use crate::palette::plot_css;
 use crate::plot::differences;
 use crate::replay::{Ghost, Replay};
-use crate::theme::plot_css;
 use crate::visible::visible;
 use kinemark_grader::record::comparison::{
     Comparison, Ended, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,

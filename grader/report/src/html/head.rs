@@ -16,14 +16,14 @@ pub(super) fn meaning<'a>(
 ) -> String {
     let sentence = match verdict {
         Verdict::GraderFault => {
-            "The grader failed. This is not your fault, and no points are decided."
+            "The grader failed. This is not your fault, and no grade was assigned."
         }
         Verdict::HostLimit => {
-            "This machine ran out of time or memory. It says nothing about the work; run it again. No points are decided."
+            "This machine ran out of time or memory. It says nothing about the work; run it again. No grade was assigned."
         }
         Verdict::DidNotBuild => "The submission cannot be read as a program.",
         Verdict::Crashed => "The submission failed while running.",
-        Verdict::OverBudget => "The submission used up what it may use.",
+        Verdict::OverBudget => "The submission exceeded its operation budget.",
         Verdict::InvalidOutput => {
             "The submission returned something of the wrong shape, or a number that is not finite."
         }

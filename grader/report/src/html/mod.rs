@@ -12,9 +12,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub use self::comparison::comparison;
 use self::head::{facts, head, scores};
+use crate::palette::plot_css;
 use crate::plot::Plot;
 use crate::replay::Replay;
-use crate::theme::plot_css;
 use crate::visible::visible;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::quantity::points;

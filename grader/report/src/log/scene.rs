@@ -2,11 +2,12 @@
 
 use kinemark_sim::model::inertia::Solid;
 use kinemark_sim::model::robot::Shape;
-use kinemark_sim::model::scene::{BodyKind, SceneBody};
+use kinemark_sim::model::scene::SceneBody;
 use serde::Serialize;
 
 use super::message::{Pose, Time, Vector};
 use super::names::{REFERENCE as REFERENCE_FRAMES, body_frame, frame_id, frame_id_of};
+use crate::palette::{SolidColour, log, of_body, of_link};
 use crate::solid::{LogForm, Surface, drawn};
 use kinemark_grader::record::graded::{Goal, TaskRun, TcpPath};
 use kinemark_sim::spatial::Pose as Isometry;
@@ -20,23 +21,18 @@ struct Colour {
     a: f64,
 }
 
-const fn colour(r: f64, g: f64, b: f64, a: f64) -> Colour {
-    Colour { r, g, b, a }
+impl From<[f64; 4]> for Colour {
+    fn from([r, g, b, a]: [f64; 4]) -> Self {
+        Self { r, g, b, a }
+    }
 }
 
-/// The links, in turn, so that neighbours differ.
-const LINKS: [Colour; 3] = [
-    colour(0.55, 0.6, 0.66, 1.0),
-    colour(0.0, 0.45, 0.7, 1.0),
-    colour(0.34, 0.71, 0.91, 1.0),
-];
-const STANDING: Colour = colour(0.75, 0.68, 0.58, 1.0);
-const DRIVEN: Colour = colour(0.9, 0.62, 0.0, 1.0);
-const FREE: Colour = colour(0.84, 0.37, 0.0, 1.0);
-const FULL: Colour = colour(0.0, 0.62, 0.45, 0.6);
-const ZERO: Colour = colour(0.84, 0.37, 0.0, 0.2);
-const REFERENCE: Colour = colour(0.8, 0.47, 0.65, 0.5);
-const GHOST: Colour = colour(0.8, 0.47, 0.65, 0.35);
+impl From<SolidColour> for Colour {
+    fn from(colour: SolidColour) -> Self {
+        let [r, g, b] = colour.log;
+        [r, g, b, 1.0].into()
+    }
+}
 
 #[derive(Debug, Clone, Serialize)]
 struct Solid3 {
@@ -187,11 +183,7 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
             frame_id(robot, &robot.frames()[i]),
         );
         for shape in &link.shapes {
-            let color = if i == 0 {
-                LINKS[0]
-            } else {
-                LINKS[1 + (i - 1) % 2]
-            };
+            let color = of_link(i).into();
             entity.solid(&shape.solid, &shape.link_from_shape, color);
         }
         entities.push(entity);
@@ -211,11 +203,7 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
 /// A body of the scene, in a frame of its own.
 fn body_entity(body: &SceneBody) -> Entity {
     let mut entity = Entity::new(format!("body {}", body.name), body_frame(&body.name));
-    let color = match body.kind {
-        BodyKind::Fixed => STANDING,
-        BodyKind::Kinematic(_) => DRIVEN,
-        BodyKind::Free => FREE,
-    };
+    let color = of_body(&body.kind).into();
     for shape in &body.shapes {
         entity.solid(&shape.solid, &shape.link_from_shape, color);
     }
@@ -228,9 +216,9 @@ fn body_entity(body: &SceneBody) -> Entity {
 
 fn goal_entity(index: usize, goal: &Goal, lab: &str) -> Entity {
     let mut entity = Entity::new(format!("goal {}", index + 1), lab.to_owned());
-    for (radius_m, color) in [(goal.full_m, FULL), (goal.zero_m, ZERO)] {
+    for (radius_m, color) in [(goal.full_m, log::FULL), (goal.zero_m, log::ZERO)] {
         if radius_m.is_finite() {
-            entity.sphere(Pose::at(goal.position_m), radius_m, color);
+            entity.sphere(Pose::at(goal.position_m), radius_m, color.into());
         }
     }
     entity.metadata.push(KeyValue {
@@ -266,7 +254,11 @@ fn ghost_entities(run: &TaskRun, trace: &Trace) -> Vec<Entity> {
             format!("{REFERENCE_FRAMES}{frame}"),
         );
         for shape in shapes {
-            entity.solid(&shape.solid, &shape.link_from_shape, GHOST);
+            entity.solid(
+                &shape.solid,
+                &shape.link_from_shape,
+                log::REFERENCE_ARM.into(),
+            );
         }
         entities.push(entity);
     };
@@ -303,7 +295,7 @@ fn path_entity(run: &TaskRun, path: &TcpPath) -> Entity {
         thickness: 2.0,
         scale_invariant: true,
         points: points.filter(Vector::is_finite).collect(),
-        color: REFERENCE,
+        color: log::REFERENCE_PATH.into(),
         colors: [],
         indices: [],
     });

@@ -4,7 +4,7 @@ use super::canvas::{Align, Canvas, Entry, Swatch};
 use super::plane::Plane;
 use super::scenery::clipped;
 use super::view::View;
-use crate::theme::{Colour, GREEN, GREEN_DASHED, INK, VERMILLION};
+use crate::palette::{Colour, GREEN, GREEN_DASHED, INK, VERMILLION};
 use crate::visible::shortened;
 use kinemark_grader::record::graded::{AskedPath, TaskRun};
 
@@ -60,7 +60,7 @@ impl Asked {
     }
 
     /// The tubes, which lie below all else.
-    pub(super) fn tubes(&self, canvas: &mut Canvas<'_>, view: &View) {
+    pub(super) fn tubes(&self, canvas: &mut Canvas, view: &View) {
         let (low, high) = ((view.x.min, view.y.min), (view.x.max, view.y.max));
         for path in &self.0 {
             for (radius_m, colour) in &path.tubes {
@@ -78,7 +78,7 @@ impl Asked {
     }
 
     /// The lines, each with its name at its first point.
-    pub(super) fn lines(&self, canvas: &mut Canvas<'_>, view: &View) {
+    pub(super) fn lines(&self, canvas: &mut Canvas, view: &View) {
         for path in &self.0 {
             for piece in view.pieces(&path.points) {
                 canvas.line(&piece, GREEN_DASHED, 1.8);
@@ -92,7 +92,7 @@ impl Asked {
     }
 
     /// The names, above all else.
-    pub(super) fn names(&self, canvas: &mut Canvas<'_>, view: &View) {
+    pub(super) fn names(&self, canvas: &mut Canvas, view: &View) {
         for path in &self.0 {
             if let [first, second, ..] = path.points[..] {
                 let (a, b) = (view.at(first), view.at(second));

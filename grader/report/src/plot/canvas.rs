@@ -1,13 +1,13 @@
-//! One picture: lines, shapes and words in pixels, written as SVG by plotters.
+//! One picture: lines, shapes and words in pixels.
 
 use plotters::prelude::{
-    DrawingBackend, FontStyle, IntoFont, RGBColor, SVGBackend, ShapeStyle, TextStyle,
+    BLACK, DrawingBackend, FontStyle, IntoFont, RGBAColor, ShapeStyle, TextStyle,
 };
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::course::Point;
-use crate::theme::{self, Colour, INK, MUTED, PAPER};
+use super::svg_backend::SvgBackend;
+use crate::palette::{self, Colour, INK, MUTED, PAPER};
 use crate::visible::{shortened, visible};
 
 /// Units of the picture in a pixel: the writer knows whole units only, and a tenth of a pixel looks smooth.
@@ -84,13 +84,13 @@ impl Entry {
 }
 
 /// A picture in the making.
-pub(super) struct Canvas<'a> {
-    backend: SVGBackend<'a>,
+pub(super) struct Canvas {
+    backend: SvgBackend,
 }
 
-fn rgb(colour: Colour) -> RGBColor {
-    let (r, g, b) = colour.light;
-    RGBColor(r, g, b)
+/// How much what is drawn covers; its colour is the pen's.
+fn covering(alpha: f64) -> RGBAColor {
+    BLACK.mix(alpha)
 }
 
 fn units((x, y): (f64, f64)) -> (i32, i32) {
@@ -98,7 +98,7 @@ fn units((x, y): (f64, f64)) -> (i32, i32) {
 }
 
 /// Makes a picture of `height` pixels; `title` is what a screen reader says, and `draw` what is seen.
-pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas<'_>)) -> String {
+pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas)) -> String {
     let (w, h) = units((WIDTH, height));
     let drawn = drawn((WIDTH, height), |canvas| {
         canvas.area((0.0, 0.0), (WIDTH, height), PAPER, 1.0);
@@ -108,86 +108,18 @@ pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas<'_
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{WIDTH}\" height=\"{height}\" \
          font-family=\"sans-serif\" viewBox=\"0 0 {w} {h}\">{title}<style>{}</style>\n{drawn}",
-        theme::plot_css()
+        palette::plot_css()
     )
 }
 
 /// What is drawn in so many pixels across and down, and the end of its SVG.
-fn drawn((width, height): (f64, f64), draw: impl FnOnce(&mut Canvas<'_>)) -> String {
+fn drawn((width, height): (f64, f64), draw: impl FnOnce(&mut Canvas)) -> String {
     let (w, h) = units((width, height));
-    let mut body = String::new();
-    {
-        let mut canvas = Canvas {
-            backend: SVGBackend::with_string(&mut body, (w.unsigned_abs(), h.unsigned_abs())),
-        };
-        draw(&mut canvas);
-        // nothing is written but into the string, so nothing can fail
-        canvas.backend.present().ok();
-    }
-    shorter(body.split_once(">\n").map_or("", |(_, drawn)| drawn))
-}
-
-/// What the writer wrote, in less than half the bytes: nothing that means nothing, and polylines and polygons as paths of steps from
-/// point to point, neighbours that look the same as one.
-fn shorter(drawn: &str) -> String {
-    let mut short = String::with_capacity(drawn.len());
-    // the look of the path that is open, and its last point
-    let mut open: Option<(String, (i32, i32))> = None;
-    for line in drawn.lines() {
-        // lines that begin otherwise are text
-        let line = match line.strip_prefix("<text ") {
-            Some(_) => line.replacen(" font-family=\"sans-serif\"", "", 1),
-            None if line.starts_with('<') => line.replacen(" opacity=\"1\"", "", 1),
-            None => line.to_owned(),
-        };
-        let Some((look, points, is_closed)) = shape(&line) else {
-            short.push_str(if open.take().is_some() { "\"/>\n" } else { "" });
-            short.push_str(&line);
-            short.push('\n');
-            continue;
-        };
-        let mut at = match open.take() {
-            Some((before, at)) if before == look && !is_closed => at,
-            before => {
-                short.push_str(if before.is_some() { "\"/>\n" } else { "" });
-                short.push_str(&format!("<path{look} d=\""));
-                (0, 0)
-            }
-        };
-        for (i, point) in points.iter().enumerate() {
-            for (step, is_first) in [(point.0 - at.0, i == 0), (point.1 - at.1, false)] {
-                short.push_str(match (is_first, step < 0) {
-                    (true, _) => "m",
-                    (false, true) => "",
-                    (false, false) => " ",
-                });
-                short.push_str(&step.to_string());
-            }
-            at = *point;
-        }
-        if is_closed {
-            short.push_str("z\"/>\n");
-        } else {
-            open = Some((look, at));
-        }
-    }
-    short
-}
-
-/// The look, the points and whether it is closed, of a polyline or polygon of the writer.
-fn shape(line: &str) -> Option<(String, Vec<Point>, bool)> {
-    let (rest, is_closed) = match line.strip_prefix("<polyline") {
-        Some(rest) => (rest, false),
-        None => (line.strip_prefix("<polygon")?, true),
+    let mut canvas = Canvas {
+        backend: SvgBackend::new((w.unsigned_abs(), h.unsigned_abs()), INK),
     };
-    let (look, points) = rest.split_once(" points=\"")?;
-    let points = points.strip_suffix("\"/>")?;
-    let point = |point: &str| {
-        let (x, y) = point.split_once(',')?;
-        Some((x.parse().ok()?, y.parse().ok()?))
-    };
-    let points: Option<Vec<_>> = points.split_whitespace().map(point).collect();
-    Some((look.to_owned(), points?, is_closed))
+    draw(&mut canvas);
+    canvas.backend.finish()
 }
 
 /// Height of a caption \[px\].
@@ -220,11 +152,12 @@ pub(super) fn captioned(svg: &str, caption: &str) -> String {
     format!("{start} height=\"{height}\"{look} viewBox=\"0 0 {w} {h}\"{drawn}{foot}")
 }
 
-impl Canvas<'_> {
+impl Canvas {
     /// A filled rectangle.
     pub(super) fn area(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour, alpha: f64) {
-        let style = rgb(colour).mix(alpha).filled();
+        let style = covering(alpha).filled();
         self.backend
+            .with(colour)
             .draw_rect(units(from), units(to), &style, true)
             .ok();
     }
@@ -232,20 +165,19 @@ impl Canvas<'_> {
     /// A line through points in units of the picture.
     pub(super) fn stroke(&mut self, points: &[(i32, i32)], colour: Colour, width: f64) {
         let style = ShapeStyle {
-            color: rgb(colour).to_rgba(),
+            color: covering(1.0),
             filled: false,
             stroke_width: (width * UNITS) as u32,
         };
+        let backend = self.backend.with(colour);
         match points {
             [] => {}
             // a single point would not show
-            [point] => self
-                .backend
+            [point] => backend
                 .draw_circle(*point, (width * UNITS) as u32, &style.filled(), true)
                 .ok()
                 .unwrap_or(()),
-            _ => self
-                .backend
+            _ => backend
                 .draw_path(points.iter().copied(), &style)
                 .ok()
                 .unwrap_or(()),
@@ -263,8 +195,9 @@ impl Canvas<'_> {
         let half = half_width(width);
         let upper = upper.iter().map(|(x, y)| (*x, y - half));
         let lower = lower.iter().rev().map(|(x, y)| (*x, y + half));
-        let style = rgb(colour).mix(BAND).filled();
-        self.backend.fill_polygon(upper.chain(lower), &style).ok();
+        let style = covering(BAND).filled();
+        let area = upper.chain(lower);
+        self.backend.with(colour).fill_polygon(area, &style).ok();
     }
 
     /// A line through points in pixels.
@@ -278,25 +211,27 @@ impl Canvas<'_> {
         if points.len() < 3 || alpha == 0.0 {
             return;
         }
-        let style = rgb(colour).mix(alpha).filled();
+        let style = covering(alpha).filled();
         let points = points.iter().copied().map(units);
-        self.backend.fill_polygon(points, &style).ok();
+        self.backend.with(colour).fill_polygon(points, &style).ok();
     }
 
     /// A filled disc.
     pub(super) fn disc(&mut self, centre: (f64, f64), radius: f64, colour: Colour, alpha: f64) {
-        let style = rgb(colour).mix(alpha).filled();
+        let style = covering(alpha).filled();
         let radius = (radius * UNITS).round() as u32;
         self.backend
+            .with(colour)
             .draw_circle(units(centre), radius, &style, true)
             .ok();
     }
 
     /// A circle's edge.
     pub(super) fn ring(&mut self, centre: (f64, f64), radius: f64, colour: Colour, width: f64) {
-        let style = rgb(colour).stroke_width((width * UNITS) as u32);
+        let style = covering(1.0).stroke_width((width * UNITS) as u32);
         let radius = (radius * UNITS).round() as u32;
         self.backend
+            .with(colour)
             .draw_circle(units(centre), radius, &style, false)
             .ok();
     }
@@ -341,13 +276,12 @@ impl Canvas<'_> {
             Align::Middle => HPos::Center,
             Align::End => HPos::Right,
         };
-        // the writer divides every size by 1.24
-        let style: TextStyle<'_> = ("sans-serif", size * UNITS * 1.24)
+        let style: TextStyle<'_> = ("sans-serif", size * UNITS)
             .into_font()
             .style(font)
-            .color(&rgb(colour))
             .pos(Pos::new(anchor, VPos::Center));
-        self.backend.draw_text(text, &style, units(at)).ok();
+        let backend = self.backend.with(colour);
+        backend.draw_text(text, &style, units(at)).ok();
     }
 
     /// Writes a legend from the left at height `y`, in as many rows as it needs, and returns the height below it.
@@ -419,21 +353,4 @@ pub(super) fn text_width(text: &str) -> f64 {
         _ => 0.6,
     };
     text.chars().map(em).sum::<f64>() * TEXT
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_that_look_the_same_are_one_path_of_steps() {
-        let look = "fill=\"none\" opacity=\"1\" stroke=\"#006CAE\"";
-        let drawn = format!(
-            "<polyline {look} points=\"10,20 30,5 30,7 \"/>\n<polyline {look} points=\"0,0 1,-1 \"/>\n\
-             <polygon opacity=\"0.2\" fill=\"#006CAE\" points=\"1,1 2,1 2,2 \"/>\n<text font-family=\"sans-serif\">\n<polyline\n"
-        );
-        let short = "<path fill=\"none\" stroke=\"#006CAE\" d=\"m10 20 20-15 0 2m-30-7 1-1\"/>\n\
-                     <path opacity=\"0.2\" fill=\"#006CAE\" d=\"m1 1 1 0 0 1z\"/>\n<text>\n<polyline\n";
-        assert_eq!(shorter(&drawn), short);
-    }
 }

@@ -8,7 +8,7 @@ use super::canvas::{Entry, Swatch};
 use super::signals::{MOST_PANELS, line, most_points, time_s, values};
 use super::timeline::{Panel, Timeline};
 use super::{Plot, Plots, file_stem};
-use crate::theme::BLUE;
+use crate::palette::BLUE;
 use crate::visible::shortened;
 use kinemark_grader::record::comparison::FirstDifference;
 use kinemark_grader::record::graded::TaskRun;

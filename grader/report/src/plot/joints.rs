@@ -9,7 +9,7 @@ use super::canvas::{Entry, Swatch};
 use super::signals::{MOST_PANELS, end_s, line, time_s, timeline, values};
 use super::timeline::{Line, Panel, Timeline};
 use crate::number::{joined, significant};
-use crate::theme::{BLUE, RED, VERMILLION, VERMILLION_DASHED};
+use crate::palette::{BLUE, RED, VERMILLION, VERMILLION_DASHED};
 use crate::visible::shortened;
 use kinemark_grader::record::graded::TaskRun;
 

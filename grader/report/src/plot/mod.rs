@@ -11,6 +11,7 @@ mod plane;
 mod reading;
 mod scenery;
 mod signals;
+mod svg_backend;
 mod thin;
 mod timeline;
 mod view;
@@ -137,7 +138,7 @@ mod tests {
 
     use super::reading::tests::Reader;
     use super::*;
-    use crate::theme::{BLUE, MUTED_DASHED, PURPLE_DASHED};
+    use crate::palette::{BLUE, MUTED_DASHED, PURPLE_DASHED};
     use kinemark_grader::record::graded::{Curve, StepBackdrop};
     use kinemark_grader::record::sample;
 

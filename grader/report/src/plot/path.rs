@@ -14,7 +14,7 @@ use super::signals::{differs, stopped_s};
 use super::thin::in_plane;
 use super::view::{LEFT, RIGHT, View};
 use crate::goal::distances_m;
-use crate::theme::{
+use crate::palette::{
     AMBER, BLUE, Colour, GREEN, INK, MUTED, MUTED_DASHED, PURPLE_DASHED, RED, VERMILLION,
 };
 use crate::visible::shortened;
@@ -256,7 +256,7 @@ impl Drawn<'_> {
         points
     }
 
-    fn main(&self, canvas: &mut Canvas<'_>, view: &View) {
+    fn main(&self, canvas: &mut Canvas, view: &View) {
         view.ground(canvas, (0.0, 0.0), 1.0, &self.plane);
         self.around(canvas, view);
         self.asked.tubes(canvas, view);
@@ -308,7 +308,7 @@ impl Drawn<'_> {
     }
 
     /// The bodies of the scene, as far as they lie in the view.
-    fn around(&self, canvas: &mut Canvas<'_>, view: &View) {
+    fn around(&self, canvas: &mut Canvas, view: &View) {
         let (low, high) = ((view.x.min, view.y.min), (view.x.max, view.y.max));
         let mut draw = |outlines: &[Vec<(f64, f64)>], colour: Colour, alpha: f64| {
             for outline in outlines {
@@ -352,7 +352,7 @@ impl Drawn<'_> {
         places
     }
 
-    fn paths(&self, canvas: &mut Canvas<'_>, view: &View, most: usize) {
+    fn paths(&self, canvas: &mut Canvas, view: &View, most: usize) {
         for (path, colour, width) in [
             (&self.tcp, BLUE, 2.2),
             // on top, so that its gaps show the TCP where both agree
@@ -365,7 +365,7 @@ impl Drawn<'_> {
     }
 
     /// A goal's two circles, to scale.
-    fn circles(&self, canvas: &mut Canvas<'_>, goal: &Goal, at: (f64, f64), pixels_per_m: f64) {
+    fn circles(&self, canvas: &mut Canvas, goal: &Goal, at: (f64, f64), pixels_per_m: f64) {
         for (radius_m, colour) in [(goal.zero_m, VERMILLION), (goal.full_m, GREEN)] {
             let radius = radius_m * pixels_per_m;
             if radius.is_finite() && radius > 0.5 {
@@ -378,7 +378,7 @@ impl Drawn<'_> {
     /// The surroundings of a goal, offsets in millimetres, and their view.
     fn close_look(
         &self,
-        canvas: &mut Canvas<'_>,
+        canvas: &mut Canvas,
         goal: &Goal,
         number: usize,
         (left, top): (f64, f64),

@@ -7,7 +7,7 @@ use super::course::Course;
 use super::plane::Plane;
 use super::timeline::Panel;
 use super::view::View;
-use crate::theme::{Colour, MUTED_DASHED, RED, hex};
+use crate::palette::{Colour, MUTED_DASHED, RED, hex};
 use crate::visible::visible;
 
 /// One pair of axes; places are in units of the picture, y downwards.

@@ -8,7 +8,7 @@ use super::canvas::{Entry, Swatch};
 use super::timeline::{Line, MOST_POINTS, Panel, Timeline};
 use crate::goal::{current_goal, distances_m};
 use crate::number::{joined, shown_unit, significant};
-use crate::theme::{
+use crate::palette::{
     BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, PURPLE_DASHED, VERMILLION_DASHED,
 };
 use crate::visible::{shortened, visible};

@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, UNITS, WIDTH, picture};
 use super::course::{Course, Point, courses};
 use super::reading::Axes;
-use crate::theme::{Colour, FRAME, GRID, MUTED, MUTED_DASHED, RED};
+use crate::palette::{Colour, FRAME, GRID, MUTED, MUTED_DASHED, RED};
 use crate::visible::shortened;
 use kinemark_grader::record::quantity::seconds;
 
@@ -162,7 +162,7 @@ impl Timeline {
 
     fn panel(
         &self,
-        canvas: &mut Canvas<'_>,
+        canvas: &mut Canvas,
         panel: &Panel,
         courses: &[Course],
         place: &Place,
@@ -230,7 +230,7 @@ impl Timeline {
     }
 
     /// The numbers of the marks above the first panel; one that would stand on another is moved aside.
-    fn numbers(&self, canvas: &mut Canvas<'_>, place: &Place, y: f64) {
+    fn numbers(&self, canvas: &mut Canvas, place: &Place, y: f64) {
         let mut free = LEFT;
         for (i, (t_s, _)) in self.marks.iter().take(MOST_MARKS).enumerate() {
             let x = place.x(*t_s);

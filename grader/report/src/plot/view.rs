@@ -3,7 +3,7 @@
 use super::axis::{Axis, extent};
 use super::canvas::{Align, Canvas, WIDTH};
 use super::plane::Plane;
-use crate::theme::{FRAME, GRID, MUTED};
+use crate::palette::{FRAME, GRID, MUTED};
 
 /// Left and right edge of a view of full width \[px\].
 pub(super) const LEFT: f64 = 68.0;
@@ -57,13 +57,7 @@ impl View {
     }
 
     /// Grid, ticks and frame; `scale` and `zero` turn metres into what the labels tell.
-    pub(super) fn ground(
-        &self,
-        canvas: &mut Canvas<'_>,
-        zero: (f64, f64),
-        scale: f64,
-        plane: &Plane,
-    ) {
+    pub(super) fn ground(&self, canvas: &mut Canvas, zero: (f64, f64), scale: f64, plane: &Plane) {
         let (w, h) = (self.width(), self.height());
         let (right, bottom) = (self.left + w, self.top + h);
         let told = |axis: &Axis, zero: f64| {
@@ -91,7 +85,7 @@ impl View {
         }
     }
 
-    pub(super) fn frame(&self, canvas: &mut Canvas<'_>) {
+    pub(super) fn frame(&self, canvas: &mut Canvas) {
         let (right, bottom) = (self.left + self.width(), self.top + self.height());
         let corners = [
             (self.left, self.top),

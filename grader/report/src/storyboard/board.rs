@@ -2,12 +2,12 @@
 
 use super::camera::Camera;
 use super::scenery::Scenery;
-use super::svg::{Anchor, Svg, escaped, hex, text_width, wrapped};
+use super::svg::{Anchor, Svg, escaped, text_width, wrapped};
 use super::view::View;
 use super::{COLUMNS, GAP, MARGIN, PANEL, Panel, WIDTH};
 use crate::moment::{fragment, of_task};
 use crate::number::significant;
-use crate::theme::{BLUE, Colour, GREEN, INK, MUTED, PAPER, PURPLE, RED, VERMILLION};
+use crate::palette::{BLUE, Colour, GREEN, INK, MUTED, PAPER, PURPLE, RED, VERMILLION, hex};
 use crate::visible::shortened;
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;

@@ -3,10 +3,8 @@
 use kinemark_sim::spatial::Pose;
 use nalgebra::{Point3, Vector3};
 
+use crate::palette::Rgb;
 use crate::solid::Faces;
-
-/// A colour, in red, green and blue.
-pub(super) type Rgb = (u8, u8, u8);
 
 /// A flat convex face.
 #[derive(Debug, Clone)]

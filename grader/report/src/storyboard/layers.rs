@@ -3,16 +3,16 @@
 use nalgebra::{Point3, Vector3};
 
 use super::board::Board;
-use super::face::{Face, Rgb};
+use super::face::Face;
 use super::scenery::finite;
-use super::svg::{Anchor, Svg, hex};
+use super::svg::{Anchor, Svg};
 use super::{PANEL, Panel, order};
-use crate::theme::{BLUE, FRAME, GREEN, GRID, INK, PAPER, PURPLE, RED, VERMILLION};
+use crate::palette::{
+    BLUE, FRAME, GREEN, GRID, INK, PAPER, PURPLE, RED, Rgb, SHADOW, VERMILLION, hex,
+};
 
 /// Points of a line nearer to each other than this are one \[px\].
 const FINE: f64 = 0.8;
-/// Where no light falls on the ground.
-const SHADOW: Rgb = (228, 231, 236);
 
 impl Board<'_> {
     pub(super) fn panel(&self, svg: &mut Svg, index: usize, panel: &Panel, corner: (f64, f64)) {

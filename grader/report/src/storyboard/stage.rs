@@ -2,21 +2,13 @@
 
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::model::robot::Shape;
-use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::spatial::Pose;
 use nalgebra::Point3;
 
-use super::face::{Face, Rgb, place, stick};
+use super::face::{Face, place, stick};
+use crate::palette::{Rgb, of_body, of_link};
 use crate::solid::{Detail, Faces, drawn};
 use kinemark_grader::record::graded::TaskRun;
-
-/// The link that does not move.
-const ROOT: Rgb = (150, 158, 170);
-/// The links that do, in turn, so that neighbours differ.
-const LINKS: [Rgb; 2] = [(64, 138, 200), (138, 196, 236)];
-const STANDING: Rgb = (205, 190, 166);
-const DRIVEN: Rgb = (232, 170, 60);
-const FREE: Rgb = (220, 110, 56);
 
 /// Shapes that are drawn.
 const MOST_SHAPES: usize = 400;
@@ -52,16 +44,14 @@ pub(super) struct Stage<'a> {
 impl<'a> Stage<'a> {
     pub(super) fn of(run: &'a TaskRun) -> Self {
         let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
-        let links = run.robot.links().iter().enumerate().map(|(i, link)| {
-            let colour = if i == 0 { ROOT } else { LINKS[(i - 1) % 2] };
-            (Holder::Link(i), &link.shapes, colour)
-        });
+        let links = run
+            .robot
+            .links()
+            .iter()
+            .enumerate()
+            .map(|(i, link)| (Holder::Link(i), &link.shapes, of_link(i).storyboard));
         let bodies = bodies.enumerate().map(|(i, body)| {
-            let colour = match body.kind {
-                BodyKind::Fixed => STANDING,
-                BodyKind::Kinematic(_) => DRIVEN,
-                BodyKind::Free => FREE,
-            };
+            let colour = of_body(&body.kind).storyboard;
             (Holder::Body(i), &body.shapes, colour)
         });
         let shapes: Vec<(Holder, &Shape, Rgb)> = links
@@ -164,7 +154,13 @@ impl<'a> Stage<'a> {
             for (i, (a, b)) in sticks.into_iter().enumerate() {
                 let stick = stick(a, b, 0.012 * length);
                 let solid = self.parts.len() + i;
-                place(&stick, &Pose::identity(), solid, LINKS[i % 2], &mut faces);
+                place(
+                    &stick,
+                    &Pose::identity(),
+                    solid,
+                    of_link(i + 1).storyboard,
+                    &mut faces,
+                );
             }
         }
         faces.retain(|face| {

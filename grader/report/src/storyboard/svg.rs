@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::face::Rgb;
-use crate::theme::Colour;
+use crate::palette::{Colour, Rgb, hex};
 
 /// Where a word's given place is in it.
 #[derive(Debug, Clone, Copy)]
@@ -17,11 +16,6 @@ pub(super) enum Anchor {
 #[derive(Debug, Default)]
 pub(super) struct Svg {
     pub(super) body: String,
-}
-
-/// A colour as SVG writes it.
-pub(super) fn hex((r, g, b): Rgb) -> String {
-    format!("#{r:02X}{g:02X}{b:02X}")
 }
 
 /// Text that stands for itself in SVG.

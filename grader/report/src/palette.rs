@@ -1,10 +1,14 @@
-//! The colours of plots, for light and dark: every colour is written in its light form, and a style sheet that selects on that
+//! The colours of everything: of plots, of what is drawn as solids, and of the replay ([`crate::solid`] says what is drawn).
+//!
+//! Those of plots are for light and dark: every colour is written in its light form, and a style sheet that selects on that
 //! value gives it its dark one, so that a viewer without style sheets still shows the light picture.
 //!
 //! The series are the palette of Okabe and Ito, *Color Universal Design* (2008), darkened on white and lightened on black until
 //! each stands out from its ground by at least 3 to 1.
 
 use std::fmt::Write as _;
+
+use kinemark_sim::model::scene::BodyKind;
 
 /// A colour with its meaning.
 #[derive(Debug, Clone, Copy)]
@@ -64,6 +68,93 @@ pub(crate) const MUTED_DASHED: Colour = dashed(MUTED, "20 30");
 pub(crate) const AMBER: Colour = colour((146, 100, 0), (226, 178, 64));
 /// Where a run ended before its time.
 pub(crate) const RED: Colour = colour((190, 30, 45), (255, 120, 125));
+
+/// A colour in red, green and blue.
+pub(crate) type Rgb = (u8, u8, u8);
+
+/// The colour of a solid, which each renderer lights in its own way.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SolidColour {
+    /// In a storyboard.
+    pub(crate) storyboard: Rgb,
+    /// In viewers of logs, each part from 0 to 1.
+    #[cfg_attr(not(feature = "log"), expect(dead_code, reason = "no log is written"))]
+    pub(crate) log: [f64; 3],
+    /// In the replay on a light and on a dark page, as `theme.ts` has it.
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "the test compares it with `theme.ts`")
+    )]
+    replay: [&'static str; 2],
+}
+
+/// The link that does not move.
+const ROOT_LINK: SolidColour = SolidColour {
+    storyboard: (150, 158, 170),
+    log: [0.55, 0.6, 0.66],
+    replay: ["#5d6b7d", "#5f6d80"],
+};
+/// The links that do, in turn, so that neighbours differ.
+const MOVING_LINKS: [SolidColour; 2] = [
+    SolidColour {
+        storyboard: (64, 138, 200),
+        log: [0.0, 0.45, 0.7],
+        replay: ["#8ba4c0", "#7d9ac0"],
+    },
+    SolidColour {
+        storyboard: (138, 196, 236),
+        log: [0.34, 0.71, 0.91],
+        replay: ["#c6d2df", "#b6c4d4"],
+    },
+];
+const FIXED_BODY: SolidColour = SolidColour {
+    storyboard: (205, 190, 166),
+    log: [0.75, 0.68, 0.58],
+    replay: ["#c3b297", "#8f8069"],
+};
+const KINEMATIC_BODY: SolidColour = SolidColour {
+    storyboard: (232, 170, 60),
+    log: [0.9, 0.62, 0.0],
+    replay: ["#86aa9d", "#5f8f80"],
+};
+const DYNAMIC_BODY: SolidColour = SolidColour {
+    storyboard: (220, 110, 56),
+    log: [0.84, 0.37, 0.0],
+    replay: ["#e0b040", "#d2a338"],
+};
+
+/// The colour of a link by its place in the robot.
+pub(crate) fn of_link(index: usize) -> SolidColour {
+    match index {
+        0 => ROOT_LINK,
+        _ => MOVING_LINKS[(index - 1) % 2],
+    }
+}
+
+/// The colour of a body by what moves it.
+pub(crate) fn of_body(kind: &BodyKind) -> SolidColour {
+    match kind {
+        BodyKind::Fixed => FIXED_BODY,
+        BodyKind::Kinematic(_) => KINEMATIC_BODY,
+        BodyKind::Free => DYNAMIC_BODY,
+    }
+}
+
+/// What a storyboard lays on the ground below a solid.
+pub(crate) const SHADOW: Rgb = (228, 231, 236);
+
+/// Colours in viewers of logs that no solid has: red, green, blue and how much they cover, each from 0 to 1.
+#[cfg(feature = "log")]
+pub(crate) mod log {
+    /// Where a goal earns all points.
+    pub(crate) const FULL: [f64; 4] = [0.0, 0.62, 0.45, 0.6];
+    /// Where it earns none.
+    pub(crate) const ZERO: [f64; 4] = [0.84, 0.37, 0.0, 0.2];
+    /// The reference solution's path.
+    pub(crate) const REFERENCE_PATH: [f64; 4] = [0.8, 0.47, 0.65, 0.5];
+    /// The reference solution's arm, and what it moved.
+    pub(crate) const REFERENCE_ARM: [f64; 4] = [0.8, 0.47, 0.65, 0.35];
+}
 
 const ALL: [Colour; 15] = [
     PAPER,
@@ -175,6 +266,25 @@ mod tests {
         let (_, rest) = rest.split_once(name).expect(name);
         let start = rest.find('#').expect("a colour");
         rest[start..start + 7].to_ascii_uppercase()
+    }
+
+    /// The viewer's colours are in `theme.ts`, which is built into the bundle.
+    #[test]
+    fn the_replay_has_the_colours_of_solids() {
+        let theme = include_str!("../../web/src/theme.ts");
+        for (i, part) in ["LIGHT: Theme", "DARK: Theme"].into_iter().enumerate() {
+            let (_, rest) = theme.split_once(part).expect(part);
+            let (theme, _) = rest.split_once("};").expect("its end");
+            let [root, odd, even] = [0, 1, 2].map(|link| of_link(link).replay[i]);
+            for line in [
+                format!("link: [\"{root}\", \"{odd}\", \"{even}\"],"),
+                format!("fixed: \"{}\",", FIXED_BODY.replay[i]),
+                format!("driven: \"{}\",", KINEMATIC_BODY.replay[i]),
+                format!("free: \"{}\",", DYNAMIC_BODY.replay[i]),
+            ] {
+                assert!(theme.contains(&line), "{part} has no `{line}`");
+            }
+        }
     }
 
     /// A colour means one thing on a page: that of the replay and its legend is that of the plots.
