@@ -6,6 +6,9 @@ mod figure;
 mod head;
 mod look;
 mod task;
+mod task_check;
+mod task_shown;
+mod task_tables;
 pub(crate) mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

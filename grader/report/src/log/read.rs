@@ -140,6 +140,19 @@ pub(super) fn messages(
     })
 }
 
+/// A reader that checks every sum there is.
+fn checking_reader() -> LinearReader {
+    let options = LinearReaderOptions::default()
+        .with_record_length_limit(MOST_RECORD_BYTES)
+        .with_validate_chunk_crcs(true)
+        // before a message of theirs is looked at
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true);
+    LinearReader::new_with_options(options)
+}
+
 fn stream(
     log: &[u8],
     count: &mut u64,
@@ -152,15 +165,7 @@ fn stream(
     if !log.starts_with(&magic[..magic.len().min(log.len())]) {
         return Err(ReadError::Foreign);
     }
-    let options = LinearReaderOptions::default()
-        .with_record_length_limit(MOST_RECORD_BYTES)
-        .with_validate_chunk_crcs(true)
-        // before a message of theirs is looked at
-        .with_prevalidate_chunk_crcs(true)
-        .with_validate_data_section_crc(true)
-        .with_validate_summary_section_crc(true)
-        .with_check_finishes_after_end_magic(true);
-    let mut reader = LinearReader::new_with_options(options);
+    let mut reader = checking_reader();
     let mut channels = ::mcap::read::ChannelAccumulator::default();
     // the reader must not see a chunk that contradicts itself
     let torn = chunks::first_torn(log);

@@ -146,26 +146,8 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
         }
     }
     lines.push(line(current, BLUE, false));
-    let mut bands: Vec<(f64, f64)> = Vec::new();
-    for goal in &run.goals {
-        if !bands.contains(&(goal.full_m, goal.zero_m)) && bands.len() < MOST_GOALS {
-            bands.push((goal.full_m, goal.zero_m));
-        }
-    }
-    let least = bands
-        .iter()
-        .map(|band| band.0)
-        .fold(f64::INFINITY, f64::min);
-    let least = if least > 0.0 && least.is_finite() {
-        least
-    } else {
-        1e-3
-    };
-    let greatest = extent(values(&lines)).map_or(1.0, |reach| reach.1);
-    let axis = Axis::decades(
-        least / 9.0,
-        greatest.max(bands.iter().map(|band| band.1).fold(0.0, f64::max)),
-    );
+    let bands = goal_bands(&run.goals);
+    let axis = distance_axis(&bands, &lines);
     let mut legend = vec![Entry::new(Swatch::Line(BLUE), "to the current goal")];
     if others {
         legend.push(Entry::new(Swatch::Line(MUTED_DASHED), "to each goal"));
@@ -207,6 +189,35 @@ pub(super) fn error(run: &TaskRun) -> Option<Timeline> {
     ))
 }
 
+/// The bands of goals, each once: distances that earn all points and none.
+fn goal_bands(goals: &[Goal]) -> Vec<(f64, f64)> {
+    let mut bands: Vec<(f64, f64)> = Vec::new();
+    for goal in goals {
+        if !bands.contains(&(goal.full_m, goal.zero_m)) && bands.len() < MOST_GOALS {
+            bands.push((goal.full_m, goal.zero_m));
+        }
+    }
+    bands
+}
+
+/// An axis for distances, from below the narrowest band.
+fn distance_axis(bands: &[(f64, f64)], lines: &[Line]) -> Axis {
+    let least = bands
+        .iter()
+        .map(|band| band.0)
+        .fold(f64::INFINITY, f64::min);
+    let least = if least > 0.0 && least.is_finite() {
+        least
+    } else {
+        1e-3
+    };
+    let greatest = extent(values(lines)).map_or(1.0, |reach| reach.1);
+    Axis::decades(
+        least / 9.0,
+        greatest.max(bands.iter().map(|band| band.1).fold(0.0, f64::max)),
+    )
+}
+
 fn stay_s(run: &TaskRun, goal: &Goal) -> Option<(f64, f64)> {
     let (first, last) = goal.stay?;
     Some((time_s(run, first), time_s(run, last)))
@@ -229,17 +240,22 @@ fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
     entries
 }
 
-/// A curve that a check judged, with its band and marks.
-pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
+/// How large the values of a curve are: its limits, else its greatest value.
+fn typical_value(curve: &Curve) -> f64 {
     let typical = [curve.full, curve.zero]
         .into_iter()
         .flatten()
         .map(f64::abs)
         .reduce(f64::max);
     let reach = extent(curve.values.iter().copied());
-    let typical = typical
+    typical
         .or(reach.map(|(min, max)| min.abs().max(max.abs())))
-        .unwrap_or(1.0);
+        .unwrap_or(1.0)
+}
+
+/// A curve that a check judged, with its band and marks.
+pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
+    let typical = typical_value(curve);
     let (unit, scale) = shown_unit(&curve.unit, typical);
     let points = curve
         .t_s

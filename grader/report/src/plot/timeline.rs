@@ -64,6 +64,17 @@ const NARROWEST_STEP: i32 = 2;
 /// Marks that are numbered and told.
 const MOST_MARKS: usize = 6;
 
+/// Says when a run stopped, beside its line.
+fn stopped_here(canvas: &mut Canvas, t_s: f64, x: f64, heading_y: f64) {
+    let words = format!("stopped here, {}", seconds(t_s));
+    let (align, x) = if x < 0.5 * WIDTH {
+        (Align::Start, x.max(300.0))
+    } else {
+        (Align::End, x + 6.0)
+    };
+    canvas.text(&words, (x, heading_y), align, RED);
+}
+
 impl Timeline {
     /// Draws it, and tells where its axes lie and what is above them.
     pub(super) fn draw(&self) -> (String, Vec<Axes>, Head) {
@@ -121,19 +132,7 @@ impl Timeline {
                 if i == 0
                     && let Some(t_s) = self.stopped_s
                 {
-                    let x = place.x(t_s);
-                    let words = format!("stopped here, {}", seconds(t_s));
-                    let align = if x < 0.5 * WIDTH {
-                        Align::Start
-                    } else {
-                        Align::End
-                    };
-                    let x = if x < 0.5 * WIDTH {
-                        x.max(300.0)
-                    } else {
-                        x + 6.0
-                    };
-                    canvas.text(&words, (x, heading_y), align, RED);
+                    stopped_here(canvas, t_s, place.x(t_s), heading_y);
                 }
                 let courses: Vec<Course> = courses.by_ref().take(panel.lines.len()).collect();
                 self.panel(canvas, panel, &courses, &place, last);

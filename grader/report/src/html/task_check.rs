@@ -1,0 +1,88 @@
+//! A check of a task: what it measured, its evidence, and what to do next.
+
+use maud::{Markup, html};
+
+use super::band::{gauge, outcome, told};
+use super::figure::figure;
+use super::head::earned;
+use super::task_shown::TaskShown;
+use super::{foreign, prose};
+use crate::plot::Plot;
+use crate::text::untold;
+use crate::visible::visible;
+use kinemark_grader::record::grade::{CheckGrade, Evidence, Outcome, TaskKind};
+use kinemark_grader::record::quantity::{seconds, with_unit};
+
+/// A check, with the picture of what it judged beside it.
+pub(super) fn checked(
+    check: &CheckGrade,
+    plot: Option<&Plot>,
+    id: &str,
+    of: &TaskShown<'_>,
+) -> Markup {
+    let is_hidden = |fact: &&Evidence| of.kind == TaskKind::Motion && is_of_hidden_run(fact);
+    let shown: Vec<&Evidence> = check
+        .evidence
+        .iter()
+        .filter(|fact| !is_hidden(fact))
+        .collect();
+    let hides = shown.len() < check.evidence.len();
+    let has_shown = !shown.is_empty();
+    html! {
+        article class=(if plot.is_some() { "check pictured" } else { "check" }) {
+            div class="title" {
+                h4 { (foreign(&check.title)) }
+                p { (outcome(check)) " " (earned(check.points, check.max_points)) }
+            }
+            div class="told" {
+                @if let Some(measure) = &check.measure {
+                    @let measured = told(measure);
+                    div class="measure" {
+                        p {
+                            (prose(&measure.quantity)) ": " b { (measured.value) }
+                            @if let Some(margin) = measured.margin { ", " (margin) }
+                            br; small { (measured.band) }
+                        }
+                        (gauge(measure))
+                    }
+                } @else if check.outcome == Outcome::NotJudged {
+                    p class="quiet" {
+                        "Not judged: "
+                        @if of.stopped { "the submission was stopped before." }
+                        @else if check.next_step.is_some() { "a check that it needs earned nothing." }
+                        @else { "nothing is decided." }
+                    }
+                }
+                @if has_shown {
+                    ul class="evidence" { @for fact in shown { li { (evidence(fact, of)) } } }
+                }
+                @if hides { p class="where" { a href={ "#" (id) "-hidden" } { "Points were lost in hidden runs" @if has_shown { ", too" } } } }
+                @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
+            }
+            @if let Some(first) = untold(check) {
+                p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
+            }
+            @if let Some(plot) = plot { div class="plots" { (figure(plot, of.name)) } }
+        }
+    }
+}
+
+/// Whether a fact of a motion task tells of hidden runs, by their class.
+pub(super) fn is_of_hidden_run(fact: &Evidence) -> bool {
+    fact.tick.is_none() && fact.case.is_some()
+}
+
+fn evidence(fact: &Evidence, of: &TaskShown<'_>) -> Markup {
+    html! {
+        p { (prose(&fact.message)) }
+        p class="where" {
+            @if let Some(t_s) = fact.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
+            @if let Some(tick) = fact.tick { span { "tick " (tick) } }
+            @if let Some(run) = &fact.run { span { "run " (foreign(run)) } }
+            @if let Some(case) = &fact.case { span { "case " (foreign(case)) } }
+            @if !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
+            @if let Some(value) = fact.value { span { "value " (visible(&with_unit(value, &fact.unit))) } }
+            @if let Some(limit) = fact.limit { span { "limit " (visible(&with_unit(limit, &fact.unit))) } }
+        }
+    }
+}

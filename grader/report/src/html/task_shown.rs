@@ -1,0 +1,39 @@
+//! The task that a part of the page is about, and links to its moments.
+
+use maud::{Markup, html};
+
+use super::viewer::seek;
+use kinemark_grader::record::grade::TaskKind;
+use kinemark_grader::record::graded::TaskRun;
+
+/// The task that a part of the page is about.
+pub(super) struct TaskShown<'a> {
+    pub(super) name: &'a str,
+    pub(super) kind: TaskKind,
+    pub(super) run: Option<&'a TaskRun>,
+    pub(super) has_replay: bool,
+    /// Whether something stopped the submission.
+    pub(super) stopped: bool,
+}
+
+impl TaskShown<'_> {
+    /// Words that lead to a moment, where there is a replay to lead to.
+    pub(super) fn moment(&self, time_s: f64, words: &str) -> Markup {
+        if self.has_replay {
+            seek(self.name, time_s, words)
+        } else {
+            html! { (words) }
+        }
+    }
+
+    /// A tick as its time, where that is known.
+    pub(super) fn tick(&self, tick: u64) -> Markup {
+        match self.run {
+            Some(run) => {
+                let time_s = tick as f64 * run.trace.step_s;
+                self.moment(time_s, &format!("{time_s:.3} s"))
+            }
+            None => html! { "tick " (tick) },
+        }
+    }
+}
