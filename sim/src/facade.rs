@@ -43,13 +43,13 @@ pub mod joint {
 pub mod event {
     pub use crate::watch::event::*;
 }
+pub mod event_words {
+    pub use crate::watch::Names;
+}
 pub mod runaway {
     pub use crate::diagnosis::{Cause, likely_cause};
     pub use crate::run::{BlowUp, RUNAWAY_SPEED_M_S};
 }
 pub mod hybrid {
     pub use crate::step::hybrid::*;
-}
-pub mod event_words {
-    pub use crate::watch::event_words::*;
 }

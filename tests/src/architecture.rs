@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use cargo_metadata::DependencyKind;
+
 #[test]
 fn crates_depend_on_each_other_as_drawn() {
     let manifest = crate::testbed::root().join("Cargo.toml");
@@ -24,7 +26,9 @@ fn crates_depend_on_each_other_as_drawn() {
         }
         for dependency in &package.dependencies {
             if ours.contains(&dependency.name) {
-                arrows.insert(format!("{} -> {}", package.name, dependency.name));
+                let tests = dependency.kind == DependencyKind::Development;
+                let of = if tests { " (tests)" } else { "" };
+                arrows.insert(format!("{}{of} -> {}", package.name, dependency.name));
             }
         }
     }
@@ -35,6 +39,7 @@ fn crates_depend_on_each_other_as_drawn() {
         "kinemark-grader -> kinemark-sim",
         "kinemark-report -> kinemark-grader",
         "kinemark-report -> kinemark-sim",
+        "kinemark-sim (tests) -> kinemark-reference",
     ]
     .into_iter()
     .map(str::to_owned)

@@ -9,4 +9,4 @@ pub mod speed_limit;
 
 pub use linear_step::LinearStep;
 pub use sampled_loop::{SampledLoop, sampled_loop};
-pub use servo::{Derivative, Gains, Mode, Servo, ServoSettings};
+pub use servo::{Derivative, GainLists, Gains, Mode, Servo, ServoError, ServoSettings};

@@ -19,8 +19,6 @@ mod gravity;
 pub mod loops;
 pub mod rnea;
 
-#[doc(hidden)]
-pub use crate::step::smooth;
 pub use aba::SingularMassMatrix;
 pub use crba::mass_matrix;
 pub use energy::{Energy, energy};

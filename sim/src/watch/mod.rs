@@ -3,10 +3,11 @@
 mod bodies;
 mod contacts;
 pub mod event;
-pub mod event_words;
+mod event_sentence;
 mod joints;
 mod run_watch;
 mod singularity;
 
 pub use contacts::ContactSpan;
+pub use event_sentence::Names;
 pub use run_watch::Watch;

@@ -16,9 +16,9 @@ use crate::format::part::part_problem::PartProblem;
 use crate::format::part::part_tables::{NumberAt, ShapeTable};
 use crate::format::part::values::{Allowed, Values, changed_dimensions};
 use crate::format::robot_problem::{RobotError, RobotProblem};
+use crate::format::sensor_toml;
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Limits, LoopKind, Robot, Shape};
-use crate::sensor;
 use crate::spatial::pose;
 use crate::text::Dimension;
 
@@ -40,7 +40,7 @@ impl RobotFile {
             },
         };
         let mut robot = resolver.description()?.assemble()?;
-        robot.sensors = sensor::resolve_all(&self.tables.sensors, &self.source, KIND, &robot)?;
+        robot.sensors = sensor_toml::resolve_all(&self.tables.sensors, &self.source, KIND, &robot)?;
         Ok(robot)
     }
 

@@ -1,6 +1,6 @@
 //! The operation `simulate`: a run under given commands, sampled, alone or in a scene.
 
-use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::event_words::Names;
 use kinemark_sim::kinematics::closure::loop_gap_m;
@@ -330,7 +330,6 @@ fn servo_of(
     table: Map<String, Value>,
 ) -> Result<ServoSettings, Refusal> {
     let mut fields = Fields::new(robot, table);
-    let n = robot.n();
     let mode = match fields.text("mode")?.as_deref() {
         Some("position") => Mode::Position,
         Some("velocity") => Mode::Velocity,
@@ -354,49 +353,26 @@ fn servo_of(
             ));
         }
     };
-    let zeros = || vec![0.0; n];
-    let kp = fields.spread("kp")?.unwrap_or_else(zeros);
-    let ki = fields.spread("ki")?.unwrap_or_else(zeros);
-    let kd = fields.spread("kd")?.unwrap_or_else(zeros);
-    let mut limit = |name: &'static str| {
-        let limits = fields
-            .spread(name)?
-            .unwrap_or_else(|| vec![f64::INFINITY; n]);
-        match limits.iter().find(|limit| **limit < 0.0) {
-            None => Ok(limits),
-            Some(bad) => Err(Refusal::new(
-                "out-of-range",
-                format!("`{name}` must not be negative, got {bad}"),
-            )),
+    let mut gains = GainLists::none(robot.n());
+    for (name, list) in [
+        ("kp", &mut gains.kp),
+        ("ki", &mut gains.ki),
+        ("kd", &mut gains.kd),
+        ("effort_limit", &mut gains.effort_limit),
+        ("integral_limit", &mut gains.integral_limit),
+    ] {
+        if let Some(given) = fields.spread(name)? {
+            *list = given;
         }
-    };
-    let effort_limit = limit("effort_limit")?;
-    let integral_limit = limit("integral_limit")?;
+    }
     let gravity_compensation = fields.truth("gravity_compensation")?.unwrap_or(false);
     fields.finish()?;
-    let mut gains: Vec<Gains> = (0..n)
-        .map(|i| Gains {
-            kp: kp[i],
-            ki: ki[i],
-            kd: kd[i],
-            effort_limit: effort_limit[i],
-            integral_limit: integral_limit[i],
-        })
-        .collect();
-    // a joint that follows from a loop has no drive
-    for &i in robot.dependent() {
-        gains[i] = Gains {
-            kp: 0.0,
-            ki: 0.0,
-            kd: 0.0,
-            effort_limit: 0.0,
-            integral_limit: 0.0,
+    ServoSettings::new(robot, mode, derivative, &gains, gravity_compensation).map_err(|error| {
+        let code = match error {
+            ServoError::Gain { .. } | ServoError::Limit { .. } => "out-of-range",
+            ServoError::Count { .. } => "wrong-length",
+            ServoError::VelocityOfVelocity => "cannot-run",
         };
-    }
-    Ok(ServoSettings {
-        mode,
-        derivative,
-        gains,
-        gravity_compensation,
+        Refusal::new(code, error.to_string())
     })
 }

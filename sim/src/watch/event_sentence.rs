@@ -1,4 +1,4 @@
-//! What happened in a run, in words, with the names of the robot and the scene.
+//! An event as a sentence, with the names of the robot and the scene.
 
 use nalgebra::Vector3;
 
