@@ -204,13 +204,16 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
 
 /// What an open page has seen.
 #[derive(serde::Deserialize)]
-struct Seen {
+struct SeenChanges {
     #[serde(default)]
     seen: u64,
 }
 
 /// Answers when the report is another than the one seen.
-async fn changes(State(site): State<Arc<Site>>, Query(Seen { seen }): Query<Seen>) -> Response {
+async fn changes(
+    State(site): State<Arc<Site>>,
+    Query(SeenChanges { seen }): Query<SeenChanges>,
+) -> Response {
     let Some(mut changes) = site.changes.clone() else {
         return (StatusCode::NOT_FOUND, "this report stays as it is\n").into_response();
     };
