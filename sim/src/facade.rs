@@ -35,6 +35,7 @@ pub mod scene {
 pub mod sensor {
     pub use crate::format::{SensorProblem, SensorTable, resolve, resolve_all};
     pub use crate::model::sensor::*;
+    pub use crate::random::seed_of_name as default_seed;
     pub use crate::sensing::{Seen, SensorError, Sensors};
 }
 pub mod joint {

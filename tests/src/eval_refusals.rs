@@ -37,7 +37,7 @@ fn what_cannot_be_answered_has_its_code() {
         (
             &["rrbot"],
             r#"{"op": "ik", "target": {"positoin_m": [1, 2, 3]}}"#,
-            "missing-field",
+            "unknown-field",
         ),
         (
             &["rrbot"],

@@ -288,9 +288,14 @@ fn draws_that_give_something_else_or_that_the_solution_cannot_answer_are_refused
             "`stiffness` of the solution returned NaN, expected finite numbers",
         ),
     ] {
-        let own = own_lab().with(path, from, to);
-        match kinemark_grader::lab::Staff::load(&own, &own.lab(), None) {
-            Ok(_) => panic!("{to} is accepted"),
+        let course = own_lab().with(path, from, to);
+        let lab = course.lab();
+        let loaded = kinemark_grader::lab::Staff::load(&course, &lab, None);
+        let tried = loaded.and_then(|staff| {
+            kinemark_grader::audit::staff_code(&lab, &staff.expect("a staff's part"))
+        });
+        match tried {
+            Ok(()) => panic!("{to} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }
     }

@@ -117,7 +117,7 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
         "submission.rhai",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("is not a folder"), "{ran:?}");
+    assert!(ran.stderr.contains("is not a directory"), "{ran:?}");
     bed.write("thesis/chapter.tex", "precious");
     let ran = bed.run(&[
         "grade",

@@ -1,11 +1,8 @@
 //! `grants`: what a task lends a submission of Kinemark's own model of the robot, and which labs may not.
 
-use kinemark_grader::attempt::motion::{self, Session};
-use kinemark_grader::judge::{InProcess, granted};
-use kinemark_grader::lab::{Lab, MotionTask, TaskWork};
+use kinemark_grader::lab::Lab;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::verdict::Verdict;
-use kinemark_grader::submission::controller::Opening;
 use kinemark_report::text::text;
 
 use crate::own_lab::OwnLab;
@@ -123,38 +120,6 @@ fn a_worker_gives_the_same_grade_as_this_process() {
     let theirs = lab.record(SUBMISSION, 0);
     let theirs: Grade = serde_json::from_value(theirs).expect("a grade");
     assert_eq!(theirs, graded(&lab.lab(), SUBMISSION));
-}
-
-#[test]
-fn a_robot_kept_in_this_can_be_copied_in_the_middle_of_a_run() {
-    let lab = own_lab().lab();
-    let TaskWork::Motion(work) = &lab.tasks[1].work else {
-        panic!("a motion task");
-    };
-    let work: &MotionTask = work;
-    let opening = Opening {
-        file: "mine.rhai".to_owned(),
-        source: SUBMISSION.to_owned(),
-        task: "hold".to_owned(),
-        robot: motion::facts_of(&lab, work),
-        target: motion::target_of(work),
-        sensors: Vec::new(),
-        budgets: lab.budgets.clone(),
-        granted: granted(&lab, &lab.tasks[1].work),
-        function: None,
-    };
-    let straight = motion::run(&lab, work, &opening, &mut InProcess);
-    assert_eq!(straight.ended, None);
-    let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
-    let mut first = open();
-    first.advance_to(333);
-    let saved = first.snapshot().expect("the robot can be kept");
-    let mut other = open();
-    other.restore(&saved).expect("restored");
-    other.advance_to(u64::MAX);
-    let run = other.finish();
-    assert_eq!(run.operations, straight.operations);
-    assert!(run.trace == straight.trace);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What labs expect of a function is held against another way to the same number: `expected` in lab.toml was typed, and that of
 //! hidden cases is what the solution answers.
 
+use kinemark_grader::judge::with_expected;
 use kinemark_grader::lab::model::{Given, TaskWork};
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
 use kinemark_sim::robot::Dimension;
@@ -27,7 +28,10 @@ fn each_case(lab_name: &str, task: &str, mut check: impl FnMut(&Numbers<'_>, &Nu
     let TaskWork::Function(function) = &found.expect(task).work else {
         panic!("{task} is no function task");
     };
-    let cases = function.cases.iter().chain(staff.hidden(task));
+    let hidden = staff.draws_of(task).flat_map(|draw| {
+        with_expected(&lab, found.expect(task), &draw.cases, &staff.solution).expect("answers")
+    });
+    let cases = function.cases.iter().cloned().chain(hidden);
     let mut seen = 0;
     for case in cases {
         let Given::Values { given, expected } = &case.given else {

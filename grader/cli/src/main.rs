@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
+mod chosen_variant;
 mod command_line;
 mod commands;
 mod disk;
@@ -17,12 +18,16 @@ mod report_folder;
 mod robot_source;
 mod saves;
 mod scene_source;
+mod scenes_to_check;
 mod serve;
 mod staff_folder;
-mod variants;
+mod typed_numbers;
 mod worker;
 
 fn main() -> ExitCode {
+    if let Err(failure) = command_line::refuse_renamed(std::env::args_os().nth(1).as_deref()) {
+        return failure.report();
+    }
     let args = match command_line::CommandLine::try_parse() {
         Ok(args) => args,
         Err(error) => {

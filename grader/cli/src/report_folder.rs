@@ -141,7 +141,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     let there = |name: &str| match folder.join(name).symlink_metadata() {
         Ok(_) => Ok(()),
         Err(_) => Err(Failure::broken(
-            format!("`{shown}` has no {name}: it is not a (complete) report"),
+            format!("`{shown}` has no {name}: it is not a complete report"),
             "name the folder that `kinemark grade` wrote, or grade the submission again",
         )),
     };
@@ -176,7 +176,7 @@ fn record(path: &Path) -> Result<Grade, Failure> {
     let shown = path.display();
     let unread = |why: &str| {
         Failure::broken(
-            format!("`{shown}` is no grade record that this version reads: {why}"),
+            format!("`{shown}` is not a grade record that this version can read: {why}"),
             "grade the submission again",
         )
     };
@@ -215,7 +215,7 @@ pub(crate) fn lab_of(report: &Report) -> Result<(Lab, Folder), Failure> {
         // nobody named a lab here
         LoadError::UnknownLab { .. } => Failure::broken(
             format!(
-                "`{}` holds no lab `{}`: the report is not all there",
+                "`{}` has no lab `{}`: the report is not complete",
                 report.labs.display(),
                 visible(&report.grade.lab.name)
             ),

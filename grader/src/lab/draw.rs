@@ -1,13 +1,19 @@
 //! Cases drawn at random from a salt: the same salt gives the same cases on every machine, another salt others.
 //!
-//! Numbers come from BLAKE3 in extendable-output mode, keyed by salt, task, class and the case's number, so that adding a draw
-//! changes no other draw's cases.
+//! Numbers are keyed by salt, task, class and the case's number, so that adding a draw changes no other draw's cases.
 
-use kinemark_sim::kinematics::forward_kinematics;
+use kinemark_sim::random::KeyedStream;
 use kinemark_sim::robot::{Dimension, RobotFile};
 
 use super::file::{Ranges, RangesTable};
-use super::model::{Case, Given, Lab};
+use super::model::Lab;
+use crate::task::model::{Case, Given};
+use crate::task::tcp::tcp_in;
+
+/// What hidden cases are drawn for; never changed, because recorded grades depend on it.
+const HIDDEN_CASES: &str = "kinemark 2026 hidden cases v1";
+/// As [`HIDDEN_CASES`], for hidden runs.
+const HIDDEN_RUNS: &str = "kinemark 2026 hidden runs v1";
 
 /// A draw that has been checked against its lab.
 #[derive(Debug, Clone)]
@@ -32,48 +38,18 @@ pub(super) enum Drawn {
     Values(Vec<(String, Ranges)>),
 }
 
-/// Random numbers of one case.
-struct Stream(blake3::OutputReader);
-
-impl Stream {
-    fn new(salt: &str, draw: &Draw, number: u32) -> Self {
-        Self::of(
-            blake3::Hasher::new_derive_key("kinemark 2026 hidden cases v1"),
-            [salt, &draw.task, &draw.class],
-            number,
-        )
-    }
-
-    fn of(mut hasher: blake3::Hasher, key: [&str; 3], number: u32) -> Self {
-        for part in key {
-            hasher.update(&(part.len() as u64).to_le_bytes());
-            hasher.update(part.as_bytes());
-        }
-        hasher.update(&number.to_le_bytes());
-        Self(hasher.finalize_xof())
-    }
-
-    /// The next number in `[low, high)`, of 53 random bits.
-    fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
-        let mut bytes = [0; 8];
-        self.0.fill(&mut bytes);
-        let unit = (u64::from_le_bytes(bytes) >> 11) as f64 / (1_u64 << 53) as f64;
-        low + (high - low) * unit
-    }
-
-    /// The next numbers and lists of numbers, by name.
-    fn entries(&mut self, ranges: &[(String, Ranges)]) -> Vec<(String, Dimension)> {
-        let drawn = ranges.iter().map(|(name, ranges)| {
-            let value = match ranges {
-                Ranges::One(range) => Dimension::Number(self.between(*range)),
-                Ranges::Each(ranges) => {
-                    Dimension::List(ranges.iter().map(|range| self.between(*range)).collect())
-                }
-            };
-            (name.clone(), value)
-        });
-        drawn.collect()
-    }
+/// The next numbers and lists of numbers, by name.
+fn entries(stream: &mut KeyedStream, ranges: &[(String, Ranges)]) -> Vec<(String, Dimension)> {
+    let drawn = ranges.iter().map(|(name, ranges)| {
+        let value = match ranges {
+            Ranges::One(range) => Dimension::Number(stream.between(*range)),
+            Ranges::Each(ranges) => {
+                Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
+            }
+        };
+        (name.clone(), value)
+    });
+    drawn.collect()
 }
 
 /// The parameters of hidden run `number` of a class.
@@ -84,8 +60,7 @@ pub(super) fn parameters(
     number: u32,
     ranges: &RangesTable,
 ) -> Vec<(String, Dimension)> {
-    let hasher = blake3::Hasher::new_derive_key("kinemark 2026 hidden runs v1");
-    let mut stream = Stream::of(hasher, [salt, task, class], number);
+    let mut stream = KeyedStream::new(HIDDEN_RUNS, &[salt, task, class], &number.to_le_bytes());
     let drawn = ranges.iter().map(|(name, ranges)| {
         let value = match ranges.get_ref() {
             Ranges::One(range) => Dimension::Number(stream.between(*range)),
@@ -107,8 +82,9 @@ impl Draw {
     }
 
     fn case(&self, salt: &str, number: u32, lab: &Lab, robot_file: &RobotFile) -> Case {
-        let mut stream = Stream::new(salt, self, number);
-        let dimensions = stream.entries(&self.dimensions);
+        let names = [salt, &self.task, &self.class];
+        let mut stream = KeyedStream::new(HIDDEN_CASES, &names, &number.to_le_bytes());
+        let dimensions = entries(&mut stream, &self.dimensions);
         let given = match &self.what {
             Drawn::Q(ranges) => Given::Q(ranges.iter().map(|r| stream.between(*r)).collect()),
             Drawn::PositionOf(ranges, branches) => {
@@ -123,7 +99,7 @@ impl Draw {
                 branches: *branches,
             },
             Drawn::Values(ranges) => Given::Values {
-                given: stream.entries(ranges),
+                given: entries(&mut stream, ranges),
                 expected: Vec::new(),
             },
         };
@@ -143,12 +119,7 @@ fn tcp_position(
     dimensions: &[(String, Dimension)],
     q: &[f64],
 ) -> [f64; 3] {
-    let position = robot_file.build(dimensions).ok().and_then(|robot| {
-        let q = robot.positions(q).ok()?;
-        let poses = forward_kinematics(&robot, &q);
-        let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
-        let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
-        Some(lab_from_tcp.translation.vector.into())
-    });
-    position.unwrap_or([f64::NAN; 3])
+    let robot = robot_file.build(dimensions).ok();
+    let position = robot.and_then(|robot| tcp_in(&robot, &lab.frame, q));
+    position.map_or([f64::NAN; 3], Into::into)
 }

@@ -1,21 +1,18 @@
 //! Parameters of a lab: named numbers, and the `"= expression"` texts over them that become numbers before a lab file is read.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use kinemark_sim::robot::expression::evaluate_named;
-use kinemark_sim::robot::{Dimension, Dimensions};
-use kinemark_sim::source::{Source, TomlRefusal};
+use kinemark_sim::text::expression::{ExpressionProblem, MARK};
+use kinemark_sim::text::{
+    Dimension, Dimensions, MarkedNumbersProblem, Source, TomlRefusal, read_with_marked_numbers,
+};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::load::{Reporter, refuse_not_finite};
-use super::problem::{LabError, LabProblem};
-
-/// What a text begins with that is an expression.
-const SIGN: char = '=';
+use crate::task::problem::{LabError, LabProblem};
 
 /// A table of names with numbers or lists of numbers, every place kept.
 pub(super) type NumbersTable = BTreeMap<Spanned<String>, Spanned<Dimension>>;
@@ -64,41 +61,28 @@ pub(super) fn tables_with<T: DeserializeOwned>(
     source: &Source,
     parameters: &Dimensions,
 ) -> Result<T, LabError> {
-    // the numbers as texts, in the order in which they are found: the tables borrow from them
-    let mut numbers = Vec::new();
-    let mut table = DeTable::parse(source.text()).map_err(|error| refused(source, &error))?;
-    for (key, value) in table.get_ref() {
-        if key.get_ref() == "variants" {
-            refuse_expressions(value, source)?;
+    let table = DeTable::parse(source.text()).map_err(|error| refused(source, &error))?;
+    if let Some(variants) = table.get_ref().get("variants") {
+        refuse_expressions(variants, source)?;
+    }
+    read_with_marked_numbers(source, parameters, "parameter").map_err(|problem| match problem {
+        MarkedNumbersProblem::Refused(refusal) => refusal_at(source, refusal),
+        MarkedNumbersProblem::Expression(ExpressionProblem { message, help, at }) => {
+            let problem = LabProblem {
+                message,
+                code: "lab::expression",
+                label: "in this expression".to_owned(),
+                help,
+            };
+            LabError::new(problem, source, at)
         }
-        if let Err(error) = evaluated(value, source, parameters, &mut numbers) {
-            // a table under a wrong name is why a parameter is missing, not the expression
-            return Err(unknown_key::<T>(source).unwrap_or(error));
-        }
-    }
-    let mut next = numbers.iter().map(String::as_str);
-    for (_, value) in table.get_mut().iter_mut() {
-        replaced(value, &mut next);
-    }
-    T::deserialize(Deserializer::from(table)).map_err(|error| refused(source, &error))
-}
-
-/// A key that no table of `T` knows, found with every expression taken for a zero.
-fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<LabError> {
-    let mut table = DeTable::parse(source.text()).ok()?;
-    let mut zeros = std::iter::repeat("0");
-    for (_, value) in table.get_mut().iter_mut() {
-        replaced_dyn(value, &mut zeros);
-    }
-    let error = T::deserialize(Deserializer::from(table)).err()?;
-    let is_key = error.message().starts_with("unknown field");
-    is_key.then(|| refused(source, &error))
+    })
 }
 
 /// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.
 fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(), LabError> {
     match value.get_ref() {
-        DeValue::String(text) if text.starts_with(SIGN) => Reporter { source }.err(
+        DeValue::String(text) if text.starts_with(MARK) => Reporter { source }.err(
             value.span(),
             "lab::variants",
             "[variants] holds numbers, not expressions: parameters are drawn from it".to_owned(),
@@ -115,90 +99,13 @@ fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(
     }
 }
 
-fn evaluated(
-    value: &Spanned<DeValue<'_>>,
-    source: &Source,
-    parameters: &Dimensions,
-    numbers: &mut Vec<String>,
-) -> Result<(), LabError> {
-    match value.get_ref() {
-        DeValue::String(text) => {
-            if let Some(expression) = text.strip_prefix(SIGN) {
-                let number = number(expression, value.span(), source, parameters)?;
-                numbers.push(number);
-            }
-            Ok(())
-        }
-        DeValue::Array(items) => items
-            .iter()
-            .try_for_each(|item| evaluated(item, source, parameters, numbers)),
-        DeValue::Table(table) => table
-            .values()
-            .try_for_each(|item| evaluated(item, source, parameters, numbers)),
-        _ => Ok(()),
-    }
-}
-
-fn replaced<'n>(value: &mut Spanned<DeValue<'n>>, numbers: &mut impl Iterator<Item = &'n str>) {
-    match value.get_mut() {
-        DeValue::String(text) if text.starts_with(SIGN) => {
-            let number = numbers.next().and_then(|text| DeValue::parse(text).ok());
-            if let Some(number) = number {
-                *value.get_mut() = number.into_inner();
-            }
-        }
-        DeValue::Array(items) => items
-            .iter_mut()
-            .for_each(|item| replaced_dyn(item, numbers)),
-        DeValue::Table(table) => table
-            .iter_mut()
-            .for_each(|(_, item)| replaced_dyn(item, numbers)),
-        _ => {}
-    }
-}
-
-/// Breaks the recursion of types: an iterator behind a reference is one type at every depth.
-fn replaced_dyn<'n>(value: &mut Spanned<DeValue<'n>>, numbers: &mut dyn Iterator<Item = &'n str>) {
-    let mut numbers = numbers;
-    replaced(value, &mut numbers);
-}
-
-/// The value of an expression as TOML; a whole one without a point, so that it may stand where a count is asked for.
-fn number(
-    expression: &str,
-    span: Range<usize>,
-    source: &Source,
-    parameters: &Dimensions,
-) -> Result<String, LabError> {
-    match evaluate_named(expression, parameters, "parameter") {
-        // 2^53: above, whole numbers are no longer exact
-        Ok(value) if value.fract().abs() <= 0.0 && value.abs() < 9_007_199_254_740_992.0 => {
-            Ok(format!("{value:.0}"))
-        }
-        Ok(value) => Ok(format!("{value:?}")),
-        Err(problem) => {
-            // behind the quote and the sign, where the text stands as typed
-            let inside = span.start + 1 + SIGN.len_utf8();
-            let typed = source.text().get(inside..inside + expression.len());
-            let at = if typed == Some(expression) {
-                inside + problem.at.start..inside + problem.at.end
-            } else {
-                span
-            };
-            Reporter { source }.err(
-                at,
-                "lab::expression",
-                problem.message,
-                "in this expression",
-                problem.help,
-            )
-        }
-    }
-}
-
 /// What the TOML reader refused, with its place.
 pub(super) fn refused(source: &Source, error: &toml::de::Error) -> LabError {
-    let TomlRefusal { message, help, at } = TomlRefusal::from_error(error, source.text());
+    refusal_at(source, TomlRefusal::from_error(error, source.text()))
+}
+
+fn refusal_at(source: &Source, refusal: TomlRefusal) -> LabError {
+    let TomlRefusal { message, help, at } = refusal;
     let problem = LabProblem {
         message,
         code: "lab::toml",

@@ -1,5 +1,6 @@
 //! Variants of a lab: the numbers of one student, read from a `variant.toml` or drawn from the course's salt and the student's id.
 
+use kinemark_sim::random::KeyedStream;
 use kinemark_sim::robot::Dimension;
 use kinemark_sim::source::{Source, suggest};
 use serde::Deserialize;
@@ -9,7 +10,7 @@ use super::file::{StepsOrEach, StepsTable};
 use super::load::{Reporter, tables};
 use super::model::Lab;
 use super::parameters::NumbersTable;
-use super::problem::LabError;
+use crate::task::problem::LabError;
 
 /// The name of the file beside a submission, and in the copy of a lab in a report.
 pub const VARIANT_FILE: &str = "variant.toml";
@@ -254,7 +255,7 @@ impl Lab {
     }
 }
 
-/// A number below `count`, uniform: BLAKE3 keyed by all that it depends on.
+/// A number below `count`, uniform, keyed by all that it depends on.
 fn chosen(
     salt: &str,
     lab: &str,
@@ -263,19 +264,11 @@ fn chosen(
     index: Option<u64>,
     count: u64,
 ) -> u64 {
-    let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 variants v1");
-    for part in [salt, lab, student, parameter] {
-        hasher.update(&(part.len() as u64).to_le_bytes());
-        hasher.update(part.as_bytes());
-    }
-    if let Some(index) = index {
-        hasher.update(&index.to_le_bytes());
-    }
-    let mut bytes = [0; 8];
-    hasher.finalize_xof().fill(&mut bytes);
-    // 64 bits over at most a million values: no value is preferred by more than a part in 10^13
-    let product = u128::from(u64::from_le_bytes(bytes)) * u128::from(count);
-    (product >> 64) as u64
+    let index = index.map(u64::to_le_bytes);
+    let index: &[u8] = index.as_ref().map_or(&[], |bytes| bytes);
+    let names = [salt, lab, student, parameter];
+    // a parameter has at most a million steps
+    KeyedStream::new("kinemark 2026 variants v1", &names, index).below(count)
 }
 
 /// More steps than this are a slip of the pen.

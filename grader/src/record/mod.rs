@@ -7,4 +7,5 @@ pub mod names;
 pub mod quantity;
 #[cfg(any(test, feature = "sample"))]
 pub mod sample;
+pub mod staff_fault;
 pub mod verdict;

@@ -3,6 +3,7 @@
 //! A description of a robot, in whatever format, becomes parts with their places in the text; [`assembly`] makes the robot of them.
 
 mod assembly;
+mod detect;
 pub mod joint_string;
 mod mesh_file;
 mod part;
@@ -12,6 +13,7 @@ mod scene_toml;
 mod sensor_toml;
 pub mod urdf;
 
+pub use detect::{RobotFormat, detect};
 pub use part::PartProblem;
 pub use robot_problem::{RobotError, RobotProblem};
 pub use robot_toml::RobotFile;

@@ -134,15 +134,6 @@ pub struct RangeFinder {
     pub range_m: f64,
 }
 
-/// The seed of a sensor that states none: the 64-bit FNV-1a hash of its name.
-///
-/// Source: Fowler, Noll & Vo, "The FNV Non-Cryptographic Hash Algorithm", RFC 9923.
-pub fn default_seed(name: &str) -> u64 {
-    name.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
-    })
-}
-
 /// The sensors `given`, with each of `changes` in the place of the one of its name, or at the end where there is none.
 pub fn replaced(given: &[Sensor], changes: impl IntoIterator<Item = Sensor>) -> Vec<Sensor> {
     let mut sensors = given.to_vec();
@@ -165,6 +156,7 @@ pub(crate) fn moved_by(robot: &Robot, joint: usize) -> Option<&Body> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::seed_of_name;
 
     fn encoder(name: &str, joint: usize) -> Sensor {
         Sensor {
@@ -174,16 +166,8 @@ mod tests {
             quantisation: 0.0,
             delay_s: 0.0,
             rate_hz: None,
-            seed: default_seed(name),
+            seed: seed_of_name(name),
         }
-    }
-
-    #[test]
-    fn the_seed_of_a_name_is_its_published_hash() {
-        // check values of the algorithm's own test suite
-        assert_eq!(default_seed(""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(default_seed("a"), 0xaf63_dc4c_8601_ec8c);
-        assert_eq!(default_seed("foobar"), 0x8594_4171_f739_67e8);
     }
 
     #[test]

@@ -1,6 +1,8 @@
-//! Arithmetic over a robot's dimensions: `+ - * /`, parentheses, names and indexing, as in `"link_lengths[0] / 2"`.
+//! Arithmetic over named numbers: `+ - * /`, parentheses, names and indexing, as in `"link_lengths[0] / 2"`.
 
-use super::{Dimension, Dimensions};
+use std::ops::Range;
+
+use super::{Dimension, Dimensions, Source};
 
 /// What is wrong with an expression, and at which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -10,7 +12,7 @@ pub struct ExpressionProblem {
     /// What would be right.
     pub help: Option<String>,
     /// Bytes of the expression's own text.
-    pub at: std::ops::Range<usize>,
+    pub at: Range<usize>,
 }
 
 /// The value of `text` over `dimensions`; the result is finite.
@@ -52,6 +54,35 @@ pub fn evaluate_named(
     Ok(value)
 }
 
+/// What an expression may begin with, and must begin with where other texts stand too.
+pub const MARK: char = '=';
+
+/// The value of the TOML text `typed`, with its mark or without. It stands at `span` of `source`, quotes included.
+///
+/// # Errors
+/// Those of [`evaluate`], at bytes of `source`.
+pub fn evaluate_in(
+    source: &Source,
+    span: &Range<usize>,
+    typed: &str,
+    dimensions: &Dimensions,
+    noun: &'static str,
+) -> Result<f64, ExpressionProblem> {
+    let expression = typed.strip_prefix(MARK).unwrap_or(typed);
+    evaluate_named(expression, dimensions, noun).map_err(|problem| {
+        // behind the quote; a text that is typed with escapes stands otherwise than it reads
+        let start = span.start + 1;
+        let is_as_typed = source.text().get(start..start + typed.len()) == Some(typed);
+        let before = start + typed.len() - expression.len();
+        let at = if is_as_typed {
+            before + problem.at.start..before + problem.at.end
+        } else {
+            span.clone()
+        };
+        ExpressionProblem { at, ..problem }
+    })
+}
+
 const MAX_DEPTH: usize = 64; // parentheses and signs; far above any real dimension, far below the stack
 
 struct Reader<'a> {
@@ -62,7 +93,7 @@ struct Reader<'a> {
     noun: &'static str,
 }
 
-fn problem(message: String, help: Option<String>, at: std::ops::Range<usize>) -> ExpressionProblem {
+fn problem(message: String, help: Option<String>, at: Range<usize>) -> ExpressionProblem {
     ExpressionProblem { message, help, at }
 }
 
@@ -275,6 +306,31 @@ mod tests {
         ] {
             assert_eq!(evaluate(text, &d).unwrap_err().at, at, "{text}");
         }
+    }
+
+    #[test]
+    fn problems_point_into_the_source_with_a_mark_and_without() {
+        for (text, at) in [
+            ("a = \"h + m\"", 9..10),
+            ("a = \"= h + m\"", 11..12),
+            ("a = \"=m\"", 6..7),
+            // an escape: the whole text
+            ("a = \"\\u003d m\"", 4..14),
+        ] {
+            let source = Source::new("x", text);
+            let typed = if text.contains('u') {
+                "= m"
+            } else {
+                &text[5..text.len() - 1]
+            };
+            let problem = evaluate_in(&source, &(4..text.len()), typed, &dimensions(), "dimension");
+            assert_eq!(problem.unwrap_err().at, at, "{text}");
+        }
+        let source = Source::new("x", "\"= h * 2\"");
+        assert_eq!(
+            evaluate_in(&source, &(0..9), "= h * 2", &dimensions(), "dimension"),
+            Ok(4.0)
+        );
     }
 
     #[test]

@@ -2,11 +2,13 @@
 
 mod dimensions;
 pub mod expression;
+mod marked_numbers;
 mod source;
 mod suggest;
 mod toml_refusal;
 
 pub use dimensions::{Dimension, Dimensions};
+pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};
 pub use source::{Located, Problem, Source};
 pub use suggest::{nearest, suggest};
 pub use toml_refusal::TomlRefusal;

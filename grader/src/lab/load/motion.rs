@@ -14,10 +14,10 @@ use toml::Spanned;
 
 use super::{Reader, numbers};
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
-use crate::lab::model::{MotionGoal, MotionTask};
-use crate::lab::problem::{LabError, LabProblem};
 use crate::record::quantity::trimmed;
 use crate::submission::controller::Value;
+use crate::task::model::{MotionGoal, MotionTask};
+use crate::task::problem::{LabError, LabProblem};
 
 /// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
 const MOST_GAP_M: f64 = 1e-3;

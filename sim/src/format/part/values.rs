@@ -8,7 +8,8 @@ use super::mesh_files::Meshes;
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{Number, NumberAt, TripleAt};
 use crate::spatial::direction;
-use crate::text::{Dimension, Dimensions, Located, Source, expression, suggest};
+use crate::text::expression::evaluate_in;
+use crate::text::{Dimension, Dimensions, Located, Source, suggest};
 
 /// Reads the values of one file.
 #[derive(Clone, Copy)]
@@ -44,21 +45,13 @@ impl Values<'_> {
         let span = number.span();
         let value = match number.get_ref() {
             Number::Literal(value) => *value,
-            Number::Expression(text) => match expression::evaluate(text, self.dimensions) {
-                Ok(value) => value,
-                Err(problem) => {
-                    // inside the quotes, where the text stands as typed
-                    let inside = span.start + 1;
-                    let typed = self.source.text().get(inside..inside + text.len());
-                    let at = if typed == Some(text.as_str()) {
-                        inside + problem.at.start..inside + problem.at.end
-                    } else {
-                        span
-                    };
+            Number::Expression(text) => {
+                let value = evaluate_in(self.source, &span, text, self.dimensions, "dimension");
+                value.or_else(|problem| {
                     let (message, help) = (problem.message, problem.help);
-                    return self.err(at, PartProblem::Expression { message, help });
-                }
-            },
+                    self.err(problem.at, PartProblem::Expression { message, help })
+                })?
+            }
         };
         let expected = match allowed {
             Allowed::Positive if value <= 0.0 => "positive",

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::robot_writer::{quoted, triple};
 use crate::model::robot::Robot;
-use crate::model::sensor::{Sensor, SensorKind, default_seed};
+use crate::model::sensor::{Sensor, SensorKind};
+use crate::random::seed_of_name;
 
 impl Robot {
     pub(crate) fn sensor_table(&self, sensor: &Sensor, out: &mut String) {
@@ -57,7 +58,7 @@ impl Robot {
         if let Some(rate_hz) = sensor.rate_hz {
             let _ = writeln!(out, "rate_hz = {rate_hz:?}");
         }
-        if sensor.seed != default_seed(&sensor.name) {
+        if sensor.seed != seed_of_name(&sensor.name) {
             let _ = writeln!(out, "seed = {}", sensor.seed);
         }
     }

@@ -13,7 +13,8 @@ use crate::format::part::part_problem::PartProblem;
 use crate::format::part::part_tables::NumberAt;
 use crate::format::part::values::{Allowed, Values};
 use crate::model::robot::{Joint, JointKind, Loop, Robot, carried_by};
-use crate::model::sensor::{LimitSwitch, RangeFinder, Sensor, SensorKind, Side, default_seed};
+use crate::model::sensor::{LimitSwitch, RangeFinder, Sensor, SensorKind, Side};
+use crate::random::seed_of_name;
 use crate::text::{Located, Source, suggest};
 
 /// A robot or a lab has at most this many sensors: far more than any real one, and few enough to read at every step.
@@ -158,7 +159,7 @@ impl Resolver<'_> {
                 .transpose()?,
             seed: match &table.seed {
                 Some(seed) => *seed.get_ref(),
-                None => default_seed(name),
+                None => seed_of_name(name),
             },
             name: name.clone(),
         })

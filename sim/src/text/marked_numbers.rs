@@ -1,0 +1,109 @@
+//! TOML in which a text that begins with `=` is an expression: each becomes its number before the tables are read.
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
+
+use super::expression::{ExpressionProblem, MARK, evaluate_in};
+use super::{Dimensions, Source, TomlRefusal};
+
+/// Why tables could not be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MarkedNumbersProblem {
+    /// The text is no TOML, or not of these tables.
+    Refused(TomlRefusal),
+    /// An expression has no value; its place is in the source.
+    Expression(ExpressionProblem),
+}
+
+/// Reads the tables of `source`, every `"= expression"` over `named` a number; messages call those values `noun` (`parameter`).
+///
+/// # Errors
+/// An expression that has no value, and what the TOML reader refuses. Where a table stands under a wrong name, that is told rather
+/// than the expressions that miss it.
+pub fn read_with_marked_numbers<T: DeserializeOwned>(
+    source: &Source,
+    named: &Dimensions,
+    noun: &'static str,
+) -> Result<T, MarkedNumbersProblem> {
+    let refused = |error: &toml::de::Error| {
+        MarkedNumbersProblem::Refused(TomlRefusal::from_error(error, source.text()))
+    };
+    // the numbers as texts, in the order in which they are found: the tables borrow from them
+    let mut numbers = Vec::new();
+    let mut table = DeTable::parse(source.text()).map_err(|error| refused(&error))?;
+    for value in table.get_ref().values() {
+        let evaluated = each_expression(value, &mut |text, value| {
+            let number = evaluate_in(source, &value.span(), text, named, noun)?;
+            numbers.push(as_toml(number));
+            Ok(())
+        });
+        if let Err(problem) = evaluated {
+            return Err(match unknown_key::<T>(source) {
+                Some(error) => refused(&error),
+                None => MarkedNumbersProblem::Expression(problem),
+            });
+        }
+    }
+    let mut next = numbers.iter().map(String::as_str);
+    for (_, value) in table.get_mut().iter_mut() {
+        replace(value, &mut next);
+    }
+    T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
+}
+
+/// A key that no table of `T` knows, found with every expression taken for a zero.
+fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<toml::de::Error> {
+    let mut table = DeTable::parse(source.text()).ok()?;
+    let mut zeros = std::iter::repeat("0");
+    for (_, value) in table.get_mut().iter_mut() {
+        replace(value, &mut zeros);
+    }
+    let error = T::deserialize(Deserializer::from(table)).err()?;
+    error
+        .message()
+        .starts_with("unknown field")
+        .then_some(error)
+}
+
+/// Shows `see` every expression in `value`, in the order of the text, until it refuses one.
+fn each_expression(
+    value: &Spanned<DeValue<'_>>,
+    see: &mut dyn FnMut(&str, &Spanned<DeValue<'_>>) -> Result<(), ExpressionProblem>,
+) -> Result<(), ExpressionProblem> {
+    match value.get_ref() {
+        DeValue::String(text) if text.starts_with(MARK) => see(text, value),
+        DeValue::Array(items) => items.iter().try_for_each(|item| each_expression(item, see)),
+        DeValue::Table(table) => table
+            .values()
+            .try_for_each(|item| each_expression(item, see)),
+        _ => Ok(()),
+    }
+}
+
+/// Puts `numbers` in the places of the expressions in `value`, in the same order.
+fn replace<'n>(value: &mut Spanned<DeValue<'n>>, numbers: &mut dyn Iterator<Item = &'n str>) {
+    match value.get_mut() {
+        DeValue::String(text) if text.starts_with(MARK) => {
+            let number = numbers.next().and_then(|text| DeValue::parse(text).ok());
+            if let Some(number) = number {
+                *value.get_mut() = number.into_inner();
+            }
+        }
+        DeValue::Array(items) => items.iter_mut().for_each(|item| replace(item, numbers)),
+        DeValue::Table(table) => table
+            .iter_mut()
+            .for_each(|(_, item)| replace(item, numbers)),
+        _ => {}
+    }
+}
+
+/// A number as TOML; a whole one without a point, so that it may stand where a count is asked for.
+fn as_toml(number: f64) -> String {
+    // 2^53: above, whole numbers are no longer exact
+    if number.fract().abs() <= 0.0 && number.abs() < 9_007_199_254_740_992.0 {
+        format!("{number:.0}")
+    } else {
+        format!("{number:?}")
+    }
+}
