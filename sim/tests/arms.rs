@@ -21,7 +21,7 @@ pub(crate) fn rrbot() -> Robot {
     lab_robot("rrbot")
 }
 
-/// A stream of numbers, the same for the same seed.
+/// Numbers drawn from a seed, in the ranges that tests ask for.
 pub(crate) struct Numbers(SplitMix64);
 
 impl Numbers {

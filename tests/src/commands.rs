@@ -1,4 +1,4 @@
-//! The small commands: labs, new, completions, help.
+//! The small commands do what their help says: labs are listed, a folder is started, completions name every command, usage has its codes.
 
 use crate::testbed::TestBed;
 
