@@ -127,7 +127,7 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
         "thesis",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("holds `chapter.tex`"), "{ran:?}");
+    assert!(ran.stderr.contains("contains `chapter.tex`"), "{ran:?}");
     // not even beside an earlier report
     bed.write("out/notes.txt", "precious");
     let ran = bed.run(&args);

@@ -176,7 +176,7 @@ fn record(path: &Path) -> Result<Grade, Failure> {
     let shown = path.display();
     let unread = |why: &str| {
         Failure::broken(
-            format!("`{shown}` is not a grade record that this version can read: {why}"),
+            format!("`{shown}` is not a grade record of this version: {why}"),
             "grade the submission again",
         )
     };

@@ -29,21 +29,26 @@ impl DivergedWords for Names<'_> {
     ) -> (String, String) {
         let lost = match what {
             BlowUp::NotFinite { joint } => format!(
-                "the motion of `{}` grew beyond all numbers",
+                "the simulation diverged at joint `{}`: its motion is no longer finite",
                 self.joint(*joint)
             ),
             BlowUp::Runaway { joint, bound_j, .. } => format!(
-                "the arm ran away, `{}` first: its kinetic energy passed {bound_j:.0e} J",
+                "the simulation diverged at joint `{}`: kinetic energy above {bound_j:.0e} J",
                 self.joint(*joint)
             ),
             BlowUp::BodyRunaway { body, speed_m_s } => {
-                format!("`{}` flew off at {speed_m_s:.0} m/s", self.body(*body))
+                format!(
+                    "the simulation diverged at body `{}`: it moves at {speed_m_s:.0} m/s",
+                    self.body(*body)
+                )
             }
             BlowUp::InContact { body: Some(body) } => {
-                format!("`{body}` was pressed on so hard that it flew apart")
+                format!(
+                    "the simulation diverged at body `{body}`: the contact force on it is unbounded"
+                )
             }
             BlowUp::InContact { body: None } => {
-                "a link was pressed on so hard that the contact could not be computed".to_owned()
+                "the simulation diverged: a contact force on a link is unbounded".to_owned()
             }
         };
         match cause {
@@ -102,7 +107,7 @@ impl DivergedWords for Names<'_> {
             ways.push(format!("a period of {} ms", trimmed(1e3 * period_s, 3)));
         }
         if !ways.is_empty() {
-            text += &format!("; it holds with at most {}", ways.join(", or "));
+            text += &format!("; it is stable with at most {}", ways.join(", or "));
         }
         text
     }

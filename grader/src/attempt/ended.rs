@@ -137,7 +137,7 @@ impl Ended {
         match &self.why {
             EndReason::Stopped(_) => "the submission failed in a hidden run",
             EndReason::InvalidOutput(_) => "no command, or one that is not finite, in a hidden run",
-            EndReason::Diverged { .. } => "the motion of a hidden run went beyond all bounds",
+            EndReason::Diverged { .. } => "the simulation of a hidden run diverged",
         }
     }
 

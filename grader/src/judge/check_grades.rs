@@ -71,7 +71,7 @@ fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &Judg
             Some(hint.unwrap_or_else(|| finding.next_step.clone()))
         }
         (None, Some(need)) => Some(format!(
-            "First earn something in \"{}\".",
+            "Not judged until \"{}\" earns points.",
             checks[need].title
         )),
         (None, None) => None,
@@ -86,7 +86,7 @@ fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &Judg
     }
 }
 
-const OTHER_NUMBERS: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, aim for wider margins: what the visible run has to spare tells how wide they are.";
+const OTHER_NUMBERS: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, aim for wider margins: the margins of the visible run show how wide they are.";
 
 impl Parts {
     /// The mean of the visible and the hidden attempts; `self` is what check `i` comes to in the visible one.
@@ -133,7 +133,7 @@ fn hidden_next_step<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, lost: &[Ev
     }
     let needed = check.needs.iter().map(|&need| checks[need].title.as_str());
     let needed: Vec<&str> = needed.collect();
-    format!("First see to \"{}\" there.", needed.join("\" and \""))
+    format!("Look at \"{}\" there first.", needed.join("\" and \""))
 }
 
 /// What the measure of the visible run does not say: that others count as much.

@@ -91,7 +91,7 @@ impl MotionResult {
             curves,
             check_titles: titles.collect(),
             divergence: self.divergence,
-            ghost: None,
+            reference_overlay: None,
             trace: attempt.recorded,
         }
     }

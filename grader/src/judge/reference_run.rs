@@ -19,6 +19,6 @@ pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
         };
         let opening = opening(lab, task, &staff.solution);
         let reference = motion::run(lab.workcell(), work, &opening, &mut InProcess);
-        run.ghost = reference.ended.is_none().then_some(reference.recorded);
+        run.reference_overlay = reference.ended.is_none().then_some(reference.recorded);
     }
 }

@@ -58,7 +58,7 @@ pub struct TaskRun {
     /// Where it first differs from the reference solution's, where that is told.
     pub divergence: Option<Divergence>,
     /// The reference solution's run, where staff asked for it to be shown: its joint motion is the answer.
-    pub ghost: Option<Trace>,
+    pub reference_overlay: Option<Trace>,
 }
 
 impl TaskRun {

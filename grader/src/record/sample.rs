@@ -171,7 +171,7 @@ pub fn task_run_of(seconds: u32) -> TaskRun {
         curves,
         check_titles: Default::default(),
         divergence: None,
-        ghost: None,
+        reference_overlay: None,
     }
 }
 
@@ -257,7 +257,7 @@ pub fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> TaskRun {
         curves: Vec::new(),
         check_titles: Default::default(),
         divergence: None,
-        ghost: None,
+        reference_overlay: None,
         robot,
     }
 }

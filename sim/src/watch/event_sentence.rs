@@ -53,7 +53,7 @@ impl<'a> Names<'a> {
                 format!("`{}` reached its speed limit", self.joint(*joint))
             }
             EventKind::NearSingular => {
-                "the arm is near a position in which the TCP cannot move in some direction"
+                "the arm is near a singular configuration: the TCP cannot move in some direction"
                     .to_owned()
             }
             EventKind::Touched { parties } => {
@@ -63,7 +63,7 @@ impl<'a> Names<'a> {
             EventKind::Moved { body } => format!("`{}` moved", self.body(*body)),
             EventKind::Toppled { body } => format!("`{}` toppled", self.body(*body)),
             EventKind::LeftSupport { body } => {
-                format!("nothing carries `{}` any more", self.body(*body))
+                format!("`{}` lost its support", self.body(*body))
             }
             EventKind::BodyFell { body, side } => match side {
                 None => format!("`{}` fell", self.body(*body)),
@@ -74,7 +74,7 @@ impl<'a> Names<'a> {
                     self.axis(side)
                 ),
             },
-            EventKind::Diverged => "the motion is beyond all reason".to_owned(),
+            EventKind::Diverged => "the simulation diverged".to_owned(),
             EventKind::Stopped => "the submission was stopped".to_owned(),
         }
     }

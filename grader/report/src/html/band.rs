@@ -7,7 +7,7 @@ use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Measure, Outcome};
 
 /// Value, limits and margin as a person reads them.
-pub(super) struct Told {
+pub(super) struct MeasureText {
     /// The value.
     pub(super) value: String,
     /// What earns all and what earns none.
@@ -17,7 +17,7 @@ pub(super) struct Told {
 }
 
 /// Tells a measure.
-pub(super) fn told(measure: &Measure) -> Told {
+pub(super) fn measure_text(measure: &Measure) -> MeasureText {
     let told = Measured::of(measure);
     // a number and its unit are kept on one line
     let kept = |text: &str| visible(text).replace(' ', "\u{a0}");
@@ -31,7 +31,7 @@ pub(super) fn told(measure: &Measure) -> Told {
     } else {
         "short of full points"
     };
-    Told {
+    MeasureText {
         value: match measure.value {
             Some(_) => kept(&told.value),
             None => told.value,
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_value_is_told_against_its_limits() {
-        let told = told(&measure(Some(0.0041), 0.002, 0.02));
+        let told = measure_text(&measure(Some(0.0041), 0.002, 0.02));
         assert_eq!(told.value, "4.1\u{a0}mm");
         assert_eq!(told.band, "full ≤ 2.0\u{a0}mm, none ≥ 20.0\u{a0}mm");
         assert_eq!(
@@ -124,14 +124,14 @@ mod tests {
 
     #[test]
     fn a_band_can_run_downwards() {
-        let told = told(&measure(Some(0.5), 0.45, 0.1));
+        let told = measure_text(&measure(Some(0.5), 0.45, 0.1));
         assert_eq!(told.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
         assert_eq!(told.margin.as_deref(), Some("50.0\u{a0}mm to spare"));
     }
 
     #[test]
     fn a_wild_answer_is_told_in_metres() {
-        let told = told(&measure(Some(2325.872), 1e-4, 5e-3));
+        let told = measure_text(&measure(Some(2325.872), 1e-4, 5e-3));
         assert_eq!(told.value, "2325.872\u{a0}m");
         assert_eq!(
             told.margin.as_deref(),
@@ -142,14 +142,14 @@ mod tests {
     #[test]
     fn rounding_is_told_as_next_to_nothing() {
         for full in [1e-4, 0.0] {
-            let told = told(&measure(Some(2.2e-16), full, 5e-3));
+            let told = measure_text(&measure(Some(2.2e-16), full, 5e-3));
             assert_eq!(told.value, "under\u{a0}0.001\u{a0}mm");
         }
     }
 
     #[test]
     fn what_is_not_finite_says_so() {
-        let told = told(&measure(None, 0.002, 0.02));
+        let told = measure_text(&measure(None, 0.002, 0.02));
         assert_eq!(
             (told.value.as_str(), told.margin),
             ("nothing to measure", None)

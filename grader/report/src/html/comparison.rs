@@ -8,7 +8,7 @@ use super::viewer::{self, seek};
 use crate::compare_text::{change, together};
 use crate::palette::plot_css;
 use crate::plot::differences;
-use crate::replay::{Ghost, Replay};
+use crate::replay::{Overlay, Replay};
 use crate::visible::visible;
 use kinemark_grader::record::comparison::{
     Comparison, Ended, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,
@@ -71,7 +71,7 @@ fn replay(task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Option<String>
         let mut tasks = graded.grade.tasks.iter();
         tasks.find(|graded| graded.name == task.name)
     });
-    let ghost = Ghost {
+    let ghost = Overlay {
         robot: &run_b.robot,
         scene: run_b.scene.as_ref().map(|scene| &scene.scene),
         trace: &run_b.trace,

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::band::{outcome, told};
+use super::band::{measure_text, outcome};
 use super::foreign;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Grade, GradeMode, Outcome, Part, TaskGrade};
@@ -171,7 +171,7 @@ fn check_row(check: &CheckGrade) -> Markup {
             th scope="row" role="rowheader" { (foreign(&check.title)) }
             td role="cell" {
                 @if let Some(measure) = &check.measure {
-                    @let told = told(measure);
+                    @let told = measure_text(measure);
                     span class="value" { (told.value) } " "
                     small { (told.band) }
                 } @else { span class="quiet" { "–" } }

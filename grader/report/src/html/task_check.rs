@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::band::{gauge, outcome, told};
+use super::band::{gauge, measure_text, outcome};
 use super::figure::figure;
 use super::head::earned;
 use super::task_shown::TaskShown;
@@ -36,7 +36,7 @@ pub(super) fn checked(
             }
             div class="told" {
                 @if let Some(measure) = &check.measure {
-                    @let measured = told(measure);
+                    @let measured = measure_text(measure);
                     div class="measure" {
                         p {
                             (prose(&measure.quantity)) ": " b { (measured.value) }

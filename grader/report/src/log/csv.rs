@@ -9,7 +9,7 @@ use ::mcap::Schema;
 
 use super::columns::{Budget, Columns, MOST_COLUMNS, MOST_NAME, TIME, TooWide, parts, walk};
 use super::json::Json;
-use super::read::{ReadError, Seen, messages, most_of};
+use super::read::{LogMessage, ReadError, messages, most_of};
 
 /// Tables that are larger, all together, open nowhere.
 const MOST_TABLES_BYTES: u64 = 2 << 30;
@@ -178,7 +178,7 @@ impl<W: Write> Rows<'_, W> {
         self.writer.write_record(head).map_err(unwritten)
     }
 
-    fn row(&mut self, message: &Seen<'_>) -> Result<(), ReadError> {
+    fn row(&mut self, message: &LogMessage<'_>) -> Result<(), ReadError> {
         self.written += 1;
         let value = parse(message, self.written)?;
         self.row.iter_mut().for_each(String::clear);
@@ -237,11 +237,11 @@ fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, St
     described.collect()
 }
 
-fn is_json(message: &Seen<'_>) -> bool {
+fn is_json(message: &LogMessage<'_>) -> bool {
     message.channel.message_encoding == "json"
 }
 
-fn parse(message: &Seen<'_>, number: u64) -> Result<Json, ReadError> {
+fn parse(message: &LogMessage<'_>, number: u64) -> Result<Json, ReadError> {
     Json::parse(message.data).map_err(|error| ReadError::Json {
         topic: message.channel.topic.clone(),
         number,

@@ -226,7 +226,7 @@ mod tests {
         };
         let mut run = sample::task_run();
         assert!(!topics(&run).contains(&"/reference/tf".to_owned()));
-        run.ghost = Some(sample::stopped_after(700).trace);
+        run.reference_overlay = Some(sample::stopped_after(700).trace);
         let messages = read(&written(&run));
         let of = |topic: &str| {
             messages

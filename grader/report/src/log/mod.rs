@@ -1,6 +1,7 @@
 //! A run, written down for other tools: an MCAP log with everything that moved, a layout to open it with, and any such log as
 //! tables.
 
+mod annotations;
 mod bodies;
 mod columns;
 mod csv;
@@ -15,7 +16,6 @@ mod read;
 mod scene;
 mod schema;
 mod signals;
-mod told;
 mod tree;
 
 pub use csv::{Table, Tables, tables, write_csv};

@@ -95,7 +95,7 @@ impl Messages<'_> {
     /// The reference solution's motion, where it is to be shown: its links, and what of the scene can move.
     pub(super) fn ghost(&mut self) -> Result<(), LogError> {
         let run = self.run;
-        let Some(trace) = &run.ghost else {
+        let Some(trace) = &run.reference_overlay else {
             return Ok(());
         };
         let tf = self.topic(

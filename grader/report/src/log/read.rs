@@ -108,7 +108,7 @@ impl ReadError {
 }
 
 /// One message of a log.
-pub(super) struct Seen<'a> {
+pub(super) struct LogMessage<'a> {
     pub(super) channel: &'a Arc<Channel<'static>>,
     /// \[ns\]
     pub(super) log_time_ns: u64,
@@ -122,7 +122,7 @@ pub(super) struct Seen<'a> {
 /// the damage looks like.
 pub(super) fn messages(
     log: &[u8],
-    each: &mut dyn FnMut(Seen<'_>) -> Result<(), ReadError>,
+    each: &mut dyn FnMut(LogMessage<'_>) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
     let mut count = 0;
     let read = stream(log, &mut count, each);
@@ -156,7 +156,7 @@ fn checking_reader() -> LinearReader {
 fn stream(
     log: &[u8],
     count: &mut u64,
-    each: &mut dyn FnMut(Seen<'_>) -> Result<(), ReadError>,
+    each: &mut dyn FnMut(LogMessage<'_>) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
     if log.is_empty() {
         return Err(ReadError::Empty);
@@ -223,7 +223,7 @@ fn stream(
                         ),
                     });
                 };
-                each(Seen {
+                each(LogMessage {
                     channel: &channel,
                     log_time_ns: header.log_time,
                     data: &data,

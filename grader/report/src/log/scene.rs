@@ -235,7 +235,7 @@ pub(super) fn reference(run: &TaskRun) -> Option<SceneUpdate> {
         .as_ref()
         .map(|path| path_entity(run, path));
     let mut entities: Vec<Entity> = path.into_iter().collect();
-    if let Some(trace) = &run.ghost {
+    if let Some(trace) = &run.reference_overlay {
         entities.extend(ghost_entities(run, trace));
     }
     (!entities.is_empty()).then_some(SceneUpdate {

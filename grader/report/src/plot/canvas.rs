@@ -279,6 +279,7 @@ impl Canvas {
         let style: TextStyle<'_> = ("sans-serif", size * UNITS)
             .into_font()
             .style(font)
+            .color(&BLACK)
             .pos(Pos::new(anchor, VPos::Center));
         let backend = self.backend.with(colour);
         backend.draw_text(text, &style, units(at)).ok();

@@ -1,10 +1,10 @@
 //! The plots of a motion task, as SVG that follows a reader's light or dark screen.
 
-mod asked;
 mod axis;
 mod canvas;
 mod course;
 mod differences;
+mod given_paths;
 mod joints;
 mod path;
 mod plane;

@@ -4,9 +4,9 @@ use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::spatial::Pose;
 use nalgebra::Vector3;
 
-use super::asked::Asked;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture, text_width};
+use super::given_paths::GivenPaths;
 use super::plane::Plane;
 use super::reading::Axes;
 use super::scenery::{Scenery, clipped};
@@ -59,13 +59,13 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>)> {
     }
     let plane = Plane::of(&places, upward(run));
     let flat = |points: &[[f64; 3]]| points.iter().map(|p| plane.flat(p)).collect::<Vec<_>>();
-    let drawn = Drawn {
+    let drawn = PathPicture {
         run,
         plane,
         goals,
         tcp: flat(&tcp),
         reference: flat(reference),
-        asked: Asked::of(run, &plane),
+        asked: GivenPaths::of(run, &plane),
         scenery: Scenery::of(run, &frame_from_world(run), &plane),
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
@@ -125,7 +125,7 @@ fn arms(run: &TaskRun) -> [Option<Vec<[f64; 3]>>; 2] {
 }
 
 /// Everything the picture shows, in its plane.
-struct Drawn<'a> {
+struct PathPicture<'a> {
     run: &'a TaskRun,
     plane: Plane,
     goals: &'a [Goal],
@@ -133,10 +133,10 @@ struct Drawn<'a> {
     reference: Vec<(f64, f64)>,
     arms: [Vec<(f64, f64)>; 2],
     scenery: Scenery,
-    asked: Asked,
+    asked: GivenPaths,
 }
 
-impl Drawn<'_> {
+impl PathPicture<'_> {
     fn draw(&self, title: &str) -> (String, Vec<Axes>) {
         let legend = self.legend();
         let mut top = 0.0;

@@ -14,7 +14,7 @@ use plotters_backend::{
 
 use crate::palette::{Colour, hex};
 
-type Drawn = Result<(), DrawingErrorKind<Infallible>>;
+type DrawResult = Result<(), DrawingErrorKind<Infallible>>;
 
 /// A picture in the making. A style says how wide a line is and how much an area covers; its colour is the pen's, which has a dark
 /// form and dashes besides.
@@ -127,15 +127,15 @@ impl DrawingBackend for SvgBackend {
         self.size
     }
 
-    fn ensure_prepared(&mut self) -> Drawn {
+    fn ensure_prepared(&mut self) -> DrawResult {
         Ok(())
     }
 
-    fn present(&mut self) -> Drawn {
+    fn present(&mut self) -> DrawResult {
         Ok(())
     }
 
-    fn draw_pixel(&mut self, (x, y): BackendCoord, color: BackendColor) -> Drawn {
+    fn draw_pixel(&mut self, (x, y): BackendCoord, color: BackendColor) -> DrawResult {
         self.draw_rect((x, y), (x + 1, y + 1), &color, true)
     }
 
@@ -144,7 +144,7 @@ impl DrawingBackend for SvgBackend {
         from: BackendCoord,
         to: BackendCoord,
         style: &S,
-    ) -> Drawn {
+    ) -> DrawResult {
         self.draw_path([from, to], style)
     }
 
@@ -154,7 +154,7 @@ impl DrawingBackend for SvgBackend {
         bottom_right: BackendCoord,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> DrawResult {
         let style = style.color();
         if style.alpha == 0.0 {
             return Ok(());
@@ -173,7 +173,7 @@ impl DrawingBackend for SvgBackend {
         &mut self,
         path: I,
         style: &S,
-    ) -> Drawn {
+    ) -> DrawResult {
         if style.color().alpha == 0.0 {
             return Ok(());
         }
@@ -191,7 +191,7 @@ impl DrawingBackend for SvgBackend {
         &mut self,
         path: I,
         style: &S,
-    ) -> Drawn {
+    ) -> DrawResult {
         if style.color().alpha == 0.0 {
             return Ok(());
         }
@@ -206,7 +206,7 @@ impl DrawingBackend for SvgBackend {
         radius: u32,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> DrawResult {
         if style.color().alpha == 0.0 {
             return Ok(());
         }
@@ -224,7 +224,7 @@ impl DrawingBackend for SvgBackend {
         text: &str,
         style: &S,
         (x, y): BackendCoord,
-    ) -> Drawn {
+    ) -> DrawResult {
         self.end_path();
         let anchor = match style.anchor().h_pos {
             HPos::Left => "start",
@@ -264,14 +264,18 @@ fn push_escaped(svg: &mut String, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use plotters::prelude::{RGBColor, ShapeStyle};
+    use plotters::prelude::{BLACK, ShapeStyle};
     use plotters::style::Color as _;
 
     use super::*;
     use crate::palette::{BLUE, GREEN};
 
     fn line(alpha: f64) -> ShapeStyle {
-        RGBColor(0, 0, 0).mix(alpha).stroke_width(20)
+        ShapeStyle {
+            color: BLACK.mix(alpha),
+            filled: false,
+            stroke_width: 20,
+        }
     }
 
     #[test]

@@ -47,7 +47,7 @@ const MOST_POINTS: usize = 20_000;
 
 /// A second motion, shown translucent beside the first.
 #[derive(Debug, Clone, Copy)]
-pub struct Ghost<'a> {
+pub struct Overlay<'a> {
     /// The robot that moved.
     pub robot: &'a Robot,
     /// What was around it.
@@ -66,13 +66,13 @@ pub struct Replay<'a> {
     run: &'a TaskRun,
     task: Option<&'a TaskGrade>,
     label: Option<&'a str>,
-    ghost: Option<Ghost<'a>>,
+    ghost: Option<Overlay<'a>>,
 }
 
 impl<'a> Replay<'a> {
     /// The replay of a run, with what was graded of it; beside it the reference solution's, where the run brings that.
     pub fn of(run: &'a TaskRun, task: Option<&'a TaskGrade>) -> Self {
-        let ghost = run.ghost.as_ref().map(|trace| Ghost {
+        let ghost = run.reference_overlay.as_ref().map(|trace| Overlay {
             robot: &run.robot,
             scene: run.scene.as_ref().map(|scene| &scene.scene),
             trace,
@@ -88,7 +88,7 @@ impl<'a> Replay<'a> {
     }
 
     /// The same, called `label`, beside another motion.
-    pub fn beside(self, label: &'a str, ghost: Ghost<'a>) -> Self {
+    pub fn beside(self, label: &'a str, ghost: Overlay<'a>) -> Self {
         Self {
             label: Some(label),
             ghost: Some(ghost),
@@ -120,7 +120,7 @@ impl<'a> Replay<'a> {
         }
         let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let step_s = run.trace.step_s;
-        let told = self.told(ticks, &moments);
+        let told = self.tracked(ticks, &moments);
         let steps = tick_column(&steps(step_s, ticks, &moments));
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
         let most = ((tens * MOST_CHARACTERS as f64) as usize).saturating_sub(steps.len());
@@ -221,7 +221,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Everything that moves, at the moments looked at, and what it belongs to.
-    fn told(&self, ticks: usize, moments: &[u64]) -> Told {
+    fn tracked(&self, ticks: usize, moments: &[u64]) -> Tracked {
         let run = self.run;
         let trace = &run.trace;
         let ghosts = self.ghost.map_or(0, |ghost| ghost.robot.links().len());
@@ -270,7 +270,7 @@ impl<'a> Replay<'a> {
                 course.push(&[*q]);
             }
         }
-        Told {
+        Tracked {
             looked,
             tcp,
             q,
@@ -340,14 +340,14 @@ impl<'a> Replay<'a> {
 }
 
 /// What moves, and the moments at which it was looked at.
-struct Told {
+struct Tracked {
     looked: Vec<usize>,
     tcp: Course,
     q: Vec<Course>,
     nodes: Nodes,
 }
 
-impl Told {
+impl Tracked {
     /// The tracks of the TCP, of the joints, and of the nodes, in at most `most` characters: while they take more, whatever takes the
     /// most is told less truly.
     fn tracks(&self, step_s: f64, most: usize) -> Vec<Track> {

@@ -3,7 +3,7 @@
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::spatial::Pose;
 
-use super::Ghost;
+use super::Overlay;
 use super::course::Course;
 use super::moments::MOST_OF_A_NAME;
 use super::motion::Motion;
@@ -81,7 +81,7 @@ impl Nodes {
     /// Adds a ghost: its robot, and what else went another way than in the run.
     pub(super) fn ghost(
         &mut self,
-        ghost: &Ghost<'_>,
+        ghost: &Overlay<'_>,
         run: &TaskRun,
         main: &[Course],
         looked: &[usize],

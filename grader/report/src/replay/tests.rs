@@ -311,7 +311,7 @@ fn small_arms_are_told_more_finely() {
 #[test]
 fn a_ghost_moves_beside_the_run() {
     let mut run = sample::task_run();
-    run.ghost = Some(sample::stopped_after(700).trace);
+    run.reference_overlay = Some(sample::stopped_after(700).trace);
     let record = record(Replay::of(&run, None));
     assert_eq!(record["ghostLabel"], "reference");
     let nodes = record["nodes"].as_array().expect("nodes");

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::drawn::{Drawn, ReplayForm};
+use super::drawn::{DrawnSolid, ReplayForm};
 use super::faces::{Detail, Faces};
 
 /// A box, centred on its frame.
@@ -21,7 +21,7 @@ impl Block {
     }
 }
 
-impl Drawn for Block {
+impl DrawnSolid for Block {
     fn faces(&self, _: Detail) -> Faces {
         let sides = [
             [0, 2, 3, 1],

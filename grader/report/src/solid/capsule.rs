@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::drawn::{Drawn, ReplayForm};
+use super::drawn::{DrawnSolid, ReplayForm};
 use super::faces::{Detail, Faces};
 use super::outline::ball;
 
@@ -14,7 +14,7 @@ pub(super) struct Capsule {
     pub(super) length_m: f64,
 }
 
-impl Drawn for Capsule {
+impl DrawnSolid for Capsule {
     fn faces(&self, detail: Detail) -> Faces {
         Faces::round(self.radius_m, self.length_m, detail)
     }

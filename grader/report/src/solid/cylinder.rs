@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::drawn::{Drawn, ReplayForm};
+use super::drawn::{DrawnSolid, ReplayForm};
 use super::faces::{Detail, Faces};
 use super::outline::ring;
 
@@ -13,7 +13,7 @@ pub(super) struct Cylinder {
     pub(super) length_m: f64,
 }
 
-impl Drawn for Cylinder {
+impl DrawnSolid for Cylinder {
     fn faces(&self, detail: Detail) -> Faces {
         let (radius_m, half_m) = (self.radius_m, 0.5 * self.length_m);
         Faces::turned(

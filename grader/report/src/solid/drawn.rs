@@ -18,7 +18,7 @@ const FINE: Detail = Detail {
 };
 
 /// A solid as renderers see it, in its own frame. Its faces are enough; the rest is shorter or rounder.
-pub(crate) trait Drawn {
+pub(crate) trait DrawnSolid {
     /// Its faces.
     fn faces(&self, detail: Detail) -> Faces;
 
@@ -74,7 +74,7 @@ pub(crate) enum LogForm {
 }
 
 /// A solid as renderers see it.
-pub(crate) fn drawn(solid: &Solid) -> Box<dyn Drawn + '_> {
+pub(crate) fn drawn(solid: &Solid) -> Box<dyn DrawnSolid + '_> {
     match *solid {
         Solid::Box { size_m } => Box::new(Block { size_m }),
         Solid::Cylinder { radius_m, length_m } => Box::new(Cylinder { radius_m, length_m }),
@@ -136,7 +136,7 @@ mod tests {
     /// A primitive of which only the faces are known.
     struct FacesAlone(Block);
 
-    impl Drawn for FacesAlone {
+    impl DrawnSolid for FacesAlone {
         fn faces(&self, detail: Detail) -> Faces {
             self.0.faces(detail)
         }

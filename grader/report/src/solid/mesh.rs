@@ -5,14 +5,14 @@ use std::sync::Arc;
 use kinemark_sim::model::inertia::MeshSolid;
 use nalgebra::Point3;
 
-use super::drawn::{Drawn, ReplayForm};
+use super::drawn::{DrawnSolid, ReplayForm};
 use super::faces::{Detail, Faces};
 use super::surface::Surface;
 
 /// Vertices of a mesh that an outline looks at.
 const MOST_VERTICES: usize = 20_000;
 
-impl Drawn for &MeshSolid {
+impl DrawnSolid for &MeshSolid {
     fn faces(&self, detail: Detail) -> Faces {
         Faces::thinned(
             self.mesh.vertices(),

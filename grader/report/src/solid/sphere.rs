@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::drawn::{Drawn, ReplayForm};
+use super::drawn::{DrawnSolid, ReplayForm};
 use super::faces::{Detail, Faces};
 use super::outline::ball;
 
@@ -12,7 +12,7 @@ pub(super) struct Sphere {
     pub(super) radius_m: f64,
 }
 
-impl Drawn for Sphere {
+impl DrawnSolid for Sphere {
     fn faces(&self, detail: Detail) -> Faces {
         Faces::round(self.radius_m, 0.0, detail)
     }

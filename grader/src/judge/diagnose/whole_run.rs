@@ -240,7 +240,7 @@ impl Sums {
     }
 }
 
-/// Whether two runs came to their ends, or ran away in the same way at nearly the same time.
+/// Whether two runs came to their ends, or diverged in the same way at nearly the same time.
 fn same_end(student: Option<&Ended>, mutant: Option<&Ended>, most_ticks: u64) -> bool {
     match (student, mutant) {
         (None, None) => true,

@@ -52,9 +52,9 @@ impl Reader<'_> {
                     format!(
                         "case `{}` gives {}, case `{}` gives {}",
                         case.name,
-                        told(&case),
+                        in_words(&case),
                         first.name,
-                        told(first)
+                        in_words(first)
                     ),
                     "unlike the first case",
                     Some("give and expect the same names in every case".to_owned()),
@@ -137,7 +137,8 @@ fn shape(case: &Case) -> [Vec<&str>; 2] {
     }
 }
 
-fn told(case: &Case) -> String {
+/// What a case gives and expects, in words.
+fn in_words(case: &Case) -> String {
     let [given, expected] = shape(case);
     let expected = match expected.as_slice() {
         [""] => "one number".to_owned(),

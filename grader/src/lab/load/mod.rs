@@ -84,57 +84,11 @@ impl Lab {
         let lab: LabTable = parameters::tables_with(&source, &parameters)?;
         let report = Reporter { source: &source };
         report.format(&lab.format)?;
-        if lab.name.get_ref() != name {
-            return Ok(report.err(
-                lab.name.span(),
-                "lab::name",
-                format!(
-                    "the lab in folder `{name}` calls itself `{}`",
-                    lab.name.get_ref()
-                ),
-                "differs from its folder",
-                Some(format!("write `name = \"{name}\"`, or rename the folder")),
-            )?);
-        }
-        let Some(LabRobot {
-            file: robot_file,
-            meshes: robot_meshes,
-        }) = LabRobot::load(files, lab.robot.get_ref())?
-        else {
-            let robot_path = format!("robots/{}.toml", lab.robot.get_ref());
-            let known = robot_names(files);
-            return Ok(report.err(
-                lab.robot.span(),
-                "lab::unknown_robot",
-                format!("no robot file `{robot_path}`"),
-                "not a robot of this place",
-                Some(suggest(
-                    lab.robot.get_ref(),
-                    "robots",
-                    known.iter().map(String::as_str),
-                )),
-            )?);
-        };
-        let robot_file = of_dimensions(report, robot_file, &lab)?;
+        is_of_folder(report, &lab, name)?;
+        let LabRobot { file, meshes } = lab_robot(files, report, &lab)?;
+        let robot_file = of_dimensions(report, file, &lab)?;
         let robot = robot_file.build(&[])?;
-        let frame = match &lab.frame {
-            None => robot.links()[0].name.clone(),
-            Some(frame) if robot.frame(frame.get_ref()).is_some() => frame.get_ref().clone(),
-            Some(frame) => {
-                let known = robot.frames().iter().map(|frame| frame.name.as_str());
-                return Ok(report.err(
-                    frame.span(),
-                    "lab::unknown_frame",
-                    format!(
-                        "robot `{}` has no frame `{}`",
-                        robot.name(),
-                        frame.get_ref()
-                    ),
-                    "not a frame of this robot",
-                    Some(suggest(frame.get_ref(), "frames", known)),
-                )?);
-            }
-        };
+        let frame = frame(report, &lab, &robot)?;
         let mut reference_paths = reference_paths(files, name)?;
         let scenes = scenes(files, report, &robot, &lab)?;
         let reader = Reader {
@@ -148,15 +102,7 @@ impl Lab {
         let tasks = reader.tasks(&lab)?;
         let budgets = reader.budgets(&lab.budgets)?;
         let variants = variant::rules(report, &lab.variants, &stated)?;
-        if let (Some(at), Some(check)) = (lab.variants.keys().next(), one_path(&tasks)) {
-            return Ok(report.err(
-                at.span(),
-                "lab::variants",
-                format!("check `{check}` compares with one path, and every variant has its own"),
-                "varies the path",
-                Some("judge the task by goals or a path of its own instead".to_owned()),
-            )?);
-        }
+        varies_no_path(report, &lab, &tasks)?;
         if parameters != stated {
             // it is the path of the numbers in lab.toml
             reference_paths.paths.clear();
@@ -172,13 +118,82 @@ impl Lab {
             tasks,
             source,
             robot_file,
-            robot_meshes,
+            robot_meshes: meshes,
             robot,
             scenes,
             frame,
             reference_paths,
         })
     }
+}
+
+/// Refuses a lab that is not called like its folder.
+fn is_of_folder(report: Reporter<'_>, lab: &LabTable, folder: &str) -> Result<(), LabError> {
+    let name = lab.name.get_ref();
+    if name == folder {
+        return Ok(());
+    }
+    report.err(
+        lab.name.span(),
+        "lab::name",
+        format!("the lab in folder `{folder}` calls itself `{name}`"),
+        "differs from its folder",
+        Some(format!("write `name = \"{folder}\"`, or rename the folder")),
+    )
+}
+
+/// The robot that the lab names.
+fn lab_robot(
+    files: &dyn Files,
+    report: Reporter<'_>,
+    lab: &LabTable,
+) -> Result<LabRobot, LoadError> {
+    let name = lab.robot.get_ref();
+    if let Some(robot) = LabRobot::load(files, name)? {
+        return Ok(robot);
+    }
+    let known = robot_names(files);
+    let known = known.iter().map(String::as_str);
+    Ok(report.err(
+        lab.robot.span(),
+        "lab::unknown_robot",
+        format!("no robot file `robots/{name}.toml`"),
+        "not a robot of this place",
+        Some(suggest(name, "robots", known)),
+    )?)
+}
+
+/// The frame in which students work: the one that the lab names, or the first link.
+fn frame(report: Reporter<'_>, lab: &LabTable, robot: &Robot) -> Result<String, LabError> {
+    let Some(typed) = &lab.frame else {
+        return Ok(robot.links()[0].name.clone());
+    };
+    let name = typed.get_ref();
+    if robot.frame(name).is_some() {
+        return Ok(name.clone());
+    }
+    let known = robot.frames().iter().map(|frame| frame.name.as_str());
+    report.err(
+        typed.span(),
+        "lab::unknown_frame",
+        format!("robot `{}` has no frame `{name}`", robot.name()),
+        "not a frame of this robot",
+        Some(suggest(name, "frames", known)),
+    )
+}
+
+/// Refuses variants of a lab that compares with one path.
+fn varies_no_path(report: Reporter<'_>, lab: &LabTable, tasks: &[Task]) -> Result<(), LabError> {
+    let (Some(at), Some(check)) = (lab.variants.keys().next(), one_path(tasks)) else {
+        return Ok(());
+    };
+    report.err(
+        at.span(),
+        "lab::variants",
+        format!("check `{check}` compares with one path, and every variant has its own"),
+        "varies the path",
+        Some("judge the task by goals or a path of its own instead".to_owned()),
+    )
 }
 
 /// The robot file with the dimensions that the lab changes.

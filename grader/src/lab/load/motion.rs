@@ -7,7 +7,7 @@ use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettin
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
 use kinemark_sim::hybrid::HybridStep;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
-use kinemark_sim::sensor::{Sensors, replaced, resolve_all};
+use kinemark_sim::sensor::{Sensor, Sensors, replaced, resolve_all};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
@@ -15,9 +15,10 @@ use toml::Spanned;
 use super::{Reader, numbers};
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::record::quantity::trimmed;
-use crate::submission::controller::Value;
 use crate::task::model::{MotionGoal, MotionTask};
 use crate::task::problem::{LabError, LabProblem};
+use crate::task::scene::LabScene;
+use crate::task::value::Value;
 
 /// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
 const MOST_GAP_M: f64 = 1e-3;
@@ -27,6 +28,42 @@ const MOST_TICKS: u64 = 900_000;
 impl Reader<'_> {
     pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
         let motion = table.get_ref();
+        let periods = self.periods(table)?;
+        let duration_s = self.positive(&motion.duration_s, "the duration")?;
+        let ticks = self.whole_ticks(&periods, duration_s, &motion.duration_s, "the duration")?;
+        let start_q = match &motion.start_rad {
+            None => self.robot.home().to_vec(),
+            Some(start) => {
+                self.counted(start, "start_rad")?;
+                self.closes(start)?;
+                start.get_ref().clone()
+            }
+        };
+        let goals = self.goals(motion, &periods, ticks, duration_s)?;
+        self.can_move(&start_q)?;
+        let servo = self.motion_servo(table)?;
+        let (scene, gravity_m_s2) = self.scene(motion, &periods)?;
+        Ok(MotionTask {
+            periods,
+            ticks,
+            servo,
+            scene,
+            gravity_m_s2,
+            sensors: self.sensors(table, &periods)?,
+            start_q,
+            target: match &motion.target {
+                Some(target) => self.target(target)?,
+                None => Value::List(Vec::new()),
+            },
+            goals,
+            grants: self.grants(&motion.grants, None)?,
+            paths: self.paths(&motion.paths)?,
+        })
+    }
+
+    /// The periods, each a whole number of the one before.
+    fn periods(&self, table: &Spanned<MotionTable>) -> Result<Periods, LabError> {
+        let motion = table.get_ref();
         let milliseconds = |typed: &Option<NumberAt>, what, absent: f64| match typed {
             None => Ok(absent),
             Some(number) => Ok(self.positive(number, what)? / 1000.0),
@@ -34,26 +71,29 @@ impl Reader<'_> {
         let step_s = milliseconds(&motion.physics_step_ms, "the physics step", 0.001)?;
         let servo_s = milliseconds(&motion.servo_period_ms, "the servo period", 0.001)?;
         let control_s = milliseconds(&motion.control_period_ms, "the control period", 0.01)?;
-        let periods = match Periods::new(step_s, servo_s, control_s) {
-            Ok(periods) => periods,
-            Err(error) => {
-                let typed = [&motion.control_period_ms, &motion.servo_period_ms];
-                let at = typed.into_iter().flatten().next();
-                return self.report.err(
-                    at.map_or(table.span(), Spanned::span),
-                    "lab::periods",
-                    error.to_string(),
-                    "does not divide",
-                    Some("each period is a whole number of the one before".to_owned()),
-                );
-            }
-        };
-        let duration_s = self.positive(&motion.duration_s, "the duration")?;
-        let whole_ticks =
-            |seconds: f64, at: &NumberAt, what: &str| {
-                match whole_ratio(
-            seconds, step_s,
-        ) {
+        Periods::new(step_s, servo_s, control_s).or_else(|error| {
+            let typed = [&motion.control_period_ms, &motion.servo_period_ms];
+            let at = typed.into_iter().flatten().next();
+            self.report.err(
+                at.map_or(table.span(), Spanned::span),
+                "lab::periods",
+                error.to_string(),
+                "does not divide",
+                Some("each period is a whole number of the one before".to_owned()),
+            )
+        })
+    }
+
+    /// `seconds`, typed `at`, in physics steps.
+    fn whole_ticks(
+        &self,
+        periods: &Periods,
+        seconds: f64,
+        at: &NumberAt,
+        what: &str,
+    ) -> Result<u64, LabError> {
+        let step_s = periods.step_s;
+        match whole_ratio(seconds, step_s) {
             Some(ticks) if ticks <= MOST_TICKS => Ok(ticks),
             None if seconds / step_s <= MOST_TICKS as f64 => self.report.err(
                 at.span(),
@@ -77,16 +117,16 @@ impl Reader<'_> {
                 )),
             ),
         }
-            };
-        let ticks = whole_ticks(duration_s, &motion.duration_s, "the duration")?;
-        let start_q = match &motion.start_rad {
-            None => self.robot.home().to_vec(),
-            Some(start) => {
-                self.counted(start, "start_rad")?;
-                self.closes(start)?;
-                start.get_ref().clone()
-            }
-        };
+    }
+
+    /// The goals, whose dwells fit into the run; a task with goals has no target.
+    fn goals(
+        &self,
+        motion: &MotionTable,
+        periods: &Periods,
+        ticks: u64,
+        duration_s: f64,
+    ) -> Result<Vec<MotionGoal>, LabError> {
         if let (Some(target), false) = (&motion.target, motion.goals.is_empty()) {
             return self.report.err(
                 target.span(),
@@ -102,7 +142,7 @@ impl Reader<'_> {
             let dwell_s = self.positive(&goal.dwell_s, "the dwell")?;
             goals.push(MotionGoal {
                 position_m: Vector3::from(goal.position_m),
-                dwell_ticks: whole_ticks(dwell_s, &goal.dwell_s, "the dwell")?,
+                dwell_ticks: self.whole_ticks(periods, dwell_s, &goal.dwell_s, "the dwell")?,
             });
         }
         let dwells: u64 = goals.iter().map(|goal| goal.dwell_ticks).sum();
@@ -118,72 +158,72 @@ impl Reader<'_> {
                 None,
             );
         }
-        self.can_move(&start_q)?;
+        Ok(goals)
+    }
+
+    /// The servos, which the robot can have.
+    fn motion_servo(&self, table: &Spanned<MotionTable>) -> Result<ServoSettings, LabError> {
+        let motion = table.get_ref();
         let default_servo = ServoTable::default();
-        let (servo_table, servo_at) = match &motion.servo {
+        let (servo, at) = match &motion.servo {
             Some(servo) => (servo.get_ref(), servo.span()),
             None => (&default_servo, table.span()),
         };
-        let servo = self.servo(motion.mode, servo_table, servo_at)?;
-        let scene = motion.scene.as_ref().and_then(|name| {
-            let mut scenes = self.scenes.iter();
-            Some((
-                scenes.find(|scene| {
-                    let dimensions: Vec<_> =
-                        name.get_ref().dimensions.clone().into_iter().collect();
-                    scene.is(&name.get_ref().name, &dimensions)
-                })?,
-                name.span(),
-            ))
-        });
-        let gravity_m_s2 = match &scene {
-            Some((scene, _)) => scene.scene.environment.gravity_m_s2,
-            None => GRAVITY_M_S2,
+        self.servo(motion.mode, servo, at)
+    }
+
+    /// The scene, in which the robot can be simulated, and gravity there \[m/s²\].
+    fn scene(
+        &self,
+        motion: &MotionTable,
+        periods: &Periods,
+    ) -> Result<(Option<Arc<LabScene>>, Vector3<f64>), LabError> {
+        let Some(named) = &motion.scene else {
+            return Ok((None, GRAVITY_M_S2));
         };
-        if let Some((scene, at)) = &scene
-            && let Err(error) = HybridStep::new(self.robot, &scene.scene, gravity_m_s2, step_s)
-        {
-            return self.report.err(
-                at.clone(),
+        let table = named.get_ref();
+        let dimensions: Vec<_> = table.dimensions.clone().into_iter().collect();
+        let mut scenes = self.scenes.iter();
+        let Some(scene) = scenes.find(|scene| scene.is(&table.name, &dimensions)) else {
+            return Ok((None, GRAVITY_M_S2));
+        };
+        let gravity_m_s2 = scene.scene.environment.gravity_m_s2;
+        match HybridStep::new(self.robot, &scene.scene, gravity_m_s2, periods.step_s) {
+            Ok(_) => Ok((Some(Arc::clone(scene)), gravity_m_s2)),
+            Err(error) => self.report.err(
+                named.span(),
                 "lab::scene",
                 error.to_string(),
                 "this scene with this robot",
                 None,
-            );
+            ),
         }
-        let changes = resolve_all(&motion.sensors, self.report.source, "lab", self.robot)
+    }
+
+    /// The robot's sensors, with the task's in their place or after them.
+    fn sensors(
+        &self,
+        table: &Spanned<MotionTable>,
+        periods: &Periods,
+    ) -> Result<Vec<Sensor>, LabError> {
+        let typed = &table.get_ref().sensors;
+        let changes = resolve_all(typed, self.report.source, "lab", self.robot)
             .map_err(|error| error.map(LabProblem::of))?;
         let sensors = replaced(self.robot.sensors(), changes);
-        if let Err(error) = Sensors::new(self.robot, sensors.clone(), step_s) {
+        match Sensors::new(self.robot, sensors.clone(), periods.step_s) {
+            Ok(_) => Ok(sensors),
             // the sensor at fault may be the robot's own, so the task is what does not fit
-            return self.report.err(
+            Err(error) => self.report.err(
                 table.span(),
                 "lab::sensor",
                 error.to_string(),
                 "in this task",
                 None,
-            );
+            ),
         }
-        Ok(MotionTask {
-            periods,
-            ticks,
-            servo,
-            scene: scene.map(|(scene, _)| Arc::clone(scene)),
-            gravity_m_s2,
-            sensors,
-            start_q,
-            target: match &motion.target {
-                Some(target) => self.target(target)?,
-                None => Value::List(Vec::new()),
-            },
-            goals,
-            grants: self.grants(&motion.grants, None)?,
-            paths: self.paths(&motion.paths)?,
-        })
     }
 
-    /// Refuses a robot with a joint that moves neither mass nor armature: no effort on it has a finite answer.
-    /// A start at which a loop stands open is no place the robot can be.
+    /// Refuses a start at which a loop is open: the robot cannot be there.
     fn closes(&self, start: &Spanned<Vec<f64>>) -> Result<(), LabError> {
         let (robot, q) = (self.robot, start.get_ref());
         let gap_m = loop_gap_m(robot, q);
@@ -223,6 +263,7 @@ impl Reader<'_> {
         )
     }
 
+    /// Refuses a robot with a joint that moves neither mass nor armature: no effort on it has a finite answer.
     fn can_move(&self, start_q: &[f64]) -> Result<(), LabError> {
         let robot = self.robot;
         let rest = vec![0.0; robot.n()];

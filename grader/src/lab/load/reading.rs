@@ -55,8 +55,8 @@ fn not_finite(text: &str) -> Option<Range<usize>> {
 impl Reporter<'_> {
     /// What the JSON reader refused, at its place.
     pub(in crate::lab) fn json<T>(&self, error: &serde_json::Error) -> Result<T, LabError> {
-        let told = error.to_string();
-        let message = told.split(" at line ").next().unwrap_or(&told);
+        let text = error.to_string();
+        let message = text.split(" at line ").next().unwrap_or(&text);
         let text = self.source.text();
         let lines = text.split_inclusive('\n');
         let before = lines

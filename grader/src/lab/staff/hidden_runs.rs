@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::{HiddenRun, all_rising, known_task, named};
 use crate::lab::draw::parameters;
-use crate::lab::file::{HiddenRunsTable, Ranges};
+use crate::lab::file::{HiddenRunsTable, Ranges, RangesTable};
 use crate::lab::load::Reporter;
 use crate::lab::model::Lab;
 use crate::lab::model::TaskWork;
@@ -19,6 +19,46 @@ pub(super) fn hidden_runs(
     salt: &str,
     spanned: &Spanned<HiddenRunsTable>,
 ) -> Result<Vec<HiddenRun>, LabError> {
+    let table = spanned.get_ref();
+    is_of_goals(report, lab, spanned)?;
+    let ranges = fitting_ranges(report, lab, spanned)?;
+    let with = |parameters: Vec<(String, Dimension)>| {
+        lab.with_parameters(&parameters).or_else(|error| {
+            report.err(
+                spanned.span(),
+                "staff::runs",
+                error.to_string(),
+                "these runs",
+                Some("change the ranges of `parameters`".to_owned()),
+            )
+        })
+    };
+    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
+    for end in [0, 1] {
+        let all = ranges.iter();
+        with(
+            all.map(|(name, ranges)| (name.clone(), ranges.get_ref().end(end)))
+                .collect(),
+        )?;
+    }
+    let class = table.class.get_ref();
+    (0..table.count)
+        .map(|number| {
+            let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
+            Ok(HiddenRun {
+                class: class.clone(),
+                lab: with(drawn)?,
+            })
+        })
+        .collect()
+}
+
+/// Refuses a task that is no motion task, or is judged by one path; and a count beyond what a class can wait for.
+fn is_of_goals(
+    report: Reporter<'_>,
+    lab: &Lab,
+    spanned: &Spanned<HiddenRunsTable>,
+) -> Result<(), LabError> {
     let table = spanned.get_ref();
     let refuse = |message: String, help: &str| {
         let help = Some(help.to_owned());
@@ -53,6 +93,20 @@ pub(super) fn hidden_runs(
             "judge the task by goals or a path of its own instead",
         );
     }
+    Ok(())
+}
+
+/// The ranges of parameters, which fit those of the lab.
+fn fitting_ranges<'t>(
+    report: Reporter<'_>,
+    lab: &Lab,
+    spanned: &'t Spanned<HiddenRunsTable>,
+) -> Result<&'t RangesTable, LabError> {
+    let table = spanned.get_ref();
+    let refuse = |message: String, help: &str| {
+        let help = Some(help.to_owned());
+        report.err(spanned.span(), "staff::runs", message, "these runs", help)
+    };
     named(report, "staff::runs", &table.class)?;
     let ranges = table.parameters.get_ref();
     if ranges.is_empty() {
@@ -84,35 +138,7 @@ pub(super) fn hidden_runs(
             );
         }
     }
-    let with = |parameters: Vec<(String, Dimension)>| {
-        lab.with_parameters(&parameters).or_else(|error| {
-            report.err(
-                spanned.span(),
-                "staff::runs",
-                error.to_string(),
-                "these runs",
-                Some("change the ranges of `parameters`".to_owned()),
-            )
-        })
-    };
-    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
-    for end in [0, 1] {
-        let all = ranges.iter();
-        with(
-            all.map(|(name, ranges)| (name.clone(), ranges.get_ref().end(end)))
-                .collect(),
-        )?;
-    }
-    let class = table.class.get_ref();
-    (0..table.count)
-        .map(|number| {
-            let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
-            Ok(HiddenRun {
-                class: class.clone(),
-                lab: with(drawn)?,
-            })
-        })
-        .collect()
+    Ok(ranges)
 }
 
 /// A run costs about as much as the visible one; a class of students is to be graded in minutes.

@@ -2,8 +2,8 @@
 
 use super::*;
 
-fn ghost(run: &TaskRun) -> Ghost<'_> {
-    Ghost {
+fn ghost(run: &TaskRun) -> Overlay<'_> {
+    Overlay {
         robot: &run.robot,
         scene: run.scene.as_ref().map(|scene| &scene.scene),
         trace: &run.trace,

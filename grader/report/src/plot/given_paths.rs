@@ -24,9 +24,9 @@ struct Flat {
 }
 
 /// All paths of a run, in the plane of its plot.
-pub(super) struct Asked(Vec<Flat>);
+pub(super) struct GivenPaths(Vec<Flat>);
 
-impl Asked {
+impl GivenPaths {
     pub(super) fn of(run: &TaskRun, plane: &Plane) -> Self {
         let flat = |path: &AskedPath| {
             let tubes = path.tube_m.map_or([0.0; 2], |[full, zero]| [zero, full]);
