@@ -218,14 +218,14 @@ fn what_is_no_whole_report_of_this_version_is_told() {
     bed.edit("b/grade.json", "kinemark-grade/1", "kinemark-grade/7");
     broken("kinemark-grade/7");
     bed.edit("b/grade.json", "kinemark-grade/7", "kinemark-grade/1");
-    for name in ["submission.rhai", "lab"] {
+    for name in ["report.json", "submission.rhai", "lab"] {
         let away = bed.path("away");
         std::fs::rename(bed.path(&format!("b/{name}")), &away).expect("moved");
         broken(&format!("`b` has no {name}"));
         std::fs::rename(&away, bed.path(&format!("b/{name}"))).expect("moved");
     }
     std::fs::rename(bed.path("b/lab/01-kinematics"), bed.path("away")).expect("moved");
-    broken("holds no lab `01-kinematics`");
+    broken("has no lab `01-kinematics`");
 }
 
 /// Names in a record that somebody sent must not steer a terminal.
@@ -306,7 +306,7 @@ fn a_report_that_was_changed_is_told() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     for words in [
         "the submission in A is not the one that was graded",
-        "the motion of task `move` made again from A is not the recorded one, from second 2 on",
+        "the repeated motion of task `move` of A differs from the recorded one from second 2 on",
     ] {
         assert!(ran.stdout.contains(words), "{words}: {ran:?}");
     }

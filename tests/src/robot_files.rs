@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::eval::{close, eval_with};
 use crate::eval_golden::model;
+use crate::golden::reads;
 use crate::testbed::TestBed;
 
 const ROW: [&str; 5] = ["RzRyRz", "--base", "2", "--links", "0,0,4; 3,0,0; 1,0,0"];
@@ -30,7 +31,7 @@ fn robots_are_shown_like_this() {
         ("humanoid", &[&model("humanoid25.urdf")]),
     ] {
         let shown = printed("show", robot);
-        insta::assert_snapshot!(format!("show_{name}"), shown);
+        reads(&format!("show_{name}"), &shown);
         let widest = shown.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(100), "{name}: {widest:?}");
     }
@@ -43,7 +44,7 @@ fn robots_are_converted_like_this() {
         ("uarm", &["uarm"]),
         ("row", &ROW),
     ] {
-        insta::assert_snapshot!(format!("convert_{name}"), printed("convert", robot));
+        reads(&format!("convert_{name}"), &printed("convert", robot));
     }
 }
 
@@ -154,7 +155,7 @@ fn nothing_is_overwritten_unasked() {
         "--force",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("is the robot itself"), "{ran:?}");
+    assert!(ran.stderr.contains("is the robot's own file"), "{ran:?}");
     assert_eq!(
         std::fs::read_to_string(bed.path("mine.toml")).expect("there"),
         before
@@ -206,7 +207,7 @@ fn what_cannot_be_shown_says_why() {
         (
             &["arm.urdf", "--base", "1"],
             2,
-            "--base is for joints in a row",
+            "--base is for joint strings",
         ),
         (&["arm.toml", "--ignore-mimic"], 2, "remove `mimic`"),
         (
@@ -222,7 +223,7 @@ fn what_cannot_be_shown_says_why() {
         (
             &["arm.urdf", "--package", "a=nowhere"],
             2,
-            "`nowhere` of package `a` is not there",
+            "`nowhere` of package `a` does not exist",
         ),
         (&["arm.urdf", "--package", "a"], 2, "NAME=DIR"),
         (&["arm.urdf.xacro"], 2, "xacro arm.urdf.xacro > arm.urdf"),

@@ -4,25 +4,31 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-mod args;
+mod chosen_variant;
+mod command_line;
 mod commands;
 mod disk;
 mod failure;
 mod fresh_folder;
 mod interrupt;
+mod labs_folder;
 mod one_processor;
 mod output;
-mod places;
 mod report_folder;
 mod robot_source;
 mod saves;
 mod scene_source;
+mod scenes_to_check;
 mod serve;
-mod variants;
+mod staff_folder;
+mod typed_numbers;
 mod worker;
 
 fn main() -> ExitCode {
-    let args = match args::Args::try_parse() {
+    if let Err(failure) = command_line::refuse_renamed(std::env::args_os().nth(1).as_deref()) {
+        return failure.report();
+    }
+    let args = match command_line::CommandLine::try_parse() {
         Ok(args) => args,
         Err(error) => {
             // help and version are no errors; anything else is a matter of usage
@@ -39,7 +45,7 @@ fn main() -> ExitCode {
     let command = std::thread::Builder::new()
         // submissions that run in this process (mutants, --in-process) may nest as deep as their budgets allow
         .stack_size(2 * kinemark_grader::submission::rhai::STACK_BYTES)
-        .spawn(|| match commands::run(args) {
+        .spawn(|| match args.run() {
             Ok(code) => code,
             Err(failure) => failure.report(),
         });

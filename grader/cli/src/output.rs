@@ -4,6 +4,8 @@ use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
 use kinemark_report::visible::visible;
+use kinemark_toolbox::styled_text::{Emphasis, StyledText};
+use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
 use crate::disk::plain;
@@ -24,6 +26,19 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Prints text with emphasis, in colours where they belong.
+pub(crate) fn print_styled(text: &StyledText) -> Result<(), Failure> {
+    let styled = text.parts().map(|(emphasis, part)| match emphasis {
+        Emphasis::Plain => part.to_owned(),
+        Emphasis::Strong => part.bold().to_string(),
+        Emphasis::Faint => part.dimmed().to_string(),
+        Emphasis::Error => part.red().bold().to_string(),
+        Emphasis::Warning => part.yellow().to_string(),
+        Emphasis::Note => part.cyan().to_string(),
+    });
+    print(&styled.collect::<String>())
 }
 
 /// Prints a value as JSON, in lines a person can read.

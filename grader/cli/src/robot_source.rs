@@ -1,20 +1,55 @@
-//! The robot that a person names on the command line: a robot file, a URDF, joints in a row, or a robot of the labs.
+//! The robot that a person names on the command line: a robot file, a URDF, a joint string, or a robot of the labs.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::LabRobot;
 use kinemark_grader::lab::robot::robot_names;
+use kinemark_sim::robot::urdf::UrdfOptions;
 use kinemark_sim::robot::urdf::mesh_location::{MeshLocation, mesh_location};
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::robot::{Robot, RobotError, RobotFile, config_string};
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::robot::{Robot, RobotError};
+use kinemark_sim::source::suggest;
+use kinemark_toolbox::robot_source::{
+    MeshReader, RobotFormat, is_meant_as_joint_string, robot, robot_of_joint_string,
+};
 
-use crate::args::RobotArgs;
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
 use crate::failure::{BROKEN, Failure, USAGE};
-use crate::places;
+use crate::labs_folder::{self, LabsFolderArgs};
+
+/// Which robot, and how it is read.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct RobotArgs {
+    /// A robot file (.toml or .urdf), the name of a robot of the labs, or a joint string such as RzRyRz
+    pub(crate) robot: OsString,
+    /// Height of the first joint of a joint string, in metres [default: 0]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) base: Option<f64>,
+    /// Links of a joint string: one lx,ly,lz per joint, in metres, separated by semicolons
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub(crate) links: Option<String>,
+    /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
+    #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
+    pub(crate) packages: Vec<(String, PathBuf)>,
+    /// Give the mimic joints of a URDF their own entries in q
+    #[arg(long)]
+    pub(crate) ignore_mimic: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
+/// Reads `NAME=DIR`.
+pub(crate) fn package(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => {
+            Ok((name.to_owned(), PathBuf::from(folder)))
+        }
+        _ => Err(
+            "write the package's name, `=` and its folder, such as ur_description=../ur".to_owned(),
+        ),
+    }
+}
 
 /// Above this a file is no robot's description.
 const MOST_BYTES: u64 = 16 << 20;
@@ -37,10 +72,10 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         return from_file(path, args);
     }
     let name = args.robot.to_string_lossy();
-    let (files, folder) = places::labs(&args.places)?;
+    let (files, folder) = labs_folder::open(&args.labs_folder)?;
     if let Some(LabRobot { file, meshes }) = LabRobot::load(files.as_ref(), &name)? {
         let what = format!("`{name}` is a robot of the labs");
-        refuse_row_options(args, &what)?;
+        refuse_joint_string_options(args, &what)?;
         refuse_urdf_options(args, &what)?;
         let robot = file.build(&[]).map_err(broken)?;
         let meshes = folder.iter().flat_map(|folder| {
@@ -52,14 +87,14 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         let meshes = meshes.collect();
         return Ok(Loaded { robot, meshes });
     }
-    if args.links.is_some() || args.base.is_some() || config_string::looks_like_one(&name) {
-        return joints_in_a_row(&name, args);
+    if args.links.is_some() || args.base.is_some() || is_meant_as_joint_string(&name) {
+        return of_joint_string(&name, args);
     }
     let known = robot_names(files.as_ref());
     Err(Failure::usage(
         format!("there is no robot file or robot `{name}`"),
         &format!(
-            "{}; joints in a row are written like RzRyRz, with --links",
+            "{}; a joint string is written like RzRyRz, with --links",
             suggest(&name, "robots", known.iter().map(String::as_str))
         ),
     ))
@@ -69,32 +104,32 @@ fn broken(error: RobotError) -> Failure {
     Failure::diagnostic(BROKEN, error)
 }
 
-fn joints_in_a_row(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
-    refuse_urdf_options(args, &format!("`{text}` are joints in a row"))?;
+fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
+    refuse_urdf_options(args, &format!("`{text}` is a joint string"))?;
     let Some(links) = &args.links else {
         let count = text.chars().count() / 2;
         let example = vec!["0,0,1"; count.clamp(1, 8)].join("; ");
         return Err(Failure::usage(
-            format!("`{text}` says its joints but not its links"),
+            format!("`{text}` gives joints but no links"),
             &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
         ));
     };
-    let robot = config_string::robot(text, args.base.unwrap_or(0.0), links)
+    let robot = robot_of_joint_string(text, args.base.unwrap_or(0.0), links)
         // it was typed, so it is a matter of usage
         .map_err(|error| Failure::diagnostic(USAGE, error))?;
     let meshes = BTreeMap::new();
     Ok(Loaded { robot, meshes })
 }
 
-/// `--links` and `--base` belong to joints in a row; elsewhere they would say something that nobody hears.
-fn refuse_row_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
+/// `--links` and `--base` belong to joint strings; elsewhere they would have no effect.
+fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
     let given = match (&args.links, args.base) {
         (Some(_), _) => "--links",
         (None, Some(_)) => "--base",
         (None, None) => return Ok(()),
     };
     Err(Failure::usage(
-        format!("{given} is for joints in a row such as RzRyRz, and {what}"),
+        format!("{given} is for joint strings such as RzRyRz, but {what}"),
         &format!("leave {given} out"),
     ))
 }
@@ -115,77 +150,86 @@ fn refuse_urdf_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
         return Ok(());
     };
     Err(Failure::usage(
-        format!("{given} is for URDFs, and {what}"),
+        format!("{given} is for URDFs, but {what}"),
         &format!("leave {given} out{instead}"),
     ))
 }
 
 fn from_file(path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
     let shown = path.display();
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    if extension.as_deref() == Some("xacro") && path.is_file() {
-        let plain = path.with_extension("");
-        let plain = plain.file_name().unwrap_or_default().to_string_lossy();
-        let stem = plain.trim_end_matches(".urdf");
-        return Err(Failure::usage(
-            format!("`{shown}` is a xacro file, from which a URDF is made first"),
-            &format!("run `xacro {shown} > {stem}.urdf`, and name {stem}.urdf here"),
-        ));
-    }
+    refuse_xacro(path)?;
     let source = disk::read(path, "a robot file", MOST_BYTES)?;
-    let is_xml = source
-        .text()
-        .trim_start_matches('\u{feff}')
-        .trim_start()
-        .starts_with('<')
-        || matches!(extension.as_deref(), Some("urdf" | "xml"));
-    refuse_row_options(args, &format!("`{shown}` is a file"))?;
-    if is_xml {
-        from_urdf(source, path, args)
-    } else {
-        refuse_urdf_options(args, &format!("`{shown}` is a robot file"))?;
-        from_toml(source, path)
-    }
-}
-
-fn from_toml(source: Source, path: &Path) -> Result<Loaded, Failure> {
-    let folder = folder_of(path);
-    let mut meshes = BTreeMap::new();
-    let file = RobotFile::parse(source).and_then(|file| {
-        file.with_meshes(|name| {
-            let (place, bytes) = first_of(&[folder.join(name)])?;
-            meshes.insert(name.to_owned(), place);
-            Ok(bytes)
-        })
-    });
-    let robot = file.and_then(|file| file.build(&[])).map_err(broken)?;
-    Ok(Loaded { robot, meshes })
-}
-
-fn from_urdf(source: Source, path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
-    for (name, folder) in &args.packages {
-        if !folder.is_dir() {
-            return Err(Failure::usage(
-                format!(
-                    "the folder `{}` of package `{name}` is not there",
-                    folder.display()
-                ),
-                "give the folder that holds the package's package.xml",
-            ));
-        }
+    let format = RobotFormat::of(&path.to_string_lossy(), source.text());
+    refuse_joint_string_options(args, &format!("`{shown}` is a file"))?;
+    match format {
+        RobotFormat::Toml => refuse_urdf_options(args, &format!("`{shown}` is a robot file"))?,
+        RobotFormat::Urdf => refuse_missing_packages(&args.packages)?,
     }
     let options = UrdfOptions {
         ignore_mimic: args.ignore_mimic,
     };
-    let meshes = RefCell::new(BTreeMap::new());
-    let mut read_mesh = |name: &str| {
-        let (place, bytes) = first_of(&mesh_places(name, &folder_of(path), &args.packages)?)?;
-        meshes.borrow_mut().insert(name.to_owned(), place);
-        Ok(bytes)
+    let mut meshes = MeshFiles {
+        format,
+        folder: folder_of(path),
+        packages: &args.packages,
+        found: BTreeMap::new(),
     };
-    let robot = urdf::robot(source, &options, &mut read_mesh).map_err(broken)?;
-    let meshes = meshes.into_inner();
+    let robot = robot(source, format, &options, &mut meshes).map_err(broken)?;
+    let meshes = meshes.found;
     Ok(Loaded { robot, meshes })
+}
+
+fn refuse_xacro(path: &Path) -> Result<(), Failure> {
+    let is_xacro = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("xacro"));
+    if !is_xacro || !path.is_file() {
+        return Ok(());
+    }
+    let shown = path.display();
+    let plain = path.with_extension("");
+    let plain = plain.file_name().unwrap_or_default().to_string_lossy();
+    let stem = plain.trim_end_matches(".urdf");
+    Err(Failure::usage(
+        format!("`{shown}` is a xacro file; convert it to a URDF first"),
+        &format!("run `xacro {shown} > {stem}.urdf`, and name {stem}.urdf here"),
+    ))
+}
+
+fn refuse_missing_packages(packages: &[(String, PathBuf)]) -> Result<(), Failure> {
+    let missing = packages.iter().find(|(_, folder)| !folder.is_dir());
+    let Some((name, folder)) = missing else {
+        return Ok(());
+    };
+    Err(Failure::usage(
+        format!(
+            "the folder `{}` of package `{name}` does not exist",
+            folder.display()
+        ),
+        "give the folder that holds the package's package.xml",
+    ))
+}
+
+/// Meshes that are files near a robot's description.
+struct MeshFiles<'a> {
+    format: RobotFormat,
+    /// The folder of the description.
+    folder: PathBuf,
+    packages: &'a [(String, PathBuf)],
+    /// Files by the names that the description has for them.
+    found: BTreeMap<String, PathBuf>,
+}
+
+impl MeshReader for MeshFiles<'_> {
+    fn read_mesh(&mut self, name: &str) -> Result<Vec<u8>, String> {
+        let candidates = match self.format {
+            RobotFormat::Toml => vec![self.folder.join(name)],
+            RobotFormat::Urdf => mesh_candidates(name, &self.folder, self.packages)?,
+        };
+        let (path, bytes) = first_of(&candidates)?;
+        self.found.insert(name.to_owned(), path);
+        Ok(bytes)
+    }
 }
 
 /// The folder a file lies in; `.` for a bare name.
@@ -197,18 +241,18 @@ fn folder_of(path: &Path) -> PathBuf {
 }
 
 /// Where the mesh that a URDF in `folder` calls `name` may lie, the best first.
-fn mesh_places(
+fn mesh_candidates(
     name: &str,
     folder: &Path,
     packages: &[(String, PathBuf)],
 ) -> Result<Vec<PathBuf>, String> {
     let (package, inside) = match mesh_location(name) {
-        MeshLocation::Absolute(place) | MeshLocation::Relative(place) => {
-            return Ok(vec![folder.join(place)]);
+        MeshLocation::Absolute(path) | MeshLocation::Relative(path) => {
+            return Ok(vec![folder.join(path)]);
         }
         MeshLocation::Unsupported { scheme } => {
             return Err(format!(
-                "addresses with `{scheme}://` are not read; save the file beside the URDF and name it there"
+                "`{scheme}://` addresses are not supported; save the file beside the URDF and use its path there"
             ));
         }
         MeshLocation::Package { path: "", .. } => {
@@ -223,34 +267,31 @@ fn mesh_places(
     }
     // a URDF usually lies in `NAME/urdf/`
     let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    let mut places = Vec::new();
+    let mut candidates = Vec::new();
     for above in whole.ancestors() {
         if above.file_name().is_some_and(|name| name == package) {
-            places.push(above.join(inside));
+            candidates.push(above.join(inside));
         }
         if above.join(package).is_dir() {
-            places.push(above.join(package).join(inside));
+            candidates.push(above.join(package).join(inside));
         }
     }
-    places.push(folder.join(inside));
-    if places.iter().any(|place| place.is_file()) {
-        return Ok(places);
+    candidates.push(folder.join(inside));
+    if candidates.iter().any(|path| path.is_file()) {
+        return Ok(candidates);
     }
     Err(format!(
-        "there is no package `{package}` with it around the URDF, nor `{}`; name the package's folder: --package {package}=DIR",
+        "no package `{package}` with this file was found around the URDF, and no `{}`; give the package's folder: --package {package}=DIR",
         folder.join(inside).display()
     ))
 }
 
-/// The first of `places` that is a file, read whole.
-fn first_of(places: &[PathBuf]) -> Result<(PathBuf, Vec<u8>), String> {
-    match places.iter().find(|place| place.is_file()) {
-        Some(place) => Ok((place.clone(), bytes_of(place, MOST_MESH_BYTES)?)),
+/// The first of `paths` that is a file, read whole.
+fn first_of(paths: &[PathBuf]) -> Result<(PathBuf, Vec<u8>), String> {
+    match paths.iter().find(|path| path.is_file()) {
+        Some(path) => Ok((path.clone(), bytes_of(path, MOST_MESH_BYTES)?)),
         None => {
-            let tried: Vec<String> = places
-                .iter()
-                .map(|p| format!("`{}`", p.display()))
-                .collect();
+            let tried: Vec<String> = paths.iter().map(|p| format!("`{}`", p.display())).collect();
             Err(format!("there is no file {}", tried.join(" or ")))
         }
     }
@@ -269,7 +310,7 @@ mod tests {
         std::fs::create_dir_all(&urdf).unwrap();
         std::fs::write(package.join("meshes/hand.stl"), "x").unwrap();
         let find = |name: &str, packages: &[(String, PathBuf)]| {
-            first_of(&mesh_places(name, &urdf, packages)?).map(|(place, _)| place)
+            first_of(&mesh_candidates(name, &urdf, packages)?).map(|(path, _)| path)
         };
         let inside = "package://arm_description/meshes/hand.stl";
         // by the folder around the URDF

@@ -7,14 +7,14 @@ use std::sync::mpsc::Sender;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use notify::{EventKind, RecursiveMode, Watcher as _};
 
-use crate::args::GradeArgs;
+use crate::commands::grade;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
-use crate::places;
+use crate::{labs_folder, staff_folder};
 
-/// What is told.
+/// What a watched grade reacts to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Told {
+pub(crate) enum WatchEvent {
     /// Something that is graded with may be another.
     Saved,
     /// Ctrl-C.
@@ -27,8 +27,8 @@ pub(crate) struct Saves {
 }
 
 impl Saves {
-    /// Starts to tell `told` of every save that concerns the grade asked for.
-    pub(crate) fn listen(args: &GradeArgs, told: Sender<Told>) -> Result<Self, Failure> {
+    /// Starts to send an event to `events` for every save that concerns the grade.
+    pub(crate) fn listen(args: &grade::Args, events: Sender<WatchEvent>) -> Result<Self, Failure> {
         let concerns = Concerns::of(args)?;
         let trees = concerns.trees.clone();
         // folders and not files: editors put another file in a file's place
@@ -45,7 +45,7 @@ impl Saves {
                 };
                 if saved {
                     // the other side being gone is the end
-                    let _ = told.send(Told::Saved);
+                    let _ = events.send(WatchEvent::Saved);
                 }
             })
             .map_err(|error| unheard(&error))?;
@@ -69,7 +69,7 @@ fn unheard(error: &notify::Error) -> Failure {
         other => format!("{other:?}"),
     };
     Failure::fault(
-        format!("this system does not tell of saves: {why}"),
+        format!("cannot watch files: {why}"),
         "use `kinemark grade` after each change",
     )
 }
@@ -86,7 +86,7 @@ struct Concerns {
 }
 
 impl Concerns {
-    fn of(args: &GradeArgs) -> Result<Self, Failure> {
+    fn of(args: &grade::Args) -> Result<Self, Failure> {
         let mut files = vec![
             real(&args.submission)?,
             real(&args.submission.with_file_name(VARIANT_FILE))?,
@@ -94,7 +94,7 @@ impl Concerns {
         if let Some(variant) = &args.variant.variant {
             files.push(real(variant)?);
         }
-        let (_, labs) = places::labs(&args.places)?;
+        let (_, labs) = labs_folder::open(&args.labs_folder)?;
         let mut trees = Vec::new();
         // any other text names no folder of the labs; grading says so
         let mut parts = Path::new(&args.lab).components();
@@ -105,7 +105,7 @@ impl Concerns {
         if let (Some(labs), true) = (&labs, is_name) {
             let parts = ["robots", "scenes", &args.lab];
             trees.extend(parts.map(|part| labs.join(part)));
-            if let Some(reference) = places::reference(&args.staff, Some(labs))? {
+            if let Some(reference) = staff_folder::open(&args.staff, Some(labs))? {
                 trees.push(reference.path().join(&args.lab));
             }
         }
@@ -191,8 +191,8 @@ mod tests {
                 "--labs",
                 &path("labs"),
             ];
-            let args = crate::args::Args::try_parse_from(args).unwrap();
-            let crate::args::Command::Grade(args) = args.command else {
+            let args = crate::command_line::CommandLine::try_parse_from(args).unwrap();
+            let Some(crate::command_line::Command::Grade(args)) = args.command else {
                 panic!("{args:?}")
             };
             let concerns = Concerns::of(&args).unwrap();

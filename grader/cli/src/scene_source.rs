@@ -7,10 +7,9 @@ use kinemark_grader::lab::scene::scene_names;
 use kinemark_sim::scene::{Scene, SceneError, SceneFile};
 use kinemark_sim::source::{Source, suggest};
 
-use crate::args::PlaceArgs;
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
 use crate::failure::{BROKEN, Failure};
-use crate::places;
+use crate::labs_folder::{self, LabsFolderArgs};
 
 /// Above this a file is no scene.
 const MOST_BYTES: u64 = 16 << 20;
@@ -31,12 +30,12 @@ pub(crate) fn is_file(named: &Path) -> bool {
 ///
 /// # Errors
 /// Exit code 2 for a scene that is not there, 3 for a file that is no scene.
-pub(crate) fn load(named: &Path, places: &PlaceArgs) -> Result<Loaded, Failure> {
+pub(crate) fn load(named: &Path, labs: &LabsFolderArgs) -> Result<Loaded, Failure> {
     if is_file(named) {
         return from_file(disk::read(named, "a scene file", MOST_BYTES)?, named);
     }
     let name = named.to_string_lossy();
-    let (files, _) = places::labs(places)?;
+    let (files, _) = labs_folder::open(labs)?;
     if let Some(LabScene { file, scene, .. }) = LabScene::load(files.as_ref(), &name)? {
         return Ok(Loaded { file, scene });
     }

@@ -10,9 +10,18 @@ use crate::task::model::MotionTask;
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
-impl Names<'_> {
+/// A diverged simulation in words, with the names of a run.
+pub(crate) trait DivergedWords {
     /// What ended a run of `task`, and the next step.
-    pub fn diverged(
+    fn diverged(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask)
+    -> (String, String);
+
+    /// Why the servo itself is the cause, with the limits that were computed.
+    fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String;
+}
+
+impl DivergedWords for Names<'_> {
+    fn diverged(
         &self,
         what: &BlowUp,
         cause: Option<&Cause>,
@@ -80,7 +89,6 @@ impl Names<'_> {
         }
     }
 
-    /// Why the servo itself is the cause, with the limits that were computed.
     fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String {
         let mut text = format!(
             "sampled every {} ms, its servo makes each error {} times as large from sample to sample",

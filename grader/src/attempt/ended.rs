@@ -2,6 +2,7 @@
 
 use kinemark_sim::runaway::{BlowUp, Cause};
 
+use super::diverged::DivergedWords as _;
 use crate::record::grade::Stopped;
 use crate::record::names::Names;
 use crate::record::verdict::Verdict;

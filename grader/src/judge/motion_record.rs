@@ -14,6 +14,7 @@ use crate::record::grade::{
     Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
+use crate::record::names::{contacts, events};
 use crate::record::quantity::sum_of_points;
 use crate::record::verdict::Verdict;
 
@@ -46,8 +47,8 @@ impl MotionResult {
             diagnoses: self.diagnoses.clone(),
             cases: Vec::new(),
             hidden: self.hidden.clone(),
-            events: names.events(trace, &judge.work.periods),
-            contacts: names.contacts(trace),
+            events: events(&names, trace, &judge.work.periods),
+            contacts: contacts(&names, trace),
             operations: attempt.operations,
             log: log
                 .map(|line| LogEntry {

@@ -1,5 +1,6 @@
 //! What a grade is made of once it is made: the record, the runs it rests on, their names and numbers for people.
 
+pub mod comparison;
 pub mod grade;
 pub mod graded;
 pub mod names;

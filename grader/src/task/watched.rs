@@ -4,6 +4,8 @@ use kinemark_sim::engine::Party;
 use kinemark_sim::event::SeenSide;
 use nalgebra::Vector3;
 
+use crate::record::names::Names;
+
 /// How a free body is to fall, and what less than that is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fall {
@@ -117,5 +119,17 @@ mod tests {
             zero: 0.5,
         };
         assert_eq!((threshold.score(0.5), threshold.score(0.49)), (1.0, 0.0));
+    }
+}
+
+impl TouchingParty {
+    /// Its name as it stands in a sentence.
+    pub fn told(self, names: &Names<'_>) -> String {
+        match self {
+            Self::Arm => "the arm".to_owned(),
+            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
+            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
+            Self::Ground => "the ground".to_owned(),
+        }
     }
 }

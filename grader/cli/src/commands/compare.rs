@@ -1,23 +1,43 @@
 //! `kinemark compare`: two reports beside each other, their runs made again from the copies inside them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::compare::{self, Comparison, Side};
+use kinemark_grader::compare::{self, Side};
 use kinemark_grader::judge;
 use kinemark_grader::lab::Lab;
+use kinemark_grader::record::comparison::{self, Comparison};
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::GradedRun;
 
 use kinemark_report::visible::visible;
 
-use crate::args::CompareArgs;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
+
+/// Compare two reports of the same lab
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  kinemark compare before after\n\n\
+    Shows the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
+    The runs are repeated from the copies in the folders.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is not a report, 4 the grader or this machine failed.")]
+pub(crate) struct Args {
+    /// An output folder of `kinemark grade`
+    pub(crate) a: PathBuf,
+    /// Another, of the same lab
+    pub(crate) b: PathBuf,
+    /// Folder to write to; an earlier comparison there is replaced
+    #[arg(long, short, value_name = "DIR", default_value = "kinemark-compare")]
+    pub(crate) out: PathBuf,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// The page.
 const PAGE: &str = "compare.html";
@@ -32,7 +52,7 @@ struct Again {
 }
 
 /// Compares, writes the folder, prints.
-pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     refuse_foreign(&args.out)?;
     let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
@@ -51,7 +71,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let mut comparison = compare::compare(&sides[0], &sides[1]).map_err(|error| {
         Failure::usage(
             visible(&error.to_string()).into_owned(),
-            "name two reports of one lab; `kinemark grade` grades a submission in another",
+            "name two reports of the same lab; `kinemark grade` grades a submission in another",
         )
     })?;
     comparison.notes.extend(notes);
@@ -69,7 +89,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Failure> {
+fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> {
     let (of_a, of_b) = (&a.grade.lab.name, &b.grade.lab.name);
     if of_a == of_b {
         return Ok(());
@@ -77,11 +97,11 @@ fn refuse_other_lab(args: &CompareArgs, a: &Report, b: &Report) -> Result<(), Fa
     let [of_a, of_b] = [of_a, of_b].map(|name| visible(name));
     Err(Failure::usage(
         format!(
-            "`{}` is of lab `{of_a}` and `{}` of lab `{of_b}`: they have nothing in common",
+            "`{}` is of lab `{of_a}` and `{}` is of lab `{of_b}`: only reports of the same lab can be compared",
             args.a.display(),
             args.b.display()
         ),
-        "name two reports of one lab",
+        "name two reports of the same lab",
     ))
 }
 
@@ -107,7 +127,7 @@ fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
                 folder.display(),
                 visible(why)
             ),
-            "compare again on a machine that is less busy; nothing was written",
+            "compare again when this machine is less busy; nothing was written",
         ));
     }
     Ok(Again {
@@ -123,7 +143,7 @@ fn changed(again: &Again, name: &str) -> Vec<String> {
     let mut notes = Vec::new();
     if recorded.submission.digest != now.submission.digest {
         notes.push(format!(
-            "the submission in {name} is not the one that was graded: its points are the record's, its motions those of the file"
+            "the submission in {name} has changed since it was graded: its points are from the record, its motions from the file"
         ));
     }
     for task in recorded
@@ -141,8 +161,8 @@ fn changed(again: &Again, name: &str) -> Vec<String> {
             pairs.take_while(|(now, recorded)| now == recorded).count()
         });
         notes.push(format!(
-            "the motion of task `{}` made again from {name} is not the recorded one, from second {same} on; \
-             `kinemark verify` tells more",
+            "the repeated motion of task `{}` of {name} differs from the recorded one from second {same} on; \
+             `kinemark verify` shows more",
             task.name
         ));
     }
@@ -154,7 +174,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let record = disk::bytes_of(&out.join(RECORD), 64 << 20).ok();
     let record: Option<serde_json::Value> =
         record.and_then(|text| serde_json::from_slice(&text).ok());
-    let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
+    let is_ours = record.is_some_and(|record| record["format"] == comparison::FORMAT);
     let ours = |name: &str| match name {
         PAGE | RECORD if is_ours => Entry::Ours,
         _ => Entry::Foreign,

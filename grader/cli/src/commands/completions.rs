@@ -4,14 +4,29 @@ use std::process::ExitCode;
 
 use clap::CommandFactory as _;
 
-use crate::args::{Args, CompletionsArgs};
+use crate::command_line::CommandLine;
 use crate::failure::Failure;
 use crate::output;
 
+/// Print shell completions
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Example:\n  kinemark completions bash > ~/.local/share/bash-completion/completions/kinemark"
+)]
+pub(crate) struct Args {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}
+
 /// Prints the completions.
-pub(crate) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Args::command(), "kinemark", &mut script);
+    clap_complete::generate(
+        args.shell,
+        &mut CommandLine::command(),
+        "kinemark",
+        &mut script,
+    );
     output::print(&String::from_utf8_lossy(&script))?;
     Ok(ExitCode::SUCCESS)
 }

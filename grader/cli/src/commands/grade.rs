@@ -1,6 +1,6 @@
 //! `kinemark grade`: one submission, graded and reported.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_grader::audit;
@@ -11,14 +11,58 @@ use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
 
+use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_sim::source::Source;
 
-use crate::args::GradeArgs;
+use crate::chosen_variant::{self, Chosen, VariantArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
-use crate::report_folder::Pictures;
-use crate::variants::{self, Chosen};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output, places, report_folder};
+use crate::{disk, interrupt, output, report_folder};
+
+/// Grade a submission
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
+    kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
+    kinemark grade 01-kinematics submission.rhai --png --storyboard\n\n\
+    A file variant.toml beside the submission is used unless --variant or --student is given.\n\
+    Neither it nor the submission may be a symbolic link.\n\
+    Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
+    Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
+)]
+pub(crate) struct Args {
+    /// The lab, as `kinemark` lists it
+    pub(crate) lab: String,
+    /// The submission
+    pub(crate) submission: PathBuf,
+    /// Folder to write to; an earlier report there is replaced
+    #[arg(long, short, value_name = "DIR", default_value = "out")]
+    pub(crate) out: PathBuf,
+    /// Print the grade record as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write each plot as a PNG beside the SVG
+    #[arg(long)]
+    pub(crate) png: bool,
+    /// Write a storyboard of each motion task: six moments of the run in one picture, TASK/storyboard.png and .svg
+    #[arg(long)]
+    pub(crate) storyboard: bool,
+    /// Run the submission in this process: for profiling trusted code
+    #[arg(long)]
+    pub(crate) in_process: bool,
+    /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
+    /// answer; do not give such a report to students
+    #[arg(long, conflicts_with = "practice")]
+    pub(crate) ghost: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+    #[command(flatten)]
+    pub(crate) variant: VariantArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
 
 /// A submission larger than this is not read; its own budget, which is counted, is far below.
 const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
@@ -28,16 +72,16 @@ pub(crate) struct Work {
     lab: Lab,
     submission: Source,
     pub(crate) graded: GradedRun,
-    /// What was taken that nobody named.
+    /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
 }
 
 /// Grades, writes the folder, prints.
-pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let work = work(args)?;
     let grade = &work.graded.grade;
-    // the grade is told before anything is written: a full disk must not lose it
+    // printed before anything is written: a full disk must not lose the grade
     if args.json {
         output::print_json(grade)?;
     } else {
@@ -48,7 +92,7 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     }
     write(args, &work)?;
     if !args.json {
-        let report = output::path(&args.out.join("report.html"));
+        let report = output::path(&args.out.join(PAGE_FILE));
         output::print(&format!("report: {report}\n"))?;
         if let Some(loss) = kinemark_report::moment::first_loss(grade) {
             let place = loss.fragment();
@@ -62,8 +106,9 @@ pub(crate) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Writes the folder.
-pub(crate) fn write(args: &GradeArgs, work: &Work) -> Result<(), Failure> {
-    let pictures = Pictures {
+pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
+    let request = ReportRequest {
+        reference_overlay: args.ghost,
         png: args.png,
         storyboard: args.storyboard,
     };
@@ -72,15 +117,16 @@ pub(crate) fn write(args: &GradeArgs, work: &Work) -> Result<(), Failure> {
         &work.lab,
         &work.submission,
         &work.graded,
-        pictures,
+        request,
     )
 }
 
 /// Reads what was named, and grades.
-pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
-    let (files, labs_folder) = places::labs(&args.places)?;
-    let reference = places::reference(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, mut note } = variants::choose(
+pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
+    refuse_pixels_without_png(args)?;
+    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
+    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
+    let Chosen { lab, mut note } = chosen_variant::choose(
         &args.lab,
         files.as_ref(),
         reference.as_ref(),
@@ -95,14 +141,14 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     if args.ghost && staff.is_none() {
         return Err(Failure::usage(
             format!(
-                "--ghost shows the reference solution, and none of lab `{}` is here",
+                "--ghost needs the reference solution of lab `{}`, which was not found",
                 lab.name
             ),
-            "name the staff's folder with --reference DIR, or leave --ghost out",
+            "give the course staff's folder with --reference DIR, or leave --ghost out",
         ));
     }
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
-        note = Some("no variant: everybody's numbers of lab.toml".to_owned());
+        note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
     disk::refuse_link(&args.submission)?;
     let submission = disk::read(&args.submission, "a submission", MOST_SUBMISSION_BYTES)?;
@@ -122,7 +168,7 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     for fault in &graded.staff_faults {
         failure::warn(
-            "the points stand, but this file of the staff told nothing of the submission",
+            "the grade is valid, but a file of the course staff failed, so some feedback is missing",
             fault.as_ref(),
         );
     }
@@ -137,19 +183,35 @@ pub(crate) fn work(args: &GradeArgs) -> Result<Work, Failure> {
     })
 }
 
+/// Refuses pictures in pixels where this build draws none.
+fn refuse_pixels_without_png(args: &Args) -> Result<(), Failure> {
+    let asked = match (args.png, args.storyboard) {
+        _ if cfg!(feature = "png") => None,
+        (true, _) => Some("--png"),
+        (false, true) => Some("--storyboard"),
+        (false, false) => None,
+    };
+    asked.map_or(Ok(()), |option| {
+        Err(Failure::usage(
+            format!("{option} needs a build with the feature `png`"),
+            &format!("leave {option} out, or build with `--features png`"),
+        ))
+    })
+}
+
 /// Where the storyboards are, a line each.
 fn storyboards(out: &Path, graded: &GradedRun) -> String {
     if graded.runs.is_empty() {
-        return "storyboard: none, because no motion task ran\n".to_owned();
+        return "storyboard: none, because no motion task was run\n".to_owned();
     }
     let lines = graded.runs.iter().map(|run| {
-        let path = out.join(&run.task).join(report_folder::STORYBOARD);
+        let path = out.join(&run.task).join(STORYBOARD_FILE);
         format!("storyboard: {}\n", output::path(&path))
     });
     lines.collect()
 }
 
-fn staff_of(reference: &dyn Files, lab: &Lab, args: &GradeArgs) -> Result<Option<Staff>, Failure> {
+fn staff_of(reference: &dyn Files, lab: &Lab, args: &Args) -> Result<Option<Staff>, Failure> {
     let staff = Staff::load(reference, lab, args.staff.salt.as_deref())?;
     if let Some(staff) = &staff {
         audit::staff_code(lab, staff)?;
@@ -161,7 +223,7 @@ fn staff_of(reference: &dyn Files, lab: &Lab, args: &GradeArgs) -> Result<Option
                 reference.name(),
                 lab.name
             ),
-            "check the folder, or leave --reference out to practise",
+            "check the folder, or use --practice to grade visible cases only",
         ));
     }
     Ok(staff)

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::num::NonZero;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::thread::ScopedJoinHandle;
 
@@ -13,24 +14,52 @@ use kinemark_grader::submission::rhai::STACK_BYTES;
 use kinemark_sim::source::Source;
 use owo_colors::OwoColorize as _;
 
-use crate::args::{LabCheckArgs, StaffArgs};
 use crate::disk::Folder;
 use crate::failure::{Failure, LOST};
-use crate::{interrupt, output, places};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffArgs};
+use crate::{interrupt, output};
+
+/// Check a lab: its starter loses points, its reference solution gets full marks, and every mutant loses points and is named
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  kinemark lab check 02-jacobian-velocity --variants 200\n\n\
+    A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which shows in 30 % of a function \
+    task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
+    Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
+)]
+pub(crate) struct Args {
+    /// The lab, as `kinemark` lists it
+    pub(crate) lab: String,
+    /// Number of extra random salts to test the reference solution with
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(crate) salts: u32,
+    /// Number of student variants to test the reference solution with, each with its own hidden cases and runs
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub(crate) variants: u32,
+    /// Print what was tried as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) reference: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
 
 /// Audits the lab and prints what was tried.
-pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
-    let (files, labs_folder) = places::labs(&args.places)?;
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
     let from = StaffArgs {
         reference: args.reference.clone(),
         practice: false,
         salt: None,
     };
-    let reference = places::reference(&from, labs_folder.as_deref())?.ok_or_else(|| {
+    let reference = staff_folder::open(&from, labs_folder.as_deref())?.ok_or_else(|| {
         Failure::usage(
             "there is no folder `reference` beside the labs".to_owned(),
-            "a lab is checked with the staff's part: give its folder with --reference DIR",
+            "a lab is checked with the course staff's part: give its folder with --reference DIR",
         )
     })?;
     let staff = |salt: Option<&str>| {
@@ -54,7 +83,7 @@ pub(crate) fn run(args: &LabCheckArgs) -> Result<ExitCode, Failure> {
         Ok(None) => {
             return Err(Failure::broken(
                 format!("lab `{}` has no starter.rhai", lab.name),
-                "write the file that students begin with beside lab.toml",
+                "write the file that students begin with, beside lab.toml",
             ));
         }
         Err(why) => {

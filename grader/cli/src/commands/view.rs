@@ -1,14 +1,32 @@
 //! `kinemark view`: a report folder in the browser, served to this machine until Ctrl-C.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::args::ViewArgs;
 use crate::failure::Failure;
-use crate::serve::{self, Server};
+use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
 
+/// Open a report in the browser
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n\n\
+    Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points of each.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder has no report, 4 the port cannot be used."
+)]
+pub(crate) struct Args {
+    /// The output folder of `kinemark grade` or `kinemark compare`, or a folder of several
+    #[arg(default_value = "out")]
+    pub(crate) folder: PathBuf,
+    #[command(flatten)]
+    pub(crate) serve: ServeArgs,
+    /// Print folder and address as a line of JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
 /// Serves the folder.
-pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let shown = output::path(&args.folder);
     if !args.folder.is_dir() {
         return Err(Failure::usage(
@@ -18,7 +36,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
     }
     if !serve::index::has_reports(&args.folder) {
         return Err(Failure::broken(
-            format!("`{shown}` holds no report, and neither do the folders in it"),
+            format!("`{shown}` contains no report, and neither do the folders in it"),
             "name the folder that `kinemark grade` wrote, or a folder of several",
         ));
     }

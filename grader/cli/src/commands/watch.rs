@@ -12,11 +12,27 @@ use kinemark_report::visible::visible;
 use tokio::sync::watch;
 
 use super::grade::{self, Work};
-use crate::args::WatchArgs;
 use crate::failure::Failure;
-use crate::saves::{Saves, Told};
-use crate::serve::{self, Server};
+use crate::saves::{Saves, WatchEvent};
+use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
+
+/// Grade on every save, and keep the report open
+#[derive(Debug, clap::Args)]
+#[group(id = "watch")] // its own name is that of the arguments of `grade`
+#[command(
+    after_help = "Example:\n  kinemark watch 01-kinematics submission.rhai\n\n\
+    Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. The report opens in the browser \
+    and reloads at the same moment and position. With --json each grade is one line.\n\
+    See docs/watch-and-compare.md.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) grade: grade::Args,
+    #[command(flatten)]
+    pub(crate) serve: ServeArgs,
+}
 
 /// How long nothing must happen after a save: editors write, rename and write again.
 const QUIET: Duration = Duration::from_millis(100);
@@ -24,17 +40,17 @@ const QUIET: Duration = Duration::from_millis(100);
 const MOST_HAPPENINGS: usize = 1_000;
 
 /// Grades at once and on every save, until Ctrl-C.
-pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
-    let (tell, told) = channel();
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let (sender, events) = channel();
     let (stop, stopped) = watch::channel(false);
-    let on_stop = tell.clone();
+    let on_stop = sender.clone();
     interrupt::listen_and(move || {
         // nobody listening any more is the end, too
         let _ = stop.send(true);
-        let _ = on_stop.send(Told::Stop);
+        let _ = on_stop.send(WatchEvent::Stop);
     });
     // listened to before the first grade: what is saved while it runs counts
-    let _saves = Saves::listen(&args.grade, tell)?;
+    let _saves = Saves::listen(&args.grade, sender)?;
     let first = match grade::work(&args.grade) {
         Ok(work) => work,
         Err(_) if interrupt::asked() => return Ok(ExitCode::SUCCESS),
@@ -56,7 +72,7 @@ pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
     }
     std::thread::scope(|threads| {
         let serving = threads.spawn(|| server.run(stopped));
-        follow(args, &told, &count)?;
+        follow(args, &events, &count)?;
         // it ended by the same Ctrl-C
         serving.join().unwrap_or_else(|_| {
             Err(Failure::fault(
@@ -70,21 +86,21 @@ pub(crate) fn run(args: &WatchArgs) -> Result<ExitCode, Failure> {
 
 /// Grades whenever something was saved.
 fn follow(
-    args: &WatchArgs,
-    told: &Receiver<Told>,
+    args: &Args,
+    events: &Receiver<WatchEvent>,
     count: &watch::Sender<u64>,
 ) -> Result<(), Failure> {
     let mut is_gone = false;
     loop {
-        // it lasts as long as whoever tells of saves
-        let Ok(mut what) = told.recv() else {
+        // it ends when nothing sends events any more
+        let Ok(mut what) = events.recv() else {
             return Ok(());
         };
         for _ in 0..MOST_HAPPENINGS {
-            if what == Told::Stop {
+            if what == WatchEvent::Stop {
                 return Ok(());
             }
-            match told.recv_timeout(QUIET) {
+            match events.recv_timeout(QUIET) {
                 Ok(next) => what = next,
                 Err(_) => break,
             }
@@ -92,7 +108,9 @@ fn follow(
         if !args.grade.submission.exists() {
             if !is_gone {
                 let name = args.grade.submission.display();
-                tell(&format!("{name} is gone; graded again when it is back\n"));
+                print_beside(&format!(
+                    "{name} is gone; it is graded again when it is back\n"
+                ));
             }
             is_gone = true;
             continue;
@@ -111,7 +129,7 @@ fn follow(
 }
 
 /// Tells a grade in a line, writes the folder, and lets open pages know.
-fn publish(args: &WatchArgs, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
+fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
     if args.grade.json {
         let text = serde_json::to_string(grade).map_err(|error| {
@@ -130,15 +148,16 @@ fn publish(args: &WatchArgs, work: &Work, count: &watch::Sender<u64>) -> Result<
 }
 
 /// What is for people alone stands beside the JSON.
-fn say(args: &WatchArgs, text: &str) -> Result<(), Failure> {
+fn say(args: &Args, text: &str) -> Result<(), Failure> {
     if args.grade.json {
-        tell(text);
+        print_beside(text);
         return Ok(());
     }
     output::print(text)
 }
 
-fn tell(text: &str) {
+/// Prints to standard error, which is not part of the JSON.
+fn print_beside(text: &str) {
     // a reader that has gone away is no failure
     let _ = anstream::stderr().write_all(text.as_bytes());
 }

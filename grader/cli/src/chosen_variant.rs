@@ -1,0 +1,149 @@
+//! Which variant of a lab is meant: one of a file, one beside the submission, one computed for a student, or none.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
+use kinemark_grader::lab::{Files, Lab, LoadError, Staff, Variant};
+
+use crate::disk::{self, Folder};
+use crate::failure::Failure;
+use crate::staff_folder::StaffArgs;
+
+/// Which variant of the lab: the numbers of one student.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct VariantArgs {
+    /// A student's variant: a file that `kinemark lab variant` wrote
+    #[arg(long, value_name = "FILE", conflicts_with = "student")]
+    pub(crate) variant: Option<PathBuf>,
+    /// Generate this student's variant from the course's salt: for course staff
+    #[arg(long, value_name = "ID", conflicts_with = "practice")]
+    pub(crate) student: Option<String>,
+}
+
+/// A variant is a few lines.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// The lab that is meant, and a sentence where nobody said so.
+pub(crate) struct Chosen {
+    pub(crate) lab: Lab,
+    /// Which variant is used where the command named none.
+    pub(crate) note: Option<String>,
+}
+
+/// Loads the lab `name` in the variant that is asked for; `beside` is the submission, next to which a file is taken unasked.
+///
+/// # Errors
+/// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
+pub(crate) fn choose(
+    name: &str,
+    files: &dyn Files,
+    reference: Option<&Folder>,
+    args: &VariantArgs,
+    staff: &StaffArgs,
+    beside: Option<&Path>,
+) -> Result<Chosen, Failure> {
+    let lab = Lab::load(files, name)?;
+    let found = beside.map(|submission| submission.with_file_name(VARIANT_FILE));
+    // whatever it is: what is no file is refused below, and not passed over
+    let found = found.filter(|path| path.symlink_metadata().is_ok());
+    if let Some(student) = &args.student {
+        let variant = of_student(&lab, reference, staff, student)?;
+        let unused = found.map(|found| {
+            format!(
+                "using the variant of student {student}; {} is not used",
+                found.display()
+            )
+        });
+        return Ok(Chosen {
+            lab: Lab::load_variant(files, name, Some(&variant))?,
+            note: unused,
+        });
+    }
+    let (path, note) = match (&args.variant, &found) {
+        (Some(given), _) => (given, None),
+        (None, Some(found)) => {
+            disk::refuse_link(found)?;
+            let note = format!("using the variant in {}", found.display());
+            (found, Some(note))
+        }
+        (None, None) => return Ok(Chosen { lab, note: None }),
+    };
+    let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)
+        .map_err(|error| Failure::from(LoadError::from(error)))?;
+    let chosen = Lab::load_variant(files, name, Some(&variant))?;
+    if let Some(reference) = reference {
+        let shown = path.display().to_string();
+        refuse_forged(&chosen, files, reference, staff, &shown)?;
+    }
+    Ok(Chosen { lab: chosen, note })
+}
+
+/// Refuses a variant that names a student and holds other numbers than the salt gives; `shown` is its file for people.
+///
+/// # Errors
+/// Exit code 2 with the way out.
+pub(crate) fn refuse_forged(
+    lab: &Lab,
+    files: &dyn Files,
+    reference: &dyn Files,
+    staff: &StaffArgs,
+    shown: &str,
+) -> Result<(), Failure> {
+    let name = &lab.name;
+    let Some(student) = lab.variant.as_ref().and_then(Variant::student) else {
+        return Ok(());
+    };
+    let Some(salt) = Staff::salt(reference, name, staff.salt.as_deref())? else {
+        return Ok(());
+    };
+    let own = lab.variant_of(&salt, student).map_err(LoadError::from)?;
+    // what a file leaves out stands as in lab.toml, so whole labs are compared
+    if Lab::load_variant(files, name, Some(&own))?.parameters == lab.parameters {
+        return Ok(());
+    }
+    Err(Failure::usage(
+        format!(
+            "`{shown}` is not the variant of student `{student}`: the course's salt gives other parameters"
+        ),
+        &format!(
+            "grade with `--student {student}`, or write the file again: `kinemark lab variant {name} --student {student} --out FILE`"
+        ),
+    ))
+}
+
+/// The variant of a student, computed from the course's salt.
+///
+/// # Errors
+/// Exit code 2 without a salt, for a lab without variants, and for what is no id.
+pub(crate) fn of_student(
+    lab: &Lab,
+    reference: Option<&Folder>,
+    staff: &StaffArgs,
+    student: &str,
+) -> Result<Variant, Failure> {
+    if let Err(why) = student_id(student) {
+        return Err(Failure::usage(why, "write the id as the course writes it"));
+    }
+    if lab.variants.is_empty() {
+        return Err(Failure::usage(
+            format!(
+                "lab `{}` has no variants: all students have the same parameters",
+                lab.name
+            ),
+            "leave --student out, or add [variants] to its lab.toml",
+        ));
+    }
+    let salt = match (reference, &staff.salt) {
+        (Some(reference), salt) => Staff::salt(reference, &lab.name, salt.as_deref())?,
+        (None, salt) => salt.clone(),
+    };
+    let Some(salt) = salt else {
+        return Err(Failure::usage(
+            "--student needs the course's salt, which is in the course staff's hidden.toml"
+                .to_owned(),
+            "give --reference DIR or --salt TEXT; students use the variant.toml they were given",
+        ));
+    };
+    let variant = lab.variant_of(&salt, student);
+    Ok(variant.map_err(LoadError::from)?)
+}

@@ -1,0 +1,89 @@
+//! `kinemark lab variant`: a student's variant of a lab, as the file that goes with it.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use kinemark_grader::lab::{Lab, Variant};
+use kinemark_sim::robot::Dimension;
+use serde::Serialize;
+
+use crate::disk::plain;
+use crate::failure::Failure;
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffArgs};
+use crate::{chosen_variant, output};
+
+/// Generate one student's variant of a lab: for course staff
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark lab variant 04-knock-with-velocity --student s1234567\n  \
+    kinemark lab variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
+    Needs the course's salt: from the course staff's hidden.toml, or --salt. The same salt, lab and student give the same variant everywhere.\n\
+    Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
+)]
+pub(crate) struct Args {
+    /// The lab, as `kinemark` lists it
+    pub(crate) lab: String,
+    /// The student's id, exactly as the course writes it
+    #[arg(long, value_name = "ID")]
+    pub(crate) student: String,
+    /// File to write [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    /// Print the parameters as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
+
+#[derive(Serialize)]
+struct Printed<'a> {
+    lab: &'a str,
+    student: &'a str,
+    parameters: BTreeMap<&'a str, &'a Dimension>,
+}
+
+/// Computes, and writes or prints.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
+    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
+    let variant = chosen_variant::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
+    // numbers that make no lab are told now, and not when the student grades
+    Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;
+    if let Some(path) = &args.out {
+        if path.exists() && !args.force {
+            return Err(Failure::usage(
+                format!("`{}` already exists", path.display()),
+                "name another file, or replace it with --force",
+            ));
+        }
+        output::write_file(path, variant.text().as_bytes()).map_err(|error| {
+            Failure::fault(
+                format!("`{}` cannot be written: {}", path.display(), plain(&error)),
+                "choose another path with --out",
+            )
+        })?;
+    }
+    match (args.json, &args.out) {
+        (true, _) => output::print_json(&printed(&args.lab, &args.student, &variant))?,
+        (false, None) => output::print(&variant.text())?,
+        (false, Some(_)) => {}
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn printed<'a>(lab: &'a str, student: &'a str, variant: &'a Variant) -> Printed<'a> {
+    Printed {
+        lab,
+        student,
+        parameters: variant.parameters().collect(),
+    }
+}

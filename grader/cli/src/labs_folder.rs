@@ -1,0 +1,93 @@
+//! Where labs are found: in the folder given, in a `labs` folder here or above, or in the copy inside the binary.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::lab::Files;
+use rust_embed::Embed;
+
+use crate::disk::Folder;
+use crate::failure::Failure;
+
+/// Which folder the labs come from.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct LabsFolderArgs {
+    /// Folder of the labs [default: a `labs` folder here or above, else the built-in labs]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) labs: Option<PathBuf>,
+}
+
+/// The labs as they were when the binary was built.
+#[derive(Embed)]
+#[folder = "../../labs"]
+struct Embedded;
+
+/// The labs built in, as [`Files`].
+struct BuiltIn;
+
+impl Files for BuiltIn {
+    fn name(&self) -> String {
+        "the labs built in".to_owned()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        Ok(Embedded::get(path).map(|file| file.data.into_owned()))
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let prefix = if folder.is_empty() {
+            String::new()
+        } else {
+            format!("{folder}/")
+        };
+        let mut names: Vec<String> = Embedded::iter()
+            .filter_map(|path| {
+                let inside = path.strip_prefix(prefix.as_str())?;
+                Some(inside.split('/').next()?.to_owned())
+            })
+            .collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
+/// The labs: those of `--labs`, else of a `labs` folder here or above, else those built in.
+pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<PathBuf>), Failure> {
+    if let Some(given) = &args.labs {
+        if !given.is_dir() {
+            return Err(Failure::usage(
+                format!("`{}` is not a directory", given.display()),
+                "give the folder that holds the labs, such as `--labs course/labs`",
+            ));
+        }
+        return Ok((Box::new(Folder::new(given.clone())), Some(given.clone())));
+    }
+    match found_upwards() {
+        Some(found) => Ok((Box::new(Folder::new(found.clone())), Some(found))),
+        None => Ok((Box::new(BuiltIn), None)),
+    }
+}
+
+/// A `labs` folder with a robots folder in it, here or above: another project's `labs` is none.
+fn found_upwards() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok()?;
+    here.ancestors()
+        .map(|folder| folder.join("labs"))
+        .find(|labs| labs.join("robots").is_dir())
+        .map(|labs| relative(&labs, &here))
+}
+
+/// `path` as seen from `here` where it lies above: messages name `../labs`, not the machine's folders.
+fn relative(path: &Path, here: &Path) -> PathBuf {
+    for (up, above) in here.ancestors().enumerate() {
+        if let Ok(inside) = path.strip_prefix(above) {
+            let mut seen = PathBuf::new();
+            for _ in 0..up {
+                seen.push("..");
+            }
+            seen.push(inside);
+            return seen;
+        }
+    }
+    path.to_owned()
+}

@@ -1,0 +1,69 @@
+//! Where the course staff's part of the labs is found: in the folder given, or in a `reference` folder beside the labs.
+
+use std::path::{Path, PathBuf};
+
+use crate::disk::Folder;
+use crate::failure::Failure;
+
+/// Which part of the course staff takes part in grading.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct StaffArgs {
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) reference: Option<PathBuf>,
+    /// Grade visible cases only, as for students
+    #[arg(long, conflicts_with = "reference")]
+    pub(crate) practice: bool,
+    /// Salt for the random hidden cases, instead of the one in hidden.toml [env: KINEMARK_SALT]
+    #[arg(
+        long,
+        value_name = "TEXT",
+        env = SALT,
+        hide_env = true,
+        value_parser = salt
+    )]
+    pub(crate) salt: Option<String>,
+}
+
+/// The variable that holds a salt.
+const SALT: &str = "KINEMARK_SALT";
+
+/// Refuses a salt that everyone knows: that of a secret that is not set.
+fn salt(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() {
+        let is_of_environment = std::env::var(SALT).is_ok_and(|salt| salt == text);
+        return Err(if is_of_environment {
+            format!("the salt is empty: unset {SALT} in the environment to use hidden.toml's")
+        } else {
+            "the salt is empty: leave --salt out to use hidden.toml's".to_owned()
+        });
+    }
+    Ok(text.to_owned())
+}
+
+/// The staff's part: that of `--reference`, else a `reference` folder beside the labs folder; `None` in practice.
+pub(crate) fn open(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folder>, Failure> {
+    if args.practice {
+        return Ok(None);
+    }
+    if let Some(given) = &args.reference {
+        if !given.is_dir() {
+            return Err(Failure::usage(
+                format!("`{}` is not a directory", given.display()),
+                "give the course staff's folder, or use --practice to grade visible cases only",
+            ));
+        }
+        return Ok(Some(Folder::new(given.clone())));
+    }
+    let beside = labs.map(|labs| {
+        let parent = labs
+            .parent()
+            .filter(|parent| !parent.as_os_str().is_empty());
+        parent.unwrap_or(Path::new(".")).join("reference")
+    });
+    let beside = beside.filter(|folder| folder.is_dir());
+    Ok(beside.map(|folder| {
+        let plain = folder.strip_prefix(".").map(Path::to_owned);
+        Folder::new(plain.unwrap_or(folder))
+    }))
+}

@@ -1,0 +1,49 @@
+//! Requests to a robot and their answers: one JSON object in, one out. docs/robot-eval.md is the reference.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `operation` | the list of operations, and how a line becomes an answer |
+//! | `robot_info`, `kinematics`, `inverse_kinematics`, `dynamics`, `trajectory`, `simulation` | requests and answers, by group |
+//! | `simulation_record` | the answer to `simulate` |
+//! | `joint_state`, `number_fields` | what fields of many requests have in common |
+//! | `field_reader` | JSON to typed requests, with errors that name the field |
+//! | `refusal` | why a request is not answered |
+
+mod dynamics;
+mod field_reader;
+mod inverse_kinematics;
+mod joint_state;
+mod kinematics;
+mod number_fields;
+mod operation;
+mod refusal;
+mod robot_info;
+mod simulation;
+mod simulation_record;
+mod trajectory;
+
+pub use dynamics::{
+    Aba, Accelerations, Bias, Coriolis, Crba, DriveEfforts, Efforts, Energies, Energy, Gravity,
+    InverseDynamics, MassMatrix, Rnea,
+};
+pub use field_reader::{Fields, FromFields};
+pub use inverse_kinematics::{GroupOrder, Ik, IkMethod, IkResidual, IkSolution, IkTarget};
+pub use kinematics::{
+    AngleSet, CentreOfMass, Com, CountedLinks, Fk, FramePose, Jacobian, JacobianDerivative,
+    JacobianDerivativeRows, JacobianRows, Manipulability, ManipulabilityMeasures, Workspace,
+    WorkspacePoints,
+};
+pub use number_fields::{Numbers, RowNames, TwistRows};
+pub use operation::{
+    FrameName, NamedOperation, OPERATIONS, Operation, Subject, answer_line, operation_names,
+    refused,
+};
+pub use refusal::{Code, Refusal};
+pub use robot_info::{Info, JointInfo, MimicInfo, RobotInfo};
+pub use simulation::{ServoDerivative, ServoMode, ServoTable, Simulate};
+pub use simulation_record::{ContactRecord, EventRecord, SampledRun, SceneRecord};
+pub use trajectory::{
+    ArcMotion, ArcPoints, AxisSamples, CubicMotion, JerkLimitedMotion, LawDuration, LawJerkLimits,
+    LawLimits, LineEnds, LineMotion, Motion, PathEnd, PathSamples, PlanTrajectory, PlannedMotion,
+    QuinticMotion, SplineMotion, TimeLaw, TrapezoidMotion,
+};

@@ -1,0 +1,23 @@
+//! Questions to a robot and their answers: what the commands `kinemark robot` and `kinemark scene` print, as values.
+//!
+//! This crate opens no file and has no terminal: it is handed texts, and what reads meshes by their names. It builds for
+//! WebAssembly.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`robot_source`] | a robot from its text: which format it is, and how it is read |
+//! | [`robot_show`] | a robot as text for people and as JSON |
+//! | [`robot_convert`] | any robot as a robot file |
+//! | [`eval`] | requests and answers: kinematics, dynamics, trajectories, simulation |
+//! | [`scene_check`] | what is wrong with a scene, as text and as JSON |
+//! | [`styled_text`] | text with emphasis, which a terminal or a page shows in its own way |
+//! | [`number`] | numbers as people read them |
+
+pub mod eval;
+mod joint_names;
+pub mod number;
+pub mod robot_convert;
+pub mod robot_show;
+pub mod robot_source;
+pub mod scene_check;
+pub mod styled_text;
