@@ -113,7 +113,7 @@ pub struct CheckComparison {
     pub points: Pair,
 }
 
-/// What ended a task early: the submission was stopped, or the motion went beyond all reason.
+/// What ended a task early: the submission was stopped, or the simulation diverged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ended {
     /// The tick of a motion task at which it did.

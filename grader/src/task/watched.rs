@@ -2,9 +2,8 @@
 
 use kinemark_sim::engine::Party;
 use kinemark_sim::event::SeenSide;
+use kinemark_sim::event_words::Names;
 use nalgebra::Vector3;
-
-use crate::record::names::Names;
 
 /// How a free body is to fall, and what less than that is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -55,8 +55,8 @@ fn not_finite(text: &str) -> Option<Range<usize>> {
 impl Reporter<'_> {
     /// What the JSON reader refused, at its place.
     pub(in crate::lab) fn json<T>(&self, error: &serde_json::Error) -> Result<T, LabError> {
-        let text = error.to_string();
-        let message = text.split(" at line ").next().unwrap_or(&text);
+        let refusal = error.to_string();
+        let message = refusal.split(" at line ").next().unwrap_or(&refusal);
         let text = self.source.text();
         let lines = text.split_inclusive('\n');
         let before = lines
