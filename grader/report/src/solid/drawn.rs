@@ -1,6 +1,7 @@
 //! What every renderer asks a solid for, and the list of the solids that there are.
 
 use kinemark_sim::model::inertia::Solid;
+#[cfg(feature = "log")]
 use kinemark_sim::spatial::Pose;
 use nalgebra::Point3;
 
