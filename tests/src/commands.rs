@@ -1,11 +1,11 @@
-//! The small commands: labs, new, completions, help.
+//! The small commands: the list of labs, new, completions, help, and names of before.
 
 use crate::testbed::TestBed;
 
 #[test]
 fn labs_are_listed_from_the_binary_alone() {
     let bed = TestBed::new();
-    let ran = bed.run(&["labs"]);
+    let ran = bed.run(&[]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     for lab in [
         "00-step-response",
@@ -14,7 +14,7 @@ fn labs_are_listed_from_the_binary_alone() {
     ] {
         assert!(ran.stdout.contains(lab), "{ran:?}");
     }
-    let ran = bed.run(&["labs", "--json"]);
+    let ran = bed.run(&["--json"]);
     let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     assert_eq!(labs[1]["name"], "01-kinematics");
     assert_eq!(labs[1]["points"], 24.0);
@@ -35,7 +35,7 @@ fn a_student_starts_grades_and_sees_the_warm_up_pass() {
     // nothing of a student's work is overwritten
     let ran = bed.run(&["new", "01-kinematics"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("is there already"), "{ran:?}");
+    assert!(ran.stderr.contains("already exists"), "{ran:?}");
 }
 
 #[test]
@@ -44,9 +44,27 @@ fn completions_name_every_command() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let ran = bed.run(&["completions", shell]);
         assert_eq!(ran.code, Some(0), "{ran:?}");
-        for command in ["grade", "verify", "labs", "new", "robot", "scene", "lab"] {
+        for command in ["grade", "verify", "new", "robot", "scene", "log", "lab"] {
             assert!(ran.stdout.contains(command), "{shell} {command}");
         }
+    }
+}
+
+#[test]
+fn a_renamed_command_says_its_new_name_and_does_nothing() {
+    let bed = TestBed::new();
+    for (old, message) in [
+        ("export", "`kinemark export` is now `kinemark log export`"),
+        ("labs", "`kinemark labs` is now `kinemark`"),
+        (
+            "variant",
+            "`kinemark variant` is now `kinemark lab variant`",
+        ),
+    ] {
+        let ran = bed.run(&[old, "--json"]);
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains(message), "{ran:?}");
+        assert_eq!(ran.stdout, "");
     }
 }
 

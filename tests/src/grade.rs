@@ -97,7 +97,7 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
         "submission.rhai",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("is not a folder"), "{ran:?}");
+    assert!(ran.stderr.contains("is not a directory"), "{ran:?}");
     bed.write("thesis/chapter.tex", "precious");
     let ran = bed.run(&[
         "grade",
@@ -107,7 +107,7 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
         "thesis",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("holds `chapter.tex`"), "{ran:?}");
+    assert!(ran.stderr.contains("contains `chapter.tex`"), "{ran:?}");
     // not even beside an earlier report
     bed.write("out/notes.txt", "precious");
     let ran = bed.run(&args);

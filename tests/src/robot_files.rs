@@ -154,7 +154,7 @@ fn nothing_is_overwritten_unasked() {
         "--force",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("is the robot itself"), "{ran:?}");
+    assert!(ran.stderr.contains("is the robot's own file"), "{ran:?}");
     assert_eq!(
         std::fs::read_to_string(bed.path("mine.toml")).expect("there"),
         before
@@ -206,7 +206,7 @@ fn what_cannot_be_shown_says_why() {
         (
             &["arm.urdf", "--base", "1"],
             2,
-            "--base is for joints in a row",
+            "--base is for joint strings",
         ),
         (&["arm.toml", "--ignore-mimic"], 2, "remove `mimic`"),
         (
@@ -222,7 +222,7 @@ fn what_cannot_be_shown_says_why() {
         (
             &["arm.urdf", "--package", "a=nowhere"],
             2,
-            "`nowhere` of package `a` is not there",
+            "`nowhere` of package `a` does not exist",
         ),
         (&["arm.urdf", "--package", "a"], 2, "NAME=DIR"),
         (&["arm.urdf.xacro"], 2, "xacro arm.urdf.xacro > arm.urdf"),

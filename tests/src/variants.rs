@@ -139,7 +139,7 @@ fn graded(bed: &TestBed, submission: &str) -> Grade {
 fn staff_write_the_numbers_of_a_student() {
     let bed = bed();
     let of = |student: &str, more: &[&str]| {
-        let args = ["variant", "93-touch", "--student", student];
+        let args = ["lab", "variant", "93-touch", "--student", student];
         bed.run(&[&args, more].concat())
     };
     let printed = of("s1234567", &[]);
@@ -162,7 +162,7 @@ fn staff_write_the_numbers_of_a_student() {
     assert_eq!(written, printed.stdout);
     let again = of("s1234567", &["--out", "variant.toml"]);
     assert_eq!(again.code, Some(2), "{again:?}");
-    assert!(again.stderr.contains("is there already"), "{again:?}");
+    assert!(again.stderr.contains("already exists"), "{again:?}");
     let json: Json = serde_json::from_str(&of("s1234567", &["--json"]).stdout).expect("JSON");
     assert_eq!(json["student"], "s1234567");
     assert!(json["parameters"]["lengths"][1].is_number());
@@ -188,7 +188,8 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
     let variant = std::fs::read_to_string(bed.path("mine/variant.toml")).expect("variant");
     assert_eq!(
         variant,
-        bed.run(&["variant", "93-touch", "--student", "s7"]).stdout
+        bed.run(&["lab", "variant", "93-touch", "--student", "s7"])
+            .stdout
     );
     let out = variant
         .lines()
@@ -210,7 +211,7 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(
         ran.stdout
-            .starts_with("with the numbers of mine/variant.toml\n"),
+            .starts_with("using the variant in mine/variant.toml\n"),
         "{ran:?}"
     );
     assert!(
@@ -613,7 +614,7 @@ fn digests_of_hidden_parts_tell_nothing_without_the_salt() {
 #[test]
 fn an_empty_salt_is_no_salt() {
     let bed = bed();
-    let args = ["variant", "93-touch", "--student", "s7"];
+    let args = ["lab", "variant", "93-touch", "--student", "s7"];
     for salt in ["", " "] {
         let by_option = bed.run(&[&args[..], &["--salt", salt]].concat());
         let mut by_environment = bed.command(&args);
@@ -659,7 +660,15 @@ fn links_of_students_are_not_followed() {
     std::fs::remove_dir(&beside).expect("removed");
 
     // what a person names may be one
-    let args = ["variant", "93-touch", "--student", "s7", "--out", "s7.toml"];
+    let args = [
+        "lab",
+        "variant",
+        "93-touch",
+        "--student",
+        "s7",
+        "--out",
+        "s7.toml",
+    ];
     assert_eq!(bed.run(&args).code, Some(0));
     symlink(bed.path("s7.toml"), bed.path("link.toml")).expect("link");
     let ran = bed.run(&[&mine[..], &["--variant", "link.toml"]].concat());
@@ -671,7 +680,7 @@ fn links_of_students_are_not_followed() {
 fn a_grade_of_everybodys_numbers_says_so() {
     let bed = bed();
     let args = ["grade", "93-touch", "solution.rhai"];
-    let says = "no variant: everybody's numbers of lab.toml\n";
+    let says = "no variant given: using the default parameters of lab.toml\n";
     let ran = bed.run(&args);
     assert!(ran.stdout.starts_with(says), "{ran:?}");
     let ran = bed.run(&[&args[..], &["--json"]].concat());
@@ -684,7 +693,7 @@ fn a_grade_of_everybodys_numbers_says_so() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(
         ran.stdout
-            .starts_with("with the numbers of student s7; variant.toml is not used\n"),
+            .starts_with("using the variant of student s7; variant.toml is not used\n"),
         "{ran:?}"
     );
 }

@@ -82,5 +82,5 @@ fn what_is_no_report_is_said_so() {
     bed.write("folder/grade.json", "{}");
     let ran = bed.run(&["verify", "folder"]);
     assert_eq!(ran.code, Some(3));
-    assert!(ran.stderr.contains("no grade record"), "{ran:?}");
+    assert!(ran.stderr.contains("not a grade record"), "{ran:?}");
 }

@@ -57,7 +57,7 @@ fn every_save_is_graded_and_open_pages_are_told() {
 
     // gone, then put in place by renaming, as editors do
     std::fs::remove_file(bed.path("mine.rhai")).expect("removed");
-    serving.line_with("mine.rhai is gone; graded again when it is back");
+    serving.line_with("mine.rhai is gone; it is graded again when it is back");
     bed.write("mine.rhai.new", good.replace("time < 2.5", "time < 2.6"));
     std::fs::rename(bed.path("mine.rhai.new"), bed.path("mine.rhai")).expect("renamed");
     serving.line_with(" of 24 points, ");

@@ -1,52 +1,49 @@
 //! The commands as one tree, in the order in which help lists them, and which function runs each.
 
+use std::ffi::OsStr;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, completions, export, grade, lab_check, labs, new, robot_convert, robot_eval,
-    robot_show, scene_check, variant, verify, view, watch,
+    compare, completions, grade, lab_check, lab_list, lab_variant, log_export, new, robot_convert,
+    robot_eval, robot_show, scene_check, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
 
-/// Grades robotics coursework: the same bits everywhere, every lost point explained.
+/// Grades robotics coursework: the same bits everywhere, every lost point explained. Without a command it lists the labs.
 #[derive(Debug, Parser)]
-#[command(
-    name = "kinemark",
-    version,
-    arg_required_else_help = true,
-    max_term_width = 100
-)]
-#[command(
-    after_help = "Start with `kinemark labs`, then `kinemark new 01-kinematics`.\n\
+#[command(name = "kinemark", version, max_term_width = 100)]
+#[command(args_conflicts_with_subcommands = true)]
+#[command(after_help = "Start with `kinemark new 01-kinematics`.\n\
     Exit codes: 0 full marks or done, 1 points lost or answers with errors, 2 usage, 3 the lab, robot or scene is broken, \
-    4 the grader or this machine failed."
-)]
+    4 the grader or this machine failed.")]
 pub(crate) struct CommandLine {
+    #[command(flatten)]
+    lab_list: lab_list::Args,
     #[command(subcommand)]
-    pub(crate) command: Command,
+    pub(crate) command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    Grade(grade::Args),
-    Verify(verify::Args),
-    View(view::Args),
-    Watch(watch::Args),
-    Compare(compare::Args),
-    Export(export::Args),
-    Labs(labs::Args),
     New(new::Args),
-    Variant(variant::Args),
-    /// Show, convert or ask a robot: kinematics, dynamics, simulation
+    Grade(grade::Args),
+    Watch(watch::Args),
+    View(view::Args),
+    Compare(compare::Args),
+    Verify(verify::Args),
+    /// Show, convert or query a robot: kinematics, dynamics, simulation
     #[command(subcommand)]
     Robot(RobotCommand),
     /// Check a scene
     #[command(subcommand)]
     Scene(SceneCommand),
-    /// Check a lab
+    /// Read the log of a run
+    #[command(subcommand)]
+    Log(LogCommand),
+    /// Check a lab, or generate a student's variant of it: for course staff
     #[command(subcommand)]
     Lab(LabCommand),
     Completions(completions::Args),
@@ -68,32 +65,64 @@ pub(crate) enum SceneCommand {
 }
 
 #[derive(Debug, Subcommand)]
+pub(crate) enum LogCommand {
+    Export(log_export::Args),
+}
+
+#[derive(Debug, Subcommand)]
 pub(crate) enum LabCommand {
     Check(lab_check::Args),
+    Variant(lab_variant::Args),
 }
 
 impl CommandLine {
     /// Runs what was typed.
     pub(crate) fn run(self) -> Result<ExitCode, Failure> {
-        match self.command {
-            Command::Grade(args) => grade::run(&args),
-            Command::Verify(args) => verify::run(&args),
-            Command::View(args) => view::run(&args),
-            Command::Watch(args) => watch::run(&args),
-            Command::Compare(args) => compare::run(&args),
-            Command::Export(args) => export::run(&args),
-            Command::Labs(args) => labs::run(&args),
+        let Some(command) = self.command else {
+            return lab_list::run(&self.lab_list);
+        };
+        match command {
             Command::New(args) => new::run(&args),
-            Command::Variant(args) => variant::run(&args),
+            Command::Grade(args) => grade::run(&args),
+            Command::Watch(args) => watch::run(&args),
+            Command::View(args) => view::run(&args),
+            Command::Compare(args) => compare::run(&args),
+            Command::Verify(args) => verify::run(&args),
             Command::Robot(RobotCommand::Show(args)) => robot_show::run(&args),
             Command::Robot(RobotCommand::Convert(args)) => robot_convert::run(&args),
             Command::Robot(RobotCommand::Eval(args)) => robot_eval::run(&args),
             Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
+            Command::Log(LogCommand::Export(args)) => log_export::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
+            Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
             Command::Completions(args) => completions::run(&args),
             Command::Worker => Ok(worker::serve()),
         }
     }
+}
+
+/// Commands that have another name now.
+const RENAMED: [(&str, &str); 3] = [
+    ("export", "kinemark log export"),
+    ("labs", "kinemark"),
+    ("variant", "kinemark lab variant"),
+];
+
+/// Refuses the first word typed if a command once had that name, and says its name of today.
+///
+/// # Errors
+/// Exit code 2 with the new name.
+pub(crate) fn refuse_renamed(first: Option<&OsStr>) -> Result<(), Failure> {
+    let renamed = RENAMED
+        .iter()
+        .find(|(old, _)| first == Some(OsStr::new(old)));
+    let Some((old, new)) = renamed else {
+        return Ok(());
+    };
+    Err(Failure::usage(
+        format!("`kinemark {old}` is now `{new}`"),
+        &format!("`{new} --help` shows its options"),
+    ))
 }
 
 #[cfg(test)]
@@ -104,6 +133,18 @@ mod tests {
     fn the_commands_are_consistent() {
         use clap::CommandFactory as _;
         CommandLine::command().debug_assert();
+    }
+
+    #[test]
+    fn a_renamed_command_says_its_new_name() {
+        for (old, new) in RENAMED {
+            let words = new.split_whitespace().chain(["--help"]);
+            let help = CommandLine::try_parse_from(words).unwrap_err();
+            assert_eq!(help.kind(), clap::error::ErrorKind::DisplayHelp, "{new}");
+            assert!(refuse_renamed(Some(OsStr::new(old))).is_err());
+        }
+        assert!(refuse_renamed(Some(OsStr::new("grade"))).is_ok());
+        assert!(refuse_renamed(None).is_ok());
     }
 
     /// The reference of the command line is that of the code; `KINEMARK_BLESS=1` writes it anew.

@@ -85,7 +85,7 @@ impl Failure {
 /// Prints what ends nothing, but should be mended.
 pub(crate) fn warn(what: &str, diagnostic: &dyn Diagnostic) {
     use std::io::Write as _;
-    // who cannot be told is not told
+    // without standard error there is no one to warn
     let _ = anstream::stderr().write_all(format!("warning: {what}\n").as_bytes());
     show(diagnostic);
 }

@@ -132,7 +132,7 @@ pub(crate) fn refuse_foreign(
     }
     if !out.is_dir() {
         return Err(Failure::usage(
-            format!("`{shown}` is there and is not a folder"),
+            format!("`{shown}` exists and is not a directory"),
             help,
         ));
     }
@@ -141,7 +141,9 @@ pub(crate) fn refuse_foreign(
         std::env::current_dir().is_ok_and(|here| disk::real(&here).starts_with(&real));
     if is_around_us {
         return Err(Failure::usage(
-            format!("`{shown}` is the folder you are in, or one around it: it cannot be replaced"),
+            format!(
+                "`{shown}` is the current directory or one of its parents, which cannot be replaced"
+            ),
             help,
         ));
     }
@@ -151,11 +153,7 @@ pub(crate) fn refuse_foreign(
         let unread = |error: std::io::Error| {
             let path = real.join(&folder);
             Failure::usage(
-                format!(
-                    "`{}` cannot be looked into: {}",
-                    path.display(),
-                    plain(&error)
-                ),
+                format!("`{}` cannot be listed: {}", path.display(), plain(&error)),
                 help,
             )
         };
@@ -179,7 +177,7 @@ pub(crate) fn refuse_foreign(
                 Entry::Ours | Entry::Inside | Entry::Kept | Entry::Foreign => {
                     return Err(Failure::usage(
                         format!(
-                            "`{shown}` holds `{}`, which is no part of {whole}",
+                            "`{shown}` contains `{}`, which is not part of {whole}",
                             visible(&path)
                         ),
                         help,

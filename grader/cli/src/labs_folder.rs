@@ -11,8 +11,8 @@ use crate::failure::Failure;
 /// Which folder the labs come from.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct LabsFolderArgs {
-    /// Folder of the labs [default: a `labs` folder here or above, else the labs built in]
-    #[arg(long, value_name = "DIR", global = true)]
+    /// Folder of the labs [default: a `labs` folder here or above, else the built-in labs]
+    #[arg(long, value_name = "DIR")]
     pub(crate) labs: Option<PathBuf>,
 }
 
@@ -56,7 +56,7 @@ pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<Path
     if let Some(given) = &args.labs {
         if !given.is_dir() {
             return Err(Failure::usage(
-                format!("`{}` is not a folder", given.display()),
+                format!("`{}` is not a directory", given.display()),
                 "give the folder that holds the labs, such as `--labs course/labs`",
             ));
         }

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
+mod chosen_variant;
 mod command_line;
 mod commands;
 mod disk;
@@ -21,10 +22,12 @@ mod scenes_to_check;
 mod serve;
 mod staff_folder;
 mod typed_numbers;
-mod variants;
 mod worker;
 
 fn main() -> ExitCode {
+    if let Err(failure) = command_line::refuse_renamed(std::env::args_os().nth(1).as_deref()) {
+        return failure.report();
+    }
     let args = match command_line::CommandLine::try_parse() {
         Ok(args) => args,
         Err(error) => {

@@ -279,7 +279,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     let there = |name: &str| match folder.join(name).symlink_metadata() {
         Ok(_) => Ok(()),
         Err(_) => Err(Failure::broken(
-            format!("`{shown}` has no {name}: it is no report, or not all of one"),
+            format!("`{shown}` has no {name}: it is not a complete report"),
             "name the folder that `kinemark grade` wrote, or grade the submission again",
         )),
     };
@@ -316,7 +316,7 @@ fn record(path: &Path) -> Result<Grade, Failure> {
     let shown = path.display();
     let unread = |why: &str| {
         Failure::broken(
-            format!("`{shown}` is no grade record that this version reads: {why}"),
+            format!("`{shown}` is not a grade record of this version: {why}"),
             "grade the submission again",
         )
     };
@@ -338,7 +338,7 @@ pub(crate) fn lab_of(report: &Report) -> Result<(Lab, Folder), Failure> {
         // nobody named a lab here
         LoadError::UnknownLab { .. } => Failure::broken(
             format!(
-                "`{}` holds no lab `{}`: the report is not all there",
+                "`{}` has no lab `{}`: the report is not complete",
                 report.labs.display(),
                 visible(&report.grade.lab.name)
             ),

@@ -1,4 +1,4 @@
-//! The robot that a person names on the command line: a robot file, a URDF, joints in a row, or a robot of the labs.
+//! The robot that a person names on the command line: a robot file, a URDF, a joint string, or a robot of the labs.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -21,18 +21,18 @@ use crate::labs_folder::{self, LabsFolderArgs};
 /// Which robot, and how it is read.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct RobotArgs {
-    /// A robot file (.toml or .urdf), a robot of the labs by its name, or its joints in a row such as RzRyRz
+    /// A robot file (.toml or .urdf), the name of a robot of the labs, or a joint string such as RzRyRz
     pub(crate) robot: OsString,
-    /// Height of the first joint of joints in a row, in metres [default: 0]
+    /// Height of the first joint of a joint string, in metres [default: 0]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) base: Option<f64>,
-    /// Links of joints in a row: one lx,ly,lz per joint, in metres, with semicolons between
+    /// Links of a joint string: one lx,ly,lz per joint, in metres, separated by semicolons
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     pub(crate) links: Option<String>,
-    /// Folder of a ROS package that a URDF names its meshes by; may be given several times
+    /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
     #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
     pub(crate) packages: Vec<(String, PathBuf)>,
-    /// Give the mimic joints of a URDF entries of their own
+    /// Give the mimic joints of a URDF their own entries in q
     #[arg(long)]
     pub(crate) ignore_mimic: bool,
     #[command(flatten)]
@@ -94,7 +94,7 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
     Err(Failure::usage(
         format!("there is no robot file or robot `{name}`"),
         &format!(
-            "{}; joints in a row are written like RzRyRz, with --links",
+            "{}; a joint string is written like RzRyRz, with --links",
             suggest(&name, "robots", known.iter().map(String::as_str))
         ),
     ))
@@ -105,12 +105,12 @@ fn broken(error: RobotError) -> Failure {
 }
 
 fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
-    refuse_urdf_options(args, &format!("`{text}` are joints in a row"))?;
+    refuse_urdf_options(args, &format!("`{text}` is a joint string"))?;
     let Some(links) = &args.links else {
         let count = text.chars().count() / 2;
         let example = vec!["0,0,1"; count.clamp(1, 8)].join("; ");
         return Err(Failure::usage(
-            format!("`{text}` says its joints but not its links"),
+            format!("`{text}` gives joints but no links"),
             &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
         ));
     };
@@ -121,7 +121,7 @@ fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
     Ok(Loaded { robot, meshes })
 }
 
-/// `--links` and `--base` belong to joints in a row; elsewhere they would say something that nobody hears.
+/// `--links` and `--base` belong to joint strings; elsewhere they would have no effect.
 fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
     let given = match (&args.links, args.base) {
         (Some(_), _) => "--links",
@@ -129,7 +129,7 @@ fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failu
         (None, None) => return Ok(()),
     };
     Err(Failure::usage(
-        format!("{given} is for joints in a row such as RzRyRz, and {what}"),
+        format!("{given} is for joint strings such as RzRyRz, but {what}"),
         &format!("leave {given} out"),
     ))
 }
@@ -150,7 +150,7 @@ fn refuse_urdf_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
         return Ok(());
     };
     Err(Failure::usage(
-        format!("{given} is for URDFs, and {what}"),
+        format!("{given} is for URDFs, but {what}"),
         &format!("leave {given} out{instead}"),
     ))
 }
@@ -191,7 +191,7 @@ fn refuse_xacro(path: &Path) -> Result<(), Failure> {
     let plain = plain.file_name().unwrap_or_default().to_string_lossy();
     let stem = plain.trim_end_matches(".urdf");
     Err(Failure::usage(
-        format!("`{shown}` is a xacro file, from which a URDF is made first"),
+        format!("`{shown}` is a xacro file; convert it to a URDF first"),
         &format!("run `xacro {shown} > {stem}.urdf`, and name {stem}.urdf here"),
     ))
 }
@@ -203,7 +203,7 @@ fn refuse_missing_packages(packages: &[(String, PathBuf)]) -> Result<(), Failure
     };
     Err(Failure::usage(
         format!(
-            "the folder `{}` of package `{name}` is not there",
+            "the folder `{}` of package `{name}` does not exist",
             folder.display()
         ),
         "give the folder that holds the package's package.xml",
@@ -252,7 +252,7 @@ fn mesh_candidates(
         }
         MeshLocation::Unsupported { scheme } => {
             return Err(format!(
-                "addresses with `{scheme}://` are not read; save the file beside the URDF and name it there"
+                "`{scheme}://` addresses are not supported; save the file beside the URDF and use its path there"
             ));
         }
         MeshLocation::Package { path: "", .. } => {
@@ -281,7 +281,7 @@ fn mesh_candidates(
         return Ok(candidates);
     }
     Err(format!(
-        "there is no package `{package}` with it around the URDF, nor `{}`; name the package's folder: --package {package}=DIR",
+        "no package `{package}` with this file was found around the URDF, and no `{}`; give the package's folder: --package {package}=DIR",
         folder.join(inside).display()
     ))
 }

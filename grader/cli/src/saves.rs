@@ -12,9 +12,9 @@ use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::{labs_folder, staff_folder};
 
-/// What is told.
+/// What a watched grade reacts to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Told {
+pub(crate) enum WatchEvent {
     /// Something that is graded with may be another.
     Saved,
     /// Ctrl-C.
@@ -27,8 +27,8 @@ pub(crate) struct Saves {
 }
 
 impl Saves {
-    /// Starts to tell `told` of every save that concerns the grade asked for.
-    pub(crate) fn listen(args: &grade::Args, told: Sender<Told>) -> Result<Self, Failure> {
+    /// Starts to send an event to `events` for every save that concerns the grade.
+    pub(crate) fn listen(args: &grade::Args, events: Sender<WatchEvent>) -> Result<Self, Failure> {
         let concerns = Concerns::of(args)?;
         let trees = concerns.trees.clone();
         // folders and not files: editors put another file in a file's place
@@ -45,7 +45,7 @@ impl Saves {
                 };
                 if saved {
                     // the other side being gone is the end
-                    let _ = told.send(Told::Saved);
+                    let _ = events.send(WatchEvent::Saved);
                 }
             })
             .map_err(|error| unheard(&error))?;
@@ -69,7 +69,7 @@ fn unheard(error: &notify::Error) -> Failure {
         other => format!("{other:?}"),
     };
     Failure::fault(
-        format!("this system does not tell of saves: {why}"),
+        format!("cannot watch files: {why}"),
         "use `kinemark grade` after each change",
     )
 }
@@ -192,7 +192,7 @@ mod tests {
                 &path("labs"),
             ];
             let args = crate::command_line::CommandLine::try_parse_from(args).unwrap();
-            let crate::command_line::Command::Grade(args) = args.command else {
+            let Some(crate::command_line::Command::Grade(args)) = args.command else {
                 panic!("{args:?}")
             };
             let concerns = Concerns::of(&args).unwrap();

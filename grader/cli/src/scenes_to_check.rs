@@ -36,8 +36,8 @@ pub(crate) fn scenes_to_check(args: &Args) -> Result<ScenesToCheck, Failure> {
     if let Some(lab) = lab(args)? {
         if args.robot.is_some() {
             return Err(Failure::usage(
-                format!("`{}` is a lab, which brings its own robot", lab.name),
-                "leave --robot and what belongs to it out, or name one of the lab's scenes instead",
+                format!("`{}` is a lab, which has its own robot", lab.name),
+                "leave out --robot and its options, or name one of the lab's scenes instead",
             ));
         }
         return of_lab(lab);
@@ -209,14 +209,14 @@ fn start(robot: &Robot, text: &str) -> Result<Vec<f64>, Failure> {
         return closed_positions(robot, &found).map_err(|error| {
             Failure::usage(
                 format!("--start does not close the robot's loops: {error}"),
-                "give positions that the mechanism can stand at",
+                "give positions that the mechanism can reach",
             )
         });
     }
     let mut help = format!("give one number per joint that moves: {}", names.join(", "));
     if independent.len() < robot.n() {
         let free: Vec<&str> = independent.iter().map(|&entry| names[entry]).collect();
-        help += &format!("; or per independent one: {}", free.join(", "));
+        help += &format!("; or one per independent joint: {}", free.join(", "));
     }
     Err(Failure::usage(
         format!(

@@ -8,13 +8,13 @@ use crate::failure::Failure;
 /// Which part of the course staff takes part in grading.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct StaffArgs {
-    /// Folder of the staff's reference [default: `reference` beside the labs folder]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
     #[arg(long, value_name = "DIR")]
     pub(crate) reference: Option<PathBuf>,
-    /// Grade on visible cases only, as students do
+    /// Grade visible cases only, as for students
     #[arg(long, conflicts_with = "reference")]
     pub(crate) practice: bool,
-    /// Salt that hidden cases are drawn with, in place of the one in hidden.toml [env: KINEMARK_SALT]
+    /// Salt for the random hidden cases, instead of the one in hidden.toml [env: KINEMARK_SALT]
     #[arg(
         long,
         value_name = "TEXT",
@@ -49,8 +49,8 @@ pub(crate) fn open(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folde
     if let Some(given) = &args.reference {
         if !given.is_dir() {
             return Err(Failure::usage(
-                format!("`{}` is not a folder", given.display()),
-                "give the staff's folder, or leave it out to practise",
+                format!("`{}` is not a directory", given.display()),
+                "give the course staff's folder, or use --practice to grade visible cases only",
             ));
         }
         return Ok(Some(Folder::new(given.clone())));

@@ -10,8 +10,8 @@ pub(crate) fn numbers(text: &str, option: &str, example: &str) -> Result<Vec<f64
     let number = |part: &str| match part.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => Err(Failure::usage(
-            format!("`{}` in {option} is no finite number", part.trim()),
-            &format!("write numbers with commas between: {option} \"{example}\""),
+            format!("`{}` in {option} is not a finite number", part.trim()),
+            &format!("separate numbers by commas: {option} \"{example}\""),
         )),
     };
     text.split(',').map(number).collect()

@@ -18,13 +18,13 @@ use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
 
-/// Hold two reports of a lab beside each other
+/// Compare two reports of the same lab
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  kinemark compare before after\n\n\
-    Tells the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
-    The runs are made again from the copies in the folders.\n\
+    Shows the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
+    The runs are repeated from the copies in the folders.\n\
     See docs/watch-and-compare.md.\n\
-    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is no report, 4 the grader or this machine failed.")]
+    Exit codes: 0 compared, 2 usage or two labs, 3 a folder is not a report, 4 the grader or this machine failed.")]
 pub(crate) struct Args {
     /// An output folder of `kinemark grade`
     pub(crate) a: PathBuf,
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut comparison = compare::compare(&sides[0], &sides[1]).map_err(|error| {
         Failure::usage(
             visible(&error.to_string()).into_owned(),
-            "name two reports of one lab; `kinemark grade` grades a submission in another",
+            "name two reports of the same lab; `kinemark grade` grades a submission in another",
         )
     })?;
     comparison.notes.extend(notes);
@@ -96,11 +96,11 @@ fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> 
     let [of_a, of_b] = [of_a, of_b].map(|name| visible(name));
     Err(Failure::usage(
         format!(
-            "`{}` is of lab `{of_a}` and `{}` of lab `{of_b}`: they have nothing in common",
+            "`{}` is of lab `{of_a}` and `{}` is of lab `{of_b}`: only reports of the same lab can be compared",
             args.a.display(),
             args.b.display()
         ),
-        "name two reports of one lab",
+        "name two reports of the same lab",
     ))
 }
 
@@ -126,7 +126,7 @@ fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
                 folder.display(),
                 visible(why)
             ),
-            "compare again on a machine that is less busy; nothing was written",
+            "compare again when this machine is less busy; nothing was written",
         ));
     }
     Ok(Again {
@@ -142,7 +142,7 @@ fn changed(again: &Again, name: &str) -> Vec<String> {
     let mut notes = Vec::new();
     if recorded.submission.digest != now.submission.digest {
         notes.push(format!(
-            "the submission in {name} is not the one that was graded: its points are the record's, its motions those of the file"
+            "the submission in {name} has changed since it was graded: its points are from the record, its motions from the file"
         ));
     }
     for task in recorded
@@ -160,8 +160,8 @@ fn changed(again: &Again, name: &str) -> Vec<String> {
             pairs.take_while(|(now, recorded)| now == recorded).count()
         });
         notes.push(format!(
-            "the motion of task `{}` made again from {name} is not the recorded one, from second {same} on; \
-             `kinemark verify` tells more",
+            "the repeated motion of task `{}` of {name} differs from the recorded one from second {same} on; \
+             `kinemark verify` shows more",
             task.name
         ));
     }

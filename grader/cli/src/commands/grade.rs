@@ -11,11 +11,11 @@ use kinemark_grader::record::verdict::Verdict;
 
 use kinemark_sim::source::Source;
 
+use crate::chosen_variant::{self, Chosen, VariantArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::report_folder::Pictures;
 use crate::staff_folder::{self, StaffArgs};
-use crate::variants::{self, Chosen, VariantArgs};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, report_folder};
 
@@ -25,13 +25,13 @@ use crate::{disk, interrupt, output, report_folder};
     after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n\n\
-    A file variant.toml beside the submission is taken where neither --variant nor --student is given.\n\
+    A file variant.toml beside the submission is used unless --variant or --student is given.\n\
     Neither it nor the submission may be a symbolic link.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]
 pub(crate) struct Args {
-    /// The lab, as `kinemark labs` names it
+    /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
     /// The submission
     pub(crate) submission: PathBuf,
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Print the grade record as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Write each plot as PNG, too, beside the SVG
+    /// Write each plot as a PNG beside the SVG
     #[arg(long)]
     pub(crate) png: bool,
     /// Write a storyboard of each motion task: six moments of the run in one picture, TASK/storyboard.png and .svg
@@ -50,8 +50,8 @@ pub(crate) struct Args {
     /// Run the submission in this process: for profiling trusted code
     #[arg(long)]
     pub(crate) in_process: bool,
-    /// Show the reference solution's motion beside the run, in the report and its logs: for staff. Its joint motion is the answer;
-    /// do not hand such a report to students
+    /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
+    /// answer; do not give such a report to students
     #[arg(long, conflicts_with = "practice")]
     pub(crate) ghost: bool,
     #[command(flatten)]
@@ -70,7 +70,7 @@ pub(crate) struct Work {
     lab: Lab,
     submission: Source,
     pub(crate) graded: GradedRun,
-    /// What was taken that nobody named.
+    /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let work = work(args)?;
     let grade = &work.graded.grade;
-    // the grade is told before anything is written: a full disk must not lose it
+    // printed before anything is written: a full disk must not lose the grade
     if args.json {
         output::print_json(grade)?;
     } else {
@@ -122,7 +122,7 @@ pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
 pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, mut note } = variants::choose(
+    let Chosen { lab, mut note } = chosen_variant::choose(
         &args.lab,
         files.as_ref(),
         reference.as_ref(),
@@ -137,14 +137,14 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     if args.ghost && staff.is_none() {
         return Err(Failure::usage(
             format!(
-                "--ghost shows the reference solution, and none of lab `{}` is here",
+                "--ghost needs the reference solution of lab `{}`, which was not found",
                 lab.name
             ),
-            "name the staff's folder with --reference DIR, or leave --ghost out",
+            "give the course staff's folder with --reference DIR, or leave --ghost out",
         ));
     }
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
-        note = Some("no variant: everybody's numbers of lab.toml".to_owned());
+        note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
     disk::refuse_link(&args.submission)?;
     let submission = disk::read(&args.submission, "a submission", MOST_SUBMISSION_BYTES)?;
@@ -164,7 +164,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     for fault in &graded.staff_faults {
         failure::warn(
-            "the points stand, but this file of the staff told nothing of the submission",
+            "the grade is valid, but a file of the course staff failed, so some feedback is missing",
             fault.as_ref(),
         );
     }
@@ -182,7 +182,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
 /// Where the storyboards are, a line each.
 fn storyboards(out: &Path, graded: &GradedRun) -> String {
     if graded.runs.is_empty() {
-        return "storyboard: none, because no motion task ran\n".to_owned();
+        return "storyboard: none, because no motion task was run\n".to_owned();
     }
     let lines = graded.runs.iter().map(|run| {
         let path = out.join(&run.task).join(report_folder::STORYBOARD);
@@ -200,7 +200,7 @@ fn staff_of(reference: &dyn Files, lab: &Lab, args: &Args) -> Result<Option<Staf
                 reference.name(),
                 lab.name
             ),
-            "check the folder, or leave --reference out to practise",
+            "check the folder, or use --practice to grade visible cases only",
         ));
     }
     Ok(staff)

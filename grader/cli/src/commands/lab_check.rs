@@ -20,28 +20,27 @@ use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs};
 use crate::{interrupt, output};
 
-/// Check a lab's grader with the staff's part: the starter misses, the reference solution has full marks, every known mistake
-/// loses points and is named
+/// Check a lab: its starter loses points, its reference solution gets full marks, and every mutant loses points and is named
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  kinemark lab check 02-jacobian-velocity --variants 200\n\n\
-    A starter may earn a tenth of the points; a lab has at least 6 known mistakes, each of which shows in 30 % of a function \
-    task's cases. Everything runs in this process: check labs of people you trust. See docs/lab-format.md.\n\
+    A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which shows in 30 % of a function \
+    task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
 )]
 pub(crate) struct Args {
-    /// The lab, as `kinemark labs` names it
+    /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
-    /// Draws of hidden cases that the reference solution is tried on, besides the lab's own
+    /// Number of extra random salts to test the reference solution with
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) salts: u32,
-    /// Students in whose variants the reference solution is tried, each with hidden cases and runs of their own
+    /// Number of student variants to test the reference solution with, each with its own hidden cases and runs
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(crate) variants: u32,
     /// Print what was tried as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Folder of the staff's reference [default: `reference` beside the labs folder]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
     #[arg(long, value_name = "DIR")]
     pub(crate) reference: Option<PathBuf>,
     #[command(flatten)]
@@ -60,7 +59,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let reference = staff_folder::open(&from, labs_folder.as_deref())?.ok_or_else(|| {
         Failure::usage(
             "there is no folder `reference` beside the labs".to_owned(),
-            "a lab is checked with the staff's part: give its folder with --reference DIR",
+            "a lab is checked with the course staff's part: give its folder with --reference DIR",
         )
     })?;
     let staff = |salt: Option<&str>| {
@@ -82,7 +81,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Ok(None) => {
             return Err(Failure::broken(
                 format!("lab `{}` has no starter.rhai", lab.name),
-                "write the file that students begin with beside lab.toml",
+                "write the file that students begin with, beside lab.toml",
             ));
         }
         Err(why) => {

@@ -2,16 +2,16 @@
 
 pub(crate) mod compare;
 pub(crate) mod completions;
-pub(crate) mod export;
 pub(crate) mod grade;
 pub(crate) mod lab_check;
-pub(crate) mod labs;
+pub(crate) mod lab_list;
+pub(crate) mod lab_variant;
+pub(crate) mod log_export;
 pub(crate) mod new;
 pub(crate) mod robot_convert;
 pub(crate) mod robot_eval;
 pub(crate) mod robot_show;
 pub(crate) mod scene_check;
-pub(crate) mod variant;
 pub(crate) mod verify;
 pub(crate) mod view;
 pub(crate) mod watch;

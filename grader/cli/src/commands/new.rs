@@ -8,12 +8,12 @@ use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_report::brief_page::brief_page;
 use serde::Serialize;
 
+use crate::chosen_variant::{self, Chosen, VariantArgs};
 use crate::disk::plain;
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::output;
 use crate::staff_folder::{self, StaffArgs};
-use crate::variants::{self, Chosen, VariantArgs};
 
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
@@ -21,7 +21,7 @@ use crate::variants::{self, Chosen, VariantArgs};
     after_help = "Example:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade 01-kinematics submission.rhai"
 )]
 pub(crate) struct Args {
-    /// The lab, as `kinemark labs` names it
+    /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
     /// Folder to write to [default: the lab's name]
     pub(crate) dir: Option<PathBuf>,
@@ -46,7 +46,7 @@ struct Written {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, .. } = variants::choose(
+    let Chosen { lab, .. } = chosen_variant::choose(
         &args.lab,
         files.as_ref(),
         reference.as_ref(),
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let brief = with_numbers(&with_grading(&read("brief.md")?, &lab), &lab).map_err(|why| {
         Failure::broken(
             format!("brief.md: {why}"),
-            "a mark is `<!-- = expression -->` behind the number it stands for",
+            "a mark is `<!-- = expression -->` after the number it computes",
         )
     })?;
     let page = brief_page(&lab.title, &brief);
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     if let Some((there, _)) = written.iter().find(|(path, _)| path.exists()) {
         return Err(Failure::usage(
-            format!("`{}` is there already", there.display()),
+            format!("`{}` already exists", there.display()),
             "name another folder, or move your work away first: nothing is overwritten",
         ));
     }

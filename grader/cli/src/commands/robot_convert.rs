@@ -16,7 +16,7 @@ use crate::robot_source::{self, RobotArgs};
 #[command(
     after_help = "Examples:\n  kinemark robot convert panda.urdf --out panda.toml\n  \
     kinemark robot convert RzRyRz --base 2 --links \"0,0,4; 3,0,0; 1,0,0\"\n\n\
-    Meshes are not copied: the file names them where they lie, seen from its own folder. Warnings go to standard error.\n\
+    Meshes are not copied: the new file has their paths relative to its own folder. Warnings go to standard error.\n\
     Exit codes: 0 written, 2 usage, 3 the robot is broken, 4 the file cannot be written."
 )]
 pub(crate) struct Args {
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// File to write [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace the file if it is there
+    /// Replace the file if it exists
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
 }
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Some(out) => output::write_file(out, toml.as_bytes()).map_err(|error| {
             Failure::fault(
                 format!("`{}` cannot be written: {}", out.display(), plain(&error)),
-                "choose another place with --out",
+                "choose another path with --out",
             )
         })?,
     }
@@ -68,8 +68,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 fn refuse_itself(robot: &Path, out: &Path) -> Result<(), Failure> {
     match (robot.canonicalize(), out.canonicalize()) {
         (Ok(from), Ok(to)) if from == to => Err(Failure::usage(
-            format!("`{}` is the robot itself", out.display()),
-            "name another file: what is converted is kept",
+            format!("`{}` is the robot's own file", out.display()),
+            "name another file: the original is kept",
         )),
         _ => Ok(()),
     }
@@ -87,7 +87,7 @@ fn refuse_taken(out: &Path, force: bool) -> Result<(), Failure> {
     let there = out.symlink_metadata().is_ok();
     if there && (!force || !out.is_file()) {
         return Err(Failure::usage(
-            format!("`{}` is there already", out.display()),
+            format!("`{}` already exists", out.display()),
             if out.is_file() {
                 "name another file, or replace it with --force"
             } else {

@@ -18,7 +18,7 @@ use crate::{disk, scene_source};
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
-    /// What is around the robot in `simulate`: a scene file, or a scene of the labs by its name
+    /// The scene around the robot in `simulate`: a scene file, or the name of a scene of the labs
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
 }

@@ -15,28 +15,28 @@ use crate::output;
 use crate::robot_source::package;
 use crate::scenes_to_check::scenes_to_check;
 
-/// Check a scene: overlaps at the start, bodies that do not stay, places a robot cannot get to
+/// Check a scene: overlaps at the start, bodies that do not rest, waypoints that are unreachable or in collision
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark scene check shelf-and-can\n  kinemark scene check my-scene.toml --robot rrbot --start 1.57,0\n  \
     kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  kinemark scene check labs/03-knock-with-position/lab.toml\n\n\
-    With --via, each point must be reached without a link in a fixed or driven body or in the ground, and so must the straight \
-    lines between them. A lab brings its own robot, starts and goals. See docs/scenes.md.\n\
+    With --via, the robot must reach each point with no link in a fixed or kinematic body or in the ground, and follow the \
+    straight lines between them. A lab has its own robot, starts and goals. See docs/scenes.md.\n\
     Exit codes: 0 no errors (warnings and notes may be), 1 errors, 2 usage, 3 the scene, robot or lab is broken."
 )]
 pub(crate) struct Args {
-    /// A scene file, a scene of the labs by its name, or a lab: its name, its folder or its lab.toml
+    /// A scene file, the name of a scene of the labs, or a lab: its name, its folder or its lab.toml
     pub(crate) scene: PathBuf,
-    /// The robot in it: a robot file (.toml or .urdf), or a robot of the labs by its name
+    /// The robot in the scene: a robot file (.toml or .urdf), or the name of a robot of the labs
     #[arg(long, value_name = "ROBOT")]
     pub(crate) robot: Option<OsString>,
-    /// Folder of a ROS package that a URDF names its meshes by; may be given several times
+    /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
     #[arg(long = "package", value_name = "NAME=DIR", value_parser = package, requires = "robot")]
     pub(crate) packages: Vec<(String, PathBuf)>,
-    /// Joint positions at the start, in rad or m, with commas between [default: where loops are closed, else zeros]
+    /// Joint positions at the start, in rad or m, separated by commas [default: the robot's home]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, requires = "robot")]
     pub(crate) start: Option<String>,
-    /// Places of the TCP, in their order: x,y,z in metres, with semicolons between
+    /// Waypoints of the TCP in their order: x,y,z in metres, separated by semicolons
     #[arg(
         long,
         value_name = "POINTS",
@@ -44,7 +44,7 @@ pub(crate) struct Args {
         requires = "robot"
     )]
     pub(crate) via: Option<String>,
-    /// The robot's frame that places are told in [default: `lab` if the robot has it, else its first link]
+    /// The robot's frame in which waypoints are given [default: `lab` if the robot has it, else its first link]
     #[arg(long, value_name = "FRAME", requires = "robot")]
     pub(crate) frame: Option<String>,
     /// Print all findings as JSON
@@ -85,11 +85,11 @@ fn failure(error: SceneCheckError) -> Failure {
     match error {
         SceneCheckError::Engine(error) => Failure::broken(
             error.to_string(),
-            "change the shape or the mass it names: nothing can touch it as it is",
+            "change the shape or the mass it names: contact with it cannot be computed",
         ),
         SceneCheckError::Inverse(error) => Failure::usage(
             error.to_string(),
-            "give positions that the robot can stand at; `kinemark robot show` lists its joints",
+            "give positions that the robot can reach; `kinemark robot show` lists its joints",
         ),
     }
 }

@@ -11,18 +11,19 @@ use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::chosen_variant;
 use crate::failure::{Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::report_folder::Pictures;
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output, report_folder, variants};
+use crate::{disk, interrupt, output, report_folder};
 
 /// Grade a report's submission again and compare every digest
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  kinemark verify out\n\n\
     Uses the copies of lab, robot and submission inside the folder.\n\
-    Exit codes: 0 same bits, 1 something differs, 2 usage, 3 the folder is no report, 4 the grader or this machine failed.")]
+    Exit codes: 0 same bits, 1 something differs, 2 usage, 3 the folder is not a report, 4 the grader or this machine failed.")]
 pub(crate) struct Args {
     /// The output folder of `kinemark grade`
     #[arg(default_value = "out")]
@@ -68,7 +69,13 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             let (_, labs_folder) = labs_folder::open(&args.labs_folder)?;
             match staff_folder::open(&args.staff, labs_folder.as_deref())? {
                 Some(reference) => {
-                    variants::refuse_forged(&lab, &copies, &reference, &args.staff, VARIANT_FILE)?;
+                    chosen_variant::refuse_forged(
+                        &lab,
+                        &copies,
+                        &reference,
+                        &args.staff,
+                        VARIANT_FILE,
+                    )?;
                     Staff::load(&reference, &lab, args.staff.salt.as_deref())?
                 }
                 None => None,
@@ -152,14 +159,14 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
         };
         if before.kind == TaskKind::Function && !hidden_too {
             not_compared.push(format!(
-                "task `{}`: its hidden cases are with the staff; give --reference DIR",
+                "task `{}`: its hidden cases need the course staff's part; give --reference DIR",
                 before.name
             ));
             continue;
         }
         if !before.hidden.is_empty() && !hidden_too {
             not_compared.push(format!(
-                "task `{}`: its hidden runs are with the staff; give --reference DIR",
+                "task `{}`: its hidden runs need the course staff's part; give --reference DIR",
                 before.name
             ));
             continue;

@@ -11,8 +11,8 @@ use crate::{interrupt, output};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n\n\
-    Serves the folder to this machine alone, read only, until Ctrl-C. A folder of several reports is listed with what each earned.\n\
-    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder holds no report, 4 the address cannot be served."
+    Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points of each.\n\
+    Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder has no report, 4 the port cannot be used."
 )]
 pub(crate) struct Args {
     /// The output folder of `kinemark grade` or `kinemark compare`, or a folder of several
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     if !serve::index::has_reports(&args.folder) {
         return Err(Failure::broken(
-            format!("`{shown}` holds no report, and neither do the folders in it"),
+            format!("`{shown}` contains no report, and neither do the folders in it"),
             "name the folder that `kinemark grade` wrote, or a folder of several",
         ));
     }

@@ -13,7 +13,7 @@ use tokio::sync::watch;
 
 use super::grade::{self, Work};
 use crate::failure::Failure;
-use crate::saves::{Saves, Told};
+use crate::saves::{Saves, WatchEvent};
 use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
 
@@ -22,8 +22,8 @@ use crate::{interrupt, output};
 #[group(id = "watch")] // its own name is that of the arguments of `grade`
 #[command(
     after_help = "Example:\n  kinemark watch 01-kinematics submission.rhai\n\n\
-    Grades at once, and again when the submission is saved, or the lab where it comes from a folder. The report opens in the browser \
-    and loads itself anew, at the moment and the place that are looked at. With --json each grade is one line.\n\
+    Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. The report opens in the browser \
+    and reloads at the same moment and position. With --json each grade is one line.\n\
     See docs/watch-and-compare.md.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
 )]
@@ -41,16 +41,16 @@ const MOST_HAPPENINGS: usize = 1_000;
 
 /// Grades at once and on every save, until Ctrl-C.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
-    let (tell, told) = channel();
+    let (sender, events) = channel();
     let (stop, stopped) = watch::channel(false);
-    let on_stop = tell.clone();
+    let on_stop = sender.clone();
     interrupt::listen_and(move || {
         // nobody listening any more is the end, too
         let _ = stop.send(true);
-        let _ = on_stop.send(Told::Stop);
+        let _ = on_stop.send(WatchEvent::Stop);
     });
     // listened to before the first grade: what is saved while it runs counts
-    let _saves = Saves::listen(&args.grade, tell)?;
+    let _saves = Saves::listen(&args.grade, sender)?;
     let first = match grade::work(&args.grade) {
         Ok(work) => work,
         Err(_) if interrupt::asked() => return Ok(ExitCode::SUCCESS),
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     std::thread::scope(|threads| {
         let serving = threads.spawn(|| server.run(stopped));
-        follow(args, &told, &count)?;
+        follow(args, &events, &count)?;
         // it ended by the same Ctrl-C
         serving.join().unwrap_or_else(|_| {
             Err(Failure::fault(
@@ -85,18 +85,22 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 }
 
 /// Grades whenever something was saved.
-fn follow(args: &Args, told: &Receiver<Told>, count: &watch::Sender<u64>) -> Result<(), Failure> {
+fn follow(
+    args: &Args,
+    events: &Receiver<WatchEvent>,
+    count: &watch::Sender<u64>,
+) -> Result<(), Failure> {
     let mut is_gone = false;
     loop {
-        // it lasts as long as whoever tells of saves
-        let Ok(mut what) = told.recv() else {
+        // it ends when nothing sends events any more
+        let Ok(mut what) = events.recv() else {
             return Ok(());
         };
         for _ in 0..MOST_HAPPENINGS {
-            if what == Told::Stop {
+            if what == WatchEvent::Stop {
                 return Ok(());
             }
-            match told.recv_timeout(QUIET) {
+            match events.recv_timeout(QUIET) {
                 Ok(next) => what = next,
                 Err(_) => break,
             }
@@ -104,7 +108,9 @@ fn follow(args: &Args, told: &Receiver<Told>, count: &watch::Sender<u64>) -> Res
         if !args.grade.submission.exists() {
             if !is_gone {
                 let name = args.grade.submission.display();
-                tell(&format!("{name} is gone; graded again when it is back\n"));
+                print_beside(&format!(
+                    "{name} is gone; it is graded again when it is back\n"
+                ));
             }
             is_gone = true;
             continue;
@@ -144,13 +150,14 @@ fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), F
 /// What is for people alone stands beside the JSON.
 fn say(args: &Args, text: &str) -> Result<(), Failure> {
     if args.grade.json {
-        tell(text);
+        print_beside(text);
         return Ok(());
     }
     output::print(text)
 }
 
-fn tell(text: &str) {
+/// Prints to standard error, which is not part of the JSON.
+fn print_beside(text: &str) {
     // a reader that has gone away is no failure
     let _ = anstream::stderr().write_all(text.as_bytes());
 }

@@ -1,4 +1,4 @@
-//! `kinemark export`: a log as tables, in a folder that is whole or not there, or one of them on standard output.
+//! `kinemark log export`: a log as tables, in a folder that is complete or absent, or one table on standard output.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -19,8 +19,8 @@ use crate::output;
 /// Write a log as tables
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark export out/move/run.mcap --csv\n  \
-    kinemark export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
+    after_help = "Examples:\n  kinemark log export out/move/run.mcap --csv\n  \
+    kinemark log export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
     Writes a CSV file per topic to the folder run-csv beside the log, with export.json, which lists them; an earlier export there is \
     replaced.\n\
     Reads every MCAP log with JSON messages. See docs/watch-and-compare.md.\n\

@@ -1,4 +1,4 @@
-//! `kinemark labs`: which labs there are.
+//! `kinemark` without a command: which labs there are, and what to do next.
 
 use std::process::ExitCode;
 
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::output;
 
-/// List the labs
+/// What the list of labs can be asked for.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Print the list as JSON

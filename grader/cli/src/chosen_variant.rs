@@ -12,10 +12,10 @@ use crate::staff_folder::StaffArgs;
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct VariantArgs {
-    /// The numbers of one student: a file that `kinemark variant` wrote
+    /// A student's variant: a file that `kinemark lab variant` wrote
     #[arg(long, value_name = "FILE", conflicts_with = "student")]
     pub(crate) variant: Option<PathBuf>,
-    /// The numbers of this student, computed from the course's salt: for staff
+    /// Generate this student's variant from the course's salt: for course staff
     #[arg(long, value_name = "ID", conflicts_with = "practice")]
     pub(crate) student: Option<String>,
 }
@@ -26,7 +26,7 @@ const MOST_BYTES: u64 = 1 << 20;
 /// The lab that is meant, and a sentence where nobody said so.
 pub(crate) struct Chosen {
     pub(crate) lab: Lab,
-    /// What was taken that nobody named.
+    /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn choose(
         let variant = of_student(&lab, reference, staff, student)?;
         let unused = found.map(|found| {
             format!(
-                "with the numbers of student {student}; {} is not used",
+                "using the variant of student {student}; {} is not used",
                 found.display()
             )
         });
@@ -63,7 +63,7 @@ pub(crate) fn choose(
         (Some(given), _) => (given, None),
         (None, Some(found)) => {
             disk::refuse_link(found)?;
-            let note = format!("with the numbers of {}", found.display());
+            let note = format!("using the variant in {}", found.display());
             (found, Some(note))
         }
         (None, None) => return Ok(Chosen { lab, note: None }),
@@ -103,10 +103,10 @@ pub(crate) fn refuse_forged(
     }
     Err(Failure::usage(
         format!(
-            "`{shown}` is not the variant of student `{student}`: the course's salt gives other numbers"
+            "`{shown}` is not the variant of student `{student}`: the course's salt gives other parameters"
         ),
         &format!(
-            "grade with `--student {student}`, or write the file anew: `kinemark variant {name} --student {student} --out FILE`"
+            "grade with `--student {student}`, or write the file again: `kinemark lab variant {name} --student {student} --out FILE`"
         ),
     ))
 }
@@ -127,7 +127,7 @@ pub(crate) fn of_student(
     if lab.variants.is_empty() {
         return Err(Failure::usage(
             format!(
-                "lab `{}` has no variants: everyone has the same numbers",
+                "lab `{}` has no variants: all students have the same parameters",
                 lab.name
             ),
             "leave --student out, or add [variants] to its lab.toml",
@@ -139,7 +139,8 @@ pub(crate) fn of_student(
     };
     let Some(salt) = salt else {
         return Err(Failure::usage(
-            "--student needs the course's salt, which is in the staff's hidden.toml".to_owned(),
+            "--student needs the course's salt, which is in the course staff's hidden.toml"
+                .to_owned(),
             "give --reference DIR or --salt TEXT; students use the variant.toml they were given",
         ));
     };

@@ -1,4 +1,4 @@
-//! `kinemark variant`: the numbers of one student, as the file that goes with the lab.
+//! `kinemark lab variant`: a student's variant of a lab, as the file that goes with it.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -12,29 +12,29 @@ use crate::disk::plain;
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs};
-use crate::{output, variants};
+use crate::{chosen_variant, output};
 
-/// Write the numbers of one student: for staff
+/// Generate one student's variant of a lab: for course staff
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark variant 04-knock-with-velocity --student s1234567\n  \
-    kinemark variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
-    Needs the course's salt: the staff's hidden.toml, or --salt. The same salt, lab and student give the same numbers everywhere.\n\
+    after_help = "Examples:\n  kinemark lab variant 04-knock-with-velocity --student s1234567\n  \
+    kinemark lab variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
+    Needs the course's salt: from the course staff's hidden.toml, or --salt. The same salt, lab and student give the same variant everywhere.\n\
     Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
 )]
 pub(crate) struct Args {
-    /// The lab, as `kinemark labs` names it
+    /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
-    /// The student's id, letter by letter as the course writes it
+    /// The student's id, exactly as the course writes it
     #[arg(long, value_name = "ID")]
     pub(crate) student: String,
     /// File to write [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace the file if it is there
+    /// Replace the file if it exists
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
-    /// Print the numbers as JSON
+    /// Print the parameters as JSON
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
@@ -55,20 +55,20 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let variant = variants::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
+    let variant = chosen_variant::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
     // numbers that make no lab are told now, and not when the student grades
     Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;
     if let Some(path) = &args.out {
         if path.exists() && !args.force {
             return Err(Failure::usage(
-                format!("`{}` is there already", path.display()),
+                format!("`{}` already exists", path.display()),
                 "name another file, or replace it with --force",
             ));
         }
         output::write_file(path, variant.text().as_bytes()).map_err(|error| {
             Failure::fault(
                 format!("`{}` cannot be written: {}", path.display(), plain(&error)),
-                "choose another place",
+                "choose another path with --out",
             )
         })?;
     }

@@ -1,0 +1,228 @@
+//! A report folder on this machine's own address, for the browser of whoever sits at it: read only, nothing beside the folder, and
+//! for no other site.
+
+use std::io::{ErrorKind, Write as _};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::{Path as Wanted, Query, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse as _, Response};
+use axum::routing::get;
+use tokio::sync::watch;
+
+use super::{files, guard, index, page};
+use crate::disk::plain;
+use crate::failure::Failure;
+use crate::report_folder;
+
+/// Where a report is served.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct ServeArgs {
+    /// Port to serve the report on [default: a free one]
+    #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) port: Option<u16>,
+    /// Print the address without opening a browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
+}
+
+/// What is served, and to whom.
+#[derive(Debug)]
+struct Site {
+    folder: PathBuf,
+    port: u16,
+    /// How often the report was written, where it is written again and again.
+    changes: Option<watch::Receiver<u64>>,
+}
+
+/// A server that has its address and answers nobody yet.
+#[derive(Debug)]
+pub(crate) struct Server {
+    listener: TcpListener,
+    site: Site,
+}
+
+impl Server {
+    /// Takes a port of this machine: the one asked for, else a free one. With `changes` open pages follow what it counts.
+    pub(crate) fn bind(
+        folder: &Path,
+        port: Option<u16>,
+        changes: Option<watch::Receiver<u64>>,
+    ) -> Result<Self, Failure> {
+        let asked = SocketAddr::from((Ipv4Addr::LOCALHOST, port.unwrap_or(0)));
+        let listener = TcpListener::bind(asked).map_err(|error| match error.kind() {
+            ErrorKind::AddrInUse => Failure::usage(
+                format!("port {} is taken", asked.port()),
+                "choose another port, or leave --port out to use a free one",
+            ),
+            ErrorKind::PermissionDenied => Failure::usage(
+                format!("port {} needs rights that you do not have", asked.port()),
+                "choose one from 1024 on, or leave --port out to use a free one",
+            ),
+            _ => unserved(&error),
+        })?;
+        let port = listener
+            .local_addr()
+            .map_err(|error| unserved(&error))?
+            .port();
+        Ok(Self {
+            listener,
+            site: Site {
+                folder: folder.to_owned(),
+                port,
+                changes,
+            },
+        })
+    }
+
+    /// The address to open.
+    pub(crate) fn address(&self) -> String {
+        format!("http://127.0.0.1:{}/", self.site.port)
+    }
+
+    /// Answers until `stop` says so.
+    pub(crate) fn run(self, mut stop: watch::Receiver<bool>) -> Result<(), Failure> {
+        let unserved = |error: std::io::Error| unserved(&error);
+        self.listener.set_nonblocking(true).map_err(unserved)?;
+        // one thread is plenty for one reader
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()
+            .map_err(unserved)?;
+        let served = runtime.block_on(async {
+            let listener = tokio::net::TcpListener::from_std(self.listener).map_err(unserved)?;
+            let routes = routes(Arc::new(self.site));
+            tokio::spawn(async move { axum::serve(listener, routes).await });
+            // whoever could say so being gone is as good; open connections end with the runtime
+            let _ = stop.wait_for(|stop| *stop).await;
+            Ok(())
+        });
+        // a disk that does not answer is not waited for
+        runtime.shutdown_background();
+        served
+    }
+}
+
+fn unserved(error: &std::io::Error) -> Failure {
+    Failure::fault(
+        format!("cannot listen on 127.0.0.1: {}", plain(error)),
+        "open report.html from the folder instead",
+    )
+}
+
+/// Opens the address in the browser, unless it is not wanted; that there is none is no failure.
+pub(crate) fn open(address: &str) {
+    if open::that_detached(address).is_err() {
+        // a reader that has gone away is no failure
+        let _ = writeln!(
+            anstream::stderr(),
+            "no browser could be started; open the address yourself"
+        );
+    }
+}
+
+fn routes(site: Arc<Site>) -> Router {
+    Router::new()
+        .route("/", get(start))
+        .route(page::CHANGES, get(changes))
+        .route("/{*path}", get(file))
+        .layer(axum::middleware::from_fn_with_state(
+            site.port,
+            guard::guard,
+        ))
+        .with_state(site)
+}
+
+/// What to look at first: the report, the comparison, or a list of the reports.
+async fn start(State(site): State<Arc<Site>>) -> Response {
+    let found = off_thread(move || {
+        let first = index::FIRST
+            .into_iter()
+            .find(|name| files::find(&site.folder, name).is_some());
+        first.map_or_else(|| Err(index::page(&site.folder)), Ok)
+    });
+    match found.await {
+        Some(Ok(name)) => {
+            let to = [(header::LOCATION, format!("/{name}"))];
+            (StatusCode::TEMPORARY_REDIRECT, to).into_response()
+        }
+        Some(Err(list)) => page::list(list),
+        None => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Response {
+    // looked at before the file: a report written in between is loaded once more, never missed
+    let seen = site.changes.as_ref().map(|changes| *changes.borrow());
+    let kind = files::media_type(&path);
+    let is_report = path == report_folder::PAGE;
+    let read = off_thread(move || files::read(&site.folder, &path)).await;
+    let bytes = match read {
+        Some(Ok(bytes)) => bytes,
+        Some(Err(files::Unread::Absent)) => {
+            return (
+                StatusCode::NOT_FOUND,
+                "there is no such file in the report\n",
+            )
+                .into_response();
+        }
+        Some(Err(files::Unread::TooLarge)) => {
+            return (
+                StatusCode::PAYLOAD_TOO_LARGE,
+                "open this file from its folder\n",
+            )
+                .into_response();
+        }
+        None => return StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    };
+    if kind == files::HTML {
+        // what is graded again and again is our own writing; any other page is whoever's
+        return match seen.filter(|_| is_report) {
+            Some(seen) => page::following(bytes, seen),
+            None => page::alone(bytes),
+        };
+    }
+    let mut answer = bytes.into_response();
+    let headers = answer.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
+    if kind == files::SVG {
+        // a picture opened by itself is a document, and could run scripts
+        headers.insert(
+            header::CONTENT_SECURITY_POLICY,
+            HeaderValue::from_static("default-src 'none'; style-src 'unsafe-inline'; sandbox"),
+        );
+    }
+    answer
+}
+
+/// The version of the report that an open page shows.
+#[derive(serde::Deserialize)]
+struct PageVersion {
+    #[serde(default)]
+    seen: u64,
+}
+
+/// Answers when the report is another than the one seen.
+async fn changes(
+    State(site): State<Arc<Site>>,
+    Query(PageVersion { seen }): Query<PageVersion>,
+) -> Response {
+    let Some(mut changes) = site.changes.clone() else {
+        return (StatusCode::NOT_FOUND, "this report stays as it is\n").into_response();
+    };
+    match changes.wait_for(|now| *now != seen).await {
+        Ok(now) => {
+            let kind = [(header::CONTENT_TYPE, "application/json")];
+            (kind, format!("{{\"version\":{}}}\n", *now)).into_response()
+        }
+        Err(_) => StatusCode::GONE.into_response(),
+    }
+}
+
+/// Does what reads the disk beside the answers that wait.
+async fn off_thread<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
+    tokio::task::spawn_blocking(work).await.ok()
+}
