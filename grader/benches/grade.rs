@@ -1,8 +1,9 @@
 //! A whole lab, graded with hidden cases: in this process, without files.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use kinemark_grader::judge::{InProcess, grade};
+use kinemark_grader::judge::grade;
 use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::submission::host::InProcess;
 use kinemark_sim::source::Source;
 
 struct Folder(&'static str);

@@ -1,8 +1,9 @@
 //! A whole run with contact, as lab 4 asks for it: 8 s at 1 ms, a script's `control` at 100 Hz, a velocity servo at 1 kHz, shelf and can.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use kinemark_grader::judge::{InProcess, grade};
+use kinemark_grader::judge::grade;
 use kinemark_grader::lab::{Files, Lab};
+use kinemark_grader::submission::host::InProcess;
 use kinemark_sim::event::EventKind;
 use kinemark_sim::source::Source;
 

@@ -3,15 +3,17 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`task`] | what a task asks for, its robot and its scene, and the files they come from |
 //! | [`record`] | the grade and what is drawn with it, for every renderer |
-//! | [`submission`] | the seam to a student's code, and the script host behind it |
-//! | [`task`] | what a task asks for, its robot and its scene |
-//! | [`lab`] | labs, their hidden cases and known mistakes |
-//! | [`attempt`] | a submission tried on one task |
-//! | [`check`] | one file per check |
+//! | [`submission`] | the seam to a student's code, who opens it, and the script language |
+//! | [`attempt`] | a submission tried on one task, and how that ended |
+//! | [`check`] | what a check finds in an attempt |
+//! | [`lab`] | labs, their hidden cases and known mistakes: read, and none of their code run |
 //! | [`judge`] | from attempts to a grade |
-//! | [`compare`] | two graded submissions beside each other |
+//! | [`compare`] | two graded submissions, compared |
 //! | [`audit`] | the grader of a lab, graded |
+//!
+//! A module imports only from those above it.
 
 #![cfg_attr(
     test,

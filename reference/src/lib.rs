@@ -1,18 +1,16 @@
-//! Closed forms and exact linear responses: the oracles that tests and `lab check` compare with.
+//! Closed forms, derived on paper and apart from the simulator: the oracles of its tests.
 //!
-//! Everything here is derived on paper for one mechanism or one loop, and shares no algorithm with the simulator:
+//! Each is for one mechanism or one loop, takes any dimensions, masses or gains, and shares no algorithm with `sim`:
 //!
-//! - [`planar_2r`]: the planar arm with two revolute joints; kinematics, both inverse branches, dynamics, energy.
-//! - [`rppr`]: the robot with a revolute, two prismatic and a revolute joint; kinematics, both inverse branches, rates.
-//! - [`linear_response`]: rational transfer functions and their step responses as sums of exponentials.
-//!   - `pid_loop`: the loops of one joint under PID, as transfer functions.
-//!   - `transfer_function`: ratio of polynomials; poles, zeros, gain, step response.
-//!   - `step_metrics`: rise, settling, overshoot and peak of a response, found without sampling.
-//!   - `exponential_sum`, `polynomial`, `two_double`: the mathematics below them.
+//! | module | closed form of |
+//! |---|---|
+//! | [`planar_2r`] | the planar arm with two revolute joints: kinematics, both inverse branches, dynamics, energy |
+//! | [`joint_loop`] | one joint under a continuous PID controller: poles, gain and step response of its transfer functions |
+//! | [`sampled_joint`] | one joint under a sampled PID controller whose effort is held: its state at every sample |
 //!
 //! Units are SI and angles radians. The planar arm is described in the *lab frame*: x up along the base, y sideways,
 //! z along the joint axes. Nothing here is used to give a grade.
 
-pub mod linear_response;
+pub mod joint_loop;
 pub mod planar_2r;
-pub mod rppr;
+pub mod sampled_joint;

@@ -101,7 +101,8 @@ impl IkSolutions {
 impl Planar2r {
     /// The arm of the virtual-robotics lab: RRBot with links of 1 m, 0.5 kg and a section of 0.05 m by 0.05 m.
     pub fn lab_arm() -> Self {
-        let inertia = box_inertia_about_com_kg_m2(0.5, 1.0, 0.05);
+        // of a box, about the axis through its centre of mass across its length
+        let inertia = 0.5 * (1.0 + 0.05 * 0.05) / 12.0;
         Self {
             base_height_m: 2.0,
             l1_m: 1.0,
@@ -234,12 +235,6 @@ impl Planar2r {
         Matrix2::new(m11, m12, m12, about_elbow)
     }
 
-    /// Returns the inertia that an effort at the elbow feels while the shoulder turns freely, `M₂₂ - M₁₂²/M₁₁` \[kg m²\].
-    pub fn elbow_inertia_with_free_shoulder_kg_m2(&self, q2_rad: f64) -> f64 {
-        let m = self.mass_matrix(Vector2::new(0.0, q2_rad));
-        m.m22 - m.m12 * m.m12 / m.m11
-    }
-
     /// Returns the efforts that hold the arm still, shape `(2)` \[N m\]: the slope of the potential energy.
     pub fn gravity_efforts_n_m(&self, q_rad: Vector2<f64>) -> Vector2<f64> {
         let Trig { s1, s12, .. } = Trig::of(q_rad);
@@ -305,19 +300,6 @@ impl Planar2r {
     pub fn energy_j(&self, state: &JointState) -> f64 {
         self.kinetic_energy_j(state) + self.potential_energy_j(state.q_rad)
     }
-}
-
-/// Inertia of a box about the axis through its centre of mass across its length and one width \[kg m²\].
-pub fn box_inertia_about_com_kg_m2(mass_kg: f64, length_m: f64, width_m: f64) -> f64 {
-    mass_kg * (length_m * length_m + width_m * width_m) / 12.0
-}
-
-/// Inertia of a box about an axis across its end, half its length from the centre of mass \[kg m²\].
-///
-/// Equation 5 of the lab, which leaves the width out and gives N m² for its unit (errata 003-13): with no width, the
-/// slender rod.
-pub fn box_inertia_about_end_kg_m2(mass_kg: f64, length_m: f64, width_m: f64) -> f64 {
-    box_inertia_about_com_kg_m2(mass_kg, length_m, width_m) + mass_kg * length_m * length_m / 4.0
 }
 
 /// Sines and cosines of `q₁` and `q₁ + q₂`.

@@ -1,4 +1,4 @@
-//! The planar arm against golden numbers of an independent tool, at special points, and by property.
+//! The planar arm: inverse kinematics against an independent tool's numbers, special points by hand, and laws by property.
 
 #![expect(
     clippy::unwrap_used,
@@ -7,9 +7,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use kinemark_reference::planar_2r::{
-    IkSolutions, JointState, Planar2r, box_inertia_about_com_kg_m2, box_inertia_about_end_kg_m2,
-};
+use kinemark_reference::planar_2r::{IkSolutions, JointState, Planar2r};
 use nalgebra::{Matrix2, Vector2};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -53,86 +51,6 @@ fn assert_all_near<'a>(
     assert_eq!(got.len(), expected.len(), "{what}");
     for (got, expected) in got.into_iter().zip(expected) {
         assert_near(what, *got, expected);
-    }
-}
-
-/// Row by row, as the file has it.
-fn rows(value: &Value) -> Vec<f64> {
-    list(value).iter().flat_map(list).map(number).collect()
-}
-
-#[test]
-fn golden_arm_is_the_lab_arm() {
-    let golden = golden();
-    let robot = &golden["robot"];
-    let arm = Planar2r::lab_arm();
-    for (got, key) in [
-        (arm.base_height_m, "base_height_m"),
-        (arm.l1_m, "l1_m"),
-        (arm.l2_m, "l2_m"),
-        (arm.offset_z1_m, "offset_z1_m"),
-        (arm.offset_z2_m, "offset_z2_m"),
-        (arm.m1_kg, "m1_kg"),
-        (arm.m2_kg, "m2_kg"),
-        (arm.com1_m, "com1_m"),
-        (arm.com2_m, "com2_m"),
-        (arm.i1_com_kg_m2, "I1_com_kgm2"),
-        (arm.i2_com_kg_m2, "I2_com_kgm2"),
-        (arm.joint_damping_n_m_s, "joint_damping_Nms_per_rad"),
-        (arm.gravity_m_s2, "g_mps2"),
-    ] {
-        assert_near(key, got, number(&robot[key]));
-    }
-}
-
-#[test]
-fn golden_states() {
-    let (golden, arm) = (golden(), Planar2r::lab_arm());
-    assert_eq!(list(&golden["fk"]).len(), 51);
-    for sample in list(&golden["fk"]) {
-        let state = JointState {
-            q_rad: pair(&sample["q_rad"]),
-            qd_rad_s: pair(&sample["dq"]),
-        };
-        let (q, qdd) = (state.q_rad, pair(&sample["ddq"]));
-        assert_all_near(
-            "position",
-            arm.p_tcp_in_lab(q).iter(),
-            list(&sample["pos_m"]).iter().map(number),
-        );
-        assert_all_near(
-            "pose",
-            arm.lab_from_tcp(q).transpose().iter(),
-            rows(&sample["T"]),
-        );
-        assert_all_near(
-            "Jacobian",
-            arm.tcp_jacobian_in_lab(q).transpose().iter(),
-            rows(&sample["jac_xy"]),
-        );
-        assert_near(
-            "determinant",
-            arm.jacobian_determinant(q),
-            number(&sample["det_jac"]),
-        );
-        assert_all_near(
-            "mass matrix",
-            arm.mass_matrix(q).transpose().iter(),
-            rows(&sample["M"]),
-        );
-        let bias = list(&sample["bias_C_plus_G"]).iter().map(number);
-        assert_all_near("bias", arm.bias_n_m(&state).iter(), bias);
-        let efforts = list(&sample["tau_with_damping"]).iter().map(number);
-        assert_all_near(
-            "efforts",
-            arm.inverse_dynamics_n_m(&state, qdd).iter(),
-            efforts,
-        );
-        assert_near("energy", arm.energy_j(&state), number(&sample["energy_J"]));
-
-        // Inverting M, whose condition is below 40, loses a digit or two.
-        let acceleration = arm.forward_dynamics_rad_s2(&state, pair(&sample["tau_with_damping"]));
-        assert!((acceleration - qdd).norm() < 1e-11, "{acceleration} {qdd}");
     }
 }
 
@@ -245,51 +163,6 @@ fn the_labs_rounded_angles_miss_by_14_mm() {
         let error_m = (p.xy() - pair(&sample["target"])).norm();
         assert_near("error", error_m, number(&sample["position_error_m"]));
         assert!((error_m - 0.0142).abs() < 1e-4, "{error_m}");
-    }
-}
-
-#[test]
-fn golden_inertias_about_the_joints() {
-    let (golden, arm) = (golden(), Planar2r::lab_arm());
-    let expected = &golden["inertia_about_joints"];
-    let rod = box_inertia_about_end_kg_m2(0.5, 1.0, 0.0);
-    assert_near(
-        "rod",
-        rod,
-        number(&expected["slender_rod_link1_about_joint1"]),
-    );
-    assert_near(
-        "rod",
-        rod,
-        number(&expected["slender_rod_link2_about_joint2"]),
-    );
-    let boxed = box_inertia_about_end_kg_m2(0.5, 1.0, 0.05);
-    assert_near("box", boxed, number(&expected["box_link1_about_joint1"]));
-    assert_near("box", boxed, number(&expected["box_link2_about_joint2"]));
-    assert_near(
-        "com",
-        box_inertia_about_com_kg_m2(0.5, 1.0, 0.05),
-        arm.i1_com_kg_m2,
-    );
-
-    // errata 003-14: the shoulder carries the lower link too
-    let at = |q2: f64| arm.mass_matrix(Vector2::new(0.0, q2));
-    let shoulder = &expected["joint1_effective_M11"];
-    for (q2, key) in [(0.0, "q2_0"), (FRAC_PI_2, "q2_90"), (PI, "q2_180")] {
-        assert_near(key, at(q2).m11, number(&shoulder[key]));
-    }
-    assert_near(
-        "locked",
-        at(0.7).m22,
-        number(&expected["joint2_effective_with_joint1_locked_M22"]),
-    );
-    let free = &expected["joint2_effective_with_joint1_free"];
-    for (q2, key) in [(0.0, "q2_0"), (1.0, "q2_1rad"), (FRAC_PI_2, "q2_90")] {
-        assert_near(
-            key,
-            arm.elbow_inertia_with_free_shoulder_kg_m2(q2),
-            number(&free[key]),
-        );
     }
 }
 

@@ -4,28 +4,27 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`source`] | text from outside, and errors that point into it |
-//! | [`robot`] | the immutable robot and its TOML description |
-//! | [`air`] | how air drags on bodies and links |
-//! | [`scene`] | what is around the robot, and its TOML description |
-//! | [`scene_check`] | what is wrong with a scene before anything runs in it |
-//! | [`engine`] | contact, and the only place that knows how it is computed |
-//! | [`hybrid`] | the step in a scene: smooth while the robot is free, contact while it touches |
-//! | [`joint`] | vectors over the joints that move |
+//! | [`text`] | text from outside, expressions in it, and errors that point into it |
 //! | [`spatial`] | poses, twists, symmetric tensors |
-//! | [`kinematics`] | where frames are and how they move |
-//! | [`dynamics`] | RNEA, CRBA, ABA, energy, the smooth step |
-//! | [`control`] | joint servos: command in, effort out |
-//! | [`trajectory`] | time in; position, velocity, acceleration out |
-//! | [`sensor`] | what the robot measures, with noise, quantisation, delay and rate |
-//! | [`ticks`] | time as whole numbers of physics steps |
 //! | [`random`] | numbers drawn from a seed |
+//! | [`ticks`] | time as whole numbers of physics steps |
+//! | [`joint_space`] | vectors over the joints that move |
+//! | [`trajectory`] | time in; position, velocity, acceleration out |
+//! | [`model`] | the values: robot, scene, sensor, mesh, air, contact |
+//! | [`kinematics`] | where frames are and how they move |
+//! | [`format`] | from text to the model: robot and scene files, URDF, strings of joints, meshes |
+//! | [`dynamics`] | RNEA, CRBA, ABA, energy, drag and friction |
+//! | [`control`] | joint servos: command in, effort out; when they are stable |
+//! | [`engine`] | contact, and the only place that knows how it is computed |
+//! | [`step`] | one step: smooth while the robot is free, contact while it touches |
+//! | [`sensing`] | what the sensors read, with noise, quantisation, delay and rate |
 //! | [`run`] | the tick loop: observe, control, servo, step |
-//! | [`runaway`] | when motion is beyond all reason |
-//! | [`event`] | what can happen in a run |
-//! | [`event_words`] | the same in words |
-//! | [`watch`] | what did happen: limits, singular positions, contacts, falls |
+//! | [`watch`] | what happened: limits, singular configurations, contacts, falls |
 //! | [`trace`] | the columns of one run and their digests |
+//! | [`diagnosis`] | why a run diverged |
+//! | [`scene_check`] | what is wrong with a scene before anything runs in it |
+//!
+//! A module uses those above it in this table, and none below it; docs/architecture.md has the same order, and a test reads it.
 //!
 //! Conventions: SI units and radians; the world is z-up; `a_from_b` maps coordinates in `b` to coordinates in `a`; Jacobian
 //! rows are `[linear; angular]`; arrays over joints follow the file order of the joints that move. All transcendental functions
@@ -39,25 +38,26 @@
     )
 )]
 
-pub mod air;
 pub mod control;
+pub mod diagnosis;
 pub mod dynamics;
 pub mod engine;
-pub mod event;
-pub mod event_words;
-pub mod hybrid;
-pub mod joint;
+pub mod format;
+pub mod joint_space;
 pub mod kinematics;
+pub mod model;
 pub mod random;
-pub mod robot;
 pub mod run;
-pub mod runaway;
-pub mod scene;
 pub mod scene_check;
-pub mod sensor;
-pub mod source;
+pub mod sensing;
 pub mod spatial;
+pub mod step;
+pub mod text;
 pub mod ticks;
 pub mod trace;
 pub mod trajectory;
 pub mod watch;
+
+mod facade;
+#[doc(hidden)]
+pub use facade::*;

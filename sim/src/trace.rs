@@ -1,12 +1,12 @@
 //! The columns of one run, in tick order, and their digests: the identity of the run.
 
-use crate::event::Event;
-use crate::hybrid::HybridStep;
 use crate::kinematics::FramePoses;
-use crate::robot::{Frame, Robot};
+use crate::model::robot::{Frame, Robot};
+use crate::model::scene::BodyKind;
 use crate::run::{Recorder, Row, Setup};
-use crate::scene::BodyKind;
 use crate::spatial::Pose;
+use crate::step::hybrid::HybridStep;
+use crate::watch::event::Event;
 use crate::watch::{ContactSpan, Watch};
 
 /// One signal of a run: `width` numbers a tick, rows in tick order.
@@ -246,7 +246,7 @@ pub fn hash_bits(values: &[f64]) -> blake3::Hash {
     }
 }
 
-/// Records a run as a [`Trace`], with the TCP's pose at every tick, the bodies of the scene, and what [`crate::watch`] sees.
+/// Records a run as a [`Trace`], with the TCP's pose at every tick, the bodies of the scene, and what [`crate::watch::run_watch`] sees.
 #[derive(Debug, Clone)]
 pub struct TraceRecorder<'a> {
     robot: &'a Robot,

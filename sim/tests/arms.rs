@@ -1,5 +1,6 @@
 //! Robots that the tests share: the course's arm, and trees drawn from a seed.
 
+use kinemark_sim::random::SplitMix64;
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::source::Source;
 
@@ -20,23 +21,17 @@ pub(crate) fn rrbot() -> Robot {
     lab_robot("rrbot")
 }
 
-/// A stream of numbers in [0, 1), the same for the same seed.
-pub(crate) struct Numbers(u64);
+/// Numbers drawn from a seed, in the ranges that tests ask for.
+pub(crate) struct Numbers(SplitMix64);
 
 impl Numbers {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     /// The next number in `[low, high)`.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        // SplitMix64 (Steele, Lea & Flood 2014)
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+        low + (high - low) * self.0.uniform()
     }
 
     pub(crate) fn vector(&mut self, n: usize, size: f64) -> Vec<f64> {

@@ -1,6 +1,5 @@
 //! Contact: forces by hand, rest that is rest, and the course's arm among shelf, can and wall.
 
-use kinemark_sim::dynamics::smooth::SmoothStep;
 use kinemark_sim::engine::Party;
 use kinemark_sim::hybrid::{HybridStep, StateFrom};
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
@@ -9,6 +8,7 @@ use kinemark_sim::robot::inertia::{MeshSolid, Solid};
 use kinemark_sim::robot::mesh::Mesh;
 use kinemark_sim::scene::{BodyKind, Drag, Gust, Motion, Scene, Wind};
 use kinemark_sim::spatial::Twist;
+use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::Vector3;
 
 use crate::arms::{robot, rrbot};

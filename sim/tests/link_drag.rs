@@ -2,7 +2,6 @@
 
 use kinemark_sim::air::{AirNow, Drag};
 use kinemark_sim::dynamics::drag::LinkDrag;
-use kinemark_sim::dynamics::smooth::SmoothStep;
 use kinemark_sim::dynamics::{GRAVITY_M_S2, energy};
 use kinemark_sim::engine::Party;
 use kinemark_sim::hybrid::{HybridStep, StateFrom};
@@ -11,6 +10,7 @@ use kinemark_sim::kinematics::geometric_jacobian;
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::scene::{Gust, Scene, Wind};
 use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, lab_robot, random_tree, robot, rrbot};

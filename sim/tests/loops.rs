@@ -2,7 +2,6 @@
 
 use kinemark_sim::control::servo::Servo;
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
-use kinemark_sim::dynamics::smooth::SmoothStep;
 use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, driven_efforts, energy, forward_dynamics, inverse_dynamics,
     mass_matrix,
@@ -12,6 +11,7 @@ use kinemark_sim::kinematics::closure::{LoopError, closed_positions, loop_gap_m}
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::robot::{Robot, RobotFile};
 use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 

@@ -158,7 +158,8 @@ fn every_example_of_the_page_loads() {
     }
     assert!(examples >= 6, "{examples} examples");
     // and the page names every code there is
-    let problems = std::fs::read_to_string(root("sim/src/scene/problem.rs")).expect("source");
+    let problems = std::fs::read_to_string(root("sim/src/format/scene_toml/scene_problem.rs"))
+        .expect("source");
     for code in problems.split("\"scene::").skip(1) {
         let code = code.split('"').next().expect("an end");
         assert!(page.contains(&format!("`scene::{code}`")), "{code}");

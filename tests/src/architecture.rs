@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use cargo_metadata::DependencyKind;
+
 #[test]
 fn crates_depend_on_each_other_as_drawn() {
     let manifest = crate::testbed::root().join("Cargo.toml");
@@ -24,7 +26,9 @@ fn crates_depend_on_each_other_as_drawn() {
         }
         for dependency in &package.dependencies {
             if ours.contains(&dependency.name) {
-                arrows.insert(format!("{} -> {}", package.name, dependency.name));
+                let tests = dependency.kind == DependencyKind::Development;
+                let of = if tests { " (tests)" } else { "" };
+                arrows.insert(format!("{}{of} -> {}", package.name, dependency.name));
             }
         }
     }
@@ -37,9 +41,31 @@ fn crates_depend_on_each_other_as_drawn() {
         "kinemark-toolbox -> kinemark-sim",
         "kinemark-report -> kinemark-grader",
         "kinemark-report -> kinemark-sim",
+        "kinemark-sim (tests) -> kinemark-reference",
     ]
     .into_iter()
     .map(str::to_owned)
     .collect();
     assert_eq!(arrows, drawn);
+}
+
+/// Reports are made from records and traces: of the grader they know nothing else, and no lab.
+#[test]
+fn reports_are_made_from_the_record() {
+    let folder = crate::testbed::root().join("grader/report/src");
+    let mut uses = 0;
+    for (name, source) in crate::testbed::files_below(&folder) {
+        let source = String::from_utf8_lossy(&source);
+        let mut parts = source.split("kinemark_grader");
+        parts.next();
+        for part in parts {
+            assert!(
+                part.starts_with("::record::"),
+                "grader/report/src/{name} reaches for `kinemark_grader{}`",
+                part.lines().next().unwrap_or_default()
+            );
+            uses += 1;
+        }
+    }
+    assert!(uses > 20, "{uses} uses: the sources are elsewhere");
 }

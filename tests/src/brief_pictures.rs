@@ -2,10 +2,15 @@
 //!
 //! A brief shows a plot by its name: `plot-PLOT.svg` of the reference's run, `plot-PLOT-by-MUTANT.svg` of a known mistake's.
 
+use std::path::PathBuf;
+use std::sync::Mutex;
+
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_report::plot::plots;
 
+use crate::every_case::every_case;
+use crate::golden::are_current;
 use crate::testbed::{Folder, grade, lab, root, staff};
 
 /// The pictures that `brief` links to.
@@ -28,53 +33,54 @@ fn plot_of(run: &GradedRun, name: &str, picture: &str) -> String {
         .clone()
 }
 
-/// `KINEMARK_BLESS=1` draws them anew.
 #[test]
 fn briefs_show_the_runs_they_speak_of() {
-    for name in lab_names(&Folder(root().join("labs"))) {
-        let folder = root().join("labs").join(&name);
-        let brief = std::fs::read_to_string(folder.join("brief.md")).expect("brief.md");
-        let pictures = linked(&brief);
-        assert!(!pictures.is_empty(), "{name}: a brief without a picture");
-        let lab = lab(&name);
-        let staff = staff(&lab, None);
-        let run_of = |file: &str, text: &str| grade(&lab, None, file, text);
-        let reference = run_of("solution.rhai", staff.solution.text());
-        for picture in &pictures {
-            let path = folder.join(picture);
-            let drawn = picture
-                .strip_prefix("plot-")
-                .and_then(|rest| rest.strip_suffix(".svg"));
-            let Some(drawn) = drawn else {
-                assert!(path.exists(), "{name}: {picture} is not there");
-                continue;
-            };
-            let svg = match drawn.split_once("-by-") {
-                None => plot_of(&reference, drawn, picture),
-                Some((plot, mutant)) => {
-                    let known = staff.mutants.iter().find(|known| known.name == mutant);
-                    let mutant = known.unwrap_or_else(|| panic!("{picture}: no mutant `{mutant}`"));
-                    let run = run_of("mutant.rhai", mutant.source.text());
-                    plot_of(&run, plot, picture)
-                }
-            };
-            if std::env::var_os("KINEMARK_BLESS").is_some() {
-                std::fs::write(&path, &svg).expect("written");
+    let labs = lab_names(&Folder(root().join("labs")));
+    let cases: Vec<_> = labs.into_iter().map(|lab| (lab.clone(), lab)).collect();
+    let drawn = Mutex::new(Vec::new());
+    every_case(&cases, |name| {
+        let drawn_of_lab = shown(name);
+        drawn.lock().expect("not poisoned").extend(drawn_of_lab);
+    });
+    are_current(&drawn.into_inner().expect("not poisoned"));
+}
+
+/// The plots that the brief of a lab shows, by their paths, as they are drawn now.
+fn shown(name: &str) -> Vec<(PathBuf, String)> {
+    let folder = root().join("labs").join(name);
+    let brief = std::fs::read_to_string(folder.join("brief.md")).expect("brief.md");
+    let pictures = linked(&brief);
+    assert!(!pictures.is_empty(), "a brief without a picture");
+    let lab = lab(name);
+    let staff = staff(&lab, None);
+    let run_of = |file: &str, text: &str| grade(&lab, None, file, text);
+    let reference = run_of("solution.rhai", staff.solution.text());
+    let mut drawn = Vec::new();
+    for picture in &pictures {
+        let path = folder.join(picture);
+        let plot = picture
+            .strip_prefix("plot-")
+            .and_then(|rest| rest.strip_suffix(".svg"));
+        let Some(plot) = plot else {
+            assert!(path.exists(), "{picture} is not there");
+            continue;
+        };
+        let svg = match plot.split_once("-by-") {
+            None => plot_of(&reference, plot, picture),
+            Some((plot, mutant)) => {
+                let known = staff.mutants.iter().find(|known| known.name == mutant);
+                let mutant = known.unwrap_or_else(|| panic!("{picture}: no mutant `{mutant}`"));
+                let run = run_of("mutant.rhai", mutant.source.text());
+                plot_of(&run, plot, picture)
             }
-            let there = std::fs::read_to_string(&path).unwrap_or_default();
-            assert!(
-                there == svg,
-                "{}: run KINEMARK_BLESS=1 cargo test",
-                path.display()
-            );
-        }
-        for entry in std::fs::read_dir(&folder).expect("the lab's folder") {
-            let file = entry.expect("entry").file_name();
-            let file = file.to_string_lossy();
-            assert!(
-                !file.ends_with(".svg") || pictures.contains(&file.as_ref()),
-                "{name}: the brief does not show {file}"
-            );
-        }
+        };
+        drawn.push((path, svg));
     }
+    for entry in std::fs::read_dir(&folder).expect("the lab's folder") {
+        let file = entry.expect("entry").file_name();
+        let file = file.to_string_lossy();
+        let is_shown = !file.ends_with(".svg") || pictures.contains(&file.as_ref());
+        assert!(is_shown, "the brief does not show {file}");
+    }
+    drawn
 }

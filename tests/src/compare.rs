@@ -218,7 +218,7 @@ fn what_is_no_whole_report_of_this_version_is_told() {
     bed.edit("b/grade.json", "kinemark-grade/1", "kinemark-grade/7");
     broken("kinemark-grade/7");
     bed.edit("b/grade.json", "kinemark-grade/7", "kinemark-grade/1");
-    for name in ["submission.rhai", "lab"] {
+    for name in ["report.json", "submission.rhai", "lab"] {
         let away = bed.path("away");
         std::fs::rename(bed.path(&format!("b/{name}")), &away).expect("moved");
         broken(&format!("`b` has no {name}"));

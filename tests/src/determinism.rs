@@ -1,11 +1,18 @@
 //! The same submission gives the same bytes of every file: twice, in a worker or in process, without any optimisation, beside
 //! other grades; and the digests that are committed. `wasm` has the same for WebAssembly.
+//!
+//! The tested binary grades every lab once; all that is compared is compared with that.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use kinemark_grader::lab::load::lab_names;
+use kinemark_tests_wasm::CONTACT_DIGEST;
 
+use crate::every_case::every_case;
+use crate::exact::is_asked_for;
+use crate::golden::are_current;
 use crate::testbed::{Folder, TestBed, binary, build, files_below, grade, lab, root, staff};
 
 /// Every lab with its good submission: a lab without one fails here.
@@ -20,23 +27,43 @@ pub(crate) fn good_submissions() -> Vec<(String, PathBuf)> {
     good.collect()
 }
 
-/// The files of every good submission's report, below its lab's name.
-fn files(binary: &Path, bed: &TestBed, out: &str, flags: &[&str]) -> Vec<(String, Vec<u8>)> {
-    for (lab, submission) in good_submissions() {
-        let status = Command::new(binary)
+/// Below its lab's name, each by its path.
+type Files = Vec<(String, Vec<u8>)>;
+
+/// The files of every good submission's report.
+fn files(binary: &Path, flags: &[&str]) -> Files {
+    let bed = TestBed::new();
+    let good = good_submissions().into_iter();
+    let cases: Vec<_> = good.map(|(lab, path)| (lab.clone(), (lab, path))).collect();
+    every_case(&cases, |(lab, submission)| {
+        let output = Command::new(binary)
             .current_dir(root())
-            .args(["grade", &lab])
+            .args(["grade", lab])
             .arg(submission)
             .arg("--out")
-            .arg(bed.path(out).join(lab))
+            .arg(bed.path("out").join(lab))
             .args(flags)
+            .env_remove("KINEMARK_SALT")
             .output()
             .expect("the binary runs");
-        assert_eq!(status.status.code(), Some(0), "{status:?}");
-    }
-    let files = files_below(&bed.path(out));
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+    });
+    let files = files_below(&bed.path("out"));
     assert!(files.len() > 10);
     files
+}
+
+/// The files of every good submission's report, graded once by the tested binary.
+fn tested() -> &'static Files {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    FILES.get_or_init(|| files(binary(), &[]))
+}
+
+/// The record of a lab's good submission, as the tested binary wrote it.
+pub(crate) fn tested_record(lab: &str) -> &'static str {
+    let record = format!("{lab}/grade.json");
+    let found = tested().iter().find(|(name, _)| *name == record);
+    std::str::from_utf8(&found.expect("a record").1).expect("UTF-8")
 }
 
 fn assert_same(a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]) {
@@ -51,21 +78,16 @@ fn assert_same(a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]) {
 
 #[test]
 fn two_runs_and_both_transports_write_the_same_bytes() {
-    let bed = TestBed::new();
-    let first = files(binary(), &bed, "first", &[]);
-    assert_same(&first, &files(binary(), &bed, "second", &[]));
-    assert_same(
-        &first,
-        &files(binary(), &bed, "in-process", &["--in-process"]),
-    );
+    assert_same(tested(), &files(binary(), &[]));
+    assert_same(tested(), &files(binary(), &["--in-process"]));
 }
 
 #[test]
 fn a_build_without_optimisation_writes_the_same_bytes() {
-    let bed = TestBed::new();
-    let unoptimised = build("unoptimised");
-    let debug = files(&unoptimised, &bed, "debug", &[]);
-    assert_same(&files(binary(), &bed, "tested", &[]), &debug);
+    if !is_asked_for("the comparison with a build without optimisation") {
+        return;
+    }
+    assert_same(tested(), &files(&build("unoptimised"), &[]));
 }
 
 /// One line per task of a record: its digest.
@@ -82,22 +104,14 @@ pub(crate) fn digests(record: &str) -> String {
 /// Changing a digest moves grades: it needs a line in the changelog that says why.
 #[test]
 fn the_digests_of_every_lab_are_those_committed() {
-    let bed = TestBed::new();
-    let files = files(binary(), &bed, "out", &[]);
-    for (lab, _) in good_submissions() {
-        let record = format!("{lab}/grade.json");
-        let (_, record) = files.iter().find(|(name, _)| *name == record).expect(&lab);
-        let digests = digests(std::str::from_utf8(record).expect("UTF-8"));
+    let golden = good_submissions().into_iter().map(|(lab, _)| {
         let path = root().join(format!("tests/golden/digests-{lab}.txt"));
-        if std::env::var_os("KINEMARK_BLESS").is_some() {
-            std::fs::write(&path, &digests).expect("written");
-        }
-        let golden = std::fs::read_to_string(&path).unwrap_or_default();
-        assert_eq!(digests, golden, "{}", path.display());
-    }
+        (path, digests(tested_record(&lab)))
+    });
+    are_current(&golden.collect::<Vec<_>>());
 }
 
-/// The record of a lab's good submission, or the digest of the run with contact.
+/// The record of a lab's good submission as the binary writes it, or the digest of the run with contact.
 fn work(good: Option<&(String, PathBuf)>) -> String {
     match good {
         Some((name, submission)) => {
@@ -105,7 +119,7 @@ fn work(good: Option<&(String, PathBuf)>) -> String {
             let staff = staff(&lab, None);
             let text = std::fs::read_to_string(submission).expect("submission");
             let graded = grade(&lab, Some(&staff), "submission.rhai", &text);
-            serde_json::to_string(&graded.grade).expect("JSON")
+            serde_json::to_string_pretty(&graded.grade).expect("JSON") + "\n"
         }
         None => {
             let robot = root().join("labs/robots/rrbot.toml");
@@ -119,11 +133,9 @@ fn work(good: Option<&(String, PathBuf)>) -> String {
 fn two_threads_grade_as_one_does() {
     let good = good_submissions();
     let all = || good.iter().map(Some).chain([None]);
-    let one: Vec<String> = all().map(work).collect();
-    assert_eq!(
-        one.last().map(String::as_str),
-        Some(kinemark_tests_wasm::CONTACT_DIGEST)
-    );
+    let one: Vec<&str> = all()
+        .map(|good| good.map_or(CONTACT_DIGEST, |(lab, _)| tested_record(lab)))
+        .collect();
     // in opposite orders, so that different work meets; and in the same, so that equal work meets
     for reversed in [true, false] {
         let [ahead, back] = std::thread::scope(|scope| {
@@ -141,9 +153,13 @@ fn two_threads_grade_as_one_does() {
             });
             [ahead, back].map(|thread| thread.join().expect("a thread"))
         });
-        assert!(
-            ahead == one && back == one,
-            "a grade depends on its neighbour"
-        );
+        for (i, one) in one.iter().enumerate() {
+            let what = good.get(i).map_or("contact", |(lab, _)| lab);
+            let same = ahead[i] == *one && back[i] == *one;
+            assert!(
+                same,
+                "{what} depends on its neighbour, reversed: {reversed}"
+            );
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Mistakes in files and on the command line: each has a message with its place, and the documented exit code.
 
+use crate::golden::reads;
 use crate::testbed::TestBed;
 
 fn bed() -> TestBed {
@@ -285,7 +286,7 @@ fn a_message_reads_like_this() {
         "joint = \"shoulder\"",
         "joint = \"sholder\"",
     );
-    insta::assert_snapshot!(bed.run(&GRADE).stderr);
+    reads("a_message_reads_like_this", &bed.run(&GRADE).stderr);
 }
 
 #[test]

@@ -1,10 +1,18 @@
-//! What `kinemark robot eval` answers beyond the golden numbers: mimic joints, loops, inverse kinematics, manipulability, and the codes
-//! of what cannot be answered.
+//! What `kinemark robot eval` answers beyond the golden numbers: mimic joints, loops, inverse kinematics, manipulability, derivatives,
+//! targets in order, workspaces.
 
+use kinemark_sim::control::{Derivative, GainLists, Mode, ServoSettings};
+use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::kinematics::closure::closed_positions;
+use kinemark_sim::run::{End, Recorder, Row, Setup, run};
+use kinemark_sim::text::Source;
+use kinemark_sim::ticks::Periods;
 use serde_json::{Value, json};
 
 use crate::eval::{close, eval_with, numbers};
 use crate::eval_golden::{ask, model, rows};
+use crate::eval_refusals::FOUR_BAR;
 use crate::testbed::TestBed;
 
 #[test]
@@ -207,194 +215,80 @@ fn a_loop_stays_closed_through_a_run() {
 }
 
 #[test]
-fn what_cannot_be_answered_has_its_code() {
-    let arm = ["RzRyRz", "--links", "0,0,1; 1,0,0; 1,0,0"];
-    let cases = [
-        (
-            &["uarm"][..],
-            r#"{"op": "fk", "q": [0, 0]}"#,
-            "wrong-length",
-        ),
-        (
-            &["uarm"],
-            r#"{"op": "inverse_dynamics", "q": [0,0,0,0,0], "qd": [0,0,0], "qdd": [0,0,0]}"#,
-            "wrong-length",
-        ),
-        (
-            &["uarm"],
-            r#"{"op": "fk", "q": [0, 1e9, 0]}"#,
-            "out-of-range",
-        ),
-        (
-            &["uarm"],
-            r#"{"op": "simulate", "q0": [0,0,1,0,0], "qd0": [0,0,0], "command": [0,0,0], "duration_s": 1, "servo_period_s": 0.001, "sample_period_s": 1, "servo": {"mode": "effort"}}"#,
-            "open-loop",
-        ),
-        (&["rrbot"], r#"{"op": "ik", "target": {}}"#, "missing-field"),
-        (&["rrbot"], r#"{"op": "ik"}"#, "missing-field"),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": [1, 2, 3]}"#,
-            "wrong-type",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"positoin_m": [1, 2, 3]}}"#,
-            "unknown-field",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3], "rotaton": 1}}"#,
-            "unknown-field",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2]}}"#,
-            "wrong-length",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"rotation": [[1,0,0],[0,1,0],[0,0,-1]]}}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "in": "tcp"}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "chain": ["sholder"]}"#,
-            "unknown-joint",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "method": "newton"}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "damping": 0.1}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "max_iterations": 1.5}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "target": {"position_m": [1, 2, 3]}, "max_iterations": 1000000000}"#,
-            "too-large",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "targets": []}"#,
-            "missing-field",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "ik", "targets": [], "frame": "tcp"}"#,
-            "unknown-field",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "manipulability", "q": [0, 0], "rows": [0, 6]}"#,
-            "out-of-range",
-        ),
-        (
-            &["rrbot"],
-            r#"{"op": "manipulability", "q": [0, 0], "rows": "liner"}"#,
-            "out-of-range",
-        ),
-        (&arm, r#"{"op": "com", "q": [0, 0, 0]}"#, "no-mass"),
-    ];
-    for (robot, request, code) in cases {
-        let (answers, exit) = eval_with(&TestBed::new(), robot, &[request.to_owned()]);
+fn a_robot_with_loops_moves_as_its_servos_would_move_it_in_a_lab() {
+    // no joint is marked as passive, so the two that the loop moves have motors too
+    let text = FOUR_BAR.replace("passive = true\n", "");
+    let file = RobotFile::parse(Source::new("four-bar.toml", text.as_str())).expect("a robot file");
+    let robot = file.build(&[]).expect("a robot");
+    let start_q = closed_positions(&robot, &[0.1]).expect("closed");
+    let (command, ticks) = ([0.5, 0.0, 0.2], 200);
+    let gains = GainLists {
+        kp: vec![5.0; 3],
+        kd: vec![0.5; 3],
+        ..GainLists::none(3)
+    };
+    let servo = ServoSettings::new(
+        &robot,
+        Mode::Position,
+        Derivative::Measurement,
+        &gains,
+        false,
+    );
+    let setup = Setup {
+        robot: &robot,
+        scene: None,
+        tcp: robot.tcp(),
+        seen_from: &robot.frames()[0],
+        periods: Periods::new(0.001, 0.001, 0.001).expect("periods"),
+        gravity_m_s2: GRAVITY_M_S2,
+        servo: servo.expect("settings"),
+        sensors: Vec::new(),
+        start_q: start_q.clone(),
+        start_qd: vec![0.0; 3],
+        ticks,
+    };
+    struct Last(Vec<f64>);
+    impl Recorder for Last {
+        fn row(&mut self, row: Row<'_>) {
+            self.0 = row.q.to_vec();
+        }
+    }
+    let mut last = Last(Vec::new());
+    let end = run(
+        &setup,
+        |_, slot| Ok::<(), ()>(slot.copy_from_slice(&command)),
+        &mut last,
+    );
+    assert_eq!(end, Ok(End::Finished));
+
+    let bed = TestBed::new();
+    bed.write("four-bar.toml", &text);
+    let request = json!({
+        "op": "simulate", "q0": start_q, "qd0": [0, 0, 0], "command": command, "duration_s": 0.2,
+        "servo_period_s": 0.001, "sample_period_s": 0.2,
+        "servo": { "mode": "position", "kp": 5, "kd": 0.5 },
+    });
+    let (answers, _) = eval_with(&bed, &["four-bar.toml"], &[request.to_string()]);
+    assert!(answers[0].get("error").is_none(), "{}", answers[0]);
+    assert_eq!(numbers(&answers[0]["q"][1]), last.0);
+    // and what a lab refuses is refused here
+    for servo in [
+        json!({ "mode": "position", "kp": -1 }),
+        json!({ "mode": "effort", "effort_limit": 0 }),
+    ] {
+        let mut refused = request.clone();
+        refused["servo"] = servo;
+        let (answers, _) = eval_with(&bed, &["four-bar.toml"], &[refused.to_string()]);
         assert_eq!(
-            answers[0]["error"]["code"], code,
-            "{request}: {}",
+            answers[0]["error"]["code"], "out-of-range",
+            "{}",
             answers[0]
         );
-        assert_eq!(exit, Some(1));
     }
-    let (answers, _) = eval_with(
-        &TestBed::new(),
-        &["uarm"],
-        &[r#"{"op": "fk", "q": [0, 0]}"#.to_owned()],
-    );
-    let message = answers[0]["error"]["message"].as_str().expect("message");
-    assert!(
-        message.contains("5 joints that move, 3 of them independent (turn, crank, lower_arm)"),
-        "{message}"
-    );
-}
-
-/// A four-bar whose crank is longer than its loop can follow.
-const FOUR_BAR: &str = r#"
-format = 1
-name = "four-bar"
-
-[[links]]
-name = "ground"
-[[links]]
-name = "crank"
-inertia = { mass_kg = 1, tensor_kg_m2 = [0.01, 0.01, 0.01, 0, 0, 0] }
-[[links]]
-name = "rod"
-inertia = { mass_kg = 1, tensor_kg_m2 = [0.01, 0.01, 0.01, 0, 0, 0] }
-[[links]]
-name = "rocker"
-inertia = { mass_kg = 1, tensor_kg_m2 = [0.01, 0.01, 0.01, 0, 0, 0] }
-
-[[joints]]
-name = "crank"
-type = "continuous"
-parent = "ground"
-child = "crank"
-origin = { rpy_deg = [0, 0, 90] }
-axis = [0, 0, 1]
-[[joints]]
-name = "rod"
-type = "continuous"
-parent = "crank"
-child = "rod"
-origin = { xyz_m = [1, 0, 0], rpy_deg = [0, 0, -90] }
-axis = [0, 0, 1]
-passive = true
-[[joints]]
-name = "rocker"
-type = "continuous"
-parent = "ground"
-child = "rocker"
-origin = { xyz_m = [1.2, 0, 0], rpy_deg = [0, 0, 90] }
-axis = [0, 0, 1]
-passive = true
-
-[[loops]]
-type = "revolute"
-links = ["rod", "rocker"]
-frame_on_first = { xyz_m = [1.2, 0, 0] }
-frame_on_second = { xyz_m = [0.5, 0, 0] }
-"#;
-
-#[test]
-fn a_loop_that_does_not_reach_is_open() {
-    let bed = TestBed::new();
-    bed.write("four-bar.toml", FOUR_BAR);
-    let requests = [
-        r#"{"op": "fk", "q": [0.1]}"#.to_owned(),
-        // the crank points back: rod and rocker together are 1.7 m, the way is 2.2 m
-        r#"{"op": "fk", "q": [1.5707963267948966]}"#.to_owned(),
-    ];
-    let (answers, _) = eval_with(&bed, &["four-bar.toml"], &requests);
-    assert!(answers[0].get("error").is_none(), "{}", answers[0]);
-    let code = answers[1]["error"]["code"].as_str().expect("a code");
-    assert!(["open-loop", "singular"].contains(&code), "{}", answers[1]);
 }
 
 /// Asks the arm of the course; some answers are errors.
-fn mixed(requests: &[Value]) -> Vec<Value> {
+pub(crate) fn mixed(requests: &[Value]) -> Vec<Value> {
     let lines: Vec<String> = requests.iter().map(Value::to_string).collect();
     eval_with(&TestBed::new(), &["rrbot"], &lines).0
 }
@@ -433,111 +327,6 @@ fn derivatives_and_parts_of_the_dynamics_fit_together() {
     assert!((analytic[4][0].abs() - 1.0).abs() < 1e-12);
     assert_eq!(answers[7]["error"]["code"], "singular");
     assert_eq!(answers[8]["error"]["code"], "out-of-range");
-}
-
-#[test]
-fn trajectories_are_planned_to_the_numbers_of_hand() {
-    let plan = |kind: &str, more: Value| {
-        let mut request = json!({ "op": "trajectory", "kind": kind });
-        for (key, value) in more.as_object().expect("fields") {
-            request[key] = value.clone();
-        }
-        request
-    };
-    let pose = |x: f64, y: f64| json!({ "position_m": [x, y, 0.0] });
-    let answers = mixed(&[
-        plan(
-            "quintic",
-            json!({ "from": [0, 1], "to": [1, 0], "duration_s": 2, "at_s": [0, 1, 2, 3] }),
-        ),
-        plan(
-            "cubic",
-            json!({ "from": 0, "to": 1, "duration_s": 1, "at_s": [0.5] }),
-        ),
-        plan(
-            "trapezoid",
-            json!({ "from": 0, "to": 1, "speed": 1, "acceleration": 4, "at_s": [0.125] }),
-        ),
-        // seven phases, none of constant acceleration or speed: 4 (D / 2j)^(1/3)
-        plan(
-            "jerk-limited",
-            json!({ "from": 0, "to": 2, "speed": 9, "acceleration": 9, "jerk": 1 }),
-        ),
-        plan(
-            "spline",
-            json!({ "points": [[0], [1], [0]], "times_s": [0, 1, 2], "at_s": [0.5, 1.0] }),
-        ),
-        plan(
-            "line",
-            json!({ "from": pose(0.0, 0.0), "to": pose(3.0, 4.0), "duration_s": 1, "at_s": [0.5] }),
-        ),
-        plan(
-            "arc",
-            json!({ "from": pose(1.0, 0.0), "via_m": [0, 1, 0], "to": pose(-1.0, 0.0), "law": "trapezoid", "speed": 1, "acceleration": 1, "at_s": [2.0] }),
-        ),
-        plan(
-            "arc",
-            json!({ "from": pose(1.0, 0.0), "via_m": [0, 0, 0], "to": pose(-1.0, 0.0), "duration_s": 1 }),
-        ),
-        plan("spline", json!({ "points": [[0], [1]], "times_s": [0, 0] })),
-        plan("loop", json!({ "from": 0, "to": 1 })),
-    ]);
-    close(&answers[0]["q"][1], &json!([0.5, 0.5]), 1e-15, "half way");
-    close(
-        &answers[0]["qd"][1],
-        &json!([0.9375, -0.9375]),
-        1e-15,
-        "15/8 D/T",
-    );
-    close(
-        &answers[0]["q"][3],
-        &json!([1.0, 0.0]),
-        0.0,
-        "after the end",
-    );
-    close(&answers[0]["qd"][3], &json!([0.0, 0.0]), 0.0, "at rest");
-    close(&answers[1]["qd"][0], &json!([1.5]), 1e-15, "3/2 D/T");
-    assert_eq!(answers[2]["duration_s"], 1.25);
-    close(&answers[2]["q"][0], &json!([0.03125]), 1e-15, "a t² / 2");
-    assert_eq!(answers[3]["duration_s"], 4.0);
-    // at rest at both ends through a peak: 3 u² - 2 u³
-    close(&answers[4]["q"][0], &json!([0.5]), 1e-15, "spline");
-    close(&answers[4]["qd"][1], &json!([0.0]), 1e-15, "peak");
-    assert_eq!(answers[5]["length_m"], 5.0);
-    close(
-        &answers[5]["position_m"][0],
-        &json!([1.5, 2.0, 0.0]),
-        1e-15,
-        "line",
-    );
-    // half a circle at 1 m/s from rest: at 2 s the way is 1.5 m, towards the centre 1 m/s²
-    let turned = 1.5_f64;
-    let radial = [-libm_cos(turned), -libm_sin(turned), 0.0];
-    close(
-        &answers[6]["acceleration_m_s2"][0],
-        &json!(radial),
-        1e-12,
-        "arc",
-    );
-    for refused in [&answers[7], &answers[8]] {
-        assert_eq!(refused["error"]["code"], "cannot-plan");
-    }
-    assert_eq!(answers[9]["error"]["code"], "out-of-range");
-}
-
-/// Cosine and sine by their series: the tests link no `libm`.
-fn libm_cos(x: f64) -> f64 {
-    libm_sin(std::f64::consts::FRAC_PI_2 - x)
-}
-
-fn libm_sin(x: f64) -> f64 {
-    let (mut term, mut sum) = (x, x);
-    for k in 1..20 {
-        let k = f64::from(2 * k);
-        term *= -x * x / (k * (k + 1.0));
-        sum += term;
-    }
-    sum
 }
 
 #[test]

@@ -4,8 +4,8 @@ use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 
-use crate::course::Course;
-use crate::testbed::{TestBed, grade};
+use crate::own_lab::OwnLab;
+use crate::testbed::grade;
 
 const LAB: &str = r#"
 format = 1
@@ -85,23 +85,19 @@ const SOLUTION: &str = "fn second_order(given) {
 }
 fn stiffness(given) { given.inertia * given.frequency ** 2 }";
 
-const PATH: &str = "95-loop/lab.toml";
-
-fn course() -> Course {
+fn own_lab() -> OwnLab {
     let hertz = SOLUTION.replace("natural_frequency: w", "natural_frequency: w / (2 * pi)");
-    Course(vec![
-        (PATH, LAB.to_owned()),
-        ("95-loop/hidden.toml", HIDDEN.to_owned()),
-        ("95-loop/mutants.toml", MUTANTS.to_owned()),
-        ("95-loop/solution.rhai", SOLUTION.to_owned()),
-        ("95-loop/mutants/hertz.rhai", hertz),
-    ])
+    OwnLab::new("95-loop", LAB)
+        .and("hidden.toml", HIDDEN)
+        .and("mutants.toml", MUTANTS)
+        .and("solution.rhai", SOLUTION)
+        .and("mutants/hertz.rhai", hertz)
 }
 
 fn graded(submission: &str) -> Grade {
-    let course = course();
-    let lab = course.lab();
-    let staff = course.staff(&lab);
+    let own = own_lab();
+    let lab = own.lab();
+    let staff = own.staff(&lab);
     grade(&lab, staff.as_ref(), "mine.rhai", submission).grade
 }
 
@@ -202,18 +198,9 @@ fn what_is_no_such_map_is_told_so_and_entries_count_for_themselves() {
 
 #[test]
 fn a_worker_gives_the_same_grade_as_this_process() {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    for (path, content) in course().0 {
-        let folder = if path == PATH { "labs" } else { "reference" };
-        bed.write(&format!("{folder}/{path}"), content);
-    }
     let submission = SOLUTION.replace("natural_frequency: w", "natural_frequency: 1.055 * w");
-    bed.write("mine.rhai", &submission);
-    let ran = bed.run(&["grade", "95-loop", "mine.rhai"]);
-    assert_eq!(ran.code, Some(1), "{ran:?}");
-    let theirs = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
-    let theirs: Grade = serde_json::from_str(&theirs).expect("a grade");
+    let theirs = own_lab().record(&submission, 1);
+    let theirs: Grade = serde_json::from_value(theirs).expect("a grade");
     assert_eq!(theirs, graded(&submission));
 }
 
@@ -271,7 +258,7 @@ fn labs_that_ask_for_no_such_function_are_refused() {
             "check `gain` of kind `jacobian-match` needs a function task of `jacobian`",
         ),
     ] {
-        match course().with(PATH, from, to).load() {
+        match own_lab().with("lab.toml", from, to).load() {
             Ok(_) => panic!("{to} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }
@@ -280,7 +267,7 @@ fn labs_that_ask_for_no_such_function_are_refused() {
 
 #[test]
 fn draws_that_give_something_else_or_that_the_solution_cannot_answer_are_refused() {
-    let hidden = "95-loop/hidden.toml";
+    let hidden = "hidden.toml";
     for (path, from, to, message) in [
         (
             hidden,
@@ -295,16 +282,20 @@ fn draws_that_give_something_else_or_that_the_solution_cannot_answer_are_refused
             "a draw for `stiffness` is of `given`",
         ),
         (
-            "95-loop/solution.rhai",
+            "solution.rhai",
             "given.frequency ** 2",
             "sqrt(-given.frequency)",
             "`stiffness` of the solution returned NaN, expected finite numbers",
         ),
     ] {
-        let course = course().with(path, from, to);
+        let course = own_lab().with(path, from, to);
         let lab = course.lab();
-        match kinemark_grader::lab::Staff::load(&course, &lab, None) {
-            Ok(_) => panic!("{to} is accepted"),
+        let loaded = kinemark_grader::lab::Staff::load(&course, &lab, None);
+        let tried = loaded.and_then(|staff| {
+            kinemark_grader::audit::staff_code(&lab, &staff.expect("a staff's part"))
+        });
+        match tried {
+            Ok(()) => panic!("{to} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }
     }

@@ -1,5 +1,6 @@
 //! `kinemark grade` as a user sees it: text, files, exit codes.
 
+use crate::golden::reads;
 use crate::testbed::{TestBed, files_below, root};
 
 fn good(bed: &TestBed) {
@@ -29,6 +30,7 @@ fn a_good_submission_has_full_marks_and_a_whole_folder() {
         "move/run.mcap",
         "plots/move-joints.svg",
         "report.html",
+        "report.json",
         "submission.rhai",
         "warm-up/run.mcap",
     ] {
@@ -85,9 +87,27 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
     good(&bed);
     let args = ["grade", "01-kinematics", "submission.rhai"];
     assert_eq!(bed.run(&args).code, Some(0));
+    // a plot that the report lists goes with it, one that it does not list is somebody's
     bed.write("out/plots/stale.svg", "old");
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("holds `plots/stale.svg`"), "{ran:?}");
+    bed.edit(
+        "out/report.json",
+        "\"files\": {",
+        "\"files\": {\n    \"plots/stale.svg\": \"\",",
+    );
     assert_eq!(bed.run(&args).code, Some(0));
     assert!(!bed.path("out/plots/stale.svg").exists());
+    // a folder of an older version has no list of its files
+    std::fs::rename(bed.path("out/report.json"), bed.path("away")).expect("moved");
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(
+        ran.stderr.contains("no report.json") && ran.stderr.contains("move or delete"),
+        "{ran:?}"
+    );
+    std::fs::rename(bed.path("away"), bed.path("out/report.json")).expect("moved");
     // a file stays a file, whatever it is
     let ran = bed.run(&[
         "grade",
@@ -138,7 +158,7 @@ fn control(observation) {
     bed.write("submission.rhai", submission);
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    insta::assert_snapshot!(ran.stdout);
+    reads("a_wrong_submission_reads_like_this", &ran.stdout);
 }
 
 #[cfg(unix)]

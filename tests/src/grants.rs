@@ -1,15 +1,12 @@
 //! `grants`: what a task lends a submission of Kinemark's own model of the robot, and which labs may not.
 
-use kinemark_grader::attempt::motion::{self, Session};
-use kinemark_grader::judge::{InProcess, granted};
-use kinemark_grader::lab::{Lab, MotionTask, TaskWork};
+use kinemark_grader::lab::Lab;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::verdict::Verdict;
-use kinemark_grader::submission::controller::Opening;
 use kinemark_report::text::text;
 
-use crate::course::Course;
-use crate::testbed::{TestBed, grade};
+use crate::own_lab::OwnLab;
+use crate::testbed::grade;
 
 const LAB: &str = r#"
 format = 1
@@ -102,10 +99,8 @@ fn control(observation) {
 }
 "#;
 
-const PATH: &str = "94-grants/lab.toml";
-
-fn course() -> Course {
-    Course(vec![(PATH, LAB.to_owned())])
+fn own_lab() -> OwnLab {
+    OwnLab::new("94-grants", LAB)
 }
 
 fn graded(lab: &Lab, submission: &str) -> Grade {
@@ -114,60 +109,22 @@ fn graded(lab: &Lab, submission: &str) -> Grade {
 
 #[test]
 fn what_is_granted_is_the_robot_of_the_task_and_of_each_case() {
-    let grade = graded(&course().lab(), SUBMISSION);
+    let grade = graded(&own_lab().lab(), SUBMISSION);
     assert_eq!(grade.verdict, Verdict::Passed, "{}", text(&grade));
     assert_eq!(grade.points, 6.0);
 }
 
 #[test]
 fn a_worker_gives_the_same_grade_as_this_process() {
-    let bed = TestBed::new();
-    bed.copy_labs();
-    bed.write("labs/94-grants/lab.toml", LAB);
-    bed.write("mine.rhai", SUBMISSION);
-    let ran = bed.run(&["grade", "94-grants", "mine.rhai", "--practice"]);
-    assert_eq!(ran.code, Some(0), "{ran:?}");
-    let theirs = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
-    let theirs: Grade = serde_json::from_str(&theirs).expect("a grade");
-    let ours = graded(&course().lab(), SUBMISSION);
-    assert_eq!(theirs, ours);
-}
-
-#[test]
-fn a_robot_kept_in_this_can_be_copied_in_the_middle_of_a_run() {
-    let lab = course().lab();
-    let TaskWork::Motion(work) = &lab.tasks[1].work else {
-        panic!("a motion task");
-    };
-    let work: &MotionTask = work;
-    let opening = Opening {
-        file: "mine.rhai".to_owned(),
-        source: SUBMISSION.to_owned(),
-        task: "hold".to_owned(),
-        robot: motion::facts_of(&lab, work),
-        target: motion::target_of(work),
-        sensors: Vec::new(),
-        budgets: lab.budgets.clone(),
-        granted: granted(&lab, &lab.tasks[1].work),
-        function: None,
-    };
-    let straight = motion::run(&lab, work, &opening, &mut InProcess);
-    assert_eq!(straight.ended, None);
-    let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
-    let mut first = open();
-    first.advance_to(333);
-    let saved = first.snapshot().expect("the robot can be kept");
-    let mut other = open();
-    other.restore(&saved).expect("restored");
-    other.advance_to(u64::MAX);
-    let run = other.finish();
-    assert_eq!(run.operations, straight.operations);
-    assert!(run.trace == straight.trace);
+    let lab = own_lab();
+    let theirs = lab.record(SUBMISSION, 0);
+    let theirs: Grade = serde_json::from_value(theirs).expect("a grade");
+    assert_eq!(theirs, graded(&lab.lab(), SUBMISSION));
 }
 
 #[test]
 fn a_call_is_charged_by_the_joints() {
-    let lab = course().lab();
+    let lab = own_lab().lab();
     let operations = |calls: &str| {
         let submission = format!(
             "fn jacobian(robot, q) {{ [[0, 0], [0, 0]] }}\nfn init(robot, task) {{ this.robot = robot; }}\nfn control(o) {{ let q = o.q; let r = this.robot; {calls} [0, 0] }}"
@@ -201,7 +158,7 @@ fn a_call_is_charged_by_the_joints() {
 
 #[test]
 fn what_is_not_granted_or_asked_wrongly_is_told_so() {
-    let lab = course().lab();
+    let lab = own_lab().lab();
     for (body, message, help) in [
         (
             "robot.gravity(q)",
@@ -240,7 +197,7 @@ fn what_is_not_granted_or_asked_wrongly_is_told_so() {
 
 #[test]
 fn a_students_own_function_of_that_name_is_theirs() {
-    let lab = course().lab();
+    let lab = own_lab().lab();
     let own = SUBMISSION
         .replace("robot.fk(q + step)", "fk(robot, q + step)")
         .replace("robot.fk(q - step)", "fk(robot, q - step)")
@@ -271,7 +228,7 @@ fn labs_that_grant_what_cannot_be_are_refused() {
             "there is no `robot.gravty` to grant",
         ),
     ] {
-        match course().with(PATH, from, to).load() {
+        match own_lab().with("lab.toml", from, to).load() {
             Ok(_) => panic!("{to} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }

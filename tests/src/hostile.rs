@@ -1,5 +1,6 @@
 //! Submissions that would hurt: each ends with its verdict, in counted work, and the points of other tasks stand.
 
+use crate::every_case::every_case;
 use crate::testbed::TestBed;
 
 /// The body of `forward_kinematics`, and the budget that must stop it.
@@ -36,14 +37,15 @@ const HOSTILE: [(&str, &str, &str); 8] = [
 
 #[test]
 fn a_hostile_function_costs_its_own_task_alone() {
-    for (name, body, budget) in HOSTILE {
+    let cases = HOSTILE.map(|(name, body, budget)| (name.to_owned(), (body, budget)));
+    every_case(&cases, |(body, budget)| {
         let bed = TestBed::new();
         let submission = format!(
             "fn forward_kinematics(robot, q) {{ {body} }}\nfn control(observation) {{ [0.5, 0.0] }}\n"
         );
         bed.write("submission.rhai", submission);
         let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json"]);
-        assert_eq!(ran.code, Some(1), "{name}: {ran:?}");
+        assert_eq!(ran.code, Some(1), "{ran:?}");
         let record: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a record");
         let task = |name: &str| {
             let tasks = record["tasks"].as_array().expect("tasks");
@@ -53,13 +55,13 @@ fn a_hostile_function_costs_its_own_task_alone() {
                 .expect("task")
                 .clone()
         };
-        assert_eq!(task("warm-up")["points"], 1.0, "{name}");
+        assert_eq!(task("warm-up")["points"], 1.0);
         let fk = task("fk");
-        assert_eq!(fk["verdict"], "over-budget", "{name}: {fk:#}");
+        assert_eq!(fk["verdict"], "over-budget", "{fk:#}");
         let message = fk["stopped"]["message"].as_str().expect("message");
-        assert!(message.contains(budget), "{name}: {message}");
-        assert_eq!(fk["stopped"]["line"], 1, "{name}: {fk:#}");
-    }
+        assert!(message.contains(budget), "{message}");
+        assert_eq!(fk["stopped"]["line"], 1, "{fk:#}");
+    });
 }
 
 #[test]

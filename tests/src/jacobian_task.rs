@@ -1,12 +1,11 @@
 //! A task of `jacobian`: what earns its points, what its evidence says, and which labs are refused.
 
-use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 
-use crate::testbed::{Folder, grade, root};
+use crate::own_lab::OwnLab;
+use crate::testbed::grade;
 
 const LAB: &str = r#"
 format = 1
@@ -81,46 +80,20 @@ const ABSOLUTE_ELBOW: &str = "fn jacobian(robot, q) {
     [[-l[0] * sin(q[0]), -l[1] * sin(q[0] + q[1])], [l[0] * cos(q[0]), l[1] * cos(q[0] + q[1])]]
 }";
 
-/// The checkout's robots beside the files of one lab.
-struct Course {
-    lab: String,
-}
-
-impl Files for Course {
-    fn name(&self) -> String {
-        "the course".to_owned()
-    }
-
-    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        let text = match path {
-            "92-jacobian/lab.toml" => &self.lab,
-            "92-jacobian/hidden.toml" => HIDDEN,
-            "92-jacobian/mutants.toml" => MUTANTS,
-            "92-jacobian/solution.rhai" => SOLUTION,
-            "92-jacobian/mutants/elbow-by-shoulder.rhai" => ELBOW_BY_SHOULDER,
-            "92-jacobian/mutants/absolute-elbow.rhai" => ABSOLUTE_ELBOW,
-            path => return Folder(root().join("labs")).bytes(path),
-        };
-        Ok(Some(text.as_bytes().to_vec()))
-    }
-
-    fn list(&self, folder: &str) -> Vec<String> {
-        match folder {
-            "" => vec!["92-jacobian".to_owned()],
-            folder => Folder(root().join("labs")).list(folder),
-        }
-    }
+fn own_lab() -> OwnLab {
+    OwnLab::new("92-jacobian", LAB)
+        .and("hidden.toml", HIDDEN)
+        .and("mutants.toml", MUTANTS)
+        .and("solution.rhai", SOLUTION)
+        .and("mutants/elbow-by-shoulder.rhai", ELBOW_BY_SHOULDER)
+        .and("mutants/absolute-elbow.rhai", ABSOLUTE_ELBOW)
 }
 
 fn graded(submission: &str) -> Grade {
-    let course = Course {
-        lab: LAB.to_owned(),
-    };
-    assert_eq!(lab_names(&course), ["92-jacobian"]);
-    let lab = Lab::load(&course, "92-jacobian").unwrap_or_else(|error| panic!("{error:?}"));
-    let staff = Staff::load(&course, &lab, None).unwrap_or_else(|error| panic!("{error:?}"));
-    let run = grade(&lab, staff.as_ref(), "mine.rhai", submission);
-    run.grade
+    let own = own_lab();
+    let lab = own.lab();
+    let staff = own.staff(&lab);
+    grade(&lab, staff.as_ref(), "mine.rhai", submission).grade
 }
 
 fn evidence(task: &TaskGrade) -> Vec<&str> {
@@ -260,11 +233,7 @@ fn labs_that_ask_for_no_such_jacobian_are_refused() {
             "a band needs `full` at or below `zero`, got 0.0001 and 0.00001",
         ),
     ] {
-        assert!(LAB.contains(from));
-        let course = Course {
-            lab: LAB.replace(from, to),
-        };
-        match Lab::load(&course, "92-jacobian") {
+        match own_lab().with("lab.toml", from, to).load() {
             Ok(_) => panic!("{to} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }
@@ -273,10 +242,9 @@ fn labs_that_ask_for_no_such_jacobian_are_refused() {
 
 #[test]
 fn without_rows_the_three_linear_ones_are_asked_for() {
-    let course = Course {
-        lab: LAB.replace("rows = [\"x\", \"y\"]\n", ""),
-    };
-    let lab = Lab::load(&course, "92-jacobian").unwrap_or_else(|error| panic!("{error:?}"));
+    let lab = own_lab()
+        .with("lab.toml", "rows = [\"x\", \"y\"]\n", "")
+        .lab();
     let with_z = SOLUTION.replace("]]\n", "], [0, 0]]\n");
     let run = grade(&lab, None, "mine.rhai", &with_z);
     assert_eq!(run.grade.verdict, Verdict::Passed, "{}", text(&run.grade));

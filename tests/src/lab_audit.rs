@@ -1,5 +1,8 @@
 //! The graders of labs are graded: starters must miss, references must pass on any salt, mutants must lose and be recognised.
 
+use std::path::PathBuf;
+use std::sync::Mutex;
+
 use kinemark_grader::audit::{Audit, Row};
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::{Lab, Staff, TaskWork};
@@ -8,10 +11,12 @@ use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 
+use crate::every_case::every_case;
+use crate::golden;
 use crate::testbed::{Folder, grade, lab, root, staff};
 
 fn labs() -> Vec<Lab> {
-    if std::env::var_os("KINEMARK_BLESS").is_some() {
+    if golden::is_blessing() {
         stub_missing_paths();
     }
     let names = lab_names(&Folder(root().join("labs")));
@@ -78,35 +83,42 @@ const STUDENTS: u32 = 4;
 
 #[test]
 fn references_lose_no_point_whatever_the_salt() {
+    let mut cases = Vec::new();
     for lab in labs() {
         let functions = function_tasks(lab.clone());
         for salt in 0..40 {
-            let staff = staff(&lab, Some(&format!("salt {salt}")));
             // hidden runs take long; of hidden cases many are tried
-            let part = if salt < 2 { &lab } else { &functions };
-            let solution = staff.solution.clone();
-            let graded = grade(part, Some(&staff), "solution.rhai", solution.text());
-            if salt == 0 {
-                reference_path_is_current(&lab, &graded.runs);
-            }
-            let grade = &graded.grade;
-            assert_eq!(
-                grade.verdict,
-                Verdict::Passed,
-                "salt {salt}: {}",
-                text(grade)
-            );
-            assert_eq!(grade.points, grade.max_points);
+            let part = if salt < 2 {
+                lab.clone()
+            } else {
+                functions.clone()
+            };
+            cases.push((format!("{}, salt {salt}", lab.name), (part, salt)));
         }
     }
+    let paths = Mutex::new(Vec::new());
+    every_case(&cases, |(part, salt)| {
+        let staff = staff(part, Some(&format!("salt {salt}")));
+        let solution = staff.solution.clone();
+        let graded = grade(part, Some(&staff), "solution.rhai", solution.text());
+        let grade = &graded.grade;
+        assert_eq!(grade.verdict, Verdict::Passed, "{}", text(grade));
+        assert_eq!(grade.points, grade.max_points);
+        if *salt == 0 {
+            let mut paths = paths.lock().expect("not poisoned");
+            paths.extend(reference_path(part, &graded.runs));
+        }
+    });
+    golden::are_current(&paths.into_inner().expect("not poisoned"));
 }
 
 #[test]
 fn references_lose_no_point_whoever_the_student_is() {
-    for lab in labs() {
+    let labs = labs().into_iter().map(|lab| (lab.name.clone(), lab));
+    every_case(&labs.collect::<Vec<_>>(), |lab| {
         let places = ["labs", "reference"].map(|folder| Folder(root().join(folder)));
-        passes_variants(&places[0], &places[1], &lab, STUDENTS);
-    }
+        passes_variants(&places[0], &places[1], lab, STUDENTS);
+    });
 }
 
 /// The reference has full marks in the variants of the first `students`, each with the hidden cases and runs of that variant.
@@ -131,8 +143,8 @@ pub(crate) fn passes_variants(labs: &Folder, reference: &Folder, lab: &Lab, stud
     }
 }
 
-/// `reference-path.json` is the TCP path of the reference solution; `KINEMARK_BLESS=1` writes it anew.
-fn reference_path_is_current(lab: &Lab, runs: &[TaskRun]) {
+/// `reference-path.json` of a lab: the TCP paths of the reference solution; nothing where no task shows one.
+fn reference_path(lab: &Lab, runs: &[TaskRun]) -> Option<(PathBuf, String)> {
     let mut paths = serde_json::Map::new();
     // a task without goals has a path where its lab shows one
     let has_path = |run: &&TaskRun| {
@@ -158,47 +170,37 @@ fn reference_path_is_current(lab: &Lab, runs: &[TaskRun]) {
     }
     if paths.is_empty() {
         assert_eq!(lab.reference_paths.text, "", "{} shows no path", lab.name);
-        return;
+        return None;
     }
     let text = serde_json::to_string(&paths)
         .expect("JSON")
         .replace("],[", "],\n[")
         + "\n";
-    let path = root()
-        .join("labs")
-        .join(&lab.name)
-        .join("reference-path.json");
-    if std::env::var_os("KINEMARK_BLESS").is_some() {
-        std::fs::write(&path, &text).expect("written");
-    }
-    let stored = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        stored == text,
-        "{} is not the path of the reference solution: run KINEMARK_BLESS=1 cargo test",
-        path.display()
-    );
+    let folder = root().join("labs").join(&lab.name);
+    Some((folder.join("reference-path.json"), text))
 }
 
 /// What `kinemark lab check` tries, with other salts as well.
 #[test]
 fn labs_have_no_problem_that_lab_check_finds() {
-    for lab in labs() {
-        let mut audit = Audit::new(&lab);
-        let own = staff(&lab, None);
-        let starter = Source::new("starter.rhai", read(&lab, "starter.rhai"));
-        audit.starter(&lab, &own, &starter);
-        audit.mutants(&lab, &own);
+    let labs = labs().into_iter().map(|lab| (lab.name.clone(), lab));
+    every_case(&labs.collect::<Vec<_>>(), |lab| {
+        let mut audit = Audit::new(lab);
+        let own = staff(lab, None);
+        let starter = Source::new("starter.rhai", read(lab, "starter.rhai"));
+        audit.starter(lab, &own, &starter);
+        audit.mutants(lab, &own);
         let functions = function_tasks(lab.clone());
         for salt in ["another year", "a third"] {
-            audit.mutants(&functions, &staff(&lab, Some(salt)));
+            audit.mutants(&functions, &staff(lab, Some(salt)));
         }
         let run = audit
-            .reference(&lab, &own, "own hidden cases")
+            .reference(lab, &own, "own hidden cases")
             .expect("a run");
-        audit.reference_paths(&lab, &run);
+        audit.reference_paths(lab, &run);
         let problems: Vec<&Row> = audit.problems().collect();
-        assert!(problems.is_empty(), "{}: {problems:#?}", lab.name);
-    }
+        assert!(problems.is_empty(), "{problems:#?}");
+    });
 }
 
 #[test]
@@ -254,10 +256,10 @@ fn hidden_targets_lie_inside_the_boundary() {
     }
 }
 
-/// The numbers of a brief are those of its lab; `KINEMARK_BLESS=1` writes them anew.
 #[test]
 fn briefs_state_the_numbers_of_their_labs() {
     use kinemark_grader::lab::brief::{BEGIN, with_grading, with_numbers};
+    let mut briefs = Vec::new();
     for lab in labs() {
         let path = root().join("labs").join(&lab.name).join("brief.md");
         let brief = read(&lab, "brief.md");
@@ -268,13 +270,7 @@ fn briefs_state_the_numbers_of_their_labs() {
         );
         let current = with_numbers(&with_grading(&brief, &lab), &lab)
             .unwrap_or_else(|why| panic!("{}: {why}", path.display()));
-        if std::env::var_os("KINEMARK_BLESS").is_some() {
-            std::fs::write(&path, &current).expect("written");
-        }
-        assert!(
-            current == read(&lab, "brief.md"),
-            "{}: run KINEMARK_BLESS=1 cargo test",
-            path.display()
-        );
+        briefs.push((path, current));
     }
+    golden::are_current(&briefs);
 }

@@ -1,9 +1,9 @@
 //! docs/robots.md and docs/robot-eval.md do what they say: their files are written, their commands run, their output is theirs.
-//! `KINEMARK_BLESS=1` writes them anew.
 
 use std::io::Write as _;
 use std::process::Stdio;
 
+use crate::golden::are_current;
 use crate::testbed::{Ran, TestBed, root};
 
 /// Runs `kinemark ARGS` or `echo 'TEXT' | kinemark ARGS`, as a shell would.
@@ -75,19 +75,7 @@ fn the_examples_of_the_robots_page_are_real() {
         examples += 1;
     }
     assert!(examples >= 10, "{examples} examples");
-    current(&path, &page, &fresh);
-}
-
-fn current(path: &std::path::Path, page: &str, fresh: &str) {
-    if std::env::var_os("KINEMARK_BLESS").is_some() {
-        std::fs::write(path, fresh).expect("written");
-        return;
-    }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    assert!(
-        fresh == page,
-        "docs/{name}: run KINEMARK_BLESS=1 cargo test"
-    );
+    are_current(&[(path, fresh)]);
 }
 
 #[test]
@@ -117,5 +105,5 @@ fn the_answers_of_the_eval_page_are_real() {
         examples += 1;
     }
     assert!(examples >= 14, "{examples} examples");
-    current(&path, &page, &fresh);
+    are_current(&[(path, fresh)]);
 }

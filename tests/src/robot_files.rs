@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::eval::{close, eval_with};
 use crate::eval_golden::model;
+use crate::golden::reads;
 use crate::testbed::TestBed;
 
 const ROW: [&str; 5] = ["RzRyRz", "--base", "2", "--links", "0,0,4; 3,0,0; 1,0,0"];
@@ -30,7 +31,7 @@ fn robots_are_shown_like_this() {
         ("humanoid", &[&model("humanoid25.urdf")]),
     ] {
         let shown = printed("show", robot);
-        insta::assert_snapshot!(format!("show_{name}"), shown);
+        reads(&format!("show_{name}"), &shown);
         let widest = shown.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(100), "{name}: {widest:?}");
     }
@@ -43,7 +44,7 @@ fn robots_are_converted_like_this() {
         ("uarm", &["uarm"]),
         ("row", &ROW),
     ] {
-        insta::assert_snapshot!(format!("convert_{name}"), printed("convert", robot));
+        reads(&format!("convert_{name}"), &printed("convert", robot));
     }
 }
 

@@ -8,6 +8,7 @@ use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 
+use crate::every_case::every_case;
 use crate::testbed::{Folder, TestBed, grade};
 
 const LAB: &str = r#"
@@ -186,25 +187,28 @@ fn the_same_mistake_in_other_words_is_named() {
             ("fn control(", "fn never() { }\nfn control("),
         ],
     ];
-    for name in ["half-speed", "first-line-only", "corner-forgotten"] {
-        for words in other_words {
-            let text = changed(SWEEP, &[&words[..], &[mutant(name)]].concat());
-            let (task, all) = sweep(&lab, Some(&staff), &text);
-            assert_eq!(told(&task), [name], "{words:?} {}", self::text(&all));
-            let told = &task.diagnoses[0];
-            assert!(
-                told.telling >= 50 && 100 * told.agreeing >= 95 * told.telling,
-                "{told:?}"
-            );
-            assert!(self::text(&all).contains("telling moments agree)"));
-            // the diagnosis takes the place of the checks' own hints
-            assert!(
-                task.checks
-                    .iter()
-                    .all(|check| { check.next_step.is_none() || check.measure.is_none() })
-            );
-        }
-    }
+    let named = ["half-speed", "first-line-only", "corner-forgotten"];
+    let each = named
+        .iter()
+        .flat_map(|name| other_words.map(|words| (*name, words)));
+    let cases = each.map(|(name, words)| (format!("{name}, {words:?}"), (name, words)));
+    every_case(&cases.collect::<Vec<_>>(), |(name, words)| {
+        let text = changed(SWEEP, &[&words[..], &[mutant(name)]].concat());
+        let (task, all) = sweep(&lab, Some(&staff), &text);
+        assert_eq!(told(&task), [*name], "{}", self::text(&all));
+        let told = &task.diagnoses[0];
+        assert!(
+            told.telling >= 50 && 100 * told.agreeing >= 95 * told.telling,
+            "{told:?}"
+        );
+        assert!(self::text(&all).contains("telling moments agree)"));
+        // the diagnosis takes the place of the checks' own hints
+        assert!(
+            task.checks
+                .iter()
+                .all(|check| { check.next_step.is_none() || check.measure.is_none() })
+        );
+    });
 }
 
 #[test]
@@ -248,12 +252,13 @@ fn what_is_nearly_a_known_mistake_is_not_named() {
             )],
         ),
     ];
-    for (what, changes) in cases {
-        let (task, all) = sweep(&lab, Some(&staff), &changed(SWEEP, &changes));
-        assert_eq!(task.verdict, Verdict::Missed, "{what}: {}", text(&all));
-        assert_eq!(told(&task), [""; 0], "{what}: {}", text(&all));
-        assert!(task.divergence.is_some(), "{what}");
-    }
+    let cases = cases.map(|(what, changes)| (what.to_owned(), changes));
+    every_case(&cases, |changes| {
+        let (task, all) = sweep(&lab, Some(&staff), &changed(SWEEP, changes));
+        assert_eq!(task.verdict, Verdict::Missed, "{}", text(&all));
+        assert_eq!(told(&task), [""; 0], "{}", text(&all));
+        assert!(task.divergence.is_some());
+    });
 }
 
 #[test]

@@ -1,13 +1,9 @@
-//! A lab with a scene: graded with events and contacts, copied with its report, verified from the copy, logged for a viewer, copied
-//! in the middle of a run, and ended with its cause where a servo is beyond its limit.
+//! A lab with a scene: graded with events and contacts, copied with its report, verified from the copy, logged for a viewer,
+//! and ended with its cause where a servo is beyond its limit.
 
-use kinemark_grader::attempt::motion::{self, Session};
-use kinemark_grader::judge::InProcess;
-use kinemark_grader::lab::{Lab, MotionTask, TaskWork};
-use kinemark_grader::submission::controller::{Opening, Value};
 use serde_json::Value as Json;
 
-use crate::testbed::{Folder, TestBed, files_below};
+use crate::testbed::{TestBed, files_below};
 
 const LAB: &str = r#"
 format = 1
@@ -224,63 +220,6 @@ fn mistakes_about_a_scene_are_shown_at_their_place() {
         "name = \"can\"\nmas = 1",
     );
     refused(&["scene::toml", "mas"]);
-}
-
-fn lab(bed: &TestBed) -> Lab {
-    Lab::load(&Folder(bed.path("labs")), "90-knock").unwrap_or_else(|error| panic!("{error:?}"))
-}
-
-fn motion_of(lab: &Lab) -> &MotionTask {
-    match &lab.tasks[0].work {
-        TaskWork::Motion(motion) => motion,
-        TaskWork::Function(_) => panic!("a motion task"),
-    }
-}
-
-#[test]
-fn a_session_copied_in_the_middle_goes_on_with_the_same_bits() {
-    let bed = bed();
-    // noise, values under way, and readings that are held between samples
-    let noisy = "[[tasks.motion.sensors]]\nname = \"encoder\"\ntype = \"joint-position\"\njoint = \"elbow\"\nnoise = 0.01\ndelay_s = 0.013\nrate_hz = 50\n\n[[tasks.checks]]";
-    bed.edit("labs/90-knock/lab.toml", "[[tasks.checks]]", noisy);
-    let source = SWEEP.replace(
-        "plot(\"out\", observation.tcp[1]);",
-        "plot(\"out\", observation.tcp[1] + observation.sensors.encoder);",
-    );
-    assert_ne!(source, SWEEP);
-    let lab = lab(&bed);
-    let work = motion_of(&lab);
-    let opening = Opening {
-        file: "mine.rhai".to_owned(),
-        source,
-        task: "knock".to_owned(),
-        robot: motion::facts_of(&lab, work),
-        target: Value::Nothing,
-        sensors: motion::sensors_of(work),
-        budgets: lab.budgets.clone(),
-        granted: None,
-        function: None,
-    };
-    let open = || Session::open(&lab, work, &opening, &mut InProcess).expect("it starts");
-    let straight = motion::run(&lab, work, &opening, &mut InProcess);
-    assert_eq!(straight.ended, None);
-    assert!(straight.trace.log.len() >= 5 && !straight.trace.plots.is_empty());
-    for at in [7, 1003, 1500, 2345] {
-        let mut first = open();
-        first.advance_to(at);
-        let saved = first.snapshot().expect("all of `this` can be kept");
-        first.advance_to(u64::MAX);
-        let mut other = open();
-        other.advance_to(at / 2);
-        other.restore(&saved).expect("restored");
-        assert_eq!(other.tick(), at);
-        other.advance_to(u64::MAX);
-        for run in [first.finish(), other.finish()] {
-            assert_eq!(run.operations, straight.operations, "at {at}");
-            assert!(run.trace == straight.trace, "at {at}");
-            assert_eq!(run.trace.digest(), straight.trace.digest());
-        }
-    }
 }
 
 #[test]

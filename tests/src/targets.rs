@@ -3,7 +3,7 @@
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 
-use crate::course::Course;
+use crate::own_lab::OwnLab;
 use crate::testbed::grade;
 
 const LAB: &str = r#"
@@ -30,8 +30,8 @@ points = 1.0
 joint-reached = { joint = "shoulder", position_rad = 0.0, hold_s = 0.05, full_rad = 0.01, zero_rad = 0.02 }
 "#;
 
-fn course(target: &str) -> Course {
-    Course(vec![("93-target/lab.toml", LAB.replace("TARGET", target))])
+fn own_lab(target: &str) -> OwnLab {
+    OwnLab::new("93-target", LAB.replace("TARGET", target))
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn a_target_of_any_shape_arrives() {
         ),
         ("[{ at = 1 }, \"two\"]", "t[0].at == 1 && t[1] == \"two\""),
     ] {
-        let lab = course(target).lab();
+        let lab = own_lab(target).lab();
         let submission = format!(
             "fn control(observation) {{ let t = observation.target; if {test} {{ [0, 0] }} else {{ throw \"other\" }} }}"
         );
@@ -73,7 +73,7 @@ fn a_target_nobody_can_be_given_is_refused() {
         ),
         ("[nan]", "a lab's numbers are finite"),
     ] {
-        match course(target).load() {
+        match own_lab(target).load() {
             Ok(_) => panic!("{target} is accepted"),
             Err(error) => assert_eq!(error.to_string(), message),
         }

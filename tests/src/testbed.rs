@@ -8,9 +8,10 @@ use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use kinemark_grader::judge::{self, InProcess};
+use kinemark_grader::judge;
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::submission::host::InProcess;
 use kinemark_sim::source::Source;
 
 /// The checkout.

@@ -2,15 +2,13 @@
 
 use kinemark_grader::lab::{Lab, Staff, Variant};
 use kinemark_grader::record::grade::Grade;
-use kinemark_grader::record::verdict::Verdict;
-use kinemark_report::text::text;
 use kinemark_sim::source::Source;
 use serde_json::Value as Json;
 
 use crate::lab_audit::passes_variants;
-use crate::testbed::{Folder, TestBed, files_below, grade};
+use crate::testbed::{Folder, TestBed, grade};
 
-const LAB: &str = r#"
+pub(crate) const LAB: &str = r#"
 format = 1
 name = "93-touch"
 title = "Touch a place of your own"
@@ -56,7 +54,7 @@ points = 3.0
 pose-reached = { full_m = 0.02, zero_m = 0.1 }
 "#;
 
-const HIDDEN: &str = r#"
+pub(crate) const HIDDEN: &str = r#"
 format = 1
 salt = "sea"
 
@@ -73,7 +71,7 @@ count = 2
 parameters = { out = [0.6, 0.75] }
 "#;
 
-const SOLUTION: &str = r#"
+pub(crate) const SOLUTION: &str = r#"
 fn forward_kinematics(robot, q) {
     let l = robot.link_lengths;
     let x = robot.base_height + l[0] * cos(q[0]) + l[1] * cos(q[0] + q[1]);
@@ -94,9 +92,9 @@ fn control(observation) {
 }
 "#;
 
-const BRIEF: &str = "# Touch\n\nBe at y = 0.9<!-- = out --> m, with links of 1.00<!-- = lengths[0] | 2 --> m.\n\n<!-- grading: begin -->\n<!-- grading: end -->\n";
+pub(crate) const BRIEF: &str = "# Touch\n\nBe at y = 0.9<!-- = out --> m, with links of 1.00<!-- = lengths[0] | 2 --> m.\n\n<!-- grading: begin -->\n<!-- grading: end -->\n";
 
-fn bed() -> TestBed {
+pub(crate) fn bed() -> TestBed {
     let bed = TestBed::new();
     bed.copy_labs();
     for (name, text) in [
@@ -120,15 +118,15 @@ fn record(bed: &TestBed, folder: &str) -> Json {
     serde_json::from_str(&text).expect("JSON")
 }
 
-fn places(bed: &TestBed) -> [Folder; 2] {
+pub(crate) fn places(bed: &TestBed) -> [Folder; 2] {
     ["labs", "reference"].map(|folder| Folder(bed.path(folder)))
 }
 
-fn base(bed: &TestBed) -> Lab {
+pub(crate) fn base(bed: &TestBed) -> Lab {
     Lab::load(&places(bed)[0], "93-touch").unwrap_or_else(|error| panic!("{error:?}"))
 }
 
-fn graded(bed: &TestBed, submission: &str) -> Grade {
+pub(crate) fn graded(bed: &TestBed, submission: &str) -> Grade {
     let lab = base(bed);
     let staff = Staff::load(&places(bed)[1], &lab, None);
     let staff = staff.unwrap_or_else(|error| panic!("{error:?}"));
@@ -358,140 +356,6 @@ fn a_variant_file_that_does_not_fit_is_refused_at_its_place() {
 }
 
 #[test]
-fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
-    for (from, to, code, message) in [
-        (
-            "\"= lengths[0]\"",
-            "\"= length[0]\"",
-            "lab::expression",
-            "did you mean `lengths`?",
-        ),
-        (
-            "link_lengths =",
-            "link_length =",
-            "lab::dimensions",
-            "did you mean `link_lengths`?",
-        ),
-        (
-            "link_lengths = [\"= lengths[0]\", ",
-            "link_lengths = [",
-            "lab::dimensions",
-            "a list of 2",
-        ),
-        ("can_at =", "cat_at =", "lab::dimensions", "cat_at"),
-        (
-            "\"shelf-and-can\"",
-            "\"shelf-and-cat\"",
-            "lab::unknown_scene",
-            "did you mean `shelf-and-can`?",
-        ),
-        (
-            "step = 0.01 }\n",
-            "step = 0.03 }\n",
-            "lab::variants",
-            "not a whole number of steps",
-        ),
-        (
-            "out = { from",
-            "lengths = { from",
-            "lab::toml",
-            "is there twice",
-        ),
-        (
-            "[variants]\nout",
-            "[variants]\nouf",
-            "lab::variants",
-            "did you mean `out`?",
-        ),
-        (
-            "out = { from = 0.85",
-            "out = { from = \"= out - 0.05\"",
-            "lab::variants",
-            "holds numbers, not expressions",
-        ),
-        (
-            "goals = [{",
-            "target = 1.0\ngoals = [{",
-            "lab::target",
-            "a task with goals has no target",
-        ),
-        (
-            "lengths = [{ from = 0.95, to = 1.05, step = 0.01 }, ",
-            "lengths = [",
-            "lab::variants",
-            "a list of 2",
-        ),
-        (
-            "points = 3.0",
-            "points = \"= out - 1\"",
-            "lab::points",
-            "got -0.09",
-        ),
-    ] {
-        let bed = bed();
-        assert!(LAB.contains(from), "{from}");
-        bed.write("labs/93-touch/lab.toml", LAB.replacen(from, to, 1));
-        let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
-        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
-        let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(shown.contains(code), "{to}: {shown}");
-        assert!(shown.contains(message), "{to}: {shown}");
-        assert!(shown.contains("93-touch/lab.toml:"), "{to}: {shown}");
-    }
-}
-
-#[test]
-fn mistakes_in_hidden_runs_are_told_at_their_place() {
-    for (from, to, message) in [
-        (
-            "parameters = { out",
-            "parameters = { ouf",
-            "did you mean `out`?",
-        ),
-        ("count = 2", "count = 0", "1 to 20 hidden runs"),
-        ("task = \"touch\"", "task = \"fk\"", "is no motion task"),
-        ("[0.6, 0.75]", "[[0.6, 0.75]]", "do not fit its shape"),
-        (
-            "out = [0.6, 0.75]",
-            "lengths = [[-1, -1], [1, 1]]",
-            "must be positive",
-        ),
-        ("[0.6, 0.75]", "[0.75, 0.6]", "write [0.6, 0.75]"),
-        (
-            "out = [0.6, 0.75]",
-            "lengths = [[0.9, 1.0], [1.0, 0.9]]",
-            "`lengths` goes from 1 down to 0.9",
-        ),
-        ("{ out = [0.6, 0.75] }", "{}", "is the visible run again"),
-        ("\"nearer places\"", "\" \"", "the class is empty"),
-        ("\"other bends\"", "\"\"", "the class is empty"),
-        (
-            "q_rad = [[-3.0, 3.0]",
-            "q_rad = [[3.0, -3.0]",
-            "`q_rad` goes from 3 down to -3",
-        ),
-        (
-            "[[runs]]",
-            "dimensions = { link_lengths = [[1.0, 0.9], [1, 1]] }\n[[runs]]",
-            "`link_lengths` goes from 1 down to 0.9",
-        ),
-        ("\"sea\"", "\"\"", "staff::salt"),
-    ] {
-        let bed = bed();
-        assert!(HIDDEN.contains(from), "{from}");
-        bed.write(
-            "reference/93-touch/hidden.toml",
-            HIDDEN.replacen(from, to, 1),
-        );
-        let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
-        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
-        let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(shown.contains(message), "{to}: {shown}");
-        assert!(shown.contains("93-touch/hidden.toml:"), "{to}: {shown}");
-    }
-}
-
-#[test]
 fn the_reference_has_full_marks_in_every_variant() {
     let bed = bed();
     let [labs, reference] = places(&bed);
@@ -517,98 +381,6 @@ fn every_variant_is_another_lab() {
     digests.sort();
     digests.dedup();
     assert_eq!(digests.len(), all);
-}
-
-#[test]
-fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
-    let bed = bed();
-    let full = graded(&bed, SOLUTION);
-    assert_eq!(full.verdict, Verdict::Passed, "{}", text(&full));
-    assert_eq!(full.tasks[1].hidden[0].good, 2);
-
-    let fixed = SOLUTION.replace("let out = observation.target[0][1];", "let out = 0.9;");
-    let fixed = graded(&bed, &fixed);
-    let touch = &fixed.tasks[1];
-    // one of three runs is right; in the others the place is 150 mm and more from the one written down
-    assert_eq!(touch.points, 1.0, "{}", text(&fixed));
-    assert_eq!(touch.verdict, Verdict::Missed);
-    let told = text(&fixed);
-    assert!(
-        told.contains("in 2 of 2 hidden runs of the class \"nearer places\" points are lost"),
-        "{told}"
-    );
-    assert!(told.contains("hidden runs: nearer places 0/2"), "{told}");
-    assert!(told.contains("run with other numbers, too"), "{told}");
-    assert_ne!(touch.digests.all, full.tasks[1].digests.all);
-    assert_eq!(
-        touch.digests.seconds.len(),
-        full.tasks[1].digests.seconds.len()
-    );
-    // without the staff's part there are none
-    let practice = grade(&base(&bed), None, "mine.rhai", SOLUTION).grade;
-    assert_eq!(practice.tasks[1].hidden, []);
-
-    // what it says and throws there is kept for itself
-    let leaks = SOLUTION.replace(
-        "let out = observation.target[0][1];",
-        "let out = observation.target[0][1]; if out < 0.8 { print(`secret ${out}`); throw `secret ${out}`; }",
-    );
-    let leaks = graded(&bed, &leaks);
-    let touch = &leaks.tasks[1];
-    assert_eq!(touch.verdict, Verdict::Crashed);
-    assert_eq!(touch.points, 1.0);
-    let stopped = touch.stopped.as_ref().expect("stopped");
-    assert_eq!(stopped.message, "the submission failed in a hidden run");
-    assert_eq!(stopped.case.as_deref(), Some("nearer places"));
-    assert_eq!(stopped.tick, None);
-    let json = serde_json::to_string(&leaks).expect("JSON");
-    assert!(!json.contains("secret 0"), "{json}");
-    // in a report neither
-    bed.write("leaks.rhai", SOLUTION);
-    assert_eq!(bed.run(&["grade", "93-touch", "leaks.rhai"]).code, Some(0));
-    let lab = base(&bed);
-    let staff = Staff::load(&places(&bed)[1], &lab, None)
-        .expect("loads")
-        .expect("staff");
-    for run in staff.runs("touch") {
-        let Some(kinemark_sim::robot::Dimension::Number(out)) = run.lab.parameters.get("out")
-        else {
-            panic!("no number");
-        };
-        let number = out.to_string();
-        for (name, bytes) in files_below(&bed.path("out")) {
-            let found = bytes
-                .windows(number.len())
-                .any(|window| window == number.as_bytes());
-            assert!(!found, "{name} holds {number}");
-        }
-    }
-}
-
-#[test]
-fn digests_of_hidden_parts_tell_nothing_without_the_salt() {
-    let bed = bed();
-    let lab = base(&bed);
-    let practice = grade(&lab, None, "mine.rhai", SOLUTION).grade;
-    // answers that depend on no number, so that only the key can make a difference
-    let blind = "fn forward_kinematics(robot, q) { [1.0, 0.0, 0.0] }\nfn control(o) { [0.0, 0.0] }";
-    let of = |salt: &str| {
-        let staff = Staff::load(&places(&bed)[1], &lab, Some(salt)).expect("loads");
-        grade(&lab, staff.as_ref(), "blind.rhai", blind).grade
-    };
-    let (sea, lake) = (of("sea"), of("lake"));
-    for (task, (sea, lake)) in sea.tasks.iter().zip(&lake.tasks).enumerate() {
-        assert_ne!(sea.digests.all, lake.digests.all, "task {task}");
-        assert_eq!(sea.digests.seconds, lake.digests.seconds, "task {task}");
-    }
-    assert_eq!(of("sea"), sea);
-
-    // a task with nothing hidden keeps its digest: anybody may hold it against their own
-    let hidden = bed.path("reference/93-touch/hidden.toml");
-    std::fs::write(hidden, HIDDEN.split("[[runs]]").next().expect("draws")).expect("written");
-    let open = graded(&bed, SOLUTION);
-    assert_ne!(open.tasks[0].digests, practice.tasks[0].digests);
-    assert_eq!(open.tasks[1].digests, practice.tasks[1].digests);
 }
 
 #[test]
@@ -696,75 +468,4 @@ fn a_grade_of_everybodys_numbers_says_so() {
             .starts_with("using the variant of student s7; variant.toml is not used\n"),
         "{ran:?}"
     );
-}
-
-#[test]
-fn a_motion_task_of_a_robot_without_masses_is_the_labs_mistake() {
-    let bed = bed();
-    let lab = LAB.replace("robot = \"rrbot\"\nframe = \"lab\"", "robot = \"rppr\"");
-    let lab = lab.replace("link_lengths = [\"= lengths[0]\", \"= lengths[1]\"]\n", "");
-    bed.write(
-        "labs/93-touch/lab.toml",
-        lab.replace("[0.5, \"= out\"]", "[0, 0, 0, 0]"),
-    );
-    let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
-    assert_eq!(ran.code, Some(3), "{ran:?}");
-    let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(shown.contains("lab::no_inertia"), "{shown}");
-    assert!(shown.contains("joint `gripper_turn`"), "{shown}");
-    assert!(shown.contains("robot `rppr`"), "{shown}");
-    assert!(shown.contains("lab.toml:5:9"), "{shown}");
-}
-
-#[test]
-fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
-    let bed = bed();
-    let check = |students: &str| {
-        let ran = bed.run(&[
-            "lab",
-            "check",
-            "93-touch",
-            "--salts",
-            "0",
-            "--variants",
-            students,
-        ]);
-        // this lab has no known mistakes, which is a problem of its own
-        assert_eq!(ran.code, Some(1), "{ran:?}");
-        ran.stdout
-    };
-    let told = check("0");
-    assert!(told.contains("can be handed out"), "{told}");
-    for (brief, problem) in [
-        (
-            BRIEF.replace("= out -->", "= ouf -->"),
-            "line 3: no parameter is called `ouf`",
-        ),
-        (
-            BRIEF.replace("<!-- grading: end -->", ""),
-            "has no place for the table of points",
-        ),
-    ] {
-        bed.write("labs/93-touch/brief.md", brief);
-        let told = check("0");
-        assert!(told.contains(problem), "{told}");
-    }
-    std::fs::remove_file(bed.path("labs/93-touch/brief.md")).expect("removed");
-    let told = check("0");
-    assert!(told.contains("there is no brief.md"), "{told}");
-
-    bed.edit(
-        "labs/93-touch/lab.toml",
-        "out = { from = 0.85, to = 0.95, step = 0.01 }",
-        "out = { from = -0.5, to = 0.5, step = 1.0 }",
-    );
-    bed.edit(
-        "labs/93-touch/lab.toml",
-        "points = 3.0",
-        "points = \"= out\"",
-    );
-    let told = check("6");
-    assert!(told.contains("such as that of `student "), "{told}");
-    assert!(told.contains("it cannot be loaded (lengths = ["), "{told}");
-    assert!(told.contains("out = -0.5): "), "{told}");
 }

@@ -74,6 +74,40 @@ fn a_changed_page_or_plot_is_found() {
 }
 
 #[test]
+fn a_changed_list_of_files_is_found() {
+    let bed = graded();
+    let ran = |what: &str| {
+        let ran = bed.run(&["verify", "out"]);
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        assert!(ran.stdout.contains(what), "{ran:?}");
+    };
+    bed.edit("out/report.json", "\"png\": false", "\"png\": true");
+    ran("file `plots/move-path.png`\n  recorded missing\n  now      not listed");
+    bed.edit("out/report.json", "\"png\": true", "\"png\": false");
+    bed.edit(
+        "out/report.json",
+        "submission.rhai\": \"",
+        "submission.rhai\": \"0",
+    );
+    ran("digest of `submission.rhai` in `report.json`");
+    bed.edit(
+        "out/report.json",
+        "submission.rhai\": \"0",
+        "submission.rhai\": \"",
+    );
+    bed.edit(
+        "out/report.json",
+        "\"files\": {",
+        "\"files\": { \"notes.txt\": \"\",",
+    );
+    ran("list of files in `report.json`: `notes.txt`");
+    bed.edit("out/report.json", "kinemark-report/1", "kinemark-report/7");
+    let other = bed.run(&["verify", "out"]);
+    assert_eq!(other.code, Some(3), "{other:?}");
+    assert!(other.stderr.contains("kinemark-report/7"), "{other:?}");
+}
+
+#[test]
 fn what_is_no_report_is_said_so() {
     let bed = TestBed::new();
     assert_eq!(bed.run(&["verify", "nowhere"]).code, Some(2));

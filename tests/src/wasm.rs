@@ -1,13 +1,12 @@
 //! WebAssembly gives the same bytes: the grader built for `wasm32-unknown-unknown` and run by Node grades as the binary does.
-//!
-//! Where the target or Node is missing, the test says so on standard error, past the harness that would keep it to itself.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::determinism::{digests, good_submissions};
-use crate::testbed::{TestBed, binary, cargo, root};
+use crate::determinism::{digests, good_submissions, tested_record};
+use crate::every_case::every_case;
+use crate::exact::{cannot_run, is_asked_for};
+use crate::testbed::{cargo, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -65,36 +64,25 @@ fn node(module: &Path, arguments: &[&str]) -> String {
 
 #[test]
 fn webassembly_gives_the_same_grades_and_the_same_contact() {
-    let missing = missing();
-    if !missing.is_empty() {
-        let what = missing.join(" and ");
-        let said = format!("\nNOT RUN: {TARGET} in Node is not compared, there is no {what}\n");
-        let mut stderr = std::io::stderr();
-        stderr.write_all(said.as_bytes()).expect("standard error");
+    let what = "the comparison with WebAssembly";
+    if !is_asked_for(what) {
         return;
     }
-    let module = module();
-    assert_eq!(
-        node(&module, &["contact"]),
-        kinemark_tests_wasm::CONTACT_DIGEST
-    );
-    let bed = TestBed::new();
-    for (lab, submission) in good_submissions() {
-        let native = Command::new(binary())
-            .current_dir(root())
-            .args(["grade", &lab])
-            .arg(&submission)
-            .args(["--in-process", "--json", "--out"])
-            .arg(bed.path(&lab))
-            .env_remove("KINEMARK_SALT")
-            .output()
-            .expect("the binary runs");
-        assert_eq!(native.status.code(), Some(0), "{native:?}");
-        let native = String::from_utf8(native.stdout).expect("UTF-8");
-        let submission = submission.to_str().expect("UTF-8");
-        let record = node(&module, &["grade", &lab, submission]);
-        // the digests first: they tell in which task to look
-        assert_eq!(digests(&record), digests(&native), "{lab}");
-        assert_eq!(record, native, "{lab}");
+    let missing = missing();
+    if !missing.is_empty() {
+        return cannot_run(what, "wasm", &missing);
     }
+    let module = module();
+    let contact = node(&module, &["contact"]);
+    assert_eq!(contact, kinemark_tests_wasm::CONTACT_DIGEST);
+    let good = good_submissions().into_iter();
+    let cases: Vec<_> = good.map(|(lab, path)| (lab.clone(), (lab, path))).collect();
+    every_case(&cases, |(lab, submission)| {
+        let submission = submission.to_str().expect("UTF-8");
+        let record = node(&module, &["grade", lab, submission]);
+        let native = tested_record(lab);
+        // the digests first: they tell in which task to look
+        assert_eq!(digests(&record), digests(native));
+        assert_eq!(record, native);
+    });
 }

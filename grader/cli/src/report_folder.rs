@@ -1,5 +1,5 @@
 //! The output folder of `kinemark grade`: written beside its place under another name, then renamed, so that it is whole or not
-//! there; and read back by `kinemark verify`.
+//! there; and read back by `kinemark verify`. What is in it is the table of outputs ([`kinemark_report::output`]).
 
 use std::path::{Path, PathBuf};
 
@@ -7,25 +7,17 @@ use kinemark_grader::lab::files::text;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Files as _, Lab, LoadError, Variant};
 use kinemark_grader::record::grade::{self, Grade};
-use kinemark_grader::record::graded::{GradedRun, TaskRun};
-use kinemark_report::log::{self, Attachment};
-use kinemark_report::plot::Plot;
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_report::output::{
+    self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, Manifest, Material, OutFile, OutputError, Pixels,
+    RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,
+};
 use kinemark_report::visible::visible;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
-use crate::output;
-
-/// The record's file; a folder that has it is a report of ours.
-pub(crate) const RECORD: &str = "grade.json";
-/// The page.
-pub(crate) const PAGE: &str = "report.html";
-/// The copy of the submission.
-pub(crate) const SUBMISSION: &str = "submission.rhai";
-/// The copy of lab and robot, in the shape of a labs folder.
-pub(crate) const LABS: &str = "lab";
 
 /// Where the tables of a run go unless a place is named, in the task's folder.
 pub(crate) const TABLES: &str = "run-csv";
@@ -35,64 +27,17 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Pages with the meshes of their robots are smaller.
 pub(crate) const MOST_PAGE_BYTES: u64 = 512 << 20;
 
-/// The storyboard of a motion task, in the task's folder.
-pub(crate) const STORYBOARD: &str = "storyboard.png";
-
-/// Which pictures the folder holds besides the plots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct Pictures {
-    /// Each plot as PNG, beside the SVG.
-    pub(crate) png: bool,
-    /// The storyboard of each motion task, as SVG and PNG.
-    pub(crate) storyboard: bool,
-}
-
-impl Pictures {
-    /// Those that a folder was written with.
-    pub(crate) fn of(folder: &Path, record: &Grade) -> Self {
-        let png = |entry: &std::fs::DirEntry| {
-            let path = entry.path();
-            path.extension().is_some_and(|extension| extension == "png")
-        };
-        let plots = std::fs::read_dir(folder.join("plots"));
-        let of_task = |task: &str| folder.join(task).join(STORYBOARD);
-        Self {
-            png: plots.into_iter().flatten().flatten().any(|e| png(&e)),
-            storyboard: record.tasks.iter().any(|task| {
-                let png = of_task(&task.name);
-                png.exists() || png.with_extension("svg").exists()
-            }),
-        }
-    }
-}
-
-/// One file of the folder.
-pub(crate) struct OutFile {
-    /// Its path inside the folder.
-    pub(crate) path: String,
-    /// Its content.
-    pub(crate) bytes: Vec<u8>,
-}
-
-impl OutFile {
-    fn new(path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
-        Self {
-            path: path.into(),
-            bytes: bytes.into(),
-        }
-    }
-}
-
 /// Writes the folder `out`. An earlier report there is replaced; anything else there is not touched.
 pub(crate) fn write(
     out: &Path,
     lab: &Lab,
     submission: &Source,
     graded: &GradedRun,
-    pictures: Pictures,
+    request: ReportRequest,
 ) -> Result<(), Failure> {
     let kept = refuse_foreign(out)?;
-    let files = files(lab, submission, graded, pictures)?;
+    let files = files(lab, submission, graded, request, Pixels::Drawn)?;
+    let manifest = output::json(&Manifest::of(request, &files)).map_err(fault)?;
     let failed = |error: std::io::Error| {
         Failure::fault(
             format!(
@@ -107,155 +52,72 @@ pub(crate) fn write(
     for file in &files {
         fresh.write(&file.path, &file.bytes).map_err(failed)?;
     }
+    fresh
+        .write(MANIFEST_FILE, manifest.as_bytes())
+        .map_err(failed)?;
     fresh.put_in_place(&kept).map_err(failed)
 }
 
 /// Checks, before anything is graded, that `out` is free, empty, or an earlier report and nothing else; what exports put beside its
 /// logs is to be kept.
 pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
-    let record = disk::bytes_of(&out.join(RECORD), MOST_BYTES).ok();
-    let record: Option<Grade> = record.and_then(|text| serde_json::from_slice(&text).ok());
-    let copies = record.as_ref().map(|record| copies_in(out, record));
+    let manifest = disk::bytes_of(&out.join(MANIFEST_FILE), MOST_BYTES).ok();
+    let manifest = manifest.and_then(|text| Manifest::parse(&text).ok());
+    if manifest.is_none() && out.join(RECORD_FILE).is_file() {
+        return Err(Failure::usage(
+            format!(
+                "`{}` has a {RECORD_FILE} and no {MANIFEST_FILE} of this version that lists its files: it cannot be replaced",
+                out.display()
+            ),
+            "move or delete the folder, or choose another with --out",
+        ));
+    }
     fresh_folder::refuse_foreign(out, "a Kinemark report", |path| {
-        // without a record of ours nothing in it is ours
-        let (Some(record), Some(copies)) = (&record, &copies) else {
+        // without a list of ours nothing in it is ours
+        let Some(manifest) = &manifest else {
             return Entry::Foreign;
         };
-        let (first, below) = path.split_once('/').unwrap_or((path, ""));
-        let is_task = record.tasks.iter().any(|task| task.name == first);
-        let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
-        match (first, below) {
-            (RECORD | PAGE | SUBMISSION, "") => Entry::Ours,
-            ("plots" | LABS, "") => Entry::Inside,
-            ("plots", _) if ["svg", "png"].contains(&ending) => Entry::Ours,
-            (LABS, below) => copies.entry(below),
-            (_, "") if is_task => Entry::Inside,
-            (_, "run.mcap" | "run.layout.json" | STORYBOARD | "storyboard.svg") if is_task => {
-                Entry::Ours
-            }
-            (_, TABLES) if is_task => Entry::Kept,
+        let is_tables = path.strip_suffix(TABLES).is_some_and(|task| {
+            task.ends_with('/') && manifest.lists(&format!("{task}{LOG_FILE}"))
+        });
+        match path {
+            path if manifest.lists(path) => Entry::Ours,
+            path if manifest.lists_below(path) => Entry::Inside,
+            _ if is_tables => Entry::Kept,
             _ => Entry::Foreign,
         }
     })
 }
 
-/// The copies of lab and robot that a report holds.
-struct CopiesIn {
-    /// Their paths; none where the lab is none that this version loads.
-    paths: Option<Vec<String>>,
-}
-
-impl CopiesIn {
-    fn entry(&self, path: &str) -> Entry {
-        let Some(paths) = &self.paths else {
-            // of an older version, or changed: what a lab is made of
-            let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
-            return match ending {
-                "toml" | "json" | "stl" | "obj" => Entry::Ours,
-                "" => Entry::Inside,
-                _ => Entry::Foreign,
-            };
-        };
-        let is_above = |known: &String| {
-            let rest = known.strip_prefix(path);
-            rest.is_some_and(|rest| rest.starts_with('/'))
-        };
-        if paths.iter().any(|known| known == path) {
-            Entry::Ours
-        } else if paths.iter().any(is_above) {
-            Entry::Inside
-        } else {
-            Entry::Foreign
-        }
-    }
-}
-
-fn copies_in(out: &Path, record: &Grade) -> CopiesIn {
-    let lab = load(&Folder::new(out.join(LABS)), &record.lab.name).ok();
-    let paths = lab.map(|lab| {
-        let copies = lab.copies();
-        copies.iter().map(|(path, _)| path.to_owned()).collect()
-    });
-    CopiesIn { paths }
-}
-
-/// Everything the folder holds: a function of lab, submission, graded run and the pictures asked for alone.
+/// Every file of the folder but `report.json`: a function of lab, submission, graded run and request alone.
 pub(crate) fn files(
     lab: &Lab,
     submission: &Source,
     graded: &GradedRun,
-    pictures: Pictures,
+    request: ReportRequest,
+    pixels: Pixels,
 ) -> Result<Vec<OutFile>, Failure> {
-    let record = output::json(&graded.grade)?;
-    let plots: Vec<Vec<Plot>> = graded
-        .runs
-        .iter()
-        .map(kinemark_report::plot::plots)
+    let copies = lab.copies();
+    let copies = copies.iter();
+    let lab_files: Vec<(String, Vec<u8>)> = copies
+        .map(|(path, bytes)| (path.to_owned(), bytes.to_owned()))
         .collect();
-    let mut files = vec![
-        OutFile::new(RECORD, record.as_bytes()),
-        OutFile::new(PAGE, kinemark_report::html::html(graded, &plots)),
-        OutFile::new(SUBMISSION, submission.text()),
-    ];
-    for (path, bytes) in lab.copies().iter() {
-        files.push(OutFile::new(format!("{LABS}/{path}"), bytes));
-    }
-    for (run, plots) in graded.runs.iter().zip(plots) {
-        let caption = format!("{} \u{b7} {}", graded.grade.lab.name, run.task);
-        for plot in plots {
-            let svg = plot.captioned(&caption);
-            if pictures.png {
-                let path = format!("plots/{}.png", plot.name);
-                files.push(OutFile::new(path, png(&svg)?));
-            }
-            files.push(OutFile::new(format!("plots/{}.svg", plot.name), svg));
-        }
-        let task = graded.grade.tasks.iter().find(|t| t.name == run.task);
-        if let Some(task) = task.filter(|_| pictures.storyboard) {
-            let svg = kinemark_report::storyboard::storyboard(run, task);
-            let path = format!("{}/{STORYBOARD}", run.task);
-            files.push(OutFile::new(path, png(&svg)?));
-            files.push(OutFile::new(format!("{}/storyboard.svg", run.task), svg));
-        }
-        let log = log_of(run, lab, &graded.grade, &record)?;
-        files.push(OutFile::new(format!("{}/run.mcap", run.task), log));
-        let layout = log::layout(run);
-        files.push(OutFile::new(
-            format!("{}/run.layout.json", run.task),
-            layout,
-        ));
-    }
-    Ok(files)
+    let sources = Sources {
+        submission: submission.text(),
+        lab: lab.source.text(),
+        robot: lab.robot_file.source().text(),
+        lab_files: &lab_files,
+    };
+    let material = Material::new(graded, sources, &request, pixels).map_err(fault)?;
+    output::files(&material).map_err(fault)
 }
 
-fn png(svg: &str) -> Result<Vec<u8>, Failure> {
-    kinemark_report::png::png(svg)
-        .map_err(|error| Failure::fault(error.to_string(), "please report this"))
-}
-
-fn log_of(run: &TaskRun, lab: &Lab, grade: &Grade, record: &str) -> Result<Vec<u8>, Failure> {
-    let layout = log::layout(run);
-    let attachments = [
-        (
-            "robot.toml",
-            "application/toml",
-            lab.robot_file.source().text(),
-        ),
-        ("lab.toml", "application/toml", lab.source.text()),
-        ("grade.json", "application/json", record),
-        ("run.layout.json", "application/json", layout.as_str()),
-    ]
-    .map(|(name, media_type, text)| Attachment {
-        name,
-        media_type,
-        bytes: text.as_bytes(),
-    });
-    log::mcap(run, grade, &attachments).map_err(|error| {
-        Failure::fault(
-            format!("the log of task `{}` failed: {error}", run.task),
-            "please report this",
-        )
-    })
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "it is what `map_err` hands on"
+)]
+fn fault(error: OutputError) -> Failure {
+    Failure::fault(error.to_string(), "please report this")
 }
 
 /// A report read back.
@@ -263,8 +125,8 @@ pub(crate) struct Report {
     pub(crate) grade: Grade,
     pub(crate) submission: Source,
     pub(crate) labs: PathBuf,
-    /// Whether the reference solution's motion stands in it.
-    pub(crate) shows_reference: bool,
+    /// What was requested, and the digests of its files.
+    pub(crate) manifest: Manifest,
 }
 
 /// Reads the folder of an earlier report.
@@ -283,11 +145,13 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
             "name the folder that `kinemark grade` wrote, or grade the submission again",
         )),
     };
-    there(RECORD)?;
-    let grade = record(&folder.join(RECORD))?;
-    there(SUBMISSION)?;
-    there(LABS)?;
-    let path = folder.join(SUBMISSION);
+    there(RECORD_FILE)?;
+    let grade = record(&folder.join(RECORD_FILE))?;
+    there(MANIFEST_FILE)?;
+    let manifest = manifest(&folder.join(MANIFEST_FILE))?;
+    there(SUBMISSION_FILE)?;
+    there(LAB_FOLDER)?;
+    let path = folder.join(SUBMISSION_FILE);
     let submission = disk::bytes_of(&path, MOST_BYTES).and_then(text);
     let submission = submission.map_err(|why| {
         Failure::broken(
@@ -295,14 +159,10 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
             "grade the submission again",
         )
     })?;
-    // only the writer of replays leaves quotes as they are
-    let page = disk::bytes_of(&folder.join(PAGE), MOST_PAGE_BYTES).unwrap_or_default();
-    let sign = br#""ghostLabel":"reference""#;
-    let shows_reference = page.windows(sign.len()).any(|part| part == sign);
     Ok(Report {
-        shows_reference,
+        manifest,
         submission: Source::new(grade.submission.name.as_str(), submission),
-        labs: folder.join(LABS),
+        labs: folder.join(LAB_FOLDER),
         grade,
     })
 }
@@ -329,6 +189,23 @@ fn record(path: &Path) -> Result<Grade, Failure> {
         return Err(unread(&format!("its format is `{format}`, not `{ours}`")));
     }
     serde_json::from_slice(&bytes).map_err(|error| unread(&visible(&error.to_string())))
+}
+
+/// Reads a list of a report's files, if it is of the format that this version writes.
+fn manifest(path: &Path) -> Result<Manifest, Failure> {
+    let bytes = disk::bytes_of(path, MOST_BYTES);
+    let read = bytes.and_then(|bytes| {
+        Manifest::parse(&bytes).map_err(|error| visible(&error.to_string()).into_owned())
+    });
+    read.map_err(|why| {
+        Failure::broken(
+            format!(
+                "`{}` is no list of a report's files that this version reads: {why}",
+                path.display()
+            ),
+            "grade the submission again",
+        )
+    })
 }
 
 /// The lab of a report, in its variant, from the copies in its folder; and these.

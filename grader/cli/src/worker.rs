@@ -10,12 +10,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use kinemark_grader::judge::Host;
 use kinemark_grader::submission::controller::{
-    Answer, Call, Controller, HostLimit, Memory, Opening, Said, Stop,
+    Answer, Call, Controller, HostLimit, Opening, Said, Stop,
 };
+use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
 use crate::one_processor::OneProcessor;
@@ -79,33 +79,12 @@ fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Resu
         Err(stop) => return send(output, &Some(stop)),
     };
     loop {
-        match receive(input)? {
-            Request::Call(call) => {
-                let answer = controller
-                    .call(&call)
-                    .map_err(|stop| (stop, controller.unanswered()));
-                send(output, &answer)?;
-            }
-            Request::Memory => send(output, &controller.memory())?,
-            Request::Recall(memory) => send(output, &controller.recall(&memory))?,
-        }
+        let call: Call = receive(input)?;
+        let answer = controller
+            .call(&call)
+            .map_err(|stop| (stop, controller.unanswered()));
+        send(output, &answer)?;
     }
-}
-
-/// What a worker is asked, as it reads it.
-#[derive(Deserialize)]
-enum Request {
-    Call(Call),
-    Memory,
-    Recall(Memory),
-}
-
-/// What a worker is asked, as its parent writes it: the same variants in the same order.
-#[derive(Serialize)]
-enum Asked<'a> {
-    Call(&'a Call),
-    Memory,
-    Recall(&'a Memory),
 }
 
 /// Memory, CPU time, no core dump, no file written: set by the worker itself, before it reads anything of the submission.
@@ -300,7 +279,7 @@ impl Controller for Worker {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        let answer: Result<Answer, (Stop, Said)> = self.exchange(&Asked::Call(call))?;
+        let answer: Result<Answer, (Stop, Said)> = self.exchange(call)?;
         answer.map_err(|(stop, said)| {
             self.unanswered = said;
             stop
@@ -309,14 +288,6 @@ impl Controller for Worker {
 
     fn unanswered(&mut self) -> Said {
         std::mem::take(&mut self.unanswered)
-    }
-
-    fn memory(&mut self) -> Result<Memory, Stop> {
-        self.exchange::<Result<Memory, Stop>>(&Asked::Memory)?
-    }
-
-    fn recall(&mut self, memory: &Memory) -> Result<(), Stop> {
-        self.exchange::<Result<(), Stop>>(&Asked::Recall(memory))?
     }
 }
 
@@ -327,97 +298,5 @@ impl Drop for Worker {
         // gone already is as good; waiting leaves no zombie
         let _ = child.kill();
         let _ = child.wait();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use kinemark_grader::submission::controller::{Budgets, Kept, Observation, RobotFacts, Value};
-
-    use super::*;
-
-    const COUNTER: &str = "fn control(o) { this.n += 1; this.v = vector([this.n, 0.5]); [this.n] }\nfn init(robot, task) { this.n = 0; }";
-
-    /// What a worker answers to `requests`, as its parent reads it.
-    fn answers(requests: &[Asked<'_>]) -> Vec<u8> {
-        let opening = Opening {
-            file: "mine.rhai".to_owned(),
-            source: COUNTER.to_owned(),
-            task: "move".to_owned(),
-            robot: RobotFacts {
-                name: "arm".to_owned(),
-                joint_names: vec!["a".to_owned()],
-                dimensions: Vec::new(),
-                lower: vec![-1.0],
-                upper: vec![1.0],
-                effort: vec![1.0],
-            },
-            target: Value::Nothing,
-            sensors: Vec::new(),
-            budgets: Budgets::default(),
-            granted: None,
-            function: None,
-        };
-        let mut input = Vec::new();
-        send(&mut input, &opening).expect("written");
-        for request in requests {
-            send(&mut input, request).expect("written");
-        }
-        let mut output = Vec::new();
-        // the input ends, which is the normal end of a worker
-        assert!(answer_calls(&mut input.as_slice(), &mut output).is_err());
-        output
-    }
-
-    fn call() -> Call {
-        Call::Control(Observation {
-            tick: 0,
-            time_s: 0.0,
-            dt_s: 0.01,
-            q: vec![0.0],
-            qd: vec![0.0],
-            effort: vec![0.0],
-            tcp_m: [0.0; 3],
-            sensors: Vec::new(),
-        })
-    }
-
-    #[test]
-    fn a_memory_goes_from_one_worker_to_another() {
-        type Answered = Result<Answer, (Stop, Said)>;
-        let control = call();
-        let first = answers(&[
-            Asked::Call(&Call::Init),
-            Asked::Call(&control),
-            Asked::Call(&control),
-            Asked::Memory,
-        ]);
-        let mut rest = first.as_slice();
-        assert_eq!(receive::<Option<Stop>>(&mut rest).expect("opened"), None);
-        for _ in 0..3 {
-            assert!(receive::<Answered>(&mut rest).expect("an answer").is_ok());
-        }
-        let memory: Result<Memory, Stop> = receive(&mut rest).expect("an answer");
-        let memory = memory.expect("it can be kept");
-        assert_eq!(
-            memory.this,
-            Kept::Map(vec![
-                ("n".to_owned(), Kept::Whole(2)),
-                ("v".to_owned(), Kept::Vector(vec![2.0, 0.5])),
-            ])
-        );
-        assert!(memory.operations > 0);
-        let second = answers(&[Asked::Recall(&memory), Asked::Call(&control), Asked::Memory]);
-        let mut rest = second.as_slice();
-        assert_eq!(receive::<Option<Stop>>(&mut rest).expect("opened"), None);
-        let recalled: Result<(), Stop> = receive(&mut rest).expect("an answer");
-        assert_eq!(recalled, Ok(()));
-        let answer: Answered = receive(&mut rest).expect("an answer");
-        assert_eq!(
-            answer.expect("a command").value,
-            Value::List(vec![Value::Number(3.0)])
-        );
-        let after: Result<Memory, Stop> = receive(&mut rest).expect("an answer");
-        assert!(after.expect("kept").operations > memory.operations);
     }
 }

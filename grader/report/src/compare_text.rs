@@ -3,8 +3,8 @@
 use owo_colors::OwoColorize as _;
 
 use super::visible::visible;
-use kinemark_grader::compare::{Comparison, MotionComparison, Pair, SideRecord};
-use kinemark_grader::judge::divergence::{JOINT_TOLERANCE_RAD, PLACE_TOLERANCE_M};
+use kinemark_grader::record::comparison::{Comparison, MotionComparison, Pair, SideRecord};
+use kinemark_grader::record::comparison::{JOINT_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use kinemark_grader::record::grade::Outcome;
 use kinemark_grader::record::quantity::{difference_of_points, metres, points, seconds};
 
@@ -118,6 +118,6 @@ pub(crate) fn together(motion: &MotionComparison) -> String {
     }
     format!(
         "the motions are never more than {JOINT_TOLERANCE_RAD} rad or {} apart, as far as both go",
-        metres(PLACE_TOLERANCE_M)
+        metres(POSITION_TOLERANCE_M)
     )
 }

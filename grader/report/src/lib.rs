@@ -9,10 +9,12 @@ pub mod log;
 mod measured;
 pub mod moment;
 mod number;
+pub mod output;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod replay;
+mod solid;
 mod standing;
 pub mod storyboard;
 pub mod text;

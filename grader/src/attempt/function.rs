@@ -1,114 +1,157 @@
 //! Runs a function task: calls the submission on every case and measures each answer.
 
-use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::robot::{Dimension, Robot};
-use nalgebra::Vector3;
 
-use crate::check::function_cases::{as_slice, relative_error};
-use crate::check::ik_branches::count_distinct;
-use crate::check::{Answered, CaseError, CaseFacts};
-use crate::judge::Host;
-use crate::lab::jacobian;
-use crate::lab::model::{Case, Function, Given, Lab};
+use super::answers::{Answered, Answers, CaseFacts};
+use super::measure::measure;
+use super::{Attempt, EndReason, Ended};
 use crate::record::grade::LogEntry;
-use crate::submission::answer;
 use crate::submission::controller::{
-    Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop, Value,
+    Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop,
 };
+use crate::submission::host::Host;
 use crate::submission::rhai::ScriptController;
+use crate::task::model::{Case, Function, Given};
+use crate::task::value::Value;
+use crate::task::workcell::Workcell;
 
-/// After so many calls that used up their budget the submission is not asked again: the reason is known, and each costs time.
+/// After so many calls that used up their budget the submission is not called again: the reason is known, and each costs time.
 const MOST_EXHAUSTED: usize = 3;
-
-/// A function task as it went.
-#[derive(Debug)]
-pub struct CasesRun<'a> {
-    /// One per case, in order.
-    pub facts: Vec<CaseFacts<'a>>,
-    /// The first stop, and the case it happened in.
-    pub stop: Option<(usize, Stop)>,
-    /// Operations used in visible cases.
-    pub operations: u64,
-    /// Lines printed, each with the number of its case.
-    pub log: Vec<LogEntry>,
-    /// BLAKE3 of all answers, in order.
-    pub digest: blake3::Hash,
-}
 
 /// Calls the submission of `opening` on `cases`.
 pub fn run<'a>(
-    lab: &Lab,
+    cell: Workcell<'_>,
     function: &Function,
     cases: &'a [Case],
     opening: &Opening,
     host: &mut dyn Host,
-) -> CasesRun<'a> {
-    let mut controller: Option<Box<dyn Controller>> = None;
-    let mut stop: Option<(usize, Stop)> = None;
-    let mut exhausted = 0;
+) -> Attempt<Answers<'a>> {
+    let mut calls = Calls {
+        opening,
+        host,
+        controller: None,
+        exhausted: 0,
+        stop: None,
+    };
     let mut hasher = blake3::Hasher::new();
     let mut operations = 0;
     let mut log = Vec::new();
     let mut facts = Vec::with_capacity(cases.len());
     for (i, case) in cases.iter().enumerate() {
-        // loading has built every case's robot once; a failure here is ours
-        let robot = match lab.robot_file.build(&case.dimensions) {
+        let is_visible = case.hidden_class.is_none();
+        let robot = calls.robot_of(cell, i, case);
+        let reply = calls.reply(i, &call_of(function, &robot, case));
+        let (value, said) = match reply {
+            Reply::Answered(answer) => {
+                // a loop as long as a hidden number would count it out
+                if is_visible {
+                    operations += answer.operations;
+                }
+                hash_value(&mut hasher, &answer.value);
+                (Some(answer.value), answer.said)
+            }
+            Reply::Stopped(said) => {
+                hasher.update(b"stopped");
+                (None, said)
+            }
+            Reply::NotCalled => (None, Said::default()),
+        };
+        // what is printed in a hidden case could tell its numbers
+        let lines = said.log.into_iter().filter(|_| is_visible);
+        log.extend(lines.map(|text| LogEntry { at: i as u64, text }));
+        facts.push(measure(cell.frame, function, case, robot, value.as_ref()));
+    }
+    Attempt {
+        ended: calls.stop.or_else(|| first_invalid(&facts)),
+        operations,
+        recorded: Answers {
+            facts,
+            log,
+            digest: hasher.finalize(),
+        },
+    }
+}
+
+/// The first answer of the wrong shape, or not finite.
+fn first_invalid(facts: &[CaseFacts<'_>]) -> Option<Ended> {
+    let mut cases = (0..).zip(facts);
+    cases.find_map(|(at, facts)| match &facts.answer {
+        Answered::Invalid(what) => Some(Ended {
+            at,
+            why: EndReason::InvalidOutput(what.clone()),
+        }),
+        Answered::Position(_)
+        | Answered::Branches(_)
+        | Answered::Matrix(_)
+        | Answered::Entries(_)
+        | Answered::Stopped => None,
+    })
+}
+
+/// The calls of one submission on the cases of a task.
+struct Calls<'o> {
+    opening: &'o Opening,
+    host: &'o mut dyn Host,
+    controller: Option<Box<dyn Controller>>,
+    /// Calls that used up their budget so far.
+    exhausted: usize,
+    /// The first stop.
+    stop: Option<Ended>,
+}
+
+/// What came of a call.
+enum Reply {
+    Answered(Answer),
+    Stopped(Said),
+    /// What stopped it before would stop it again.
+    NotCalled,
+}
+
+impl Calls<'_> {
+    /// The robot of case `i`.
+    fn robot_of(&mut self, cell: Workcell<'_>, i: usize, case: &Case) -> Robot {
+        match cell.robot_file.build(&case.dimensions) {
             Ok(robot) => robot,
             Err(error) => {
-                stop.get_or_insert((i, Stop::GraderFault(error.to_string())));
-                exhausted = MOST_EXHAUSTED;
-                lab.robot.clone()
-            }
-        };
-        let mut answered = None;
-        let mut said = Said::default();
-        if exhausted < MOST_EXHAUSTED {
-            match ask(&mut controller, function, &robot, case, opening, host) {
-                Ok(answer) => {
-                    // a loop as long as a hidden number would count it out
-                    if case.hidden_class.is_none() {
-                        operations += answer.operations;
-                    }
-                    hash_value(&mut hasher, &answer.value);
-                    said = answer.said;
-                    answered = Some(answer.value);
-                }
-                Err(why) => {
-                    hasher.update(b"stopped");
-                    exhausted = match why {
-                        // one case's failure costs that case
-                        Stop::Crashed(_) => exhausted,
-                        Stop::OverBudget {
-                            budget: Budget::OperationsPerCall,
-                            ..
-                        } => exhausted + 1,
-                        // what is wrong with the whole file, or with this machine, is so for every case
-                        _ => MOST_EXHAUSTED,
-                    };
-                    stop.get_or_insert((i, why));
-                    if let Some(controller) = &mut controller {
-                        said = controller.unanswered();
-                    }
-                }
+                // loading has built every case's robot once; a failure here is ours
+                let fault = Stop::GraderFault(error.to_string());
+                self.stop.get_or_insert(Ended::stopped_by(fault, i as u64));
+                self.exhausted = MOST_EXHAUSTED;
+                cell.robot.clone()
             }
         }
-        // what is printed in a hidden case could tell its numbers
-        if case.hidden_class.is_some() {
-            said.log.clear();
-        }
-        log.extend(
-            said.log
-                .into_iter()
-                .map(|text| LogEntry { at: i as u64, text }),
-        );
-        facts.push(measure(lab, function, case, robot, answered.as_ref()));
     }
-    CasesRun {
-        facts,
-        stop,
-        operations,
-        log,
-        digest: hasher.finalize(),
+
+    /// Makes the call of case `i`, unless it is known what would come of it.
+    fn reply(&mut self, i: usize, call: &Call) -> Reply {
+        if self.exhausted >= MOST_EXHAUSTED {
+            return Reply::NotCalled;
+        }
+        let stop = match self.call(call) {
+            Ok(answer) => return Reply::Answered(answer),
+            Err(stop) => stop,
+        };
+        self.exhausted = match stop {
+            // one case's failure costs that case
+            Stop::Crashed(_) => self.exhausted,
+            Stop::OverBudget {
+                budget: Budget::OperationsPerCall,
+                ..
+            } => self.exhausted + 1,
+            // what is wrong with the whole file, or with this machine, is so for every case
+            _ => MOST_EXHAUSTED,
+        };
+        self.stop.get_or_insert(Ended::stopped_by(stop, i as u64));
+        let said = self.controller.as_mut().map(|open| open.unanswered());
+        Reply::Stopped(said.unwrap_or_default())
+    }
+
+    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
+        let open = match &mut self.controller {
+            Some(open) => open,
+            None => self.controller.insert(self.host.open(self.opening)?),
+        };
+        open.call(call)
     }
 }
 
@@ -137,20 +180,9 @@ fn free_call(function: &Function, given: &[(String, Dimension)]) -> Call {
     }
 }
 
-fn ask(
-    controller: &mut Option<Box<dyn Controller>>,
-    function: &Function,
-    robot: &Robot,
-    case: &Case,
-    opening: &Opening,
-    host: &mut dyn Host,
-) -> Result<Answer, Stop> {
-    let open = match controller {
-        Some(open) => open,
-        None => controller.insert(host.open(opening)?),
-    };
+fn call_of(function: &Function, robot: &Robot, case: &Case) -> Call {
     let robot = robot_facts(robot, None);
-    open.call(&match &case.given {
+    match &case.given {
         Given::Q(q) if matches!(function, Function::Jacobian(_)) => Call::Jacobian {
             robot,
             q: q.clone(),
@@ -164,134 +196,7 @@ fn ask(
             position_m: *position_m,
         },
         Given::Values { given, .. } => free_call(function, given),
-    })
-}
-
-fn measure<'a>(
-    lab: &Lab,
-    function: &Function,
-    case: &'a Case,
-    robot: Robot,
-    value: Option<&Value>,
-) -> CaseFacts<'a> {
-    let invalid = |what: String| Answered::Invalid(format!("{} returned {what}", function.name()));
-    let (answer, error) = match (&case.given, function) {
-        (Given::Q(q), Function::Jacobian(rows)) => {
-            // a case's positions were counted when the lab was loaded
-            let truth = jacobian::jacobian_in(&robot, &lab.frame, q, *rows).unwrap_or_default();
-            let answer = match value.map(|value| answer::matrix(value, truth.len(), robot.n())) {
-                None => Answered::Stopped,
-                Some(Ok(matrix)) => Answered::Matrix(matrix),
-                Some(Err(what)) => invalid(what),
-            };
-            let relative = match &answer {
-                Answered::Matrix(matrix) => jacobian::relative_distance(matrix, &truth),
-                _ => f64::INFINITY,
-            };
-            (answer, CaseError::Jacobian { relative, truth })
-        }
-        (Given::Q(q), _) => {
-            let answer = match value.map(answer::position) {
-                None => Answered::Stopped,
-                Some(Ok(position)) => Answered::Position(position),
-                Some(Err(what)) => invalid(what),
-            };
-            let error_m = match (&answer, tcp_in_lab(lab, &robot, q)) {
-                (Answered::Position(position), Some(truth)) => (position - truth).norm(),
-                _ => f64::INFINITY,
-            };
-            (answer, CaseError::Position(error_m))
-        }
-        (Given::Values { expected, .. }, _) => {
-            let entries = value.map(|value| answer::entries(value, expected));
-            let relative = expected.iter().enumerate().map(|(i, (_, should))| {
-                let entry = entries
-                    .as_ref()
-                    .and_then(|entries| entries[i].as_ref().ok());
-                entry.map_or(f64::INFINITY, |entry| {
-                    relative_error(entry, as_slice(should))
-                })
-            });
-            let error = CaseError::Entries(relative.collect());
-            let answer = match entries.map(|entries| entries.into_iter().collect()) {
-                None => Answered::Stopped,
-                Some(Ok(entries)) => Answered::Entries(entries),
-                Some(Err(what)) => invalid(what),
-            };
-            (answer, error)
-        }
-        (
-            Given::Position {
-                position_m,
-                branches,
-            },
-            _,
-        ) => {
-            let most = (*branches).max(2) as usize;
-            let answer = match value.map(|value| distinct_branches(value, &robot, most)) {
-                None => Answered::Stopped,
-                Some(Ok(branches)) => Answered::Branches(branches),
-                Some(Err(what)) => invalid(what),
-            };
-            let error = if *branches == 0 {
-                CaseError::Unreachable {
-                    said_so: answer == Answered::Branches(Vec::new()),
-                }
-            } else {
-                let target = Vector3::from(*position_m);
-                let mut branches_m: Vec<f64> = match &answer {
-                    Answered::Branches(found) => found
-                        .iter()
-                        .map(|q| {
-                            let reached = tcp_in_lab(lab, &robot, q);
-                            reached.map_or(f64::INFINITY, |p| (p - target).norm())
-                        })
-                        .collect(),
-                    _ => Vec::new(),
-                };
-                branches_m.sort_by(f64::total_cmp);
-                CaseError::Reach {
-                    branches_m,
-                    expected: *branches,
-                }
-            };
-            (answer, error)
-        }
-    };
-    CaseFacts {
-        case,
-        robot,
-        answer,
-        error,
     }
-}
-
-/// More than this is no list of branches.
-const MOST_LISTED: usize = 64;
-
-/// Branches, of which at most `most` differ by more than whole turns, so that an answer cannot be a guess at every sign.
-fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Vec<f64>>, String> {
-    let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
-    match count_distinct(robot, &branches) {
-        distinct if distinct > most => Err(format!(
-            "{distinct} different branches where at most {most} exist: return the right ones only"
-        )),
-        _ => Ok(branches),
-    }
-}
-
-/// Position of the TCP in the lab's frame \[m\]; `None` if `q` does not fit the robot.
-pub fn tcp_in_lab(lab: &Lab, robot: &Robot, q: &[f64]) -> Option<Vector3<f64>> {
-    tcp_in(robot, &lab.frame, q)
-}
-
-/// Position of the TCP in the frame `frame` \[m\]; `None` if `q` does not fit the robot, or there is no such frame.
-pub fn tcp_in(robot: &Robot, frame: &str, q: &[f64]) -> Option<Vector3<f64>> {
-    let q = robot.positions(q).ok()?;
-    let poses = forward_kinematics(robot, &q);
-    let world_from_lab = poses.world_from(robot.frame(frame)?);
-    let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
-    Some(lab_from_tcp.translation.vector)
 }
 
 /// What a submission may know of `robot`; `effort_limits` are the task's, else the robot's own.

@@ -2,51 +2,26 @@
 
 use kinemark_sim::event::{Event, EventKind};
 use kinemark_sim::robot::Robot;
-use kinemark_sim::run::{self, Disturbance, End, Run, RunSnapshot, Setup};
-use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
+use kinemark_sim::run::{self, Disturbance, End, Run, Setup};
+use kinemark_sim::runaway::likely_cause;
 use kinemark_sim::sensor::{Sensor, SensorKind};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 
-use crate::attempt::function::robot_facts;
-use crate::judge::Host;
-use crate::lab::model::{Lab, MotionTask};
+use super::function::robot_facts;
+use super::{Attempt, EndReason, Ended};
 use crate::submission::answer;
 use crate::submission::controller::{
-    Answer, Call, Controller, Memory, Observation, Opening, Reads, RobotFacts, Said, SensorFacts,
-    Stop, Value,
+    Answer, Call, Controller, Observation, Opening, Reads, RobotFacts, Said, SensorFacts, Stop,
 };
-
-/// A motion task as it went.
-#[derive(Debug)]
-pub struct MotionRun {
-    /// What was recorded, up to the end or to the stop.
-    pub trace: Trace,
-    /// Why it ended early, and at which tick.
-    pub ended: Option<(u64, EarlyEnd)>,
-    /// Operations used.
-    pub operations: u64,
-}
-
-/// Why a run ended before its last tick.
-#[derive(Debug, Clone, PartialEq)]
-pub enum EarlyEnd {
-    /// The submission was stopped.
-    Stopped(Stop),
-    /// `control` returned no command; in words.
-    InvalidOutput(String),
-    /// The motion was beyond all reason.
-    Diverged {
-        /// What was lost.
-        what: BlowUp,
-        /// Why, as far as it can be computed.
-        cause: Option<Cause>,
-    },
-}
+use crate::submission::host::Host;
+use crate::task::model::MotionTask;
+use crate::task::value::Value;
+use crate::task::workcell::Workcell;
 
 /// The robot as a motion task's submission sees it, with the task's effort limits.
-pub fn facts_of(lab: &Lab, motion: &MotionTask) -> RobotFacts {
+pub fn facts_of(robot: &Robot, motion: &MotionTask) -> RobotFacts {
     let limits = motion.servo.gains.iter().map(|g| g.effort_limit).collect();
-    robot_facts(&lab.robot, Some(limits))
+    robot_facts(robot, Some(limits))
 }
 
 /// The sensors as a motion task's submission knows them.
@@ -77,31 +52,42 @@ pub fn target_of(motion: &MotionTask) -> Value {
 }
 
 /// Runs `motion` under the submission of `opening`.
-pub fn run(lab: &Lab, motion: &MotionTask, opening: &Opening, host: &mut dyn Host) -> MotionRun {
-    let mut session = match Session::open(lab, motion, opening, host) {
-        Ok(session) => session,
-        Err(run) => return *run,
-    };
-    session.advance_to(u64::MAX);
-    session.finish()
-}
-
-/// Runs `motion` under the submission of `opening` with `robot` in the place of the lab's, disturbed. The submission is told of neither.
-pub fn run_disturbed(
-    lab: &Lab,
+pub fn run(
+    cell: Workcell<'_>,
     motion: &MotionTask,
     opening: &Opening,
     host: &mut dyn Host,
-    robot: &Robot,
+) -> Attempt<Trace> {
+    whole(Session::open(cell, motion, opening, host))
+}
+
+/// Runs `motion` under the submission of `opening` with the robot of `cell` disturbed. The submission is told neither of the
+/// disturbance nor of what differs from the robot it is opened with.
+pub fn run_disturbed(
+    cell: Workcell<'_>,
+    motion: &MotionTask,
+    opening: &Opening,
+    host: &mut dyn Host,
     disturbance: &Disturbance<'_>,
-) -> MotionRun {
-    let disturbed = (robot, Some(disturbance));
-    let mut session = match Session::open_with(lab, motion, opening, host, disturbed) {
-        Ok(session) => session,
-        Err(run) => return *run,
-    };
-    session.advance_to(u64::MAX);
-    session.finish()
+) -> Attempt<Trace> {
+    whole(Session::open_with(
+        cell,
+        motion,
+        opening,
+        host,
+        Some(disturbance),
+    ))
+}
+
+/// Runs a session to its end.
+fn whole(session: Result<Session<'_>, Box<Attempt<Trace>>>) -> Attempt<Trace> {
+    match session {
+        Ok(mut session) => {
+            session.advance_to(u64::MAX);
+            session.finish()
+        }
+        Err(attempt) => *attempt,
+    }
 }
 
 /// A motion task between two ticks: the simulator, the submission, and what was recorded so far.
@@ -109,21 +95,8 @@ pub struct Session<'a> {
     run: Run<'a>,
     controller: Box<dyn Controller>,
     recorder: TraceRecorder<'a>,
-    told: Told,
-    ended: Option<Ended>,
-}
-
-/// How a session ended.
-type Ended = Result<(), (u64, EarlyEnd)>;
-
-/// A session as it stood between two ticks: robot, scene, servos, sensors, the submission's memory, and what was recorded.
-#[derive(Debug, Clone)]
-pub struct SessionSnapshot<'a> {
-    run: RunSnapshot,
-    memory: Memory,
-    recorder: TraceRecorder<'a>,
-    told: Told,
-    ended: Option<Ended>,
+    output: Output,
+    ended: Option<Result<(), Ended>>,
 }
 
 impl<'a> Session<'a> {
@@ -132,28 +105,29 @@ impl<'a> Session<'a> {
     /// # Errors
     /// The run as it went, if the submission does not start.
     pub fn open(
-        lab: &'a Lab,
+        cell: Workcell<'a>,
         motion: &'a MotionTask,
         opening: &Opening,
         host: &mut dyn Host,
-    ) -> Result<Self, Box<MotionRun>> {
-        Self::open_with(lab, motion, opening, host, (&lab.robot, None))
+    ) -> Result<Self, Box<Attempt<Trace>>> {
+        Self::open_with(cell, motion, opening, host, None)
     }
 
-    /// The same with another robot of the same joints and frames, and a disturbance.
+    /// The same with a disturbance.
     fn open_with(
-        lab: &'a Lab,
+        cell: Workcell<'a>,
         motion: &'a MotionTask,
         opening: &Opening,
         host: &mut dyn Host,
-        (robot, disturbance): (&'a Robot, Option<&Disturbance<'a>>),
-    ) -> Result<Self, Box<MotionRun>> {
+        disturbance: Option<&Disturbance<'a>>,
+    ) -> Result<Self, Box<Attempt<Trace>>> {
+        let robot = cell.robot;
         let world = &robot.frames()[0];
         let setup = Setup {
             robot,
             scene: motion.scene.as_ref().map(|scene| &scene.scene),
             tcp: robot.tcp(),
-            seen_from: robot.frame(&lab.frame).unwrap_or(world),
+            seen_from: robot.frame(cell.frame).unwrap_or(world),
             periods: motion.periods,
             gravity_m_s2: motion.gravity_m_s2,
             servo: motion.servo.clone(),
@@ -163,8 +137,8 @@ impl<'a> Session<'a> {
             ticks: motion.ticks,
         };
         let recorder = TraceRecorder::new(&setup);
-        let mut told = Told::default();
-        let opened = started(opening, host, &mut told).and_then(|controller| {
+        let mut output = Output::default();
+        let opened = started(opening, host, &mut output).and_then(|controller| {
             let run = match disturbance {
                 None => Run::new(setup),
                 Some(disturbance) => Run::disturbed(setup, disturbance),
@@ -177,13 +151,13 @@ impl<'a> Session<'a> {
                 run,
                 controller,
                 recorder,
-                told,
+                output,
                 ended: None,
             }),
-            Err(stop) => Err(Box::new(motion_run(
+            Err(stop) => Err(Box::new(attempt(
                 recorder,
-                told,
-                Some((0, EarlyEnd::Stopped(stop))),
+                output,
+                Some(Ended::stopped_by(stop, 0)),
             ))),
         }
     }
@@ -198,12 +172,9 @@ impl<'a> Session<'a> {
         self.ended.is_some()
     }
 
-    /// What stopped the submission, if something did.
-    pub fn stopped(&self) -> Option<&Stop> {
-        match &self.ended {
-            Some(Err((_, EarlyEnd::Stopped(stop)))) => Some(stop),
-            _ => None,
-        }
+    /// How it ended, where that was before its last tick.
+    pub fn ended(&self) -> Option<&Ended> {
+        self.ended.as_ref()?.as_ref().err()
     }
 
     /// The signals recorded so far.
@@ -225,96 +196,70 @@ impl<'a> Session<'a> {
                     tcp_m: seen.tcp.translation.vector.into(),
                     sensors: seen.sensors.to_vec(),
                 });
-                let value = ask(self.controller.as_mut(), &call, seen.tick, &mut self.told)
-                    .map_err(EarlyEnd::Stopped)?;
+                let value = ask(self.controller.as_mut(), &call, seen.tick, &mut self.output)
+                    .map_err(EndReason::Stopped)?;
                 let numbers = answer::command(&value, command.len())
-                    .map_err(|what| EarlyEnd::InvalidOutput(format!("control returned {what}")))?;
+                    .map_err(|what| EndReason::InvalidOutput(format!("control returned {what}")))?;
                 command.copy_from_slice(&numbers);
                 Ok(())
             };
             self.ended = match self.run.advance(&mut control, &mut self.recorder) {
                 Ok(None) => None,
                 Ok(Some(End::Finished)) => Some(Ok(())),
-                Ok(Some(End::Stopped { tick, why })) => Some(Err((tick, why))),
+                Ok(Some(End::Stopped { tick, why })) => Some(Err(Ended { at: tick, why })),
                 Ok(Some(End::Diverged { tick, what })) => {
-                    let cause = None;
-                    Some(Err((tick, EarlyEnd::Diverged { what, cause })))
+                    let why = EndReason::Diverged { what, cause: None };
+                    Some(Err(Ended { at: tick, why }))
                 }
                 Err(error) => {
                     let fault = Stop::GraderFault(error.to_string());
-                    Some(Err((0, EarlyEnd::Stopped(fault))))
+                    Some(Err(Ended::stopped_by(fault, 0)))
                 }
             };
         }
     }
 
-    /// The session as it stands; another one of the same lab, task and submission can go on from it with the same bits.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission keeps something in `this` that cannot be kept, or no longer answers.
-    pub fn snapshot(&mut self) -> Result<SessionSnapshot<'a>, Stop> {
-        Ok(SessionSnapshot {
-            run: self.run.snapshot(),
-            memory: self.controller.memory()?,
-            recorder: self.recorder.clone(),
-            told: self.told.clone(),
-            ended: self.ended.clone(),
-        })
-    }
-
-    /// Goes back, or on, to `snapshot`.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission no longer answers.
-    pub fn restore(&mut self, snapshot: &SessionSnapshot<'a>) -> Result<(), Stop> {
-        self.controller.recall(&snapshot.memory)?;
-        self.run.restore(&snapshot.run);
-        self.recorder = snapshot.recorder.clone();
-        self.told = snapshot.told.clone();
-        self.ended = snapshot.ended.clone();
-        Ok(())
-    }
-
     /// What was recorded up to here.
-    pub fn finish(self) -> MotionRun {
+    pub fn finish(self) -> Attempt<Trace> {
         let ended = self.ended.and_then(Result::err);
-        let mut run = motion_run(self.recorder, self.told, ended);
-        if let Some((_, EarlyEnd::Diverged { what, cause })) = &mut run.ended {
-            *cause = likely_cause(self.run.setup(), what, &run.trace);
+        let mut attempt = attempt(self.recorder, self.output, ended);
+        if let Some(Ended {
+            why: EndReason::Diverged { what, cause },
+            ..
+        }) = &mut attempt.ended
+        {
+            *cause = likely_cause(self.run.setup(), what, &attempt.recorded);
         }
-        run
+        attempt
     }
 }
 
-fn motion_run(
-    recorder: TraceRecorder<'_>,
-    told: Told,
-    ended: Option<(u64, EarlyEnd)>,
-) -> MotionRun {
+fn attempt(recorder: TraceRecorder<'_>, output: Output, ended: Option<Ended>) -> Attempt<Trace> {
     let mut trace = recorder.finish();
-    trace.log = told.log;
-    trace.plots = told.plots;
-    if let Some((tick, why)) = &ended {
-        let kind = match why {
-            EarlyEnd::Diverged { .. } => EventKind::Diverged,
-            EarlyEnd::Stopped(_) | EarlyEnd::InvalidOutput(_) => EventKind::Stopped,
+    trace.log = output.log;
+    trace.plots = output.plots;
+    if let Some(ended) = &ended {
+        let kind = match ended.why {
+            EndReason::Diverged { .. } => EventKind::Diverged,
+            EndReason::Stopped(_) | EndReason::InvalidOutput(_) => EventKind::Stopped,
         };
-        trace.events.push(Event { tick: *tick, kind });
+        let tick = ended.at;
+        trace.events.push(Event { tick, kind });
     }
-    MotionRun {
-        trace,
+    Attempt {
+        recorded: trace,
         ended,
-        operations: told.operations,
+        operations: output.operations,
     }
 }
 
 fn started(
     opening: &Opening,
     host: &mut dyn Host,
-    told: &mut Told,
+    output: &mut Output,
 ) -> Result<Box<dyn Controller>, Stop> {
     let mut controller = host.open(opening)?;
-    ask(controller.as_mut(), &Call::Init, 0, told)?;
+    ask(controller.as_mut(), &Call::Init, 0, output)?;
     Ok(controller)
 }
 
@@ -323,7 +268,7 @@ fn ask(
     controller: &mut dyn Controller,
     call: &Call,
     tick: u64,
-    told: &mut Told,
+    output: &mut Output,
 ) -> Result<Value, Stop> {
     match controller.call(call) {
         Ok(Answer {
@@ -331,20 +276,20 @@ fn ask(
             said,
             operations,
         }) => {
-            told.operations += operations;
-            told.keep(tick, said);
+            output.operations += operations;
+            output.keep(tick, said);
             Ok(value)
         }
         Err(stop) => {
-            told.keep(tick, controller.unanswered());
+            output.keep(tick, controller.unanswered());
             Err(stop)
         }
     }
 }
 
-/// What a submission said in a run besides its commands.
-#[derive(Debug, Clone, Default)]
-struct Told {
+/// What a submission printed and plotted in a run.
+#[derive(Debug, Default)]
+struct Output {
     log: Vec<LogLine>,
     plots: Vec<PlotSignal>,
     plots_refused: bool,
@@ -354,7 +299,7 @@ struct Told {
 /// Signals of a submission that are drawn: more are unreadable, and each costs a plot's time.
 const MOST_PLOTS: usize = 24;
 
-impl Told {
+impl Output {
     fn keep(&mut self, tick: u64, said: Said) {
         let lines = said.log.into_iter().map(|text| LogLine { tick, text });
         self.log.extend(lines);

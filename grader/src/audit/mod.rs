@@ -4,20 +4,24 @@
 //! An [`Audit`] collects rows. A lab that can be had in several forms is audited form by form: each call takes the lab as it is
 //! there, and says in words which it is.
 
+mod staff_code;
 mod variants;
 
 use kinemark_sim::source::Source;
 use serde::Serialize;
 
-use crate::judge::{InProcess, grade};
+use crate::judge::grade;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
-use crate::lab::model::{Lab, TaskWork};
+use crate::lab::model::Lab;
 use crate::lab::staff::{Mutant, Staff};
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TcpPath};
 use crate::record::quantity::{metres, points, seconds};
 use crate::record::verdict::Verdict;
+use crate::submission::host::InProcess;
+use crate::task::model::TaskWork;
 
+pub use self::staff_code::staff_code;
 pub use self::variants::{Room, Variants};
 
 /// The share of a lab's points that a starter may earn, for a warm-up that it solves.

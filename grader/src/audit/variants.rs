@@ -3,12 +3,14 @@
 use kinemark_sim::robot::Dimension;
 use serde::Serialize;
 
-use super::{Audit, Tried, graded, loss_of};
+use super::{Audit, Tried, graded, loss_of, staff_code};
+use crate::lab::Variant;
 use crate::lab::model::Lab;
 use crate::lab::staff::Staff;
-use crate::lab::{Files, LoadError, Variant};
 use crate::record::grade::{Grade, Measure};
 use crate::record::verdict::Verdict;
+use crate::task::files::Files;
+use crate::task::problem::LoadError;
 
 /// What came of the variants of some students.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -85,6 +87,9 @@ impl Variants {
             .collect();
         let lab = lab.with_parameters(&numbers)?;
         let staff = Staff::load(reference, &lab, Some(salt))?;
+        if let Some(staff) = &staff {
+            staff_code(&lab, staff)?;
+        }
         Ok(staff.map(|staff| (lab, staff)))
     }
 

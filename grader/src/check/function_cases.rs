@@ -2,6 +2,7 @@
 //! over the cases, hidden ones too, of the mean over their entries.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
+use crate::attempt::measure::as_slice;
 use crate::lab::model::{Band, Function, Given};
 use crate::record::grade::Measure;
 use crate::record::quantity::{significant, with_unit};
@@ -83,27 +84,6 @@ pub fn judge(
     }
 }
 
-/// The numbers of an entry.
-pub fn as_slice(entry: &kinemark_sim::robot::Dimension) -> &[f64] {
-    match entry {
-        kinemark_sim::robot::Dimension::Number(number) => std::slice::from_ref(number),
-        kinemark_sim::robot::Dimension::List(list) => list,
-    }
-}
-
-/// How far an entry is off as a fraction of what it should be, in the Euclidean norm; where that is zero, the distance itself.
-pub fn relative_error(answer: &[f64], expected: &[f64]) -> f64 {
-    let norm = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|x| x * x).sum::<f64>().sqrt();
-    if answer.len() != expected.len() {
-        return f64::INFINITY;
-    }
-    let off = norm(&mut answer.iter().zip(expected).map(|(a, e)| a - e));
-    match norm(&mut expected.iter().copied()) {
-        size if size > 0.0 => off / size,
-        _ => off,
-    }
-}
-
 /// The numbers of an entry as people read them, a single one without brackets.
 pub fn written(numbers: &[f64], digits: usize) -> String {
     let texts: Vec<String> = numbers.iter().map(|x| significant(*x, digits)).collect();
@@ -125,15 +105,6 @@ fn told_apart(a: &[f64], b: &[f64]) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_error_is_relative_to_what_it_should_be_and_absolute_at_zero() {
-        assert_eq!(relative_error(&[1.5], &[2.0]), 0.25);
-        assert_eq!(relative_error(&[0.5], &[0.0]), 0.5);
-        assert_eq!(relative_error(&[3.0, 5.0], &[3.0, 4.0]), 0.2);
-        assert_eq!(relative_error(&[3.0], &[3.0, 4.0]), f64::INFINITY);
-        assert!(relative_error(&[f64::NAN], &[1.0]).is_nan());
-    }
 
     #[test]
     fn near_numbers_are_written_so_that_they_differ() {

@@ -4,10 +4,10 @@
 //! for whole circles, scores nothing.
 
 use super::{Answered, CaseError, CaseFacts, Finding, summarise};
+use crate::attempt::measure::count_distinct;
 use crate::lab::model::{Band, Function};
 use crate::record::grade::Measure;
 use crate::record::quantity::metres;
-use kinemark_sim::robot::Robot;
 
 /// Judges the check.
 pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Finding {
@@ -73,36 +73,4 @@ pub fn judge(cases: &[CaseFacts<'_>], band: Band, function: &Function) -> Findin
         next_step: "The arm can bend either way: return both, `[[q1, q2], [q1, q2]]`.".to_owned(),
         curve: None,
     }
-}
-
-/// How many of the branches differ by more than whole circles and rounding.
-pub(crate) fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
-    let mut distinct: Vec<&Vec<f64>> = Vec::new();
-    for branch in branches {
-        if !distinct
-            .iter()
-            .any(|other| same_branch(robot, branch, other))
-        {
-            distinct.push(branch);
-        }
-    }
-    distinct.len()
-}
-
-/// Whether two answers are one configuration: angles equal but for whole circles, slides equal, to a fiftieth and a thousandth.
-pub(crate) fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
-    // what moves the hand by less than a band is no other branch; two branches inside the boundary differ by far more
-    let (near_rad, near_m) = (0.02, 1e-3);
-    robot
-        .moving_joints()
-        .zip(a.iter().zip(b))
-        .all(|(joint, (a, b))| {
-            let circle = 2.0 * std::f64::consts::PI;
-            if joint.kind.turns() {
-                let gap = (a - b).abs() % circle;
-                gap.min(circle - gap) <= near_rad
-            } else {
-                (a - b).abs() <= near_m
-            }
-        })
 }

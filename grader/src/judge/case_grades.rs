@@ -1,21 +1,24 @@
-//! The cases of a function task as the record tells them: visible ones with their numbers, hidden ones by class.
+//! The cases of a function task as the record has them: visible ones with their numbers, hidden ones by class.
 
 use kinemark_sim::robot::Dimension;
 
-use crate::attempt::function as cases;
-use crate::check::function_cases::{as_slice, written};
-use crate::check::{Answered, CaseError, CaseFacts};
-use crate::lab::model::{Band, Given, Lab};
+use crate::attempt::answers::{Answered, CaseError, CaseFacts};
+use crate::attempt::measure::as_slice;
+use crate::check::function_cases::written;
+use crate::lab::model::Lab;
 use crate::record::grade::{CaseGrade, HiddenClass};
 use crate::record::quantity::{list, lists, trimmed};
+use crate::task::model::{Band, Given};
+use crate::task::tcp::tcp_in;
 
 pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
     let (given, expected) = match &facts.case.given {
         Given::Q(q) => {
             let truth = match &facts.error {
                 CaseError::Jacobian { truth, .. } => Some(lists(truth)),
-                _ => cases::tcp_in_lab(lab, &facts.robot, q)
-                    .map(|p| format!("{} m", list(p.as_slice()))),
+                _ => {
+                    tcp_in(&facts.robot, &lab.frame, q).map(|p| format!("{} m", list(p.as_slice())))
+                }
             };
             (format!("q = {} rad", list(q)), truth)
         }

@@ -7,14 +7,10 @@ use kinemark_sim::robot::Robot;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
+use crate::record::comparison::{JOINT_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use crate::record::grade::Divergence;
 use crate::record::graded::TcpPath;
 use crate::record::quantity::{list, metres, trimmed};
-
-/// A turning joint that is nearer is not told: half of it is what a tracking servo lags behind \[rad\].
-pub const JOINT_TOLERANCE_RAD: f64 = 0.02;
-/// The same of the TCP and of sliding joints \[m\].
-pub const PLACE_TOLERANCE_M: f64 = 0.01;
 
 /// Compares two runs of the same task by joints and TCP, as far as both go.
 pub fn from_run(
@@ -38,7 +34,7 @@ pub fn from_run(
             let (tolerance, unit) = if joint.kind.turns() {
                 (JOINT_TOLERANCE_RAD, "rad")
             } else {
-                (PLACE_TOLERANCE_M, "m")
+                (POSITION_TOLERANCE_M, "m")
             };
             let distance = (yours - theirs).abs();
             let share = |found: &Divergence| found.distance / found.tolerance;
@@ -71,12 +67,12 @@ pub fn from_run(
                     .step_by(every)
                     .all(|tick| {
                         let apart = student.tcp_position(tick) - reference.tcp_position(tick);
-                        apart.norm() <= PLACE_TOLERANCE_M
+                        apart.norm() <= POSITION_TOLERANCE_M
                     });
             if stays {
                 found.message += &format!(
                     "; the TCP stays within {} of the reference's",
-                    metres(PLACE_TOLERANCE_M)
+                    metres(POSITION_TOLERANCE_M)
                 );
             }
             return Some(found);
@@ -101,14 +97,14 @@ fn of_tcp(student: &Trace, tick: usize, place: &[f64], periods: &Periods) -> Opt
     let yours = yours.as_slice();
     let squares = yours.iter().zip(place).map(|(a, b)| (a - b) * (a - b));
     let distance = squares.sum::<f64>().sqrt();
-    (distance > PLACE_TOLERANCE_M).then(|| Divergence {
+    (distance > POSITION_TOLERANCE_M).then(|| Divergence {
         tick: tick as u64,
         time_s: periods.time_s(tick as u64),
         signal: "tcp".to_owned(),
         yours: yours.to_vec(),
         reference: place.to_vec(),
         distance,
-        tolerance: PLACE_TOLERANCE_M,
+        tolerance: POSITION_TOLERANCE_M,
         unit: "m".to_owned(),
         message: format!(
             "the TCP is at {} m, {} from the reference solution's at {} m",

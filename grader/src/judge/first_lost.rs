@@ -4,9 +4,9 @@
 use kinemark_sim::ticks::Periods;
 
 use crate::lab::model::CheckKind;
-use crate::lab::watched::SpeedAt;
-use crate::record::grade::{CheckGrade, Instant, Outcome};
+use crate::record::grade::{Evidence, Instant};
 use crate::record::graded::Curve;
+use crate::task::watched::SpeedAt;
 
 /// How a curve is held against its band.
 enum Held {
@@ -36,17 +36,14 @@ fn held(kind: &CheckKind) -> Option<Held> {
     }
 }
 
-/// Where `check` began to lose points in the visible run, if it lost some and a moment of it is told.
+/// Where a check that lost points in the visible run began to lose them, if its curve or its evidence says when.
 pub(super) fn first_lost(
     kind: &CheckKind,
-    check: &CheckGrade,
+    evidence: &[Evidence],
     curve: Option<&Curve>,
     periods: &Periods,
 ) -> Option<Instant> {
-    if !matches!(check.outcome, Outcome::Partial | Outcome::None) {
-        return None;
-    }
-    let told = || check.evidence.iter().filter_map(|fact| fact.time_s);
+    let told = || evidence.iter().filter_map(|fact| fact.time_s);
     let left = curve.and_then(|curve| match held(kind)? {
         Held::Greatest => first_beyond(curve),
         Held::Mean => told()

@@ -1,18 +1,26 @@
 //! Grading a function task: its visible and hidden cases, its checks, and the known mistakes it shows.
 
+use super::Interrupted;
+use super::bands::answer_band;
 use super::case_grades::{case_grade, hidden_classes};
-use super::points::{counted, judged, not_finite_help, without_hints};
-use super::{Grader, Host, InProcess, Interrupted, MOST_LOG_LINES};
-use crate::attempt::function::{self as cases, CasesRun};
-use crate::attempt::stopped;
-use crate::check::{self, Answered, CaseFacts};
-use crate::judge::diagnose;
-use crate::lab::model::{Band, Case, Check, CheckKind, Function, FunctionTask, Task};
+use super::check_grades::check_grades;
+use super::diagnose;
+use super::expected::with_expected;
+use super::grader::{Grader, MOST_LOG_LINES};
+use super::hidden_attempts::HiddenAttempts;
+use super::judged::{Judged, all_full, judge};
+use crate::attempt::answers::{Answers, CaseFacts};
+use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
+use crate::check;
+use crate::lab::model::Task;
 use crate::lab::staff::Mutant;
-use crate::lab::staff::sound::Whose;
-use crate::record::grade::{CheckGrade, Diagnosis, Digests, Outcome, Stopped, TaskGrade, TaskKind};
+use crate::record::grade::{CheckGrade, Diagnosis, Digests, Stopped, TaskGrade, TaskKind};
+use crate::record::quantity::sum_of_points;
+use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Stop;
+use crate::submission::host::{Host, InProcess};
+use crate::task::model::{Case, FunctionTask};
 
 impl Grader<'_> {
     pub(super) fn function(
@@ -21,147 +29,147 @@ impl Grader<'_> {
         work: &FunctionTask,
         host: &mut dyn Host,
     ) -> Result<TaskGrade, Interrupted> {
-        let mut all: Vec<Case> = work.cases.clone();
-        // with a staff's part that hides cases of this task
-        let hiding = self
-            .staff
-            .filter(|staff| !staff.hidden(&task.name).is_empty());
-        all.extend_from_slice(hiding.map_or(&[], |staff| staff.hidden(&task.name)));
+        let (cases, fault) = self.cases(task, work);
         let opening = self.opening(task, self.submission);
-        let run = cases::run(self.lab, &work.function, &all, &opening, host);
-        let mut stopped_record = None;
-        let mut verdict = Verdict::Passed;
-        if let Some((case, stop)) = &run.stop {
-            verdict = stopped::verdict(stop).ok_or(Interrupted)?;
-            let mut record = stopped::record(stop, self.submission.text());
-            let facts = &run.facts[*case];
-            if stopped::is_of_one_call(stop) {
-                record.case = Some(facts.told().to_owned());
-                if !facts.is_visible() {
-                    // the words of the submission could tell the numbers of a hidden case
-                    record.message = "the submission failed in a hidden case".to_owned();
-                    record.help = None;
-                    // nor may the line that fails: a ladder of comparisons would count a number out
-                    (record.line, record.column, record.source_line) = (None, None, None);
-                }
-            }
-            stopped_record = Some(record);
+        let cell = self.lab.workcell();
+        let mut attempt = function::run(cell, &work.function, &cases, &opening, host);
+        if let Some(fault) = fault {
+            attempt.ended = Some(Ended::stopped_by(Stop::GraderFault(fault), 0));
         }
-        let could_run = !matches!(
-            run.stop,
-            Some((_, Stop::Missing { .. } | Stop::DidNotBuild(_)))
-        );
-        let checks = judged(&task.checks, could_run && verdict.is_decided(), |check| {
-            check::judge_function(check, &work.function, &run.facts)
+        let (mut verdict, stopped) = self.ended(&attempt)?;
+        let facts = &attempt.recorded.facts;
+        let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
+        let judged = judge(&task.checks, can_be_judged, |check| {
+            check::judge_function(check, &work.function, facts)
         });
-        let checks: Vec<CheckGrade> = checks.into_iter().map(|(check, _)| check).collect();
-        let invalid = run.facts.iter().find_map(|facts| match &facts.answer {
-            Answered::Invalid(what) if facts.is_visible() => Some((facts.told(), what.clone())),
-            Answered::Invalid(_) => Some((
-                facts.told(),
-                "an answer of the wrong shape, or not finite, in a hidden case".to_owned(),
-            )),
-            Answered::Position(_)
-            | Answered::Branches(_)
-            | Answered::Matrix(_)
-            | Answered::Entries(_)
-            | Answered::Stopped => None,
-        });
-        let invalid = invalid.map(|(case, what)| (case.to_owned(), what));
-        if let (Some((case, what)), None) = (invalid, &stopped_record) {
-            verdict = verdict.min(Verdict::InvalidOutput);
-            stopped_record = Some(Stopped {
-                help: not_finite_help(&what),
-                message: what,
-                line: None,
-                column: None,
-                source_line: None,
-                tick: None,
-                time_s: None,
-                case: Some(case),
-            });
-        }
-        if checks.iter().any(|check| check.outcome != Outcome::Full) {
+        if !all_full(&judged) {
             verdict = verdict.min(Verdict::Missed);
         }
         let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
             Vec::new()
         } else {
-            self.function_diagnoses(task, &work.function, &all, &run)
+            self.function_diagnoses(task, work, &cases, &attempt)
         };
-        let explained = stopped_record.is_some() || !diagnoses.is_empty();
-        let mut checks = without_hints(checks, explained);
-        let points = counted(&mut checks);
-        let good = good_bands(&task.checks);
-        Ok(TaskGrade {
+        let explained = stopped.is_some() || !diagnoses.is_empty();
+        let checks = function_checks(task, &judged, explained);
+        Ok(self.function_grade(task, verdict, stopped, checks, diagnoses, attempt))
+    }
+
+    /// All cases of a task, hidden ones with what is expected in them; with a fault, where the reference solution does not say what,
+    /// the visible ones alone.
+    fn cases(&self, task: &Task, work: &FunctionTask) -> (Vec<Case>, Option<String>) {
+        let mut all = work.cases.clone();
+        let Some(staff) = self.staff else {
+            return (all, None);
+        };
+        let draws = staff.draws_of(&task.name);
+        let hidden = draws.map(|draw| with_expected(self.lab, task, &draw.cases, &staff.solution));
+        match hidden.collect::<Result<Vec<_>, _>>() {
+            Ok(hidden) => {
+                all.extend(hidden.into_iter().flatten());
+                (all, None)
+            }
+            Err(why) => (all, Some(why)),
+        }
+    }
+
+    /// What the end of an attempt alone comes to.
+    fn ended(
+        &self,
+        attempt: &Attempt<Answers<'_>>,
+    ) -> Result<(Verdict, Option<Stopped>), Interrupted> {
+        let Some(ended) = &attempt.ended else {
+            return Ok((Verdict::Passed, None));
+        };
+        let case = &attempt.recorded.facts[ended.at as usize].case;
+        let disclosure = match &case.hidden_class {
+            Some(class) => Disclosure::HiddenCase { class },
+            None => Disclosure::Case { name: &case.name },
+        };
+        let verdict = ended.verdict().ok_or(Interrupted)?;
+        let record = ended.record(self.submission.text(), disclosure);
+        Ok((verdict, Some(record)))
+    }
+
+    fn function_grade(
+        &self,
+        task: &Task,
+        verdict: Verdict,
+        stopped: Option<Stopped>,
+        checks: Vec<CheckGrade>,
+        diagnoses: Vec<Diagnosis>,
+        attempt: Attempt<Answers<'_>>,
+    ) -> TaskGrade {
+        let band = answer_band(&task.checks);
+        let Answers { facts, log, digest } = attempt.recorded;
+        let has_hidden = facts.iter().any(|facts| !facts.is_visible());
+        let digest = match self.staff.filter(|_| has_hidden) {
+            Some(staff) => staff.keyed(digest),
+            None => digest,
+        };
+        let visible = facts.iter().filter(|facts| facts.is_visible());
+        TaskGrade {
             name: task.name.clone(),
             title: task.title.clone(),
             kind: TaskKind::Function,
             verdict,
-            points,
+            points: sum_of_points(checks.iter().map(|check| check.points)),
             max_points: task.max_points(),
-            stopped: stopped_record,
+            stopped,
             checks,
             diagnoses,
-            cases: run
-                .facts
-                .iter()
-                .filter(|facts| facts.is_visible())
-                .map(|facts| case_grade(self.lab, facts, good))
+            cases: visible
+                .map(|facts| case_grade(self.lab, facts, band))
                 .collect(),
-            hidden: hidden_classes(&run.facts, good),
+            hidden: hidden_classes(&facts, band),
             events: Vec::new(),
             contacts: Vec::new(),
-            operations: run.operations,
-            log: run.log.into_iter().take(MOST_LOG_LINES).collect(),
+            operations: attempt.operations,
+            log: log.into_iter().take(MOST_LOG_LINES).collect(),
             digests: Digests {
-                all: hiding
-                    .map_or(run.digest, |staff| staff.keyed(run.digest))
-                    .to_hex()
-                    .to_string(),
+                all: digest.to_hex().to_string(),
                 seconds: Vec::new(),
                 rungs: Vec::new(),
             },
             divergence: None,
-        })
+        }
     }
 
     fn function_diagnoses(
         &self,
         task: &Task,
-        function: &Function,
-        all: &[Case],
-        student: &CasesRun<'_>,
+        work: &FunctionTask,
+        cases: &[Case],
+        student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &mutant.source);
-            let run = cases::run(self.lab, function, all, &opening, &mut InProcess);
-            if let Some((_, stop)) = &run.stop {
-                self.note_fault(Whose::Mutant(mutant), task, &mutant.source, stop);
-            }
-            (mutant, run.facts)
+            let cell = self.lab.workcell();
+            let run = function::run(cell, &work.function, cases, &opening, &mut InProcess);
+            let whose = StaffSubmission::Mutant(mutant.name.clone());
+            self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
+            (mutant, run.recorded.facts)
         });
         // mutants outlive the closure's borrow only if collected
         let answers: Vec<(&Mutant, Vec<CaseFacts<'_>>)> = mutants.collect();
-        diagnose::function_task(
-            &student.facts,
-            answers.into_iter(),
-            good_bands(&task.checks),
-        )
+        let band = answer_band(&task.checks);
+        diagnose::function_task(&student.recorded.facts, answers.into_iter(), band)
     }
 }
 
-/// The band of distances, or of relative ones, by which a function task's single answers are called good or wrong.
-fn good_bands(checks: &[Check]) -> Band {
-    let found = checks.iter().find_map(|check| match &check.kind {
-        CheckKind::FkError(band)
-        | CheckKind::IkReach(band)
-        | CheckKind::JacobianMatch(band)
-        | CheckKind::FunctionCases { band, .. } => Some(*band),
-        _ => None,
-    });
-    found.unwrap_or(Band {
-        full: 1e-3,
-        zero: 1e-2,
-    })
+/// Whether the submission is no program, or lacks the function.
+fn is_without_function(ended: Option<&Ended>) -> bool {
+    matches!(
+        ended.map(|ended| &ended.why),
+        Some(EndReason::Stopped(
+            Stop::Missing { .. } | Stop::DidNotBuild(_)
+        ))
+    )
+}
+
+/// The grades of a function task's checks: hidden cases are among those judged, and no moment is the first.
+fn function_checks(task: &Task, judged: &[Judged], explained: bool) -> Vec<CheckGrade> {
+    let first_lost = vec![None; judged.len()];
+    let hidden = HiddenAttempts::default();
+    check_grades(&task.checks, judged, &first_lost, &hidden, explained)
 }

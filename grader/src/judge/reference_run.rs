@@ -1,10 +1,11 @@
 //! The reference solution's motion beside a graded run: for staff, who know the answer.
 
 use crate::attempt::motion;
-use crate::judge::{InProcess, opening};
-use crate::lab::model::TaskWork;
+use crate::judge::opening;
 use crate::lab::{Lab, Staff};
 use crate::record::graded::GradedRun;
+use crate::submission::host::InProcess;
+use crate::task::model::TaskWork;
 
 /// Puts the reference solution's motion beside every run of `graded`, to be shown by its report and its logs; a solution that stops
 /// early is not shown. The grade is not touched.
@@ -17,7 +18,7 @@ pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
             continue;
         };
         let opening = opening(lab, task, &staff.solution);
-        let reference = motion::run(lab, work, &opening, &mut InProcess);
-        run.ghost = reference.ended.is_none().then_some(reference.trace);
+        let reference = motion::run(lab.workcell(), work, &opening, &mut InProcess);
+        run.ghost = reference.ended.is_none().then_some(reference.recorded);
     }
 }

@@ -1,87 +1,83 @@
-//! Climbs the ladder of a robustness check: the same motion once more under every rung, judged by the check that is repeated.
+//! Robustness sweeps: the same motion once more under every level of disturbance, judged by the check that is repeated.
 
 use kinemark_sim::run::Disturbance;
+use kinemark_sim::trace::Trace;
 
-use crate::attempt::motion::{self, EarlyEnd, MotionRun};
-use crate::attempt::stopped;
+use super::motion_judge::MotionJudge;
+use crate::attempt::motion;
+use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::robustness::{RungEnd, RungFacts};
-use crate::check::{self, Climb, MotionFacts, stay};
-use crate::judge::Host;
-use crate::judge::diverged::RunawayWords as _;
+use crate::check::{self, Climb, MotionFacts};
 use crate::lab::ladder::Rung;
-use crate::lab::model::{CheckKind, Lab, MotionTask, Task};
-use crate::submission::controller::{Opening, Stop};
+use crate::lab::model::{Check, CheckKind};
+use crate::submission::controller::Stop;
+use crate::submission::host::Host;
+use crate::task::workcell::Workcell;
 
-/// Why a climb says nothing about the work.
+/// Why a sweep says nothing about the work.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Undecided(pub Stop);
+pub(super) struct Undecided(pub(super) Stop);
 
-/// Runs every rung of every robustness check of `task` whose repeated check earns anything in `undisturbed`.
+/// Runs every level of every robustness check whose repeated check earns anything in `undisturbed`.
 ///
 /// # Errors
 /// [`Undecided`] if the person, the machine or the grader stopped a run.
-pub fn climbs(
-    lab: &Lab,
-    task: &Task,
-    motion: &MotionTask,
-    opening: &Opening,
+pub(super) fn sweeps(
+    judge: &MotionJudge<'_>,
     undisturbed: &MotionFacts<'_>,
     host: &mut dyn Host,
 ) -> Result<Vec<Climb>, Undecided> {
-    let mut climbs = Vec::new();
-    for check in &task.checks {
+    let mut sweeps = Vec::new();
+    for check in &judge.task.checks {
         let CheckKind::Robustness(ladder) = &check.kind else {
             continue;
         };
-        let repeated = &task.checks[ladder.check];
+        let repeated = &judge.task.checks[ladder.check];
         let before = check::judge_motion(repeated, undisturbed);
-        let mut rungs = Vec::new();
+        let mut levels = Vec::new();
         if before.score > 0.0 {
-            for rung in &ladder.rungs {
-                let run = run(lab, task, motion, opening, rung, host);
-                rungs.push(facts(run, &opening.source, undisturbed, |facts| {
-                    check::judge_motion(repeated, facts)
-                })?);
+            for level in &ladder.rungs {
+                let attempt = attempt(judge, level, host);
+                levels.push(judged(judge, repeated, &attempt)?);
             }
         }
-        climbs.push(Climb {
+        sweeps.push(Climb {
             check: check.name.clone(),
             repeated: repeated.title.clone(),
-            rungs,
+            rungs: levels,
         });
     }
-    Ok(climbs)
+    Ok(sweeps)
 }
 
-fn run(
-    lab: &Lab,
-    task: &Task,
-    motion: &MotionTask,
-    opening: &Opening,
-    rung: &Rung,
-    host: &mut dyn Host,
-) -> MotionRun {
+/// Runs the task under one level of disturbance.
+fn attempt(judge: &MotionJudge<'_>, level: &Rung, host: &mut dyn Host) -> Attempt<Trace> {
+    let lab = judge.lab;
     let mut robot = lab.robot.clone();
-    if rung.payload_kg > 0.0 {
-        robot = robot.with_payload(rung.payload_kg);
+    if level.payload_kg > 0.0 {
+        robot = robot.with_payload(level.payload_kg);
     }
-    if rung.friction > 0.0 {
-        robot = robot.with_more_friction(rung.friction);
+    if level.friction > 0.0 {
+        robot = robot.with_more_friction(level.friction);
     }
-    if let Some(factor) = rung.damping {
+    if let Some(factor) = level.damping {
         robot = robot.with_damping_times(factor);
     }
     let disturbance = Disturbance {
-        q_noise: rung.q_noise,
-        qd_noise: rung.qd_noise,
-        seed: seed([&lab.name, &task.name, &rung.name]),
-        delay_periods: rung.delay_periods,
+        q_noise: level.q_noise,
+        qd_noise: level.qd_noise,
+        seed: seed([&lab.name, &judge.task.name, &level.name]),
+        delay_periods: level.delay_periods,
         known: Some(&lab.robot),
     };
-    motion::run_disturbed(lab, motion, opening, host, &robot, &disturbance)
+    let cell = Workcell {
+        robot: &robot,
+        ..lab.workcell()
+    };
+    motion::run_disturbed(cell, judge.work, &judge.opening, host, &disturbance)
 }
 
-/// Where the noise of a rung starts: the same for every submission, everywhere.
+/// Where the noise of a level starts: the same for every submission, everywhere.
 fn seed(names: [&str; 3]) -> u64 {
     let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 noise of a rung");
     for name in names {
@@ -93,48 +89,44 @@ fn seed(names: [&str; 3]) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-fn facts(
-    run: MotionRun,
-    source: &str,
-    undisturbed: &MotionFacts<'_>,
-    judge: impl Fn(&MotionFacts<'_>) -> check::Finding,
+/// What the repeated check finds in the run of a level, or how that run ended early.
+fn judged(
+    judge: &MotionJudge<'_>,
+    repeated: &Check,
+    attempt: &Attempt<Trace>,
 ) -> Result<RungFacts, Undecided> {
-    let MotionRun { trace, ended, .. } = run;
-    let digest = trace.digest().all.to_hex().to_string();
-    let outcome = match ended {
-        None => {
-            let band = undisturbed.pose_band;
-            Ok(judge(&MotionFacts {
-                robot: undisturbed.robot,
-                names: undisturbed.names,
-                motion: undisturbed.motion,
-                stays: stay::best_stays(&trace, &undisturbed.motion.goals, band),
-                trace: &trace,
-                pose_band: band,
-                reference: undisturbed.reference,
-                climbs: Vec::new(),
-            }))
-        }
-        Some((tick, why)) => {
-            let message = match why {
-                EarlyEnd::Stopped(stop) => {
-                    let verdict = stopped::verdict(&stop);
-                    if !verdict.is_some_and(|verdict| verdict.is_decided()) {
-                        return Err(Undecided(stop));
-                    }
-                    let record = stopped::record(&stop, source);
-                    let line = record.line.map(|line| format!(" (line {line})"));
-                    let line = line.unwrap_or_default();
-                    format!("the submission was stopped: {}{line}", record.message)
-                }
-                EarlyEnd::InvalidOutput(what) => what,
-                EarlyEnd::Diverged { what, cause } => {
-                    let motion = undisturbed.motion;
-                    undisturbed.names.blow_up(&what, cause.as_ref(), motion).0
-                }
-            };
-            Err(RungEnd { message, tick })
-        }
+    let outcome = match &attempt.ended {
+        None => Ok(check::judge_motion(
+            repeated,
+            &judge.facts(&attempt.recorded),
+        )),
+        Some(ended) => Err(RungEnd {
+            message: end_message(judge, ended)?,
+            tick: ended.at,
+        }),
     };
-    Ok(RungFacts { outcome, digest })
+    Ok(RungFacts {
+        outcome,
+        digest: attempt.recorded.digest().all.to_hex().to_string(),
+    })
+}
+
+fn end_message(judge: &MotionJudge<'_>, ended: &Ended) -> Result<String, Undecided> {
+    let disclosure = Disclosure::Run {
+        names: judge.names(),
+        task: judge.work,
+    };
+    let record = ended.record(&judge.opening.source, disclosure);
+    let Some(stop) = ended.stop() else {
+        return Ok(record.message);
+    };
+    if !ended.verdict().is_some_and(|verdict| verdict.is_decided()) {
+        return Err(Undecided(stop.clone()));
+    }
+    let line = record.line.map(|line| format!(" (line {line})"));
+    let line = line.unwrap_or_default();
+    Ok(format!(
+        "the submission was stopped: {}{line}",
+        record.message
+    ))
 }

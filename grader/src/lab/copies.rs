@@ -2,10 +2,10 @@
 
 use kinemark_sim::robot::{Dimension, Dimensions};
 
-use super::files::Files;
 use super::model::Lab;
-use super::problem::LoadError;
 use super::variant::{VARIANT_FILE, Variant};
+use crate::task::files::Files;
+use crate::task::problem::LoadError;
 
 /// Files by path, in the shape of a labs folder.
 #[derive(Debug, Clone, Default)]

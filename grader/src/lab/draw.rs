@@ -3,11 +3,12 @@
 //! Numbers come from BLAKE3 in extendable-output mode, keyed by salt, task, class and the case's number, so that adding a draw
 //! changes no other draw's cases.
 
-use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::robot::{Dimension, RobotFile};
 
 use super::file::{Ranges, RangesTable};
-use super::model::{Case, Given, Lab};
+use super::model::Lab;
+use crate::task::model::{Case, Given};
+use crate::task::tcp::tcp_in;
 
 /// A draw that has been checked against its lab.
 #[derive(Debug, Clone)]
@@ -143,12 +144,7 @@ fn tcp_position(
     dimensions: &[(String, Dimension)],
     q: &[f64],
 ) -> [f64; 3] {
-    let position = robot_file.build(dimensions).ok().and_then(|robot| {
-        let q = robot.positions(q).ok()?;
-        let poses = forward_kinematics(&robot, &q);
-        let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
-        let lab_from_tcp = world_from_lab.inv_mul(&poses.world_from(robot.tcp()));
-        Some(lab_from_tcp.translation.vector.into())
-    });
-    position.unwrap_or([f64::NAN; 3])
+    let robot = robot_file.build(dimensions).ok();
+    let position = robot.and_then(|robot| tcp_in(&robot, &lab.frame, q));
+    position.map_or([f64::NAN; 3], Into::into)
 }

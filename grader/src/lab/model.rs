@@ -17,6 +17,7 @@ use crate::submission::controller::Budgets;
 pub use crate::task::model::{
     Band, Case, Function, FunctionTask, Given, MotionGoal, MotionTask, Rows, TaskWork,
 };
+use crate::task::workcell::Workcell;
 
 /// A lab: ordered tasks on one robot.
 #[derive(Debug, Clone)]
@@ -60,6 +61,17 @@ pub struct ReferencePaths {
     pub text: String,
     /// Task names with paths.
     pub paths: Vec<(String, TcpPath)>,
+}
+
+impl Lab {
+    /// What its tasks are done with.
+    pub fn workcell(&self) -> Workcell<'_> {
+        Workcell {
+            robot: &self.robot,
+            robot_file: &self.robot_file,
+            frame: &self.frame,
+        }
+    }
 }
 
 /// A task.

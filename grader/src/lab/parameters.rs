@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::load::{Reporter, refuse_not_finite};
-use super::problem::{LabError, LabProblem};
+use crate::task::problem::{LabError, LabProblem};
 
 /// What a text begins with that is an expression.
 const SIGN: char = '=';

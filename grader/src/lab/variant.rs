@@ -9,7 +9,7 @@ use super::file::{StepsOrEach, StepsTable};
 use super::load::{Reporter, tables};
 use super::model::Lab;
 use super::parameters::NumbersTable;
-use super::problem::LabError;
+use crate::task::problem::LabError;
 
 /// The name of the file beside a submission, and in the copy of a lab in a report.
 pub const VARIANT_FILE: &str = "variant.toml";

@@ -8,9 +8,10 @@ use kinemark_sim::robot::Robot;
 use kinemark_sim::sensor::Sensor;
 use kinemark_sim::trace::Trace;
 
-use crate::lab::{LabError, LabScene};
 use crate::record::grade::{Divergence, Grade};
 use crate::record::names::Names;
+use crate::record::staff_fault::StaffFault;
+use crate::task::scene::LabScene;
 
 /// The grade of a submission with the runs it rests on.
 #[derive(Debug, Clone)]
@@ -19,8 +20,8 @@ pub struct GradedRun {
     pub grade: Grade,
     /// The lab's title.
     pub title: String,
-    /// What of the staff's own stopped, so that it told nothing of the submission: the reference solution, or a known mistake.
-    pub staff_faults: Vec<Arc<LabError>>,
+    /// Submissions of the staff that failed, once each: their part of the feedback is missing.
+    pub staff_faults: Vec<Arc<StaffFault>>,
     /// The motion tasks that ran, in the lab's order.
     pub runs: Vec<TaskRun>,
 }

@@ -5,6 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::task::grant::Grant;
+pub use crate::task::value::Value;
+
 /// Runs one submission for one task.
 pub trait Controller {
     /// Calls one of the submission's functions.
@@ -15,68 +18,6 @@ pub trait Controller {
 
     /// What the last call said before it was stopped, which no answer carries: a student looks there for the reason.
     fn unanswered(&mut self) -> Said;
-
-    /// What the submission keeps between calls: with it, another controller of the same opening goes on with the same answers.
-    ///
-    /// # Errors
-    /// [`Stop::Crashed`] if `this` holds something that cannot be kept, or whatever stops a worker.
-    fn memory(&mut self) -> Result<Memory, Stop>;
-
-    /// Goes back, or on, to a memory taken from a controller of the same opening.
-    ///
-    /// # Errors
-    /// [`Stop`] if the submission no longer answers.
-    fn recall(&mut self, memory: &Memory) -> Result<(), Stop>;
-}
-
-/// What a submission keeps between calls.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
-    /// The map `this`.
-    pub this: Kept,
-    /// Operations used so far in the task.
-    pub operations: u64,
-    /// Lines printed so far.
-    pub log_lines: u64,
-    /// Values plotted so far.
-    pub plot_samples: u64,
-}
-
-/// A value of a submission's memory, with its type.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Kept {
-    /// The unit value.
-    Nothing,
-    /// A truth value.
-    Boolean(bool),
-    /// A whole number.
-    Whole(i64),
-    /// A number.
-    Number(f64),
-    /// A character.
-    Character(char),
-    /// A text.
-    Text(String),
-    /// A vector.
-    Vector(Vec<f64>),
-    /// A matrix, row by row.
-    Matrix {
-        /// Its columns.
-        columns: usize,
-        /// Its elements.
-        elements: Vec<f64>,
-    },
-    /// The whole numbers from one up to, but not with, another.
-    Range {
-        /// The first.
-        from: i64,
-        /// The one after the last.
-        to: i64,
-    },
-    /// A list.
-    List(Vec<Kept>),
-    /// A map in the order of its keys.
-    Map(Vec<(String, Kept)>),
 }
 
 /// What a call says besides its value.
@@ -111,34 +52,6 @@ pub struct Opening {
     pub function: Option<String>,
 }
 
-/// A function of `robot` that a task may grant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Grant {
-    /// `robot.fk(q)`: position of the TCP in the lab's frame, shape `(3)` \[m\].
-    Fk,
-    /// `robot.jacobian(q)`: derivative of that by `q`, shape `(3, n)` \[m/rad or m/m\].
-    Jacobian,
-    /// `robot.gravity(q)`: efforts that hold the arm still at `q`, shape `(n)` \[N m or N\].
-    Gravity,
-    /// `robot.mass_matrix(q)`: the joint-space inertia, shape `(n, n)` \[kg m², kg m or kg\].
-    MassMatrix,
-}
-
-impl Grant {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Fk, Self::Jacobian, Self::Gravity, Self::MassMatrix];
-
-    /// Its name in labs and submissions.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fk => "fk",
-            Self::Jacobian => "jacobian",
-            Self::Gravity => "gravity",
-            Self::MassMatrix => "mass_matrix",
-        }
-    }
-}
-
 /// What a task grants, and what the robot's model is made from; its dimensions are those of [`RobotFacts`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Granted {
@@ -154,25 +67,6 @@ pub struct Granted {
     pub frame: String,
     /// Gravity in the world \[m/s²\].
     pub gravity_m_s2: [f64; 3],
-}
-
-/// A value as it crosses the boundary.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Value {
-    /// The unit value.
-    Nothing,
-    /// A truth value.
-    Boolean(bool),
-    /// A number; whole numbers too.
-    Number(f64),
-    /// A text.
-    Text(String),
-    /// A list, a vector, or a matrix as a list of rows.
-    List(Vec<Value>),
-    /// A map in the order of its keys.
-    Map(Vec<(String, Value)>),
-    /// Something that cannot cross; its type's name.
-    Other(String),
 }
 
 /// What a submission may know of the robot: the map `robot`.

@@ -1,5 +1,9 @@
 //! Where labs are read from: a folder, or the copy inside the binary. The grader asks for files by path and opens none itself.
 
+use kinemark_sim::source::Source;
+
+use super::problem::LoadError;
+
 /// Files by path, `/` between folders.
 pub trait Files {
     /// What a person calls the place: a folder's name, or `built in`.
@@ -32,4 +36,15 @@ pub fn text(bytes: Vec<u8>) -> Result<String, String> {
         let at = error.utf8_error().valid_up_to();
         format!("not text: byte {at} is no UTF-8")
     })
+}
+
+/// Reads a file as a [`Source`] whose name is its path; `None` where there is none.
+pub(crate) fn read_source(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
+    match files.read(path) {
+        Ok(text) => Ok(text.map(|text| Source::new(path, text))),
+        Err(why) => Err(LoadError::Unreadable {
+            path: format!("{}/{path}", files.name()),
+            why,
+        }),
+    }
 }

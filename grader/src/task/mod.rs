@@ -1,6 +1,7 @@
 //! What a task is made of before anybody tries it: the robot, the scene, what is asked for; and the files they come from.
 
 pub mod files;
+pub mod grant;
 pub mod jacobian;
 pub mod joint_units;
 pub mod mesh_file;
@@ -8,4 +9,7 @@ pub mod model;
 pub mod problem;
 pub mod robot;
 pub mod scene;
+pub mod tcp;
+pub mod value;
 pub mod watched;
+pub mod workcell;

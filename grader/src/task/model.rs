@@ -8,9 +8,10 @@ use kinemark_sim::sensor::Sensor;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 
+use super::grant::Grant;
 use super::scene::LabScene;
+use super::value::Value;
 use super::watched::PathToFollow;
-use crate::submission::controller::{Grant, Value};
 
 /// What a task asks for.
 #[derive(Debug, Clone)]

@@ -2,10 +2,9 @@
 
 use kinemark_sim::robot::RobotFile;
 
-use super::files::Files;
+use super::files::{Files, read_source};
 use super::mesh_file::{self, MeshFile};
 use super::problem::LoadError;
-use crate::lab::load::read;
 
 /// A robot file of the labs with its meshes.
 #[derive(Debug, Clone)]
@@ -31,7 +30,7 @@ impl LabRobot {
     /// # Errors
     /// [`LoadError`] where its file cannot be read, is no robot file, or names a mesh that is none or lies outside `robots/`.
     pub fn load(files: &dyn Files, name: &str) -> Result<Option<Self>, LoadError> {
-        let Some(source) = read(files, &format!("robots/{name}.toml"))? else {
+        let Some(source) = read_source(files, &format!("robots/{name}.toml"))? else {
             return Ok(None);
         };
         let mut meshes = Vec::new();

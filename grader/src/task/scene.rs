@@ -3,10 +3,9 @@
 use kinemark_sim::robot::{Dimension, Robot};
 use kinemark_sim::scene::{Scene, SceneError, SceneFile};
 
-use super::files::Files;
+use super::files::{Files, read_source};
 use super::mesh_file::{self, MeshFile};
 use super::problem::LoadError;
-use crate::lab::load::read;
 
 /// A scene file of the labs with its meshes, and the scene it makes.
 #[derive(Debug, Clone)]
@@ -38,7 +37,7 @@ impl LabScene {
     /// # Errors
     /// [`LoadError`] where its file cannot be read, is no scene file, or names a mesh that is none or lies outside `scenes/`.
     pub fn load(files: &dyn Files, name: &str) -> Result<Option<Self>, LoadError> {
-        let Some(source) = read(files, &format!("scenes/{name}.toml"))? else {
+        let Some(source) = read_source(files, &format!("scenes/{name}.toml"))? else {
             return Ok(None);
         };
         let mut meshes = Vec::new();

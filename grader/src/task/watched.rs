@@ -47,16 +47,6 @@ impl TouchingParty {
     pub fn meets(self, other: Self, [first, second]: [Party; 2]) -> bool {
         (self.is(first) && other.is(second)) || (self.is(second) && other.is(first))
     }
-
-    /// Its name, as it stands in a sentence.
-    pub fn told(self, names: &Names<'_>) -> String {
-        match self {
-            Self::Arm => "the arm".to_owned(),
-            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
-            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
-            Self::Ground => "the ground".to_owned(),
-        }
-    }
 }
 
 /// The moment whose speed counts.
@@ -129,5 +119,17 @@ mod tests {
             zero: 0.5,
         };
         assert_eq!((threshold.score(0.5), threshold.score(0.49)), (1.0, 0.0));
+    }
+}
+
+impl TouchingParty {
+    /// Its name as it stands in a sentence.
+    pub fn told(self, names: &Names<'_>) -> String {
+        match self {
+            Self::Arm => "the arm".to_owned(),
+            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
+            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
+            Self::Ground => "the ground".to_owned(),
+        }
     }
 }

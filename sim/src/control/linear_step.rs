@@ -15,7 +15,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use super::sampled_loop::matrix::exponential;
+use super::matrix_functions::exponential;
 
 /// What of the joint is fed back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

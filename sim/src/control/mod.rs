@@ -2,10 +2,11 @@
 //! and how drives keep speed limits.
 
 pub mod linear_step;
+mod matrix_functions;
 pub mod sampled_loop;
 pub mod servo;
 pub mod speed_limit;
 
 pub use linear_step::LinearStep;
 pub use sampled_loop::{SampledLoop, sampled_loop};
-pub use servo::{Derivative, Gains, Mode, Servo, ServoSettings};
+pub use servo::{Derivative, GainLists, Gains, Mode, Servo, ServoError, ServoSettings};

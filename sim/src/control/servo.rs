@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::dynamics::rnea::Rnea;
 use crate::kinematics::closure::independent_motions;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// What a command means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,8 +72,108 @@ pub struct ServoSettings {
     pub gravity_compensation: bool,
 }
 
-/// Settings that contradict each other.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+/// The gains and limits of all joints as a file or a request lists them: of each, one number per joint that moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GainLists {
+    /// Effort per error, zero or more \[N m/rad, N m s/rad, N/m or N s/m\].
+    pub kp: Vec<f64>,
+    /// Effort per integrated error, zero or more.
+    pub ki: Vec<f64>,
+    /// Effort per rate of error, zero or more.
+    pub kd: Vec<f64>,
+    /// Greatest effort, positive \[N m or N\]; infinite where unlimited.
+    pub effort_limit: Vec<f64>,
+    /// Greatest effort of the integral term, positive \[N m or N\]; infinite where unlimited.
+    pub integral_limit: Vec<f64>,
+}
+
+impl GainLists {
+    /// No gain and no limit on any of `n` joints.
+    pub fn none(n: usize) -> Self {
+        Self {
+            kp: vec![0.0; n],
+            ki: vec![0.0; n],
+            kd: vec![0.0; n],
+            effort_limit: vec![f64::INFINITY; n],
+            integral_limit: vec![f64::INFINITY; n],
+        }
+    }
+
+    /// One set of gains per joint, each in its range.
+    fn checked(&self, n: usize) -> Result<Vec<Gains>, ServoError> {
+        for (what, list, is_limit) in [
+            ("kp", &self.kp, false),
+            ("ki", &self.ki, false),
+            ("kd", &self.kd, false),
+            ("effort_limit", &self.effort_limit, true),
+            ("integral_limit", &self.integral_limit, true),
+        ] {
+            if list.len() != n {
+                let (expected, found) = (n, list.len());
+                return Err(ServoError::Count { expected, found });
+            }
+            // a limit of zero would let the arm hang limp; what is no number is in no range
+            let fits = |value: &f64| *value > 0.0 || (!is_limit && *value >= 0.0);
+            match list.iter().copied().find(|value| !fits(value)) {
+                Some(found) if is_limit => return Err(ServoError::Limit { what, found }),
+                Some(found) => return Err(ServoError::Gain { what, found }),
+                None => {}
+            }
+        }
+        let gains = (0..n).map(|i| Gains {
+            kp: self.kp[i],
+            ki: self.ki[i],
+            kd: self.kd[i],
+            effort_limit: self.effort_limit[i],
+            integral_limit: self.integral_limit[i],
+        });
+        Ok(gains.collect())
+    }
+}
+
+impl ServoSettings {
+    /// Settings for `robot`, by the one rule for labs and requests alike.
+    ///
+    /// Every joint that is not marked `passive` has a drive, and so its gains, also one whose position follows from a loop: two drives
+    /// in a loop work with or against each other, as they would in the machine. Gains of passive joints do nothing.
+    ///
+    /// # Errors
+    /// [`ServoError`]: a list of another length than the robot has joints that move, a negative gain, a limit that is not positive, a
+    /// derivative that the mode does not have.
+    pub fn new(
+        robot: &Robot,
+        mode: Mode,
+        derivative: Derivative,
+        gains: &GainLists,
+        gravity_compensation: bool,
+    ) -> Result<Self, ServoError> {
+        let settings = Self {
+            mode,
+            derivative,
+            gains: gains.checked(robot.n())?,
+            gravity_compensation,
+        };
+        settings.check(robot)?;
+        Ok(settings)
+    }
+
+    /// Whether the settings fit the robot and each other.
+    fn check(&self, robot: &Robot) -> Result<(), ServoError> {
+        let (expected, found) = (robot.n(), self.gains.len());
+        if found != expected {
+            return Err(ServoError::Count { expected, found });
+        }
+        let has_derivative = self.gains.iter().any(|g| g.kd != 0.0);
+        let is_of_velocity = self.mode == Mode::Velocity && self.derivative == Derivative::Velocity;
+        if is_of_velocity && has_derivative {
+            return Err(ServoError::VelocityOfVelocity);
+        }
+        Ok(())
+    }
+}
+
+/// Settings that do not fit the robot or each other.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ServoError {
     /// One set of gains per joint is needed.
     #[error("expected gains for {expected} joints, got {found}")]
@@ -82,6 +182,22 @@ pub enum ServoError {
         expected: usize,
         /// Gains given.
         found: usize,
+    },
+    /// A gain that would push the joint away from its command.
+    #[error("`{what}` must be zero or more, got {found:e}")]
+    Gain {
+        /// The name of the list.
+        what: &'static str,
+        /// The gain.
+        found: f64,
+    },
+    /// A limit that would leave no effort at all.
+    #[error("`{what}` must be positive, got {found:e}")]
+    Limit {
+        /// The name of the list.
+        what: &'static str,
+        /// The limit \[N m or N\].
+        found: f64,
     },
     /// The velocity's own rate is not measured.
     #[error(
@@ -117,19 +233,7 @@ impl Servo {
         gravity_m_s2: Vector3<f64>,
     ) -> Result<Self, ServoError> {
         let n = robot.n();
-        if settings.gains.len() != n {
-            return Err(ServoError::Count {
-                expected: n,
-                found: settings.gains.len(),
-            });
-        }
-        let has_derivative = settings.gains.iter().any(|g| g.kd != 0.0);
-        if settings.mode == Mode::Velocity
-            && settings.derivative == Derivative::Velocity
-            && has_derivative
-        {
-            return Err(ServoError::VelocityOfVelocity);
-        }
+        settings.check(robot)?;
         Ok(Self {
             settings,
             period_s,
@@ -267,8 +371,8 @@ fn bounded_integral(gains: &Gains, integral: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::dynamics::GRAVITY_M_S2;
-    use crate::robot::RobotFile;
-    use crate::source::Source;
+    use crate::format::RobotFile;
+    use crate::text::Source;
 
     fn slider() -> Robot {
         let text = r#"
@@ -355,5 +459,54 @@ mod tests {
         };
         let refused = Servo::new(&slider(), settings, 0.1, GRAVITY_M_S2);
         assert_eq!(refused.map(|_| ()), Err(ServoError::VelocityOfVelocity));
+    }
+
+    #[test]
+    fn gains_and_limits_out_of_range_are_refused_by_name() {
+        let robot = slider();
+        let new = |gains: &GainLists| {
+            ServoSettings::new(&robot, Mode::Position, Derivative::Error, gains, false)
+        };
+        let none = GainLists::none(1);
+        assert!(new(&none).is_ok());
+        for (gains, expected) in [
+            (
+                GainLists {
+                    kp: vec![-1.0],
+                    ..none.clone()
+                },
+                "`kp` must be zero or more, got -1e0",
+            ),
+            (
+                GainLists {
+                    kd: vec![f64::NAN],
+                    ..none.clone()
+                },
+                "`kd` must be zero or more, got NaN",
+            ),
+            (
+                GainLists {
+                    effort_limit: vec![0.0],
+                    ..none.clone()
+                },
+                "`effort_limit` must be positive, got 0e0",
+            ),
+            (
+                GainLists {
+                    integral_limit: vec![-2.5],
+                    ..none.clone()
+                },
+                "`integral_limit` must be positive, got -2.5e0",
+            ),
+            (
+                GainLists {
+                    ki: vec![0.0; 2],
+                    ..none.clone()
+                },
+                "expected gains for 1 joints, got 2",
+            ),
+        ] {
+            assert_eq!(new(&gains).unwrap_err().to_string(), expected);
+        }
     }
 }

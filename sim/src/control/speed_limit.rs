@@ -3,7 +3,7 @@
 //! The limit is looked at once a physics step, so a joint may be faster by what its motor does to it in one; and nothing but its
 //! motor is held back: gravity and contact may make it as fast as they like.
 
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// The speed limits of one robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +15,8 @@ pub struct SpeedLimits {
 impl SpeedLimits {
     /// The limits of the joints of `robot`.
     pub fn new(robot: &Robot) -> Self {
-        let limit = |joint: &crate::robot::Joint| joint.limits.speed.unwrap_or(f64::INFINITY);
+        let limit =
+            |joint: &crate::model::robot::Joint| joint.limits.speed.unwrap_or(f64::INFINITY);
         Self {
             limits: robot.moving_joints().map(limit).collect(),
         }

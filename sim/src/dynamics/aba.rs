@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::kinematics::forward::Placed;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 use crate::spatial::Symmetric3;
 
 /// A joint that moves no inertia at all: no effort on it has a finite answer.

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use crate::joint::JointPositions;
+use crate::joint_space::JointPositions;
 use crate::kinematics::forward::Placed;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 use crate::spatial::Symmetric3;
 
 /// Returns the mass matrix `M(q)`, shape `(n, n)`, symmetric; armature is on its diagonal.

@@ -6,9 +6,9 @@
 
 use nalgebra::Vector3;
 
-use crate::air::{AirNow, Drag};
 use crate::kinematics::forward::Placed;
-use crate::robot::Robot;
+use crate::model::air::{AirNow, Drag};
+use crate::model::robot::Robot;
 
 /// The links of one robot that resist the air, and room for the recursion. Allocates nothing in its loop.
 #[derive(Debug, Clone)]

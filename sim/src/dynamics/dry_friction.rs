@@ -9,7 +9,7 @@
 use nalgebra::DVector;
 
 use super::forward::ForwardDynamics;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Sweeps over the joints. The iteration contracts on any positive definite matrix; 40 sweeps leave less than rounding on arms.
 const SWEEPS: usize = 40;
@@ -81,5 +81,16 @@ impl DryFriction {
             }
         }
         &self.efforts
+    }
+}
+
+/// Sign with `sign(0) = 0`: a joint at rest has no dry friction of its own direction.
+pub(crate) fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
     }
 }

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::crba::Crba;
-use crate::joint::{JointPositions, JointVelocities};
+use crate::joint_space::{JointPositions, JointVelocities};
 use crate::kinematics::forward_kinematics;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Energy of a robot \[J\].
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,10 +4,10 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::aba::{Aba, SingularMassMatrix};
+use super::dry_friction::sign;
 use super::loops::Constrained;
-use super::sign;
-use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
-use crate::robot::Robot;
+use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::model::robot::Robot;
 
 /// Returns the joint accelerations, shape `(n)`, that `effort` causes at `(q, qd)`, with damping and dry friction.
 ///

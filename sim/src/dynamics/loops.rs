@@ -11,12 +11,12 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 use super::aba::SingularMassMatrix;
 use super::crba::Crba;
 use super::rnea::{Rnea, inverse_dynamics};
-use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::kinematics::closure::{
     Closure, LoopError, closed_accelerations, closed_positions, closed_velocities,
     independent_motions,
 };
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Pivots below this part of the largest belong to conditions that say nothing new.
 const REDUNDANT: f64 = 1e-11;

@@ -15,30 +15,14 @@ pub mod drag;
 pub mod dry_friction;
 pub mod energy;
 mod forward;
+mod gravity;
 pub mod loops;
 pub mod rnea;
-pub mod smooth;
-pub mod stops;
-
-use nalgebra::Vector3;
 
 pub use aba::SingularMassMatrix;
 pub use crba::mass_matrix;
 pub use energy::{Energy, energy};
 pub use forward::{ForwardDynamics, forward_dynamics};
+pub use gravity::GRAVITY_M_S2;
 pub use loops::{driven_efforts, driven_mass_matrix};
 pub use rnea::{bias_effort, coriolis_effort, gravity_effort, inverse_dynamics};
-
-/// Standard gravity in the world, z up \[m/s²\].
-pub const GRAVITY_M_S2: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
-
-/// Sign with `sign(0) = 0`: a joint at rest has no dry friction of its own direction.
-pub(crate) fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        0.0
-    }
-}

@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::sign;
-use crate::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use super::dry_friction::sign;
+use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::kinematics::forward::Placed;
-use crate::robot::Robot;
-use crate::robot::model::Body;
+use crate::model::robot::{Body, Robot};
 
 /// Returns the joint efforts, shape `(n)`, that give `qdd` at `(q, qd)`: `M qdd + h + damping qd + dry_friction sign(qd)`.
 pub fn inverse_dynamics(

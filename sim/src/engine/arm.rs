@@ -7,14 +7,14 @@ use rapier3d_f64::dynamics::{
 use rapier3d_f64::math::Pose as EnginePose;
 use rapier3d_f64::pipeline::PhysicsWorld;
 
-use super::contact::Party;
+use super::collider::collider;
+use super::contact_facts::to_user_data;
 use super::convert::{engine_pose, matrix, rotation, vector};
-use super::error::EngineError;
-use super::settings::{LIMIT_SKIN, SURFACE};
-use super::shape::collider;
+use super::engine_error::EngineError;
+use super::engine_settings::{LIMIT_SKIN, SURFACE};
 use crate::kinematics::position_range::position_ranges;
-use crate::robot::model::{Body, LoopKind};
-use crate::robot::{Joint, JointKind, Robot};
+use crate::model::contact::Party;
+use crate::model::robot::{Body, Joint, JointKind, LoopKind, Robot};
 use crate::spatial::Symmetric3;
 
 /// Stiffness of the springs that carry the efforts \[N m/rad or N/m\]: a spring this soft, stretched far enough, is a constant
@@ -69,7 +69,7 @@ fn insert_shapes(
             let place = &link.attachment.body_from_here;
             let surface = link.contact.unwrap_or(SURFACE);
             let built = collider(&link.name, shape, place, surface)?
-                .user_data(Party::Link(index).to_user_data());
+                .user_data(to_user_data(Party::Link(index)));
             physics.insert_collider(built, Some(parent));
         }
     }

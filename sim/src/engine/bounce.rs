@@ -9,13 +9,14 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rapier3d_f64::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d_f64::geometry::{ColliderHandle, ColliderSet, NarrowPhase};
 
-use super::contact::{ContactFact, Party};
+use super::contact_facts::from_user_data;
 use super::convert::{from_engine_pose, from_vector, vector};
-use super::settings::SURFACE;
+use super::engine_settings::SURFACE;
 use crate::dynamics::crba::Crba;
-use crate::kinematics::motion::BodyMotions;
-use crate::robot::Robot;
-use crate::scene::{BodyKind, Scene};
+use crate::kinematics::body_motion::BodyMotions;
+use crate::model::contact::{ContactFact, Party};
+use crate::model::robot::Robot;
+use crate::model::scene::{BodyKind, Scene};
 
 /// Slower than this nothing bounces: twice what gravity adds in a step of a millisecond, so that rest is rest \[m/s\].
 const SLOWEST_M_S: f64 = 0.02;
@@ -369,7 +370,7 @@ fn pressed(
 ) -> Vec<([Party; 2], Vector3<f64>, Vector3<f64>)> {
     let party = |handle: ColliderHandle| {
         let collider = colliders.get(handle)?;
-        Some(Party::from_user_data(collider.user_data))
+        Some(from_user_data(collider.user_data))
     };
     let mut points = Vec::new();
     for pair in narrow_phase.contact_pairs() {

@@ -7,12 +7,12 @@
 use nalgebra::Vector3;
 
 use crate::kinematics::FramePoses;
-use crate::robot::Robot;
-use crate::robot::inertia::Solid;
+use crate::model::inertia::Solid;
+use crate::model::robot::Robot;
 use crate::spatial::Pose;
 
 /// Nearer than this \[m\], links may touch: more than the distance at which contacts are foreseen.
-const NEAR_M: f64 = 2.5 * super::settings::PREDICTION_M;
+const NEAR_M: f64 = 2.5 * super::engine_settings::PREDICTION_M;
 /// The largest budget \[m\]; it bounds how far sliding joints can lengthen the levers before the next look.
 const BUDGET_M: f64 = 1.0;
 /// Most balls along one shape.
@@ -210,8 +210,8 @@ fn cover(solid: &Solid, body: usize, body_from_shape: &Pose, balls: &mut Vec<Bal
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::RobotFile;
-    use crate::source::Source;
+    use crate::format::RobotFile;
+    use crate::text::Source;
 
     const LIFT: &str = "format = 1\nname = 'lift'\n[[links]]\nname = 'base'\n[[links]]\nname = 'car'\n\
         shapes = [{ box = { size_m = [0.2, 0.1, 1.0] } }]\ninertia = { mass_kg = 1.0 }\n[[joints]]\nname = 'slide'\n\

@@ -10,15 +10,14 @@ use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume as _};
 use rapier3d_f64::parry::query::{Ray, RayCast as _, contact, intersection_test};
 
-use super::contact::Party;
+use super::collider::collider;
 use super::convert::{engine_pose, from_vector, vector};
-use super::error::EngineError;
-use super::settings::SURFACE;
-use super::shape::collider;
+use super::engine_error::EngineError;
+use super::engine_settings::SURFACE;
 use crate::kinematics::FramePoses;
-use crate::robot::Robot;
-use crate::robot::model::{Contact, Shape};
-use crate::scene::{BodyKind, Scene};
+use crate::model::contact::Party;
+use crate::model::robot::{Contact, Robot, Shape};
+use crate::model::scene::{BodyKind, Scene};
 use crate::spatial::Pose;
 
 /// Where centres coincide, the search for the way out has no direction to begin with; this far aside it has one \[m\].

@@ -4,14 +4,15 @@ use nalgebra::Vector3;
 use rapier3d_f64::geometry::{Collider, Ray as EngineRay, Shape as EngineShape, SharedShape};
 use rapier3d_f64::math::Pose as EnginePose;
 
-use super::contact::Party;
+use super::collider::collider;
+use super::contact_facts::from_user_data;
 use super::convert::vector;
-use super::error::EngineError;
-use super::settings::SURFACE;
-use super::shape::collider;
+use super::engine_error::EngineError;
+use super::engine_settings::SURFACE;
 use crate::kinematics::FramePoses;
 use crate::kinematics::forward::Placed;
-use crate::robot::Robot;
+use crate::model::contact::Party;
+use crate::model::robot::Robot;
 
 /// A ray of limited length and the nearest thing it has met; of things at the same distance, the first it was shown.
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +59,7 @@ impl Ray {
 
     /// Shows it a collider of a body at `world_from_body`.
     pub(super) fn meet_collider(&mut self, world_from_body: &EnginePose, collider: &Collider) {
-        let party = Party::from_user_data(collider.user_data);
+        let party = from_user_data(collider.user_data);
         let place = match collider.position_wrt_parent() {
             Some(body_from_collider) => *world_from_body * *body_from_collider,
             None => *collider.position(),

@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
-use crate::air::AirNow;
-use crate::scene::{GustSequence, Wind};
+use crate::model::air::AirNow;
+use crate::model::gust::GustSequence;
+use crate::model::scene::Wind;
 
 /// The air of one run, step by step; a copy goes on with the same gusts.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,17 +9,19 @@ use rapier3d_f64::pipeline::{PhysicsPipeline, PhysicsWorld};
 use super::arm::{Arm, insert_base};
 use super::bounce::{ArmAfter, Bounce};
 use super::clearance::Obstacle;
-use super::contact::{self, ContactFact, Party};
+use super::collider::collider;
+use super::contact_facts::to_user_data;
 use super::convert::{engine_pose, from_engine_pose, from_vector, matrix, vector};
-use super::error::EngineError;
-use super::fresh;
+use super::engine_error::EngineError;
+use super::engine_settings::COMBINE;
 use super::ray::Ray;
-use super::settings::{self, COMBINE};
-use super::shape::collider;
 use super::wind::Air;
-use crate::air::{AirNow, Drag};
-use crate::robot::Robot;
-use crate::scene::{BodyKind, Motion, Scene, SceneBody};
+use super::{contact_facts, engine_settings, fresh};
+use crate::model::air::{AirNow, Drag};
+use crate::model::contact::{ContactFact, Party};
+use crate::model::prescribed_motion::Motion;
+use crate::model::robot::Robot;
+use crate::model::scene::{BodyKind, Scene, SceneBody};
 use crate::spatial::{Pose, Twist};
 
 /// Where a body of the scene is and how it moves.
@@ -110,7 +112,7 @@ impl World {
     ) -> Result<Self, EngineError> {
         let mut physics = PhysicsWorld {
             gravity: vector(gravity_m_s2),
-            integration_parameters: settings::parameters(dt_s),
+            integration_parameters: engine_settings::parameters(dt_s),
             narrow_phase: NarrowPhase::with_query_dispatcher(fresh::queries()),
             ..PhysicsWorld::default()
         };
@@ -144,7 +146,7 @@ impl World {
             let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
                 .friction(surface.friction)
                 .friction_combine_rule(COMBINE)
-                .user_data(Party::Ground.to_user_data());
+                .user_data(to_user_data(Party::Ground));
             world.physics.insert_collider(ground, None);
         }
         for (index, body) in scene.bodies.iter().enumerate() {
@@ -170,13 +172,13 @@ impl World {
             .build();
         if !restless {
             let rest = rigid.activation_mut();
-            rest.normalized_linear_threshold = settings::REST_SPEED_M_S;
-            rest.time_until_sleep = settings::REST_TIME_S;
+            rest.normalized_linear_threshold = engine_settings::REST_SPEED_M_S;
+            rest.time_until_sleep = engine_settings::REST_TIME_S;
         }
         let handle = self.physics.insert_body(rigid);
         for shape in &body.shapes {
             let built = collider(&body.name, shape, &Pose::identity(), body.contact)?
-                .user_data(Party::Body(index).to_user_data());
+                .user_data(to_user_data(Party::Body(index)));
             let collider = self.physics.insert_collider(built, Some(handle));
             self.obstacles.push(collider);
         }
@@ -302,7 +304,7 @@ impl World {
         if let Some(lost) = self.physics.quarantine().bodies().first() {
             return Err(self.bodies.iter().position(|handle| handle == lost));
         }
-        contact::read(
+        contact_facts::read(
             &self.physics.narrow_phase,
             &self.physics.colliders,
             &self.physics.bodies,
@@ -339,11 +341,13 @@ impl World {
 
     /// Lets contacts be foreseen as far as the fastest body goes in a step.
     fn foresee(&mut self, travel_m: f64) {
-        let farthest = self.travel_m().max(travel_m) * settings::PREDICTION_OF_TRAVEL;
+        let farthest = self.travel_m().max(travel_m) * engine_settings::PREDICTION_OF_TRAVEL;
         self.physics
             .integration_parameters
-            .normalized_prediction_distance =
-            farthest.clamp(settings::PREDICTION_M, settings::PREDICTION_MOST_M);
+            .normalized_prediction_distance = farthest.clamp(
+            engine_settings::PREDICTION_M,
+            engine_settings::PREDICTION_MOST_M,
+        );
     }
 
     /// About how far the fastest point of a free body, or the origin of a driven one, travels in a step \[m\].

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Matrix6xX, Vector3};
 
 use super::forward::forward_kinematics;
 use super::jacobian::fill;
-use crate::joint::JointPositions;
-use crate::robot::{Frame, Robot};
+use crate::joint_space::JointPositions;
+use crate::model::robot::{Frame, Robot};
 
 /// The cosine (or sine) below which three angles do not tell their rates apart: 1e-9 rad from the singular angle.
 const SINGULAR: f64 = 1e-9;

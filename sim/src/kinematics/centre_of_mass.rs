@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3xX, Vector3};
 
 use super::forward::forward_kinematics;
-use crate::joint::JointPositions;
-use crate::robot::Robot;
+use crate::joint_space::JointPositions;
+use crate::model::robot::Robot;
 
 /// What mass counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,10 +3,10 @@
 use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 
 use super::forward::Placed;
-use crate::robot::{Frame, Robot};
+use crate::model::robot::{Frame, Robot};
 use crate::spatial::{Pose, pose};
 
-/// One moving body of the chain; [`Body`](crate::robot::model::Body) without what only dynamics needs.
+/// One moving body of the chain; [`Body`](crate::model::robot::Body) without what only dynamics needs.
 #[derive(Debug, Clone)]
 struct Segment {
     parent_from_body: Matrix3<f64>,
@@ -201,9 +201,9 @@ impl Chain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::RobotFile;
     use crate::kinematics::{forward_kinematics, geometric_jacobian};
-    use crate::robot::RobotFile;
-    use crate::source::Source;
+    use crate::text::Source;
 
     /// A slider that carries a hinge, whose shadow turns against it at twice the rate; a second arm hangs off the slider.
     const SHADOW: &str = r#"

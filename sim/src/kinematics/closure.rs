@@ -12,9 +12,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::motion::BodyMotions;
-use crate::robot::Robot;
-use crate::robot::model::{Loop, LoopKind};
+use super::body_motion::BodyMotions;
+use crate::model::robot::{Loop, LoopKind, Robot};
 
 /// A position counts as closed below this gap \[m\], and angle \[rad\].
 pub const CLOSED: f64 = 1e-10;
@@ -278,7 +277,7 @@ impl Closure {
         let z2 = r2.column(2).into_owned();
         let hinge = closing.kind == LoopKind::Revolute;
         if hinge {
-            let spin = |m: &super::motion::Motion, u: &Vector3<f64>| {
+            let spin = |m: &super::body_motion::Motion, u: &Vector3<f64>| {
                 (m.w.cross(u), m.dw.cross(u) + m.w.cross(&m.w.cross(u)))
             };
             let (dz, ddz) = spin(m2, &z2);

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix6xX, Vector6};
 
-use super::motion::BodyMotions;
-use crate::joint::{JointPositions, JointVelocities};
-use crate::robot::{Frame, Robot};
+use super::body_motion::BodyMotions;
+use crate::joint_space::{JointPositions, JointVelocities};
+use crate::model::robot::{Frame, Robot};
 
 /// Returns the time derivative of the geometric Jacobian of `frame`, shape `(6, n)`, rows `[linear; angular]`, at `(q, qd)`.
 ///

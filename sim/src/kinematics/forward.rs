@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::joint::JointPositions;
-use crate::robot::model::{Attachment, Body};
-use crate::robot::{Frame, Robot};
+use crate::joint_space::JointPositions;
+use crate::model::robot::{Attachment, Body, Frame, Robot};
 use crate::spatial::{Pose, pose};
 
 /// Where a moving body is: its axes in the world's, and its origin.

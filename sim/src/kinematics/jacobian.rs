@@ -5,8 +5,8 @@ use std::ops::AddAssign as _;
 use nalgebra::Matrix6xX;
 
 use super::forward::{FramePoses, forward_kinematics};
-use crate::joint::{JointPositions, JointVelocities};
-use crate::robot::{Frame, Robot};
+use crate::joint_space::{JointPositions, JointVelocities};
+use crate::model::robot::{Frame, Robot};
 use crate::spatial::Twist;
 
 /// Returns the geometric Jacobian of `frame`, shape `(6, n)`, rows `[linear; angular]`.

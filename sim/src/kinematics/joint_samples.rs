@@ -1,7 +1,7 @@
 //! Joint positions spread evenly over their ranges: the same sequence every time, with no gaps a random draw would leave.
 
 use super::position_range::{PositionRange, position_ranges};
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// An endless sequence of joint positions inside the ranges of a robot.
 ///

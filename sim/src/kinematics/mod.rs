@@ -3,6 +3,7 @@
 //! ([`closure`]); where the mass is ([`centre_of_mass`]) and what is in reach ([`workspace`]).
 
 pub mod analytic;
+pub(crate) mod body_motion;
 pub mod centre_of_mass;
 pub mod chain;
 pub mod closure;
@@ -12,7 +13,6 @@ pub mod inverse;
 pub mod jacobian;
 pub mod joint_samples;
 pub mod manipulability;
-pub(crate) mod motion;
 pub mod position_range;
 mod singular_values;
 pub mod workspace;

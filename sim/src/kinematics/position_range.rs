@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::robot::{Joint, JointKind, Robot};
+use crate::model::robot::{Joint, JointKind, Robot};
 
 /// Half the interval that samples of an unlimited sliding joint come from \[m\]: arm's length, for want of anything better.
 const UNLIMITED_SLIDE_M: f64 = 1.0;

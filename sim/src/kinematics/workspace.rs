@@ -6,7 +6,7 @@ use super::chain::Chain;
 use super::closure::closed_positions;
 use super::joint_samples::JointSamples;
 use super::position_range::position_ranges;
-use crate::robot::{Frame, Robot};
+use crate::model::robot::{Frame, Robot};
 
 /// Positions that a frame was found at, in world axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,8 +80,8 @@ impl Workspace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::RobotFile;
-    use crate::source::Source;
+    use crate::format::RobotFile;
+    use crate::text::Source;
 
     #[test]
     fn a_planar_arm_fills_its_ring() {

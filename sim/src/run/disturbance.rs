@@ -3,8 +3,8 @@
 
 use std::collections::VecDeque;
 
+use crate::model::robot::Robot;
 use crate::random::SplitMix64;
-use crate::robot::Robot;
 
 /// A disturbance of a run; [`Default`] is none at all.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,10 +1,10 @@
 //! What moves a run on by one step: smooth motion alone, or smooth motion and contact in a scene.
 
-use super::{RunError, Setup};
-use crate::dynamics::smooth::SmoothStep;
-use crate::hybrid::{HybridStep, StepError};
-use crate::robot::Robot;
-use crate::runaway::BlowUp;
+use super::divergence::BlowUp;
+use super::tick_loop::{RunError, Setup};
+use crate::model::robot::Robot;
+use crate::step::hybrid::{HybridStep, StepError};
+use crate::step::smooth::SmoothStep;
 
 #[derive(Debug, Clone)]
 pub(super) enum Stepper {

@@ -6,7 +6,7 @@ use crate::kinematics::inverse::Goal;
 use crate::kinematics::joint_samples::JointSamples;
 use crate::kinematics::position_range::{PositionRange, position_ranges};
 use crate::kinematics::{IkError, IkSettings, IkSolver, Target};
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Starts beside the robot's own: enough that a branch of an arm with six joints is hardly missed.
 const STARTS: usize = 48;

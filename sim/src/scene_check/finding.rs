@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::engine::{Overlap, Party};
+use crate::engine::Overlap;
+use crate::model::contact::Party;
 
 /// How bad a finding is, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -3,11 +3,13 @@
 use nalgebra::Vector3;
 
 use super::finding::{Finding, Kind, Severity};
-use crate::engine::{BodyState, ContactFact, EngineError, Layout, Party, World};
-use crate::robot::{Robot, RobotFile};
-use crate::scene::{BodyKind, Scene, SceneBody};
-use crate::source::Source;
+use crate::engine::{BodyState, EngineError, Layout, World};
+use crate::format::RobotFile;
+use crate::model::contact::{ContactFact, Party};
+use crate::model::robot::Robot;
+use crate::model::scene::{BodyKind, Scene, SceneBody};
 use crate::spatial::{Pose, direction};
+use crate::text::Source;
 
 /// The physics step of labs \[s\].
 const STEP_S: f64 = 1e-3;

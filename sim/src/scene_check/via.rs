@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 
 use super::branch::{BranchFinder, Reach};
+use super::checks::{TOUCH_M, Work};
 use super::finding::{Finding, Kind, LineStop, LineStopCause, Severity};
-use super::{TOUCH_M, Work};
-use crate::engine::{Layout, Overlap, Party};
+use crate::engine::{Layout, Overlap};
 use crate::kinematics::{FramePoses, IkError};
-use crate::robot::Robot;
-use crate::scene::{BodyKind, Scene};
+use crate::model::contact::Party;
+use crate::model::robot::Robot;
+use crate::model::scene::{BodyKind, Scene};
 
 /// How far apart a line is looked at \[m\] ...
 const SAMPLE_M: f64 = 0.01;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Unit, Vector3};
 
-use super::error::{TrajectoryError, finite, in_range};
 use super::path::{Path, PathPoint};
+use super::trajectory_error::{TrajectoryError, finite, in_range};
 use super::turn::Turn;
 use crate::spatial::{Pose, pose};
 

@@ -1,6 +1,6 @@
 //! What all trajectories share: the trait, the sample of one axis, limits, and rest outside the motion.
 
-use super::error::{TrajectoryError, finite, in_range, positive_limit};
+use super::trajectory_error::{TrajectoryError, finite, in_range, positive_limit};
 
 /// A motion over time with an exact end.
 pub trait Trajectory {

@@ -1,7 +1,7 @@
 //! Cubic polynomial: position and velocity at both ends, in a given time.
 
 use super::axis::{Knot, Limits, RestToRest, Sample, Trajectory, distance, rest};
-use super::error::{TrajectoryError, duration_for, finite, in_range, positive_duration};
+use super::trajectory_error::{TrajectoryError, duration_for, finite, in_range, positive_duration};
 
 /// A cubic in time through two [`Knot`]s. Acceleration is linear in time and jumps at the ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

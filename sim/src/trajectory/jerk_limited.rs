@@ -7,7 +7,7 @@
 //! form needs one square root and one cube root.
 
 use super::axis::{JerkLimits, RestToRest, Sample, Trajectory, distance, rest};
-use super::error::{TrajectoryError, duration_for, positive_limit};
+use super::trajectory_error::{TrajectoryError, duration_for, positive_limit};
 
 /// Jerk up, none, down; cruise; and the same mirrored: the fastest motion from rest to rest under [`JerkLimits`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn an_unlimited_jerk_gives_the_trapezoid() {
-        use super::super::trapezoid::Trapezoid;
+        use crate::trajectory::trapezoid::Trapezoid;
         let limits = super::super::axis::Limits {
             speed: 1.0,
             acceleration: 2.0,

@@ -2,10 +2,10 @@
 
 use super::axis::{Knot, RestToRest, Sample, Trajectory};
 use super::cubic::Cubic;
-use super::error::{TrajectoryError, count};
 use super::quintic::Quintic;
 use super::spline::{Spline, SplineEnds};
-use crate::joint::{JointAccelerations, JointPositions, JointVelocities};
+use super::trajectory_error::{TrajectoryError, count};
+use crate::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 
 /// Positions, velocities and accelerations of all joints, shape `(n)` each.
 #[derive(Debug, Clone, PartialEq)]
@@ -219,9 +219,9 @@ impl<A: Trajectory<Sample = Sample>> Trajectory for JointTrajectory<A> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::axis::Limits;
-    use super::super::trapezoid::Trapezoid;
     use super::*;
+    use crate::trajectory::axis::Limits;
+    use crate::trajectory::trapezoid::Trapezoid;
 
     const LIMITS: Limits = Limits {
         speed: 1.0,

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::error::{TrajectoryError, finite, in_range};
 use super::path::{Path, PathPoint};
+use super::trajectory_error::{TrajectoryError, finite, in_range};
 use super::turn::Turn;
 use crate::spatial::{Pose, pose};
 

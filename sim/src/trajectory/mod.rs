@@ -21,25 +21,25 @@
 pub mod arc;
 pub mod axis;
 pub mod cubic;
-pub mod error;
 pub mod jerk_limited;
 pub mod joints;
 pub mod line;
 pub mod path;
 pub mod quintic;
 pub mod spline;
+mod trajectory_error;
 pub mod trapezoid;
 pub mod turn;
 
 pub use arc::{Arc, ArcOrientation};
 pub use axis::{JerkLimits, Knot, Limits, RestToRest, Sample, Trajectory};
 pub use cubic::Cubic;
-pub use error::TrajectoryError;
 pub use jerk_limited::JerkLimited;
 pub use joints::{JointSample, JointTrajectory};
 pub use line::Line;
 pub use path::{AlongPath, Path, PathPoint, PoseSample, TwistRate};
 pub use quintic::Quintic;
 pub use spline::{Spline, SplineEnds};
+pub use trajectory_error::TrajectoryError;
 pub use trapezoid::Trapezoid;
 pub use turn::Turn;

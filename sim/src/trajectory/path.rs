@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::axis::{RestToRest, Sample, Trajectory};
-use super::error::TrajectoryError;
+use super::trajectory_error::TrajectoryError;
 use super::turn::Turn;
 use crate::spatial::{Pose, Twist};
 
@@ -152,13 +152,13 @@ mod tests {
 
     use nalgebra::Matrix3;
 
-    use super::super::arc::{Arc, ArcOrientation};
-    use super::super::axis::{Knot, Limits};
-    use super::super::cubic::Cubic;
-    use super::super::line::Line;
-    use super::super::trapezoid::Trapezoid;
     use super::*;
     use crate::spatial::{pose, rotation_from_rpy_deg};
+    use crate::trajectory::arc::{Arc, ArcOrientation};
+    use crate::trajectory::axis::{Knot, Limits};
+    use crate::trajectory::cubic::Cubic;
+    use crate::trajectory::line::Line;
+    use crate::trajectory::trapezoid::Trapezoid;
 
     const LIMITS: Limits = Limits {
         speed: 0.5,

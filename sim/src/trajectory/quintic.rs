@@ -1,7 +1,7 @@
 //! Quintic polynomial: position, velocity and acceleration at both ends, in a given time.
 
 use super::axis::{Limits, RestToRest, Sample, Trajectory, distance, rest};
-use super::error::{TrajectoryError, duration_for, finite, in_range, positive_duration};
+use super::trajectory_error::{TrajectoryError, duration_for, finite, in_range, positive_duration};
 
 /// `10 / √3`: the peak acceleration of a quintic from rest to rest, times `T² / D`.
 const PEAK_ACCELERATION: f64 = 5.773_502_691_896_257;

@@ -2,7 +2,7 @@
 
 use super::axis::{Knot, Sample, Trajectory};
 use super::cubic::Cubic;
-use super::error::{TrajectoryError, count, finite, in_range};
+use super::trajectory_error::{TrajectoryError, count, finite, in_range};
 
 /// What a [`Spline`] does at its two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Trapezoid of velocity: from rest to rest under limits of speed and acceleration, a triangle where the way is short.
 
 use super::axis::{Limits, RestToRest, Sample, Trajectory, distance, rest};
-use super::error::{TrajectoryError, duration_for, positive_limit};
+use super::trajectory_error::{TrajectoryError, duration_for, positive_limit};
 
 /// Constant acceleration, constant speed, constant deceleration: the fastest motion under [`Limits`].
 #[derive(Debug, Clone, Copy, PartialEq)]

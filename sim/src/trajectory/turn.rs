@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::{TrajectoryError, finite};
+use super::trajectory_error::{TrajectoryError, finite};
 use crate::spatial::{rotation_exp, rotation_log};
 
 /// A rotation from one orientation to another about a fixed axis, evenly along a path.

@@ -2,14 +2,15 @@
 
 use nalgebra::Vector3;
 
-use crate::engine::{BodyState, ContactFact, Party};
-use crate::event::{EventKind, SeenSide, Side};
-use crate::hybrid::HybridStep;
+use super::event::{EventKind, SeenSide, Side};
+use crate::engine::BodyState;
 use crate::kinematics::FramePoses;
-use crate::robot::extent::box_around;
+use crate::model::contact::{ContactFact, Party};
+use crate::model::extent::box_around;
+use crate::model::scene::{BodyKind, Scene};
 use crate::run::Setup;
-use crate::scene::{BodyKind, Scene};
 use crate::spatial::{Pose, direction};
+use crate::step::hybrid::HybridStep;
 
 /// What pushes a body up by less than this part of its weight does not carry it.
 const LEAST_LIFT: f64 = 0.1;

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use crate::engine::Party;
-use crate::event::EventKind;
-use crate::hybrid::StepReport;
+use super::event::EventKind;
+use crate::model::contact::Party;
+use crate::step::hybrid::StepReport;
 
 /// One contact of two parties, from its first to its last tick; pauses under 20 ms do not end it.
 ///
@@ -124,8 +124,8 @@ impl ContactWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::ContactFact;
-    use crate::hybrid::StateFrom;
+    use crate::model::contact::ContactFact;
+    use crate::step::hybrid::StateFrom;
 
     fn report(forces_n: &[(usize, f64)]) -> StepReport {
         let fact = |&(body, force_n): &(usize, f64)| ContactFact {

@@ -1,7 +1,7 @@
 //! Joints at their limits: of effort, of position and of speed. A joint that comes back within a tenth of a second never left.
 
+use super::event::EventKind;
 use crate::control::speed_limit::SpeedLimits;
-use crate::event::EventKind;
 use crate::run::{Row, Setup};
 
 /// A joint that is away from a limit for longer than this arrives there anew \[s\].
@@ -19,7 +19,7 @@ pub(super) struct JointWatch {
 
 impl JointWatch {
     pub(super) fn new(setup: &Setup<'_>) -> Self {
-        let range = |joint: &crate::robot::Joint| {
+        let range = |joint: &crate::model::robot::Joint| {
             (
                 joint.limits.lower.unwrap_or(f64::NEG_INFINITY),
                 joint.limits.upper.unwrap_or(f64::INFINITY),

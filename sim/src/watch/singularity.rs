@@ -1,6 +1,6 @@
 //! How near the arm is to a position in which its TCP cannot move in some direction.
 
-use crate::event::EventKind;
+use super::event::EventKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::manipulability::{LINEAR, Manipulability, TWIST};
 use crate::run::{Row, Setup};

@@ -16,8 +16,9 @@ mod contact_scenes;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinemark_grader::judge::{self, InProcess};
+use kinemark_grader::judge;
 use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::submission::host::InProcess;
 use kinemark_sim::robot::RobotFile;
 use kinemark_sim::source::Source;
 

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::compare::{self, Comparison, Side};
+use kinemark_grader::compare::{self, Side};
 use kinemark_grader::judge;
 use kinemark_grader::lab::Lab;
+use kinemark_grader::record::comparison::{self, Comparison};
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::GradedRun;
 
@@ -173,7 +174,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let record = disk::bytes_of(&out.join(RECORD), 64 << 20).ok();
     let record: Option<serde_json::Value> =
         record.and_then(|text| serde_json::from_slice(&text).ok());
-    let is_ours = record.is_some_and(|record| record["format"] == compare::FORMAT);
+    let is_ours = record.is_some_and(|record| record["format"] == comparison::FORMAT);
     let ours = |name: &str| match name {
         PAGE | RECORD if is_ours => Entry::Ours,
         _ => Entry::Foreign,

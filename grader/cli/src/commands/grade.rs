@@ -3,18 +3,20 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_grader::audit;
+use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
-use kinemark_grader::judge::{self, Host, InProcess};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::submission::host::{Host, InProcess};
 
+use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_sim::source::Source;
 
 use crate::chosen_variant::{self, Chosen, VariantArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::report_folder::Pictures;
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, report_folder};
@@ -90,7 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     write(args, &work)?;
     if !args.json {
-        let report = output::path(&args.out.join("report.html"));
+        let report = output::path(&args.out.join(PAGE_FILE));
         output::print(&format!("report: {report}\n"))?;
         if let Some(loss) = kinemark_report::moment::first_loss(grade) {
             let place = loss.fragment();
@@ -105,7 +107,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 
 /// Writes the folder.
 pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
-    let pictures = Pictures {
+    let request = ReportRequest {
+        reference_overlay: args.ghost,
         png: args.png,
         storyboard: args.storyboard,
     };
@@ -114,12 +117,13 @@ pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
         &work.lab,
         &work.submission,
         &work.graded,
-        pictures,
+        request,
     )
 }
 
 /// Reads what was named, and grades.
 pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
+    refuse_pixels_without_png(args)?;
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
     let Chosen { lab, mut note } = chosen_variant::choose(
@@ -179,13 +183,29 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     })
 }
 
+/// Refuses pictures in pixels where this build draws none.
+fn refuse_pixels_without_png(args: &Args) -> Result<(), Failure> {
+    let asked = match (args.png, args.storyboard) {
+        _ if cfg!(feature = "png") => None,
+        (true, _) => Some("--png"),
+        (false, true) => Some("--storyboard"),
+        (false, false) => None,
+    };
+    asked.map_or(Ok(()), |option| {
+        Err(Failure::usage(
+            format!("{option} needs a build with the feature `png`"),
+            &format!("leave {option} out, or build with `--features png`"),
+        ))
+    })
+}
+
 /// Where the storyboards are, a line each.
 fn storyboards(out: &Path, graded: &GradedRun) -> String {
     if graded.runs.is_empty() {
         return "storyboard: none, because no motion task was run\n".to_owned();
     }
     let lines = graded.runs.iter().map(|run| {
-        let path = out.join(&run.task).join(report_folder::STORYBOARD);
+        let path = out.join(&run.task).join(STORYBOARD_FILE);
         format!("storyboard: {}\n", output::path(&path))
     });
     lines.collect()
@@ -193,6 +213,9 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &Args) -> Result<Option<Staff>, Failure> {
     let staff = Staff::load(reference, lab, args.staff.salt.as_deref())?;
+    if let Some(staff) = &staff {
+        audit::staff_code(lab, staff)?;
+    }
     if staff.is_none() && args.staff.reference.is_some() {
         return Err(Failure::usage(
             format!(

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
-use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
+use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt, staff_code};
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::submission::rhai::STACK_BYTES;
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     let staff = |salt: Option<&str>| {
-        Staff::load(&reference, &lab, salt)?.ok_or_else(|| {
+        let staff = Staff::load(&reference, &lab, salt)?.ok_or_else(|| {
             Failure::usage(
                 format!(
                     "{} has no solution for lab `{}`",
@@ -72,7 +72,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                 ),
                 "write solution.rhai there, or give another folder with --reference DIR",
             )
-        })
+        })?;
+        staff_code(&lab, &staff)?;
+        Ok::<_, Failure>(staff)
     };
     let own = staff(None)?;
     let path = format!("{}/starter.rhai", lab.name);

@@ -1,20 +1,24 @@
 //! `kinemark verify`: a report's submission graded again, and every digest compared.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
-use kinemark_grader::lab::Staff;
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_report::output::{Manifest, Pixels, digest};
+use kinemark_report::visible::visible;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::chosen_variant;
 use crate::failure::{Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::report_folder::Pictures;
+use crate::report_folder::Report;
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, report_folder};
@@ -76,7 +80,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                         &args.staff,
                         VARIANT_FILE,
                     )?;
-                    Staff::load(&reference, &lab, args.staff.salt.as_deref())?
+                    let staff = Staff::load(&reference, &lab, args.staff.salt.as_deref())?;
+                    if let Some(staff) = &staff {
+                        audit::staff_code(&lab, staff)?;
+                    }
+                    staff
                 }
                 None => None,
             }
@@ -85,27 +93,16 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut host = WorkerHost::new(None);
     let graded = judge::grade(&lab, staff.as_ref(), &report.submission, &mut host);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
-    if let Some(staff) = staff.as_ref().filter(|_| report.shows_reference) {
+    if let Some(staff) = staff
+        .as_ref()
+        .filter(|_| report.manifest.request.reference_overlay)
+    {
         reference_run::show_reference(&lab, staff, &mut graded);
     }
     let mut comparison = compare(&report.grade, &graded.grade)?;
     if comparison.differences.is_empty() && comparison.not_compared.is_empty() {
-        let pictures = Pictures::of(&args.folder, &report.grade);
-        for file in report_folder::files(&lab, &report.submission, &graded, pictures)? {
-            let path = args.folder.join(&file.path);
-            let there = disk::bytes_of(&path, report_folder::MOST_PAGE_BYTES).ok();
-            if there.as_ref() != Some(&file.bytes) {
-                let digest = |bytes: &[u8]| blake3::hash(bytes).to_hex().to_string();
-                comparison.differences.push(Difference {
-                    what: format!("file `{}`", file.path),
-                    task: None,
-                    second: None,
-                    signal: None,
-                    recorded: there.map_or("missing".to_owned(), |bytes| digest(&bytes)),
-                    now: digest(&file.bytes),
-                });
-            }
-        }
+        let differences = file_differences(&args.folder, &report, &lab, &graded)?;
+        comparison.differences.extend(differences);
         comparison.same = comparison.differences.is_empty();
     }
     if args.json {
@@ -273,6 +270,63 @@ fn task_difference(before: &TaskGrade, after: &TaskGrade) -> Option<Difference> 
         }
     }
     Some(difference)
+}
+
+/// Files of the folder that are not as they are made now. Pictures in pixels are not drawn again, for their bytes may differ between
+/// processors: what they show is compared as SVG, and that they are those of the report by the digest in `report.json`.
+fn file_differences(
+    folder: &Path,
+    report: &Report,
+    lab: &Lab,
+    graded: &GradedRun,
+) -> Result<Vec<Difference>, Failure> {
+    let recorded = &report.manifest;
+    let request = recorded.request;
+    let files = report_folder::files(lab, &report.submission, graded, request, Pixels::Undrawn)?;
+    let digest_there = |path: &str| {
+        let there = disk::bytes_of(&folder.join(path), report_folder::MOST_PAGE_BYTES);
+        there.map_or("missing".to_owned(), |bytes| digest(&bytes))
+    };
+    let now = Manifest::of(request, &files);
+    let not_listed = || "not listed in report.json".to_owned();
+    let mut differences = Vec::new();
+    let mut differs = |what: String, recorded: String, now: String| {
+        if recorded != now {
+            differences.push(Difference {
+                what,
+                task: None,
+                second: None,
+                signal: None,
+                recorded,
+                now,
+            });
+        }
+    };
+    for (path, digest) in &now.files {
+        differs(format!("file `{path}`"), digest_there(path), digest.clone());
+        let listed = recorded.files.get(path).cloned();
+        differs(
+            format!("digest of `{path}` in `report.json`"),
+            listed.unwrap_or_else(not_listed),
+            digest.clone(),
+        );
+    }
+    for path in now.pixels.keys() {
+        let listed = recorded.pixels.get(path).cloned();
+        let listed = listed.unwrap_or_else(not_listed);
+        differs(format!("file `{path}`"), digest_there(path), listed);
+    }
+    for path in recorded.files.keys().chain(recorded.pixels.keys()) {
+        if !now.lists(path) {
+            let what = format!("list of files in `report.json`: `{}`", visible(path));
+            differs(
+                what,
+                "listed".to_owned(),
+                "no file of this report".to_owned(),
+            );
+        }
+    }
+    Ok(differences)
 }
 
 fn text(comparison: &Comparison, recorded: &Grade) -> String {

@@ -5,16 +5,16 @@ use std::path::Path;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::points;
 use kinemark_report::moment::ADDRESS_PART;
+use kinemark_report::output::{PAGE_FILE, RECORD_FILE};
 use kinemark_report::visible::visible;
 use maud::{DOCTYPE, html};
 use percent_encoding::utf8_percent_encode;
 
 use super::files;
 use crate::disk;
-use crate::report_folder::RECORD;
 
 /// Pages that are opened at once, where the folder has one.
-pub(crate) const FIRST: [&str; 2] = ["report.html", "compare.html"];
+pub(crate) const FIRST: [&str; 2] = [PAGE_FILE, "compare.html"];
 
 /// A course has a few hundred.
 const MOST_REPORTS: usize = 2_000;
@@ -48,7 +48,7 @@ fn found(folder: &Path) -> impl Iterator<Item = (String, &'static str)> {
 }
 
 fn entry(folder: &Path, name: String, page: &'static str) -> Entry {
-    let record = files::find(folder, &format!("{name}/{RECORD}"));
+    let record = files::find(folder, &format!("{name}/{RECORD_FILE}"));
     let record = record.and_then(|record| disk::bytes_of(&record, 64 << 20).ok());
     Entry {
         folder: name,

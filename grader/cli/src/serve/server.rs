@@ -11,12 +11,12 @@ use axum::extract::{Path as Wanted, Query, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse as _, Response};
 use axum::routing::get;
+use kinemark_report::output::PAGE_FILE;
 use tokio::sync::watch;
 
 use super::{files, guard, index, page};
 use crate::disk::plain;
 use crate::failure::Failure;
-use crate::report_folder;
 
 /// Where a report is served.
 #[derive(Debug, Clone, clap::Args)]
@@ -158,7 +158,7 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
     // looked at before the file: a report written in between is loaded once more, never missed
     let seen = site.changes.as_ref().map(|changes| *changes.borrow());
     let kind = files::media_type(&path);
-    let is_report = path == report_folder::PAGE;
+    let is_report = path == PAGE_FILE;
     let read = off_thread(move || files::read(&site.folder, &path)).await;
     let bytes = match read {
         Some(Ok(bytes)) => bytes,

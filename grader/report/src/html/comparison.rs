@@ -10,7 +10,7 @@ use crate::plot::differences;
 use crate::replay::{Ghost, Replay};
 use crate::theme::plot_css;
 use crate::visible::visible;
-use kinemark_grader::compare::{
+use kinemark_grader::record::comparison::{
     Comparison, Ended, MotionComparison, Pair, SideRecord, TaskComparison, comparable, runs,
 };
 use kinemark_grader::record::grade::Outcome;

@@ -15,7 +15,7 @@ pub(super) struct Bodies {
 impl Bodies {
     pub(super) fn new(run: &TaskRun) -> Self {
         let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
-        let frame = |(index, body): (usize, &kinemark_sim::scene::SceneBody)| {
+        let frame = |(index, body): (usize, &kinemark_sim::model::scene::SceneBody)| {
             let moves = run.trace.moving_bodies.contains(&index);
             let stands = (!moves).then(|| Pose::new(&body.world_from_body));
             (index, body_frame(&body.name), stands)
@@ -30,7 +30,7 @@ impl Bodies {
         let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
         let moving = bodies.enumerate();
         let moving = moving.filter(|(index, _)| trace.moving_bodies.contains(index));
-        let frame = |(index, body): (usize, &kinemark_sim::scene::SceneBody)| {
+        let frame = |(index, body): (usize, &kinemark_sim::model::scene::SceneBody)| {
             let name = format!("{REFERENCE}{}", body_frame(&body.name));
             (index, name, None)
         };

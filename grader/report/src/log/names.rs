@@ -1,6 +1,6 @@
 //! Names of frames and fields in a log: unique, and none that would lead a viewer astray.
 
-use kinemark_sim::robot::{Frame, Robot};
+use kinemark_sim::model::robot::{Frame, Robot};
 
 use crate::visible::shortened;
 
@@ -72,8 +72,8 @@ pub(super) fn fields<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use kinemark_sim::robot::RobotFile;
-    use kinemark_sim::source::Source;
+    use kinemark_sim::format::RobotFile;
+    use kinemark_sim::text::Source;
 
     use super::*;
 

@@ -1,16 +1,16 @@
 //! What stands still in its frame: the shapes of the links, the goals, and the reference path.
 
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::robot::model::Shape;
-use kinemark_sim::scene::{BodyKind, SceneBody};
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::robot::Shape;
+use kinemark_sim::model::scene::{BodyKind, SceneBody};
 use serde::Serialize;
 
 use super::message::{Pose, Time, Vector};
 use super::names::{REFERENCE as REFERENCE_FRAMES, body_frame, frame_id, frame_id_of};
+use crate::solid::{LogForm, Surface, drawn};
 use kinemark_grader::record::graded::{Goal, TaskRun, TcpPath};
-use kinemark_sim::spatial::{Pose as Isometry, pose};
+use kinemark_sim::spatial::Pose as Isometry;
 use kinemark_sim::trace::Trace;
-use nalgebra::{Matrix3, Vector3};
 
 #[derive(Debug, Clone, Copy, Serialize)]
 struct Colour {
@@ -129,37 +129,34 @@ impl Entity {
     }
 
     fn solid(&mut self, solid: &Solid, link_from_shape: &Isometry, color: Colour) {
-        let at = Pose::new(link_from_shape);
-        match *solid {
-            Solid::Box { size_m } => self.cubes.push(Solid3 {
-                pose: at,
-                size: Vector::new(size_m),
-                color,
-            }),
-            Solid::Cylinder { radius_m, length_m } => self.cylinder(at, radius_m, length_m, color),
-            Solid::Capsule { radius_m, length_m } => {
-                self.cylinder(at, radius_m, length_m, color);
-                for end in [-0.5, 0.5] {
-                    let along = Vector3::new(0.0, 0.0, end * length_m);
-                    let ball = link_from_shape * pose(Matrix3::identity(), along);
-                    self.sphere(Pose::new(&ball), radius_m, color);
+        for (shape_from_part, form) in drawn(solid).log_forms() {
+            let pose = match shape_from_part {
+                Some(shape_from_part) => Pose::new(&(link_from_shape * shape_from_part)),
+                None => Pose::new(link_from_shape),
+            };
+            match form {
+                LogForm::Box(size_m) => {
+                    let size = Vector::new(size_m);
+                    self.cubes.push(Solid3 { pose, size, color });
                 }
+                LogForm::Cylinder { radius_m, length_m } => {
+                    self.cylinder(pose, radius_m, length_m, color);
+                }
+                LogForm::Sphere { radius_m } => self.sphere(pose, radius_m, color),
+                LogForm::Surface(surface) => self.surface(pose, &surface, color),
             }
-            Solid::Sphere { radius_m } => self.sphere(at, radius_m, color),
-            Solid::Mesh(ref solid) => self.triangles.push(Triangles {
-                pose: at,
-                points: solid
-                    .mesh
-                    .vertices()
-                    .iter()
-                    .copied()
-                    .map(Vector::new)
-                    .collect(),
-                color,
-                colors: [],
-                indices: solid.mesh.triangles().as_flattened().to_vec(),
-            }),
         }
+    }
+
+    fn surface(&mut self, pose: Pose, surface: &Surface, color: Colour) {
+        let points = surface.vertices().iter().copied();
+        self.triangles.push(Triangles {
+            pose,
+            points: points.map(Vector::new).collect(),
+            color,
+            colors: [],
+            indices: surface.triangles().as_flattened().to_vec(),
+        });
     }
 
     fn cylinder(&mut self, pose: Pose, radius_m: f64, length_m: f64, color: Colour) {

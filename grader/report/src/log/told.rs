@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use kinemark_sim::event::EventKind;
+use kinemark_sim::watch::event::EventKind;
 
 use super::mcap::LogError;
 use super::message::{Flat, Level, Log, Time};

@@ -1,7 +1,7 @@
 //! The frames of a robot as a tree under the world.
 
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Frame, Robot};
+use kinemark_sim::model::robot::{Frame, Robot};
 use kinemark_sim::spatial::Pose as Isometry;
 
 use super::message::{FrameTransform, FrameTransforms, Pose, Time};

@@ -1,6 +1,6 @@
 //! Pictures of how far two runs are from each other: their TCPs, their joints, their efforts.
 
-use kinemark_sim::robot::Joint;
+use kinemark_sim::model::robot::Joint;
 use kinemark_sim::trace::Signal;
 
 use super::axis::Axis;
@@ -10,7 +10,7 @@ use super::timeline::{Panel, Timeline};
 use super::{Plot, Plots, file_stem};
 use crate::theme::BLUE;
 use crate::visible::shortened;
-use kinemark_grader::compare::FirstDifference;
+use kinemark_grader::record::comparison::FirstDifference;
 use kinemark_grader::record::graded::TaskRun;
 
 /// All pictures of what differs between two runs with the same joints, as far as both go. The same two give the same bytes.

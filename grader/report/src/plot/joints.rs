@@ -1,7 +1,7 @@
 //! Pictures of all joints over time: positions, velocities, efforts, each with its command and limits.
 
 use kinemark_sim::control::Mode;
-use kinemark_sim::robot::Joint;
+use kinemark_sim::model::robot::Joint;
 use kinemark_sim::trace::Signal;
 
 use super::axis::{Axis, extent};

@@ -1,17 +1,12 @@
 //! The bodies of a scene as outlines in the plane of a picture: those that stand, and those that can move at the start and at the end.
 
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::robot::model::Shape;
+use kinemark_sim::model::robot::Shape;
 use kinemark_sim::spatial::Pose;
-use nalgebra::{Point3, Vector3};
 
 use super::plane::Plane;
+use crate::solid::drawn;
 use kinemark_grader::record::graded::TaskRun;
 
-/// Points of a round edge.
-const ROUND: usize = 32;
-/// Vertices of a mesh that are looked at.
-const MOST_VERTICES: usize = 20_000;
 /// Shapes that are drawn.
 const MOST_SHAPES: usize = 400;
 
@@ -34,7 +29,7 @@ impl Scenery {
             let frame_from_body = frame_from_world * world_from_body;
             let outline = |shape: &Shape| {
                 let pose = frame_from_body * shape.link_from_shape;
-                let points = edges(&shape.solid).into_iter().map(|p| {
+                let points = drawn(&shape.solid).outline_m().into_iter().map(|p| {
                     let p = pose.transform_point(&p);
                     plane.flat(&[p.x, p.y, p.z])
                 });
@@ -67,44 +62,6 @@ impl Scenery {
 
     pub(super) fn is_empty(&self) -> bool {
         self.standing.is_empty() && self.at_start.is_empty()
-    }
-}
-
-/// Points whose convex hull is the solid, or nearly.
-fn edges(solid: &Solid) -> Vec<Point3<f64>> {
-    let ring = |radius: f64, z: f64| {
-        (0..ROUND).map(move |i| {
-            let (s, c) = libm::sincos(std::f64::consts::TAU * i as f64 / ROUND as f64);
-            Point3::new(radius * c, radius * s, z)
-        })
-    };
-    let ball = |radius: f64, z: f64| {
-        (0..=ROUND / 2).flat_map(move |i| {
-            let (s, c) = libm::sincos(std::f64::consts::TAU * i as f64 / ROUND as f64);
-            ring(radius * s, z + radius * c)
-        })
-    };
-    match solid {
-        Solid::Box { size_m } => {
-            let half = Vector3::from(*size_m) * 0.5;
-            let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
-            let corner = |i: usize| {
-                let signs = Vector3::new(sign(i & 1), sign(i & 2), sign(i & 4));
-                Point3::from(half.component_mul(&signs))
-            };
-            (0..8).map(corner).collect()
-        }
-        Solid::Cylinder { radius_m, length_m } => ring(*radius_m, 0.5 * length_m)
-            .chain(ring(*radius_m, -0.5 * length_m))
-            .collect(),
-        Solid::Capsule { radius_m, length_m } => ball(*radius_m, 0.5 * length_m)
-            .chain(ball(*radius_m, -0.5 * length_m))
-            .collect(),
-        Solid::Sphere { radius_m } => ball(*radius_m, 0.0).collect(),
-        Solid::Mesh(solid) => {
-            let vertices = solid.mesh.vertices().iter().take(MOST_VERTICES);
-            vertices.map(|p| Point3::from(*p)).collect()
-        }
     }
 }
 
@@ -196,33 +153,5 @@ mod tests {
         );
         assert!(clipped(&triangle, (5.0, 5.0), (6.0, 6.0)).is_empty());
         assert_eq!(clipped(&triangle, (-9.0, -9.0), (9.0, 9.0)), triangle);
-    }
-
-    #[test]
-    fn solids_by_their_extent() {
-        let solids = [
-            Solid::Box {
-                size_m: [1.0, 2.0, 3.0],
-            },
-            Solid::Cylinder {
-                radius_m: 0.5,
-                length_m: 2.0,
-            },
-            Solid::Capsule {
-                radius_m: 0.5,
-                length_m: 2.0,
-            },
-            Solid::Sphere { radius_m: 0.5 },
-        ];
-        for solid in solids {
-            let (_, half) = solid.extent_m();
-            for axis in 0..3 {
-                let reach = edges(&solid).iter().map(|p| p[axis]).fold(0.0, f64::max);
-                assert!(
-                    (reach - half[axis]).abs() < 1e-12,
-                    "{solid:?} {axis} {reach}"
-                );
-            }
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
 use kinemark_sim::control::Mode;
-use kinemark_sim::event::EventKind;
+use kinemark_sim::watch::event::EventKind;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};

@@ -1,8 +1,8 @@
 //! What another run has that this one has not: its TCP path, bodies that stand elsewhere, other goals and paths to follow.
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::robot::model::Shape;
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::robot::Shape;
 use kinemark_sim::spatial::{Pose, pose};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 

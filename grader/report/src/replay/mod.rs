@@ -12,8 +12,8 @@ mod record;
 mod shapes;
 
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::scene::{BodyKind, Scene};
+use kinemark_sim::model::robot::{Frame, Robot};
+use kinemark_sim::model::scene::{BodyKind, Scene};
 use kinemark_sim::spatial::Pose;
 use kinemark_sim::trace::Trace;
 
@@ -401,7 +401,7 @@ fn unit_m(run: &TaskRun, ticks: usize) -> f64 {
 
 /// Why a run ended before its time, if it did.
 fn ended(run: &TaskRun, task: Option<&TaskGrade>) -> Option<String> {
-    kinemark_grader::compare::ended(run, task)
+    kinemark_grader::record::comparison::ended(run, task)
         .map(|ended| shortened(&ended.message.replace('`', ""), 300))
 }
 

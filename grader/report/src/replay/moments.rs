@@ -1,6 +1,6 @@
 //! The moments worth a mark: what happened, who pressed on whom, and where points were lost first.
 
-use kinemark_sim::event::{Event, EventKind};
+use kinemark_sim::watch::event::{Event, EventKind};
 use serde::Serialize;
 
 use crate::moment::has_lost;

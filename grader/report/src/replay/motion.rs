@@ -1,7 +1,7 @@
 //! How everything moved: where links and bodies were in the world at every moment looked at, from a trace.
 
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::trace::{Trace, pose_numbers};
 
 use super::course::{Course, What};

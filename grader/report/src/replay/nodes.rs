@@ -1,6 +1,6 @@
 //! What stands and moves in a replay: links, bodies and ghosts, each with its shapes and its place or track.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::spatial::Pose;
 
 use super::Ghost;

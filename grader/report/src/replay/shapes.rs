@@ -1,16 +1,14 @@
 //! What a body looks like: its solids, and each mesh once.
 
-use std::sync::Arc;
-
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use kinemark_sim::robot::inertia::{MeshSolid, Solid};
-use kinemark_sim::robot::mesh::Mesh;
-use kinemark_sim::robot::model::Shape;
+use kinemark_sim::model::robot::Shape;
 use kinemark_sim::spatial::{Pose, pose};
 use kinemark_sim::trace::pose_numbers;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+
+use crate::solid::{ReplayForm, Surface, drawn};
 
 /// Triangles of all meshes of a replay; a mesh beyond them is shown as the box around it. So many take some 4 MB.
 const MOST_TRIANGLES: usize = 200_000;
@@ -57,7 +55,7 @@ pub(super) fn rounded(pose: [f64; 7]) -> [f64; 7] {
 /// The meshes of a replay.
 #[derive(Debug, Default)]
 pub(super) struct Meshes {
-    known: Vec<Arc<Mesh>>,
+    known: Vec<Surface>,
     triangles: usize,
 }
 
@@ -69,20 +67,20 @@ impl Meshes {
 
     fn shape(&mut self, shape: &Shape) -> ShapeRecord {
         let at = &shape.link_from_shape;
-        let solid = match shape.solid {
-            Solid::Box { size_m } => SolidRecord::Box(size_m),
-            Solid::Cylinder { radius_m, length_m } => SolidRecord::Cylinder {
+        let solid = match drawn(&shape.solid).replay_form() {
+            ReplayForm::Box(size_m) => SolidRecord::Box(size_m),
+            ReplayForm::Cylinder { radius_m, length_m } => SolidRecord::Cylinder {
                 radius: radius_m,
                 length: length_m,
             },
-            Solid::Capsule { radius_m, length_m } => SolidRecord::Capsule {
+            ReplayForm::Capsule { radius_m, length_m } => SolidRecord::Capsule {
                 radius: radius_m,
                 length: length_m,
             },
-            Solid::Sphere { radius_m } => SolidRecord::Sphere { radius: radius_m },
-            Solid::Mesh(ref solid) => match self.index(solid) {
+            ReplayForm::Sphere { radius_m } => SolidRecord::Sphere { radius: radius_m },
+            ReplayForm::Surface(surface) => match self.index(&surface) {
                 Some(index) => SolidRecord::Mesh(index),
-                None => return around(&solid.mesh, at),
+                None => return around(&surface, at),
             },
         };
         ShapeRecord {
@@ -92,23 +90,22 @@ impl Meshes {
     }
 
     /// The index of a mesh; none where there is no room for it.
-    fn index(&mut self, solid: &MeshSolid) -> Option<usize> {
-        let known = |mesh: &Arc<Mesh>| Arc::ptr_eq(mesh, &solid.mesh) || **mesh == *solid.mesh;
-        if let Some(index) = self.known.iter().position(known) {
+    fn index(&mut self, surface: &Surface) -> Option<usize> {
+        if let Some(index) = self.known.iter().position(|known| known == surface) {
             return Some(index);
         }
-        let triangles = self.triangles + solid.mesh.triangles().len();
+        let triangles = self.triangles + surface.triangles().len();
         if triangles > MOST_TRIANGLES {
             return None;
         }
         self.triangles = triangles;
-        self.known.push(Arc::clone(&solid.mesh));
+        self.known.push(surface.clone());
         Some(self.known.len() - 1)
     }
 
     /// The meshes, written.
     pub(super) fn records(&self) -> Vec<MeshRecord> {
-        let record = |mesh: &Arc<Mesh>| {
+        let record = |mesh: &Surface| {
             let vertices = mesh.vertices().as_flattened().iter();
             let vertices: Vec<u8> = vertices.flat_map(|x| (*x as f32).to_le_bytes()).collect();
             let triangles = mesh.triangles().as_flattened().iter();
@@ -123,7 +120,7 @@ impl Meshes {
 }
 
 /// The box around a mesh.
-fn around(mesh: &Mesh, link_from_mesh: &Pose) -> ShapeRecord {
+fn around(mesh: &Surface, link_from_mesh: &Pose) -> ShapeRecord {
     let (low, high) = mesh.bounds();
     let (low, high) = (Vector3::from(low), Vector3::from(high));
     let centre = link_from_mesh * pose(Matrix3::identity(), 0.5 * (low + high));

@@ -1,7 +1,7 @@
 //! What a storyboard may tell of a run: where points were lost, what was touched, goals, events, and where it left the reference.
 
 use kinemark_sim::engine::Party;
-use kinemark_sim::event::EventKind;
+use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 
 use crate::moment::{first_loss_of, has_lost, lost_points};

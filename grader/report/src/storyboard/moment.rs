@@ -1,7 +1,7 @@
 //! The moments of a run that a storyboard shows: its start and end, where points were lost, the most telling between, and others
 //! evenly in time and along the way.
 
-use kinemark_sim::event::EventKind;
+use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 
 use super::cause::{Cause, causes};

@@ -192,8 +192,9 @@ fn cut(face: Face, normal: &Vector3<f64>, at: &Point3<f64>) -> [Option<Face>; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::storyboard::face::{Detail, Faces};
-    use kinemark_sim::robot::inertia::Solid;
+    use crate::solid::{Detail, drawn};
+    use crate::storyboard::face::place;
+    use kinemark_sim::model::inertia::Solid;
     use kinemark_sim::spatial::{Pose, pose};
     use nalgebra::Matrix3;
 
@@ -204,7 +205,8 @@ mod tests {
 
     fn block(size_m: [f64; 3], at: [f64; 3], solid: usize, faces: &mut Vec<Face>) {
         let pose = pose(Matrix3::identity(), Vector3::from(at));
-        Faces::of(&Solid::Box { size_m }, DETAIL).place(&pose, solid, (0, 0, 0), faces);
+        let block = drawn(&Solid::Box { size_m }).faces(DETAIL);
+        place(&block, &pose, solid, (0, 0, 0), faces);
     }
 
     fn seen(faces: Vec<Face>, toward: &Vector3<f64>) -> Vec<Face> {
@@ -288,7 +290,8 @@ mod tests {
     fn one_convex_solid_is_not_cut() {
         let toward = Vector3::new(0.5, -0.7, 0.4).normalize();
         let mut faces = Vec::new();
-        Faces::of(&Solid::Sphere { radius_m: 1.0 }, DETAIL).place(
+        place(
+            &drawn(&Solid::Sphere { radius_m: 1.0 }).faces(DETAIL),
             &Pose::identity(),
             0,
             (0, 0, 0),

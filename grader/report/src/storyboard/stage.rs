@@ -1,13 +1,13 @@
 //! What stands and moves in a run, as faces in the world at a tick.
 
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::robot::model::Shape;
-use kinemark_sim::scene::BodyKind;
+use kinemark_sim::model::robot::Shape;
+use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::spatial::Pose;
 use nalgebra::Point3;
 
-use super::face::{Detail, Face, Faces, Rgb};
+use super::face::{Face, Rgb, place, stick};
+use crate::solid::{Detail, Faces, drawn};
 use kinemark_grader::record::graded::TaskRun;
 
 /// The link that does not move.
@@ -71,10 +71,7 @@ impl<'a> Stage<'a> {
             })
             .take(MOST_SHAPES)
             .collect();
-        let triangles = |shape: &Shape| match &shape.solid {
-            Solid::Mesh(mesh) => mesh.mesh.triangles().len(),
-            _ => 0,
-        };
+        let triangles = |shape: &Shape| drawn(&shape.solid).own_triangles();
         let all: usize = shapes.iter().map(|(_, shape, _)| triangles(shape)).sum();
         let around = if shapes.len() > MANY_SHAPES { 12 } else { 24 };
         let part = |(holder, shape, colour): (Holder, &Shape, Rgb)| {
@@ -90,7 +87,7 @@ impl<'a> Stage<'a> {
                 triangles: most,
             };
             Part {
-                faces: Faces::of(&shape.solid, detail),
+                faces: drawn(&shape.solid).faces(detail),
                 holder,
                 holder_from_shape: shape.link_from_shape,
                 colour,
@@ -150,7 +147,7 @@ impl<'a> Stage<'a> {
                 },
             };
             let pose = world_from_holder * part.holder_from_shape;
-            part.faces.place(&pose, solid, part.colour, &mut faces);
+            place(&part.faces, &pose, solid, part.colour, &mut faces);
         }
         if self.bare {
             let places = |link: usize| {
@@ -165,9 +162,9 @@ impl<'a> Stage<'a> {
             sticks.push((places(robot.tcp().link), tcp));
             let length: f64 = sticks.iter().map(|(a, b)| (b - a).norm()).sum();
             for (i, (a, b)) in sticks.into_iter().enumerate() {
-                let stick = Faces::stick(a, b, 0.012 * length);
+                let stick = stick(a, b, 0.012 * length);
                 let solid = self.parts.len() + i;
-                stick.place(&Pose::identity(), solid, LINKS[i % 2], &mut faces);
+                place(&stick, &Pose::identity(), solid, LINKS[i % 2], &mut faces);
             }
         }
         faces.retain(|face| {

@@ -7,14 +7,13 @@ mod whole_run;
 
 pub use self::whole_run::{Compared, whole_run};
 
-use crate::check::function_cases::relative_error;
-use crate::check::ik_branches::same_branch;
+use crate::attempt::answers::{Answered, CaseError, CaseFacts};
+use crate::attempt::measure::{relative_error, same_branch};
 use crate::check::stay::{Stay, best_stays};
-use crate::check::{Answered, CaseError, CaseFacts};
-use crate::lab::jacobian;
-use crate::lab::model::{Band, MotionTask};
 use crate::lab::staff::Mutant;
 use crate::record::grade::Diagnosis;
+use crate::task::jacobian;
+use crate::task::model::{Band, MotionTask};
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 

@@ -10,10 +10,10 @@ use kinemark_sim::runaway::BlowUp;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
-use crate::attempt::motion::{EarlyEnd, MotionRun, Session};
+use crate::attempt::motion::Session;
+use crate::attempt::{Attempt, EndReason, Ended};
 use crate::lab::staff::Mutant;
 use crate::record::grade::Diagnosis;
-use crate::submission::controller::Stop;
 
 /// A mutant nearer to the reference solution than this, in the mean over the run, shows too little of its mistake \[rad or m\].
 const LEAST_TELLING: f64 = 0.02;
@@ -36,7 +36,7 @@ pub struct Compared<'t> {
     /// The student's.
     pub student: &'t Trace,
     /// Why it ended early, and when.
-    pub ended: Option<&'t (u64, EarlyEnd)>,
+    pub ended: Option<&'t Ended>,
     /// The reference solution's, which came to its end.
     pub reference: &'t Trace,
     /// The periods of both.
@@ -47,10 +47,10 @@ pub struct Compared<'t> {
 pub fn whole_run<'m, 'l>(
     compared: Compared<'_>,
     mutants: impl Iterator<Item = (&'m Mutant, Session<'l>)>,
-    stopped: &dyn Fn(&Mutant, &Stop),
+    stopped: &dyn Fn(&Mutant, Option<&Ended>),
 ) -> Vec<Diagnosis> {
     let mut found = mutants.filter_map(|(mutant, session)| {
-        let agreement = compared.with(session, &|stop| stopped(mutant, stop))?;
+        let agreement = compared.with(session, &|ended| stopped(mutant, ended))?;
         Some(Diagnosis {
             mistake: mutant.name.clone(),
             says: mutant.says.clone(),
@@ -73,15 +73,13 @@ struct Agreement {
 
 impl Compared<'_> {
     /// Runs a mutant as long as it can agree with the student.
-    fn with(&self, mut mutant: Session<'_>, stopped: &dyn Fn(&Stop)) -> Option<Agreement> {
+    fn with(&self, mut mutant: Session<'_>, stopped: &dyn Fn(Option<&Ended>)) -> Option<Agreement> {
         let mut sums = Sums::new(self);
         let look = CALLS_A_LOOK * u64::from(self.periods.ticks_per_control.get());
         let most_ticks = self.student.len() as u64 + self.most_shift_ticks() + 1;
         while !mutant.is_over() && mutant.tick() <= most_ticks {
             mutant.advance_to(mutant.tick() + look);
-            if let Some(stop) = mutant.stopped() {
-                stopped(stop);
-            }
+            stopped(mutant.ended());
             sums.see(self, mutant.so_far(), usize::MAX);
             if !sums.can_agree() {
                 return None;
@@ -91,10 +89,10 @@ impl Compared<'_> {
             return None;
         }
         let mutant = mutant.finish();
-        sums.see(self, &mutant.trace, usize::MAX);
+        sums.see(self, &mutant.recorded, usize::MAX);
         let shift = sums.agrees()?;
         let ends_alike = same_end(self.ended, mutant.ended.as_ref(), self.most_shift_ticks());
-        (ends_alike && !is_still(&mutant)).then(|| self.agreement(&mutant.trace, shift))
+        (ends_alike && !is_still(&mutant)).then(|| self.agreement(&mutant.recorded, shift))
     }
 
     fn agreement(&self, mutant: &Trace, shift: i64) -> Agreement {
@@ -243,22 +241,15 @@ impl Sums {
 }
 
 /// Whether two runs came to their ends, or ran away in the same way at nearly the same time.
-fn same_end(
-    student: Option<&(u64, EarlyEnd)>,
-    mutant: Option<&(u64, EarlyEnd)>,
-    most_ticks: u64,
-) -> bool {
+fn same_end(student: Option<&Ended>, mutant: Option<&Ended>, most_ticks: u64) -> bool {
     match (student, mutant) {
         (None, None) => true,
-        (
-            Some((at, EarlyEnd::Diverged { what, .. })),
-            Some((
-                mutant_at,
-                EarlyEnd::Diverged {
-                    what: of_mutant, ..
-                },
-            )),
-        ) => at.abs_diff(*mutant_at) <= most_ticks && same_loss(what, of_mutant),
+        (Some(student), Some(mutant)) => match (&student.why, &mutant.why) {
+            (EndReason::Diverged { what: a, .. }, EndReason::Diverged { what: b, .. }) => {
+                student.at.abs_diff(mutant.at) <= most_ticks && same_loss(a, b)
+            }
+            _ => false,
+        },
         _ => false,
     }
 }
@@ -275,8 +266,8 @@ fn same_loss(a: &BlowUp, b: &BlowUp) -> bool {
 }
 
 /// Whether an arm stayed where it began, or was commanded nothing.
-fn is_still(run: &MotionRun) -> bool {
-    let trace = &run.trace;
+fn is_still(run: &Attempt<Trace>) -> bool {
+    let trace = &run.recorded;
     if trace.is_empty() {
         return true;
     }
@@ -377,18 +368,20 @@ mod tests {
                 kinetic_j: 2e6,
                 bound_j: 1e6,
             };
-            (tick, EarlyEnd::Diverged { what, cause: None })
+            let why = EndReason::Diverged { what, cause: None };
+            Ended { at: tick, why }
         };
-        let same = |a: Option<(u64, EarlyEnd)>, b: Option<(u64, EarlyEnd)>| {
-            same_end(a.as_ref(), b.as_ref(), 100)
-        };
+        let same = |a: Option<Ended>, b: Option<Ended>| same_end(a.as_ref(), b.as_ref(), 100);
         assert!(same(None, None));
         assert!(same(Some(lost(500, 1)), Some(lost(600, 1))));
         assert!(!same(Some(lost(500, 1)), Some(lost(601, 1))));
         assert!(!same(Some(lost(500, 1)), Some(lost(500, 0))));
         assert!(!same(Some(lost(500, 1)), None));
         assert!(!same(None, Some(lost(500, 1))));
-        let stopped = || Some((500, EarlyEnd::InvalidOutput("no".to_owned())));
+        let stopped = || {
+            let why = EndReason::InvalidOutput("no".to_owned());
+            Some(Ended { at: 500, why })
+        };
         assert!(!same(stopped(), stopped()));
     }
 }

@@ -6,9 +6,9 @@ use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{CaseTable, ExpectedTable, FunctionTable};
-use crate::lab::model::{Case, Function, Given};
-use crate::lab::problem::LabError;
 use crate::submission::rhai::refused_name;
+use crate::task::model::{Case, Function, Given};
+use crate::task::problem::LabError;
 
 impl Reader<'_> {
     /// The function called `name`.

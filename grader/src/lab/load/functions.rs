@@ -5,8 +5,8 @@ use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{CaseTable, FunctionTable};
-use crate::lab::model::{Case, Function, FunctionTask, Given, Rows};
-use crate::lab::problem::LabError;
+use crate::task::model::{Case, Function, FunctionTask, Given, Rows};
+use crate::task::problem::LabError;
 
 impl Reader<'_> {
     pub(super) fn function(&self, table: &FunctionTable) -> Result<FunctionTask, LabError> {

@@ -4,9 +4,9 @@ use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::model::Function;
-use crate::lab::problem::LabError;
-use crate::submission::controller::Grant;
+use crate::task::grant::Grant;
+use crate::task::model::Function;
+use crate::task::problem::LabError;
 
 impl Reader<'_> {
     /// The functions granted, in the order of [`Grant::ALL`]; `asked` is what a function task asks for.

@@ -23,17 +23,17 @@ use kinemark_sim::source::suggest;
 use toml::Spanned;
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
-use super::files::Files;
-use super::model::{Check, Lab, ReferencePaths, Task, TaskWork};
+use super::model::{Check, Lab, ReferencePaths, Task};
 use super::parameters;
-use super::problem::{LabError, LoadError};
-use super::robot::{LabRobot, robot_names};
-use super::scene::{LabScene, scene_names};
 use super::variant::{self, Variant};
 use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
+use crate::task::files::{Files, read_source};
+use crate::task::model::TaskWork;
+use crate::task::problem::{LabError, LoadError};
+use crate::task::robot::{LabRobot, robot_names};
+use crate::task::scene::{LabScene, scene_names};
 
-pub(crate) use reading::read;
 pub(super) use reading::{Reporter, refuse_not_finite, tables};
 
 /// Names of the labs in `files`: folders that hold a `lab.toml`.
@@ -66,7 +66,7 @@ impl Lab {
         name: &str,
         variant: Option<&Variant>,
     ) -> Result<Self, LoadError> {
-        let Some(source) = read(files, &format!("{name}/lab.toml"))? else {
+        let Some(source) = read_source(files, &format!("{name}/lab.toml"))? else {
             let known = lab_names(files);
             return Err(LoadError::UnknownLab {
                 name: name.to_owned(),
@@ -309,7 +309,7 @@ fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, Load
         points_m: Vec<[f64; 3]>,
     }
     let path = format!("{name}/reference-path.json");
-    let Some(source) = read(files, &path)? else {
+    let Some(source) = read_source(files, &path)? else {
         return Ok(ReferencePaths::default());
     };
     let tables: BTreeMap<String, PathTable> = match serde_json::from_str(source.text()) {

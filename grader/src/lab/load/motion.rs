@@ -3,8 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::control::servo::Servo;
-use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
 use kinemark_sim::hybrid::HybridStep;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
@@ -15,10 +14,10 @@ use toml::Spanned;
 
 use super::{Reader, numbers};
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
-use crate::lab::model::{MotionGoal, MotionTask};
-use crate::lab::problem::{LabError, LabProblem};
 use crate::record::quantity::trimmed;
 use crate::submission::controller::Value;
+use crate::task::model::{MotionGoal, MotionTask};
+use crate::task::problem::{LabError, LabProblem};
 
 /// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
 const MOST_GAP_M: f64 = 1e-3;
@@ -125,16 +124,7 @@ impl Reader<'_> {
             Some(servo) => (servo.get_ref(), servo.span()),
             None => (&default_servo, table.span()),
         };
-        let servo = self.servo(motion.mode, servo_table, servo_at.clone())?;
-        if let Err(error) = Servo::new(self.robot, servo.clone(), servo_s, GRAVITY_M_S2) {
-            return self.report.err(
-                servo_at,
-                "lab::servo",
-                error.to_string(),
-                "this servo",
-                None,
-            );
-        }
+        let servo = self.servo(motion.mode, servo_table, servo_at)?;
         let scene = motion.scene.as_ref().and_then(|name| {
             let mut scenes = self.scenes.iter();
             Some((
@@ -270,7 +260,7 @@ impl Reader<'_> {
         at: Range<usize>,
     ) -> Result<ServoSettings, LabError> {
         let n = self.robot.n();
-        let spread = |typed: &Option<PerJoint>, what: &str, absent: f64, lowest: f64| {
+        let spread = |typed: &Option<PerJoint>, what: &str, absent: f64| {
             let values = match typed {
                 None => vec![absent; n],
                 Some(PerJoint::All(value)) => vec![*value; n],
@@ -285,38 +275,9 @@ impl Reader<'_> {
                     );
                 }
             };
-            if let Some(bad) = values
-                .iter()
-                .find(|value| **value < lowest || value.is_nan())
-            {
-                return self.report.err(
-                    at.clone(),
-                    "lab::out_of_range",
-                    format!(
-                        "`{what}` must be {}, got {bad:e}",
-                        if lowest > 0.0 {
-                            "positive"
-                        } else {
-                            "zero or more"
-                        }
-                    ),
-                    "this servo",
-                    None,
-                );
-            }
             Ok(values)
         };
-        let least = f64::MIN_POSITIVE; // a limit of zero would hold the arm limp
-        let kp = spread(&table.kp, "kp", 0.0, 0.0)?;
-        let ki = spread(&table.ki, "ki", 0.0, 0.0)?;
-        let kd = spread(&table.kd, "kd", 0.0, 0.0)?;
-        let effort = spread(&table.effort_limit, "effort_limit", f64::INFINITY, least)?;
-        let integral = spread(
-            &table.integral_limit,
-            "integral_limit",
-            f64::INFINITY,
-            least,
-        )?;
+        let mut effort_limit = spread(&table.effort_limit, "effort_limit", f64::INFINITY)?;
         let of_robot = |joint: usize| {
             let limit = self
                 .robot
@@ -325,28 +286,43 @@ impl Reader<'_> {
                 .and_then(|j| j.limits.effort);
             limit.unwrap_or(f64::INFINITY)
         };
-        Ok(ServoSettings {
-            mode: match mode {
-                ModeName::Position => Mode::Position,
-                ModeName::Velocity => Mode::Velocity,
-                ModeName::Effort => Mode::Effort,
-            },
-            derivative: match table.derivative {
-                Some(DerivativeName::Error) => Derivative::Error,
-                Some(DerivativeName::Velocity) => Derivative::Velocity,
-                Some(DerivativeName::Measurement) | None => Derivative::Measurement,
-            },
-            gains: (0..n)
-                .map(|i| Gains {
-                    kp: kp[i],
-                    ki: ki[i],
-                    kd: kd[i],
-                    // a lab may be stricter than the robot, never more generous
-                    effort_limit: effort[i].min(of_robot(i)),
-                    integral_limit: integral[i],
-                })
-                .collect(),
-            gravity_compensation: table.gravity_compensation,
+        // a lab may be stricter than the robot, never more generous; NaN and other limits out of range stay, to be refused
+        for (joint, limit) in effort_limit.iter_mut().enumerate() {
+            if *limit > of_robot(joint) {
+                *limit = of_robot(joint);
+            }
+        }
+        let gains = GainLists {
+            kp: spread(&table.kp, "kp", 0.0)?,
+            ki: spread(&table.ki, "ki", 0.0)?,
+            kd: spread(&table.kd, "kd", 0.0)?,
+            effort_limit,
+            integral_limit: spread(&table.integral_limit, "integral_limit", f64::INFINITY)?,
+        };
+        let mode = match mode {
+            ModeName::Position => Mode::Position,
+            ModeName::Velocity => Mode::Velocity,
+            ModeName::Effort => Mode::Effort,
+        };
+        let derivative = match table.derivative {
+            Some(DerivativeName::Error) => Derivative::Error,
+            Some(DerivativeName::Velocity) => Derivative::Velocity,
+            Some(DerivativeName::Measurement) | None => Derivative::Measurement,
+        };
+        ServoSettings::new(
+            self.robot,
+            mode,
+            derivative,
+            &gains,
+            table.gravity_compensation,
+        )
+        .or_else(|error| {
+            let code = match error {
+                ServoError::Gain { .. } | ServoError::Limit { .. } => "lab::out_of_range",
+                ServoError::Count { .. } | ServoError::VelocityOfVelocity => "lab::servo",
+            };
+            self.report
+                .err(at, code, error.to_string(), "this servo", None)
         })
     }
 }

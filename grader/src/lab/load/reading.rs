@@ -6,20 +6,8 @@ use kinemark_sim::source::{Source, suggest};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 
-use crate::lab::files::Files;
 use crate::lab::parameters::refused;
-use crate::lab::problem::{LabError, LabProblem, LoadError};
-
-/// Reads a file as a [`Source`] whose name is its path.
-pub(crate) fn read(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
-    match files.read(path) {
-        Ok(text) => Ok(text.map(|text| Source::new(path, text))),
-        Err(why) => Err(LoadError::Unreadable {
-            path: format!("{}/{path}", files.name()),
-            why,
-        }),
-    }
-}
+use crate::task::problem::{LabError, LabProblem};
 
 /// Reads TOML into its tables.
 pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {

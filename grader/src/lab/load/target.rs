@@ -3,8 +3,9 @@
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::problem::LabError;
-use crate::submission::controller::{Budgets, Value};
+use crate::submission::controller::Budgets;
+use crate::task::problem::LabError;
+use crate::task::value::Value;
 
 impl Reader<'_> {
     pub(super) fn target(&self, typed: &Spanned<toml::Value>) -> Result<Value, LabError> {

@@ -8,8 +8,9 @@ use super::{HiddenRun, all_rising, known_task, named};
 use crate::lab::draw::parameters;
 use crate::lab::file::{HiddenRunsTable, Ranges};
 use crate::lab::load::Reporter;
-use crate::lab::model::{Lab, TaskWork};
-use crate::lab::problem::LabError;
+use crate::lab::model::Lab;
+use crate::task::model::TaskWork;
+use crate::task::problem::LabError;
 
 /// The runs of one `[[runs]]` table, each a lab of its own.
 pub(super) fn hidden_runs(

@@ -2,35 +2,49 @@
 
 mod draws;
 mod hidden_runs;
-pub(crate) mod sound;
+
+use std::ops::Range;
 
 use kinemark_sim::source::{Source, suggest};
 use toml::Spanned;
 
-use super::file::{HiddenTable, MutantsTable, RangesTable};
-use super::files::Files;
-use super::load::{Reporter, read, tables};
-use super::model::{Case, Lab, TaskWork};
-use super::problem::{LabError, LoadError};
-use draws::{checked, expect};
+use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
+use super::load::{Reporter, tables};
+use super::model::Lab;
+use crate::task::files::{Files, read_source};
+use crate::task::model::{Case, TaskWork};
+use crate::task::problem::{LabError, LoadError};
+use draws::checked;
 use hidden_runs::hidden_runs;
-use sound::{Whose, refuse_unbuilt};
 
-/// The staff's part of a lab.
+/// The staff's part of a lab. Loading it runs none of its code: [`crate::audit::staff_code`] tries that.
 #[derive(Debug, Clone)]
 pub struct Staff {
     /// The reference solution.
     pub solution: Source,
     /// Known mistakes, as submissions.
     pub mutants: Vec<Mutant>,
-    /// Hidden cases by task.
-    hidden: Vec<(String, Vec<Case>)>,
+    /// `hidden.toml`, where there is one.
+    pub hidden_source: Option<Source>,
+    /// Hidden cases, draw by draw.
+    pub draws: Vec<HiddenCases>,
     /// Hidden runs by task.
     runs: Vec<(String, Vec<HiddenRun>)>,
     /// BLAKE3 over all of it, salt included.
     pub digest: blake3::Hash,
     /// What digests of hidden parts are keyed by.
     key: [u8; 32],
+}
+
+/// The hidden cases of one draw.
+#[derive(Debug, Clone)]
+pub struct HiddenCases {
+    /// The task.
+    pub task: String,
+    /// Bytes of the draw in `hidden.toml`.
+    pub at: Range<usize>,
+    /// The cases; what a function of the lab's own is expected to answer is not in them, because the reference solution says it.
+    pub cases: Vec<Case>,
 }
 
 /// A motion task that is run again with other numbers.
@@ -55,6 +69,26 @@ pub struct Mutant {
     pub source: Source,
 }
 
+/// What `hidden.toml` adds.
+#[derive(Default)]
+struct Hidden {
+    source: Option<Source>,
+    draws: Vec<HiddenCases>,
+    runs: Vec<(String, Vec<HiddenRun>)>,
+    /// Without `hidden.toml` nothing is hidden, and nothing keyed.
+    key: [u8; 32],
+}
+
+/// Hashes the files of the staff's part one after another.
+struct Digest(blake3::Hasher);
+
+impl Digest {
+    fn add(&mut self, source: &Source) {
+        self.0.update(&(source.text().len() as u64).to_le_bytes());
+        self.0.update(source.text().as_bytes());
+    }
+}
+
 impl Staff {
     /// Loads the staff's part of `lab`; `None` where there is none. `salt` replaces the file's.
     ///
@@ -65,112 +99,25 @@ impl Staff {
         lab: &Lab,
         salt: Option<&str>,
     ) -> Result<Option<Self>, LoadError> {
-        let folder = &lab.name;
-        let Some(solution) = own(files, &format!("{folder}/solution.rhai"))? else {
+        let Some(solution) = own(files, &format!("{}/solution.rhai", lab.name))? else {
             return Ok(None);
         };
-        refuse_unbuilt(lab, None, Whose::Solution, &solution)?;
-        let mut hasher = blake3::Hasher::new();
-        let mut digest = |source: &Source| {
-            hasher.update(&(source.text().len() as u64).to_le_bytes());
-            hasher.update(source.text().as_bytes());
-        };
-        digest(&solution);
-        let mut hidden = Vec::new();
-        let mut runs: Vec<(String, Vec<HiddenRun>)> = Vec::new();
-        // without hidden.toml nothing is hidden, and nothing keyed
-        let mut key = [0; 32];
-        let hidden_path = format!("{folder}/hidden.toml");
-        let hidden_source = own(files, &hidden_path)?;
-        let has_functions = lab
-            .tasks
-            .iter()
-            .any(|task| matches!(task.work, TaskWork::Function(_)));
-        if has_functions && hidden_source.is_none() {
-            return Err(LoadError::Unreadable {
-                path: format!("{}/{hidden_path}", files.name()),
-                why: "there is no such file, and function tasks need hidden cases".to_owned(),
-            });
-        }
-        if let Some(source) = hidden_source {
-            digest(&source);
-            let table: HiddenTable = tables(&source)?;
-            let report = Reporter { source: &source };
-            report.format(&table.format)?;
-            let own = own_salt(report, &table)?;
-            let salt = salt.unwrap_or(own);
-            digest(&Source::new("salt", salt));
-            key = blake3::derive_key("kinemark 2026 digests of hidden parts v1", salt.as_bytes());
-            for typed in &table.runs {
-                let task = typed.get_ref().task.get_ref().clone();
-                runs.push((task, hidden_runs(report, lab, salt, typed)?));
-            }
-            for draw in &table.draws {
-                let at = draw.span();
-                let draw = checked(report, lab, draw)?;
-                let mut cases = draw.cases(salt, lab);
-                if let Err(why) = expect(lab, &draw.task, &mut cases, &solution) {
-                    return Ok(report.err(
-                        at,
-                        "staff::solution",
-                        why,
-                        "what is expected here is what the solution answers",
-                        Some("correct `solution.rhai`, or draw other numbers".to_owned()),
-                    )?);
-                }
-                match hidden.iter_mut().find(|(task, _)| *task == draw.task) {
-                    Some((_, all)) => {
-                        let all: &mut Vec<Case> = all;
-                        all.extend(cases);
-                    }
-                    None => hidden.push((draw.task, cases)),
-                }
-            }
-        }
-        let mut mutants = Vec::new();
-        if let Some(source) = own(files, &format!("{folder}/mutants.toml"))? {
-            digest(&source);
-            let table: MutantsTable = tables(&source)?;
-            let report = Reporter { source: &source };
-            report.format(&table.format)?;
-            for mutant in table.mutants {
-                for task in &mutant.tasks {
-                    known_task(report, lab, task)?;
-                }
-                let name = mutant.name.get_ref().clone();
-                let path = format!("{folder}/mutants/{name}.rhai");
-                let Some(submission) = own(files, &path)? else {
-                    return Ok(report.err(
-                        mutant.name.span(),
-                        "staff::no_mutant",
-                        format!("there is no file `{}/{path}`", files.name()),
-                        "this mutant",
-                        Some("a mutant's name is its file's name without `.rhai`".to_owned()),
-                    )?);
-                };
-                digest(&submission);
-                let mutant = Mutant {
-                    name,
-                    tasks: mutant.tasks.into_iter().map(Spanned::into_inner).collect(),
-                    says: mutant.says,
-                    source: submission,
-                };
-                let task = mutant.tasks.first().map(String::as_str);
-                refuse_unbuilt(lab, task, Whose::Mutant(&mutant), &mutant.source)?;
-                mutants.push(mutant);
-            }
-        }
+        let mut digest = Digest(blake3::Hasher::new());
+        digest.add(&solution);
+        let hidden = hidden(files, lab, salt, &mut digest)?;
+        let mutants = mutants(files, lab, &mut digest)?;
         Ok(Some(Self {
             solution,
             mutants,
-            hidden,
-            runs,
-            digest: hasher.finalize(),
-            key,
+            hidden_source: hidden.source,
+            draws: hidden.draws,
+            runs: hidden.runs,
+            digest: digest.0.finalize(),
+            key: hidden.key,
         }))
     }
 
-    /// A digest over hidden answers or runs as the record tells it: keyed by the salt, so that nobody without it can try out which
+    /// A digest over hidden answers or runs as the record has it: keyed by the salt, so that nobody without it can try out which
     /// hidden numbers give it.
     pub(crate) fn keyed(&self, digest: blake3::Hash) -> blake3::Hash {
         blake3::keyed_hash(&self.key, digest.as_bytes())
@@ -203,15 +150,112 @@ impl Staff {
     }
 
     /// The hidden cases of a task.
-    pub fn hidden(&self, task: &str) -> &[Case] {
-        let found = self.hidden.iter().find(|(name, _)| name == task);
-        found.map_or(&[], |(_, cases)| cases)
+    pub fn hidden(&self, task: &str) -> impl Iterator<Item = &Case> {
+        self.draws_of(task).flat_map(|draw| &draw.cases)
     }
+
+    /// The draws of hidden cases of a task.
+    pub fn draws_of(&self, task: &str) -> impl Iterator<Item = &HiddenCases> {
+        self.draws.iter().filter(move |draw| draw.task == task)
+    }
+}
+
+/// Reads `hidden.toml`, and draws what it hides.
+fn hidden(
+    files: &dyn Files,
+    lab: &Lab,
+    salt: Option<&str>,
+    digest: &mut Digest,
+) -> Result<Hidden, LoadError> {
+    let path = format!("{}/hidden.toml", lab.name);
+    let Some(source) = own(files, &path)? else {
+        let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(_));
+        if lab.tasks.iter().any(|task| is_function(&task.work)) {
+            return Err(LoadError::Unreadable {
+                path: format!("{}/{path}", files.name()),
+                why: "there is no such file, and function tasks need hidden cases".to_owned(),
+            });
+        }
+        return Ok(Hidden::default());
+    };
+    digest.add(&source);
+    let table: HiddenTable = tables(&source)?;
+    let report = Reporter { source: &source };
+    report.format(&table.format)?;
+    let own = own_salt(report, &table)?;
+    let salt = salt.unwrap_or(own);
+    digest.add(&Source::new("salt", salt));
+    let mut runs = Vec::new();
+    for typed in &table.runs {
+        let task = typed.get_ref().task.get_ref().clone();
+        runs.push((task, hidden_runs(report, lab, salt, typed)?));
+    }
+    let mut draws = Vec::new();
+    for typed in &table.draws {
+        let draw = checked(report, lab, typed)?;
+        draws.push(HiddenCases {
+            at: typed.span(),
+            cases: draw.cases(salt, lab),
+            task: draw.task,
+        });
+    }
+    Ok(Hidden {
+        key: blake3::derive_key("kinemark 2026 digests of hidden parts v1", salt.as_bytes()),
+        source: Some(source),
+        draws,
+        runs,
+    })
+}
+
+/// Reads `mutants.toml` and the submissions that it names.
+fn mutants(files: &dyn Files, lab: &Lab, digest: &mut Digest) -> Result<Vec<Mutant>, LoadError> {
+    let Some(source) = own(files, &format!("{}/mutants.toml", lab.name))? else {
+        return Ok(Vec::new());
+    };
+    digest.add(&source);
+    let table: MutantsTable = tables(&source)?;
+    let report = Reporter { source: &source };
+    report.format(&table.format)?;
+    let mut mutants = Vec::new();
+    for table in table.mutants {
+        mutants.push(mutant(files, lab, report, table, digest)?);
+    }
+    Ok(mutants)
+}
+
+fn mutant(
+    files: &dyn Files,
+    lab: &Lab,
+    report: Reporter<'_>,
+    table: MutantTable,
+    digest: &mut Digest,
+) -> Result<Mutant, LoadError> {
+    for task in &table.tasks {
+        known_task(report, lab, task)?;
+    }
+    let name = table.name.get_ref().clone();
+    let path = format!("{}/mutants/{name}.rhai", lab.name);
+    let Some(source) = own(files, &path)? else {
+        return Ok(report.err(
+            table.name.span(),
+            "staff::no_mutant",
+            format!("there is no file `{}/{path}`", files.name()),
+            "this mutant",
+            Some("a mutant's name is its file's name without `.rhai`".to_owned()),
+        )?);
+    };
+    digest.add(&source);
+    Ok(Mutant {
+        name,
+        tasks: table.tasks.into_iter().map(Spanned::into_inner).collect(),
+        says: table.says,
+        source,
+    })
 }
 
 /// Reads a file of the staff's: its name begins with their folder, so that it can be opened from where one stands.
 fn own(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
-    let source = read(files, path)?;
+    let source = read_source(files, path)?;
     Ok(source.map(|source| Source::new(format!("{}/{path}", files.name()), source.text())))
 }
 

@@ -82,22 +82,6 @@ impl Meter {
         used
     }
 
-    /// Operations, lines and values of the task so far.
-    pub(super) fn spent(&self) -> [u64; 3] {
-        [
-            self.spent.get(),
-            self.log_lines.get(),
-            self.plot_samples.get(),
-        ]
-    }
-
-    /// Goes back, or on, to what [`Meter::spent`] told.
-    pub(super) fn spend(&self, [operations, log_lines, plot_samples]: [u64; 3]) {
-        self.spent.set(operations);
-        self.log_lines.set(log_lines);
-        self.plot_samples.set(plot_samples);
-    }
-
     /// Takes over the engine's count; false if that is more than the call may use.
     pub(super) fn count(&self, counted: u64) -> bool {
         self.counted.set(counted);

@@ -17,10 +17,10 @@ use super::mistake::{Problem, fault, fault_with_help};
 use super::operand::Operand;
 use super::vector::{Matrix, Vector};
 use super::words::describe;
-use crate::attempt::function::tcp_in;
-use crate::lab::jacobian::jacobian_in;
-use crate::lab::model::Rows;
 use crate::submission::controller::{Grant, Granted, RobotFacts, Stop, Value};
+use crate::task::jacobian::jacobian_in;
+use crate::task::model::Rows;
+use crate::task::tcp::tcp_in;
 
 /// The robot that granted functions ask, made again only for other dimensions.
 #[derive(Debug)]

@@ -16,7 +16,6 @@ mod library;
 mod linear;
 mod list;
 mod math;
-mod memory;
 mod mistake;
 mod operand;
 mod output;

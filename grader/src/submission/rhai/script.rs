@@ -14,11 +14,10 @@ use super::engine::{self, ARGUMENTS, Globals};
 use super::granted::Model;
 use super::hints::{ENTRY_POINTS, Names};
 use super::list;
-use super::memory;
 use super::mistake::{Context, Problem, raise};
 use crate::submission::controller::{
-    Answer, Budget, Budgets, Call, Controller, Memory, Mistake, Opening, RobotFacts, Said,
-    SensorFacts, Stop, Value,
+    Answer, Budget, Budgets, Call, Controller, Mistake, Opening, RobotFacts, Said, SensorFacts,
+    Stop, Value,
 };
 
 /// The stack a thread needs on which scripts run.
@@ -343,32 +342,6 @@ impl Controller for ScriptController {
 
     fn unanswered(&mut self) -> Said {
         self.meter.take_output()
-    }
-
-    fn memory(&mut self) -> Result<Memory, Stop> {
-        let this = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
-        let this = memory::keep(this).map_err(|what| {
-            Stop::Crashed(Mistake {
-                message: format!("`this` holds {what}, which cannot be kept"),
-                place: None,
-                help: Some("keep numbers, texts, vectors, matrices, lists and maps".to_owned()),
-            })
-        })?;
-        let [operations, log_lines, plot_samples] = self.meter.spent();
-        Ok(Memory {
-            this,
-            operations,
-            log_lines,
-            plot_samples,
-        })
-    }
-
-    fn recall(&mut self, memory: &Memory) -> Result<(), Stop> {
-        let this = memory::give_back(&memory.this);
-        self.run.scope.set_or_push(MEMORY, this);
-        self.meter
-            .spend([memory.operations, memory.log_lines, memory.plot_samples]);
-        Ok(())
     }
 }
 

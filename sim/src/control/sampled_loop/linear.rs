@@ -2,13 +2,13 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::super::servo::{Derivative, Gains, Mode, ServoSettings};
-use super::matrix::exponential;
+use crate::control::matrix_functions::exponential;
+use crate::control::servo::{Derivative, Gains, Mode, ServoSettings};
 use crate::dynamics::driven_mass_matrix;
 use crate::dynamics::rnea::Rnea;
-use crate::joint::JointPositions;
+use crate::joint_space::JointPositions;
 use crate::kinematics::closure::{Closure, independent_motions};
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Robots with more independent joints are not analysed: the work grows with the third power.
 const MOST_JOINTS: usize = 40;

@@ -4,7 +4,7 @@
 //! Source: Sugihara, *Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method* (2011), eq. 18, without its
 //! constant bias; joint limits inside the step.
 
-use super::step::StepRoom;
+use super::ik_step::StepRoom;
 use super::system::{Residual, System};
 use crate::kinematics::position_range::PositionRange;
 

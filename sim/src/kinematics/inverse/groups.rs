@@ -5,13 +5,14 @@
 //! ones move only in the null space of those before.
 
 use super::adaptive::Rules;
+use super::ik_step::StepRoom;
 use super::null_space::{Wish, follow};
-use super::step::StepRoom;
+use super::query::check_goals;
 use super::system::System;
-use super::{Goal, IkAnswer, IkError, IkSettings, IkSolver, check_goals};
+use super::{Goal, IkAnswer, IkError, IkSettings, IkSolver};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::position_range::position_ranges;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Goals that are solved together.
 #[derive(Debug, Clone, PartialEq)]

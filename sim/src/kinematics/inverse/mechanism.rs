@@ -2,7 +2,7 @@
 
 use crate::kinematics::closure::{CLOSED, Closure, LoopError};
 use crate::kinematics::position_range::PositionRange;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// Halvings of a step that the mechanism cannot make, or that takes a dependent joint beyond its limit.
 const HALVINGS: u32 = 20;

@@ -7,7 +7,7 @@
 
 use super::Posture;
 use super::adaptive::{Rules, descend};
-use super::step::StepRoom;
+use super::ik_step::StepRoom;
 use super::system::System;
 
 /// Singular values of the first system below this part of the largest do not hold the second back; larger than for a

@@ -1,15 +1,14 @@
 //! One question after another about the same frames: the starts, the method, and what is made of where they end.
 
 use super::adaptive::descend;
+use super::ik_step::StepRoom;
 use super::null_space::{Wish, follow};
-use super::step::StepRoom;
+use super::query::{check_goals, check_positions};
 use super::system::{Residual, System};
-use super::{
-    Goal, IkAnswer, IkError, IkSettings, Method, Target, check_goals, check_positions, textbook,
-};
+use super::{Goal, IkAnswer, IkError, IkSettings, Method, Target, textbook};
 use crate::kinematics::joint_samples::JointSamples;
 use crate::kinematics::position_range::{PositionRange, position_ranges};
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 
 /// How many times the steps of one start the best of them may go on where none has arrived.
 const LAST_WAY: usize = 10;

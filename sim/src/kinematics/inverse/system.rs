@@ -8,7 +8,7 @@ use super::{ErrorClamp, Goal};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closure::LoopError;
 use crate::kinematics::position_range::PositionRange;
-use crate::robot::Robot;
+use crate::model::robot::Robot;
 use crate::spatial::Pose;
 
 /// The shortest length that errors are measured against \[m\], for chains without any.

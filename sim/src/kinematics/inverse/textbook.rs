@@ -7,7 +7,7 @@
 
 use super::Posture;
 use super::adaptive::Rules;
-use super::step::{PSEUDO_INVERSE_CUTOFF, StepRoom};
+use super::ik_step::{PSEUDO_INVERSE_CUTOFF, StepRoom};
 use super::system::{Residual, System};
 
 /// Errors \[m, rad\] that another step would not make smaller.

@@ -1,6 +1,6 @@
 //! The operation `simulate`: its fields, what they must be, and the run they describe.
 
-use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
+use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::kinematics::closure::loop_gap_m;
 use kinemark_sim::robot::Robot;
 use kinemark_sim::run::{self, End, Setup};
@@ -283,83 +283,62 @@ impl Simulate {
     }
 }
 
-/// A joint without a motor.
-const NO_DRIVE: Gains = Gains {
-    kp: 0.0,
-    ki: 0.0,
-    kd: 0.0,
-    effort_limit: 0.0,
-    integral_limit: 0.0,
-};
-
 impl ServoTable {
     fn settings(&self, robot: &Robot) -> Result<ServoSettings, Refusal> {
-        let gain = |name, given| per_joint(robot, name, given, 0.0);
-        let kp = gain("servo.kp", &self.kp)?;
-        let ki = gain("servo.ki", &self.ki)?;
-        let kd = gain("servo.kd", &self.kd)?;
-        let limit = |name, given| {
-            let limits = per_joint(robot, name, given, f64::INFINITY)?;
-            match limits.iter().find(|limit| **limit < 0.0) {
-                None => Ok(limits),
-                Some(bad) => Err(Refusal::new(
-                    Code::OutOfRange,
-                    format!("`{name}` must not be negative, got {bad}"),
-                )),
+        let mut gains = GainLists::none(robot.n());
+        for (name, given, list) in [
+            ("servo.kp", &self.kp, &mut gains.kp),
+            ("servo.ki", &self.ki, &mut gains.ki),
+            ("servo.kd", &self.kd, &mut gains.kd),
+            (
+                "servo.effort_limit",
+                &self.effort_limit,
+                &mut gains.effort_limit,
+            ),
+            (
+                "servo.integral_limit",
+                &self.integral_limit,
+                &mut gains.integral_limit,
+            ),
+        ] {
+            if let Some(given) = given {
+                *list = per_joint(robot, name, given)?;
             }
-        };
-        let effort_limit = limit("servo.effort_limit", &self.effort_limit)?;
-        let integral_limit = limit("servo.integral_limit", &self.integral_limit)?;
-        let mut gains: Vec<Gains> = (0..robot.n())
-            .map(|i| Gains {
-                kp: kp[i],
-                ki: ki[i],
-                kd: kd[i],
-                effort_limit: effort_limit[i],
-                integral_limit: integral_limit[i],
-            })
-            .collect();
-        // a joint that follows from a loop has no drive
-        for &i in robot.dependent() {
-            gains[i] = NO_DRIVE;
         }
-        Ok(ServoSettings {
-            mode: match self.mode {
-                ServoMode::Position => Mode::Position,
-                ServoMode::Velocity => Mode::Velocity,
-                ServoMode::Effort => Mode::Effort,
-            },
-            derivative: match self.derivative {
-                Some(ServoDerivative::Error) => Derivative::Error,
-                None | Some(ServoDerivative::Measurement) => Derivative::Measurement,
-                Some(ServoDerivative::Velocity) => Derivative::Velocity,
-            },
-            gains,
-            gravity_compensation: self.gravity_compensation.unwrap_or(false),
+        let mode = match self.mode {
+            ServoMode::Position => Mode::Position,
+            ServoMode::Velocity => Mode::Velocity,
+            ServoMode::Effort => Mode::Effort,
+        };
+        let derivative = match self.derivative {
+            Some(ServoDerivative::Error) => Derivative::Error,
+            None | Some(ServoDerivative::Measurement) => Derivative::Measurement,
+            Some(ServoDerivative::Velocity) => Derivative::Velocity,
+        };
+        let compensates = self.gravity_compensation.unwrap_or(false);
+        ServoSettings::new(robot, mode, derivative, &gains, compensates).map_err(|error| {
+            let code = match error {
+                ServoError::Gain { .. } | ServoError::Limit { .. } => Code::OutOfRange,
+                ServoError::Count { .. } => Code::WrongLength,
+                ServoError::VelocityOfVelocity => Code::CannotRun,
+            };
+            Refusal::new(code, error.to_string())
         })
     }
 }
 
 /// A number for all joints, or one per joint or per independent joint, with zeros at dependent joints then.
-fn per_joint(
-    robot: &Robot,
-    name: &str,
-    given: &Option<Numbers>,
-    default: f64,
-) -> Result<Vec<f64>, Refusal> {
+fn per_joint(robot: &Robot, name: &str, given: &Numbers) -> Result<Vec<f64>, Refusal> {
     let (n, k) = (robot.n(), robot.independent().len());
     match given {
-        None => Ok(vec![default; n]),
-        Some(Numbers::List(values)) if values.len() == k && k < n => {
-            Ok(zeros_elsewhere(robot, values))
-        }
-        Some(Numbers::List(values)) if values.len() != n && k < n => Err(Refusal::new(
+        Numbers::List(values) if values.len() == k && k < n => Ok(zeros_elsewhere(robot, values)),
+        Numbers::List(values) if values.len() != n && k < n => Err(Refusal::new(
             Code::WrongLength,
             format!(
                 "`{name}` has {} numbers, expected 1, {k} or {n}",
                 values.len()
             ),
         )),
-        Some(numbers) => numbers.per_axis(name, n),
+        numbers => numbers.per_axis(name, n),
     }
 }

@@ -1,0 +1,266 @@
+# The steps of the gates, one function each, and how they are run. Sourced by .ci/run and .ci/full; docs/gate.md describes every step.
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+target=${CARGO_TARGET_DIR:-target}
+
+# A golden file is compared here, and never written.
+unset KINEMARK_BLESS
+export INSTA_UPDATE=no
+# What these set is another grade; a caller's must not decide.
+unset KINEMARK_SALT
+
+sudo=""
+[ "$(id -u)" = 0 ] || sudo="sudo -n"
+updated=""
+install() { # PACKAGE...: of Debian
+  [ -n "$updated" ] || { $sudo apt-get update -qq && updated=yes; }
+  DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "$@" >/dev/null
+}
+
+# --- what a machine may lack -------------------------------------------------------------------------------------------------
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, firefox, fuzz.
+
+not_run=()
+skip() { # WHAT, WHY: said at once and in the last line
+  not_run+=("$1 ($2)")
+  echo "NOT RUN: $1 ($2)"
+}
+named() { # NAME: whether KINEMARK_SKIP names it
+  case " ${KINEMARK_SKIP:-} " in *" $1 "*) return 0 ;; *) return 1 ;; esac
+}
+lacks() { # NAME, WHAT, WHY: something cannot be had here, which is a failure where CI=true
+  if [ "${CI:-}" = true ]; then
+    echo "$2 cannot be run: $3. Name \`$1\` in KINEMARK_SKIP to leave it out."
+    exit 1
+  fi
+  skip "$2" "$3"
+}
+# Where a tool was found missing, what needs it is skipped once: has[NAME] is `yes` or `no` after `need NAME`.
+declare -A has=()
+need() { # NAME: fetches a tool where it is missing; false where it cannot be had or must not be used
+  if [ -z "${has[$1]:-}" ]; then
+    has[$1]=no
+    if named "$1"; then
+      skip "${what[$1]}" "KINEMARK_SKIP names \`$1\`"
+    elif fetch_"$1"; then
+      has[$1]=yes
+    else
+      lacks "$1" "${what[$1]}" "${why[$1]}"
+    fi
+  fi
+  [ "${has[$1]}" = yes ]
+}
+declare -A what=(
+  [node]="the viewer's bundle, reports in a browser, logs in JavaScript"
+  [browser]="reports in a browser"
+  [wasm]="the comparison with WebAssembly"
+  [python]="logs in Python, unused dependencies"
+)
+declare -A why=(
+  [node]="Node 20 or later with npm and its packages cannot be had here"
+  [browser]="Chromium cannot be had here (CHROMIUM names another one)"
+  [wasm]="the Rust target or Node cannot be had here"
+  [python]="Python 3.11 with the packages of tests/readers/requirements.txt cannot be had here"
+)
+
+node_is_new() { [ "$(node -p 'process.versions.node.split(".")[0]' 2>/dev/null || echo 0)" -ge 20 ]; }
+fetch_node() {
+  command -v node >/dev/null || install nodejs || return 1
+  node_is_new || { why[node]="Node 20 or later is needed, and $(node --version) is here"; return 1; }
+  command -v npm >/dev/null || install npm || return 1
+  export npm_config_fetch_retries=1
+  if ! (cd grader/web && npm ci --no-audit --no-fund --loglevel=error); then
+    # with a registry that answers it is the lock file that is wrong
+    if npm ping >/dev/null 2>&1; then
+      echo "npm is there, and grader/web/package-lock.json cannot be installed"
+      exit 1
+    fi
+    why[node]="npm reaches no packages here"
+    return 1
+  fi
+}
+fetch_browser() {
+  need node || { why[browser]="it needs Node"; return 1; }
+  export CHROMIUM=${CHROMIUM:-/usr/bin/chromium}
+  [ -x "$CHROMIUM" ] || { install chromium && [ -x "$CHROMIUM" ]; }
+}
+target_is_there() { [ -d "$(rustc --print target-libdir --target "$1")" ]; }
+fetch_wasm() {
+  command -v node >/dev/null || install nodejs || return 1
+  target_is_there wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
+}
+python=$target/ci-python/bin/python
+fetch_python() {
+  "$python" -c 'import jsonschema, mcap, zstandard' 2>/dev/null && return
+  rm -rf "$target/ci-python"
+  python3 -m venv "$target/ci-python" >/dev/null 2>&1 || { install python3-venv && python3 -m venv "$target/ci-python"; } || return 1
+  "$target/ci-python/bin/pip" install --quiet --disable-pip-version-check --requirement tests/readers/requirements.txt
+}
+
+# --- steps that look at text and types: seconds to two minutes ---------------------------------------------------------------
+
+step_format() {
+  cargo fmt --all -- --check
+  cargo fmt --manifest-path tests/fuzz/Cargo.toml -- --check
+}
+
+step_paths() { # a path of somebody's machine in the tree
+  if git grep -nE '/(home|root|work)/[a-z]' -- . ':!*.lock' ':!.ci/steps.bash'; then
+    echo "a path of some machine is in the tree"
+    return 1
+  fi
+}
+
+step_dialect() {
+  if [ "${dialect_fatal:-}" = yes ]; then
+    .ci/dialect
+  else
+    # 1 says that there are some, more that it did not work
+    { .ci/dialect || [ $? -eq 1 ]; } | tail -1
+  fi
+}
+
+# As `cargo lint`, and each target's unused dependencies beside it: one pass for both.
+step_lint() {
+  command -v cc >/dev/null || install build-essential
+  [ "$(sed -n 's/^lint = "\(.*\)"$/\1/p' .cargo/config.toml)" = "clippy --workspace --all-targets --locked -- -D warnings" ] ||
+    { echo "cargo lint is no longer what this step runs"; return 1; }
+  local found=$target/ci-lint.json failed=""
+  mkdir -p "$target"
+  cargo clippy --workspace --all-targets --locked --message-format=json-diagnostic-rendered-ansi -- \
+    -D warnings --force-warn unused_crate_dependencies >"$found" || failed=yes
+  if need python; then
+    .ci/unused "$found" || failed=yes
+  fi
+  [ -z "$failed" ] || { cargo lint || true; return 1; }
+}
+
+# The fuzz targets are a workspace of their own, with the versions of this one: what is fuzzed is what is shipped.
+locked() { awk '/^name = /{name = $3} /^version = /{print name, $3}' "$1" | sort -u; }
+step_fuzz_check() {
+  local other
+  other=$(comm -23 <(locked tests/fuzz/Cargo.lock) <(locked Cargo.lock) | grep -vE '^"(kinemark-fuzz|libfuzzer-sys|arbitrary)" ' || true)
+  if [ -n "$other" ]; then
+    echo "tests/fuzz/Cargo.lock has versions that Cargo.lock has not; tests/fuzz/README.md says how to renew it:"
+    echo "$other"
+    return 1
+  fi
+  cargo check --manifest-path tests/fuzz/Cargo.toml --locked --all-targets --target-dir "$target/fuzz"
+}
+
+step_doc() { RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet; }
+
+step_licences() {
+  if cargo deny --version >/dev/null 2>&1; then
+    cargo deny --offline check bans licenses sources
+  else
+    skip "licences, sources, duplicates" "cargo-deny is not installed here"
+  fi
+}
+
+# --- steps that build and run --------------------------------------------------------------------------------------------------
+
+step_test() { # the README's command
+  local command
+  command=$(sed -n '/^```/,/^```/p' README.md | grep -m1 '^cargo test')
+  [ "$command" = "cargo test --workspace" ] || { echo "README's test command is: $command"; return 1; }
+  $command --locked
+}
+
+# The same bytes from a build without optimisation and from WebAssembly: what `cargo test` leaves out, since both build everything again.
+step_exact() {
+  local skipped=${KINEMARK_SKIP:-}
+  need wasm || skipped="$skipped wasm"
+  # of the whole workspace, so that dependencies have the features they were built with
+  KINEMARK_EXACT=all KINEMARK_SKIP=$skipped cargo test --workspace --locked --test system -- determinism wasm
+}
+
+release() { cargo run --release --quiet --locked -- "$@"; }
+
+step_release() { # the README's first command, and every lab: the optimised build writes what the tested one writes
+  local command lab good out=$target/ci
+  command=$(sed -n '/^```/,/^```/p' README.md | grep -m1 '^cargo run --release')
+  rm -rf "$out/readme" "$out/release" "$out/dev"
+  cargo build --workspace --bins --tests --locked --quiet
+  $command --out "$out/readme"
+  for lab in labs/[0-9]*/; do
+    lab=$(basename "$lab")
+    good=tests/submissions/$lab/good/submission.rhai
+    release grade "$lab" "$good" --out "$out/release/$lab" --json >/dev/null
+    "$target/debug/kinemark" grade "$lab" "$good" --out "$out/dev/$lab" --json >/dev/null
+    release verify "$out/release/$lab"
+  done
+  diff -r "$out/release" "$out/dev"
+}
+
+step_viewer() { # types, and the committed bundle is what its source gives
+  need node || return 0
+  local kept=$target/ci/dist
+  rm -rf "$kept" && mkdir -p "$target/ci" && cp -rp grader/web/dist "$kept"
+  (cd grader/web && npm run --silent check && npm run --silent build)
+  diff -r "$kept" grader/web/dist
+  # the same bytes with their old times: Rust would be built again for new ones
+  cp -rp "$kept/." grader/web/dist/
+}
+
+# Reports and logs of all labs, and of labs that are hard on them: made once for the next three steps.
+reports() {
+  release --version >/dev/null
+  KINEMARK=$(realpath "$target/release/kinemark")
+  KINEMARK_REPORTS=$(realpath "$target")/ci/reports
+  export KINEMARK KINEMARK_REPORTS
+  [ -z "${reports_made:-}" ] || return 0
+  rm -rf "$KINEMARK_REPORTS"
+  node grader/web/test/graded.mjs "$KINEMARK_REPORTS"
+  reports_made=yes
+}
+
+step_browser() {
+  need browser || return 0
+  reports
+  (cd grader/web && node --test --test-concurrency=2 $(ls test/*.test.mjs | grep -v '/logs\.'))
+}
+
+step_logs() { # read by two other implementations
+  if need node; then
+    reports
+    (cd grader/web && node --test test/logs.test.mjs)
+  fi
+  if need python; then
+    # without Node there are the labs' own reports only
+    find "${KINEMARK_REPORTS:-$target/ci/release}" -name run.mcap -print0 | sort -z | xargs -0 "$python" tests/readers/read_log.py
+  fi
+}
+
+check_labs() { # VARIANTS: starter, reference solution in so many variants, mutants of every lab
+  local lab
+  for lab in labs/[0-9]*/; do
+    release lab check "$(basename "$lab")" --variants "$1"
+  done
+}
+step_labs() { check_labs 20; }
+
+# --- how steps are run -----------------------------------------------------------------------------------------------------------
+
+times=()
+run_steps() { # NAME...: `a-b` is step_a_b
+  local name began
+  for name in "$@"; do
+    declare -F "step_${name//-/_}" >/dev/null || { echo "there is no step \`$name\`; there are: ${all[*]}"; exit 2; }
+  done
+  for name in "$@"; do
+    printf '\n== %s\n' "$name"
+    began=$SECONDS
+    "step_${name//-/_}"
+    times+=("$(printf '%5d s  %s' $((SECONDS - began)) "$name")")
+  done
+}
+
+finish() { # GATE: the times, and in the last line what was not run
+  printf '\n'
+  printf '%s\n' "${times[@]}"
+  printf '%5d s  in all\n' "$SECONDS"
+  local line="$1: all steps passed"
+  [ ${#not_run[@]} -eq 0 ] || line="$line. NOT RUN: $(printf '%s; ' "${not_run[@]}" | sed 's/; $//')"
+  echo "$line"
+}

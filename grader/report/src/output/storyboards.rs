@@ -1,0 +1,31 @@
+//! The storyboard of each motion task that ran, as SVG and PNG.
+
+use super::material::{Material, OutFile, OutputError};
+use super::table::Output;
+use crate::storyboard::storyboard;
+
+/// The picture in pixels, in the task's folder.
+pub const FILE: &str = "storyboard.png";
+/// The drawing, in the task's folder.
+const DRAWING: &str = "storyboard.svg";
+
+pub(super) const OUTPUT: Output = Output {
+    name: "storyboard",
+    is_requested: |request| request.storyboard,
+    files,
+};
+
+fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
+    let mut files = Vec::new();
+    for run in &material.graded.runs {
+        let mut tasks = material.graded.grade.tasks.iter();
+        let Some(task) = tasks.find(|task| task.name == run.task) else {
+            continue;
+        };
+        let svg = storyboard(run, task);
+        let pixels = material.pixels_of(&svg)?;
+        files.push(OutFile::pixels(format!("{}/{FILE}", run.task), pixels));
+        files.push(OutFile::new(format!("{}/{DRAWING}", run.task), svg));
+    }
+    Ok(files)
+}

@@ -1,0 +1,98 @@
+//! The table of outputs: what a report folder is made of, in the order in which it is written.
+
+use super::material::{Material, OutFile, OutputError};
+use super::{ReportRequest, lab_copies, page, plot_pixels, plots, record, storyboards, submission};
+
+/// One output: a row of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Output {
+    /// What it is called.
+    pub name: &'static str,
+    /// Whether a report that was requested so has it.
+    pub is_requested: fn(&ReportRequest) -> bool,
+    /// Makes its files. These, and no others, are ours: `report.json` lists them.
+    pub files: fn(&Material<'_>) -> Result<Vec<OutFile>, OutputError>,
+}
+
+/// All outputs; `report.json`, which lists their files, is made last of all ([`super::Manifest`]).
+pub const OUTPUTS: &[Output] = &[
+    record::OUTPUT,
+    page::OUTPUT,
+    submission::OUTPUT,
+    lab_copies::OUTPUT,
+    plots::OUTPUT,
+    plot_pixels::OUTPUT,
+    storyboards::OUTPUT,
+    #[cfg(feature = "log")]
+    super::run_log::OUTPUT,
+];
+
+/// Every report has it.
+pub(super) fn always(_: &ReportRequest) -> bool {
+    true
+}
+
+/// All files of a report but `report.json`: a function of the material alone.
+///
+/// # Errors
+/// [`OutputError`] where one of them cannot be made.
+pub fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
+    let mut files = Vec::new();
+    for output in OUTPUTS {
+        if (output.is_requested)(material.request) {
+            files.extend((output.files)(material)?);
+        }
+    }
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::material::{Pixels, Sources};
+    use super::*;
+    use kinemark_grader::record::sample;
+
+    fn paths(request: &ReportRequest) -> Vec<String> {
+        let graded = sample::graded();
+        let lab_files = [("one/lab.toml".to_owned(), Vec::new())];
+        let sources = Sources {
+            submission: "",
+            lab: "",
+            robot: "",
+            lab_files: &lab_files,
+        };
+        let material = Material::new(&graded, sources, request, Pixels::Undrawn).unwrap();
+        let mut paths: Vec<_> = files(&material).unwrap();
+        paths.sort_by(|one, other| one.path.cmp(&other.path));
+        paths.into_iter().map(|file| file.path).collect()
+    }
+
+    #[test]
+    fn a_report_has_what_was_requested_and_no_path_twice() {
+        let plain = paths(&ReportRequest::default());
+        assert!(!plain.iter().any(|path| path.ends_with(".png")));
+        assert!(!plain.iter().any(|path| path.contains("storyboard")));
+        let all = paths(&ReportRequest {
+            reference_overlay: false,
+            png: true,
+            storyboard: true,
+        });
+        assert!(plain.iter().all(|path| all.contains(path)));
+        let mut once = all.clone();
+        once.dedup();
+        assert_eq!(once, all);
+        let pixels = all.iter().filter(|path| path.ends_with(".png"));
+        for path in pixels {
+            let drawing = path.replace(".png", ".svg");
+            assert!(all.contains(&drawing), "{path} without its drawing");
+        }
+        for path in [
+            "grade.json",
+            "report.html",
+            "submission.rhai",
+            "lab/one/lab.toml",
+        ] {
+            assert!(plain.iter().any(|known| known == path), "no {path}");
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! How an attempt ended early: its verdict, and its record for people.
+
+use kinemark_sim::runaway::{BlowUp, Cause};
+
+use super::diverged::DivergedWords as _;
+use crate::record::grade::Stopped;
+use crate::record::names::Names;
+use crate::record::verdict::Verdict;
+use crate::submission::controller::{Budget, HostLimit, Stop};
+use crate::task::model::MotionTask;
+
+/// How an attempt ended early.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ended {
+    /// The tick of a motion task, or the index of the case of a function task.
+    pub at: u64,
+    /// Why.
+    pub why: EndReason,
+}
+
+/// Why an attempt ended early.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EndReason {
+    /// The submission was stopped.
+    Stopped(Stop),
+    /// A command or an answer has the wrong shape, or is not finite; in words.
+    InvalidOutput(String),
+    /// The simulation diverged.
+    Diverged {
+        /// What grew without bound.
+        what: BlowUp,
+        /// Why, as far as it can be computed.
+        cause: Option<Cause>,
+    },
+}
+
+/// What may be reported of how an attempt ended: of hidden numbers nothing, of the submission's words there nothing either.
+#[derive(Debug, Clone, Copy)]
+pub enum Disclosure<'a> {
+    /// All of a run.
+    Run {
+        /// The names in it.
+        names: Names<'a>,
+        /// Its task.
+        task: &'a MotionTask,
+    },
+    /// Of a hidden run, its class alone.
+    HiddenRun {
+        /// The class.
+        class: &'a str,
+    },
+    /// All of a case.
+    Case {
+        /// The case's name.
+        name: &'a str,
+    },
+    /// Of a hidden case, its class alone.
+    HiddenCase {
+        /// The class.
+        class: &'a str,
+    },
+}
+
+impl Ended {
+    /// The submission was stopped at `at`.
+    pub fn stopped_by(stop: Stop, at: u64) -> Self {
+        Self {
+            at,
+            why: EndReason::Stopped(stop),
+        }
+    }
+
+    /// The verdict of a task that ended so; `None` where the person asked to stop.
+    pub fn verdict(&self) -> Option<Verdict> {
+        match &self.why {
+            EndReason::Stopped(stop) => verdict_of(stop),
+            EndReason::InvalidOutput(_) => Some(Verdict::InvalidOutput),
+            EndReason::Diverged { .. } => Some(Verdict::Missed),
+        }
+    }
+
+    /// What stopped the submission, if something did.
+    pub fn stop(&self) -> Option<&Stop> {
+        match &self.why {
+            EndReason::Stopped(stop) => Some(stop),
+            EndReason::InvalidOutput(_) | EndReason::Diverged { .. } => None,
+        }
+    }
+
+    /// Whether the simulation diverged.
+    pub fn is_diverged(&self) -> bool {
+        matches!(self.why, EndReason::Diverged { .. })
+    }
+
+    /// The record of it, with the student's line from `source`.
+    pub fn record(&self, source: &str, disclosure: Disclosure<'_>) -> Stopped {
+        if let Some(stop) = self.stop().filter(|stop| !is_of_one_call(stop)) {
+            // it happened to the whole file, or to this machine: at no moment of the attempt
+            return record_of(stop, source);
+        }
+        match disclosure {
+            Disclosure::HiddenRun { class } => without_place(self.hidden_run_words(), class),
+            Disclosure::HiddenCase { class } => without_place(self.hidden_case_words(), class),
+            Disclosure::Case { name } => Stopped {
+                case: Some(name.to_owned()),
+                ..self.whole_record(source, None)
+            },
+            Disclosure::Run { names, task } => Stopped {
+                tick: Some(self.at),
+                time_s: Some(task.periods.time_s(self.at)),
+                ..self.whole_record(source, Some((names, task)))
+            },
+        }
+    }
+
+    /// The record without its moment, nothing kept back.
+    fn whole_record(&self, source: &str, run: Option<(Names<'_>, &MotionTask)>) -> Stopped {
+        let (message, help) = match &self.why {
+            EndReason::Stopped(stop) => return record_of(stop, source),
+            EndReason::InvalidOutput(what) => (what.clone(), not_finite_help(what)),
+            EndReason::Diverged { what, cause } => match run {
+                Some((names, task)) => {
+                    let (message, help) = names.diverged(what, cause.as_ref(), task);
+                    (message, Some(help))
+                }
+                None => ("the simulation diverged".to_owned(), None),
+            },
+        };
+        Stopped {
+            message,
+            help,
+            ..no_words()
+        }
+    }
+
+    fn hidden_run_words(&self) -> &'static str {
+        match &self.why {
+            EndReason::Stopped(_) => "the submission failed in a hidden run",
+            EndReason::InvalidOutput(_) => "no command, or one that is not finite, in a hidden run",
+            EndReason::Diverged { .. } => "the motion of a hidden run went beyond all bounds",
+        }
+    }
+
+    fn hidden_case_words(&self) -> &'static str {
+        match &self.why {
+            EndReason::Stopped(_) | EndReason::Diverged { .. } => {
+                "the submission failed in a hidden case"
+            }
+            EndReason::InvalidOutput(_) => {
+                "an answer of the wrong shape, or not finite, in a hidden case"
+            }
+        }
+    }
+}
+
+fn no_words() -> Stopped {
+    Stopped {
+        message: String::new(),
+        help: None,
+        line: None,
+        column: None,
+        source_line: None,
+        tick: None,
+        time_s: None,
+        case: None,
+    }
+}
+
+/// A record of something hidden. Neither the submission's words nor the line that fails are in it: a chain of comparisons could
+/// count a hidden number out.
+fn without_place(message: &str, class: &str) -> Stopped {
+    Stopped {
+        message: message.to_owned(),
+        case: Some(class.to_owned()),
+        ..no_words()
+    }
+}
+
+/// The verdict of a task that was stopped by `stop`; `None` where the person asked to stop.
+fn verdict_of(stop: &Stop) -> Option<Verdict> {
+    Some(match stop {
+        Stop::DidNotBuild(_) => Verdict::DidNotBuild,
+        Stop::Missing { .. } => Verdict::Missed,
+        Stop::Crashed(_) => Verdict::Crashed,
+        Stop::OverBudget { .. } => Verdict::OverBudget,
+        Stop::HostLimit(_) => Verdict::HostLimit,
+        Stop::GraderFault(_) => Verdict::GraderFault,
+        Stop::Interrupted => return None,
+    })
+}
+
+/// Whether a stop happened in one call: not to the whole file, and not to the machine.
+fn is_of_one_call(stop: &Stop) -> bool {
+    match stop {
+        Stop::Crashed(_) => true,
+        Stop::OverBudget { budget, .. } => {
+            !matches!(budget, Budget::SourceBytes | Budget::ExpressionDepth)
+        }
+        Stop::DidNotBuild(_)
+        | Stop::Missing { .. }
+        | Stop::HostLimit(_)
+        | Stop::GraderFault(_)
+        | Stop::Interrupted => false,
+    }
+}
+
+/// The record of a stop, with the student's line from `source`.
+pub fn record_of(stop: &Stop, source: &str) -> Stopped {
+    let (message, help, place) = match stop {
+        Stop::DidNotBuild(mistake) | Stop::Crashed(mistake) => {
+            (mistake.message.clone(), mistake.help.clone(), mistake.place)
+        }
+        Stop::Missing { function, help } => (
+            format!("the submission has no function `{function}`"),
+            help.clone(),
+            None,
+        ),
+        Stop::OverBudget {
+            budget,
+            limit,
+            place,
+        } => (
+            format!("more than {limit} {}", budget.name()),
+            Some(budget_help(*budget).to_owned()),
+            *place,
+        ),
+        Stop::HostLimit(limit) => (
+            match limit {
+                HostLimit::Time => "this machine ran out of time for the submission".to_owned(),
+                HostLimit::Memory => "this machine ran out of memory for the submission".to_owned(),
+            },
+            Some("nothing is decided: grade it again, on a machine that is less busy".to_owned()),
+            None,
+        ),
+        Stop::GraderFault(message) => (
+            format!("the grader failed: {message}"),
+            Some("this is no fault of the submission; please report it".to_owned()),
+            None,
+        ),
+        Stop::Interrupted => ("interrupted".to_owned(), None, None),
+    };
+    Stopped {
+        message,
+        help,
+        line: place.map(|place| place.line),
+        column: place.map(|place| place.column),
+        source_line: place
+            .and_then(|place| source.lines().nth(place.line.checked_sub(1)?))
+            .map(shortened),
+        tick: None,
+        time_s: None,
+        case: None,
+    }
+}
+
+fn budget_help(budget: Budget) -> &'static str {
+    match budget {
+        Budget::OperationsPerCall | Budget::OperationsPerTask => {
+            "look for a loop that does not end, or for work that can be done once in `init`"
+        }
+        Budget::CallDepth => "look for a function that calls itself without an end",
+        Budget::ExpressionDepth => "take the expression apart with `let`",
+        Budget::ListSize | Budget::MapSize | Budget::TextSize => {
+            "keep less: what is not needed at the next call need not be kept"
+        }
+        Budget::SourceBytes => "a submission is one short file: leave out what is not used",
+    }
+}
+
+/// A line of the submission, cut where it would fill a screen.
+fn shortened(line: &str) -> String {
+    const LONGEST: usize = 200;
+    if line.chars().count() > LONGEST {
+        let start: String = line.chars().take(LONGEST).collect();
+        format!("{start}…")
+    } else {
+        line.to_owned()
+    }
+}
+
+/// Where numbers that are not finite come from.
+fn not_finite_help(message: &str) -> Option<String> {
+    let shown = message.contains("NaN") || message.contains("infinity");
+    shown.then(|| {
+        "NaN comes from `acos` or `sqrt` of a number outside their range and from 0 / 0, infinity from a division by zero".to_owned()
+    })
+}

@@ -1,0 +1,230 @@
+//! How far an answer of a function task is off, by the kind of its case.
+
+use kinemark_sim::robot::{Dimension, Robot};
+use nalgebra::Vector3;
+
+use super::answers::{Answered, CaseError, CaseFacts};
+use crate::submission::answer;
+use crate::task::jacobian;
+use crate::task::model::{Case, Function, Given, Rows};
+use crate::task::tcp::tcp_in;
+use crate::task::value::Value;
+
+/// Measures `value`, which `function` returned for `case`; none where there is no answer.
+pub fn measure<'a>(
+    frame: &str,
+    function: &Function,
+    case: &'a Case,
+    robot: Robot,
+    value: Option<&Value>,
+) -> CaseFacts<'a> {
+    let answer = Reading {
+        function,
+        frame,
+        robot: &robot,
+        value,
+    };
+    let (answer, error) = match (&case.given, function) {
+        (Given::Q(q), Function::Jacobian(rows)) => answer.jacobian(q, *rows),
+        (Given::Q(q), _) => answer.position(q),
+        (Given::Values { expected, .. }, _) => answer.entries(expected),
+        (
+            Given::Position {
+                position_m,
+                branches,
+            },
+            _,
+        ) => answer.branches(*position_m, *branches),
+    };
+    CaseFacts {
+        case,
+        robot,
+        answer,
+        error,
+    }
+}
+
+/// What a function returned for one case, to be read and measured.
+struct Reading<'a> {
+    function: &'a Function,
+    frame: &'a str,
+    robot: &'a Robot,
+    value: Option<&'a Value>,
+}
+
+impl Reading<'_> {
+    /// The answer as `read` has it, or in words what it is instead.
+    fn answered<T>(
+        &self,
+        read: impl FnOnce(&Value) -> Result<T, String>,
+        answer: impl FnOnce(T) -> Answered,
+    ) -> Answered {
+        match self.value.map(read) {
+            None => Answered::Stopped,
+            Some(Ok(value)) => answer(value),
+            Some(Err(what)) => {
+                Answered::Invalid(format!("{} returned {what}", self.function.name()))
+            }
+        }
+    }
+
+    /// Position of the TCP at `q` in the lab's frame \[m\].
+    fn tcp_at(&self, q: &[f64]) -> Option<Vector3<f64>> {
+        tcp_in(self.robot, self.frame, q)
+    }
+
+    fn jacobian(&self, q: &[f64], rows: Rows) -> (Answered, CaseError) {
+        // a case's positions were counted when the lab was loaded
+        let truth = jacobian::jacobian_in(self.robot, self.frame, q, rows).unwrap_or_default();
+        let shape = (truth.len(), self.robot.n());
+        let answer = self.answered(
+            |value| answer::matrix(value, shape.0, shape.1),
+            Answered::Matrix,
+        );
+        let relative = match &answer {
+            Answered::Matrix(matrix) => jacobian::relative_distance(matrix, &truth),
+            _ => f64::INFINITY,
+        };
+        (answer, CaseError::Jacobian { relative, truth })
+    }
+
+    fn position(&self, q: &[f64]) -> (Answered, CaseError) {
+        let answer = self.answered(answer::position, Answered::Position);
+        let error_m = match (&answer, self.tcp_at(q)) {
+            (Answered::Position(position), Some(truth)) => (position - truth).norm(),
+            _ => f64::INFINITY,
+        };
+        (answer, CaseError::Position(error_m))
+    }
+
+    fn entries(&self, expected: &[(String, Dimension)]) -> (Answered, CaseError) {
+        let entries = self.value.map(|value| answer::entries(value, expected));
+        let relative = expected.iter().enumerate().map(|(i, (_, should))| {
+            let entry = entries
+                .as_ref()
+                .and_then(|entries| entries[i].as_ref().ok());
+            entry.map_or(f64::INFINITY, |entry| {
+                relative_error(entry, as_slice(should))
+            })
+        });
+        let error = CaseError::Entries(relative.collect());
+        let answer = self.answered(
+            |_| entries.into_iter().flatten().collect(),
+            Answered::Entries,
+        );
+        (answer, error)
+    }
+
+    fn branches(&self, position_m: [f64; 3], branches: u32) -> (Answered, CaseError) {
+        let most = branches.max(2) as usize;
+        let answer = self.answered(
+            |value| distinct_branches(value, self.robot, most),
+            Answered::Branches,
+        );
+        if branches == 0 {
+            let said_so = answer == Answered::Branches(Vec::new());
+            return (answer, CaseError::Unreachable { said_so });
+        }
+        let target = Vector3::from(position_m);
+        let mut branches_m: Vec<f64> = match &answer {
+            Answered::Branches(found) => found
+                .iter()
+                .map(|q| {
+                    let reached = self.tcp_at(q);
+                    reached.map_or(f64::INFINITY, |p| (p - target).norm())
+                })
+                .collect(),
+            _ => Vec::new(),
+        };
+        branches_m.sort_by(f64::total_cmp);
+        let expected = branches;
+        (
+            answer,
+            CaseError::Reach {
+                branches_m,
+                expected,
+            },
+        )
+    }
+}
+
+/// More than this is no list of branches.
+const MOST_LISTED: usize = 64;
+
+/// Branches, of which at most `most` differ by more than whole turns, so that an answer cannot be a guess at every sign.
+fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Vec<f64>>, String> {
+    let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
+    match count_distinct(robot, &branches) {
+        distinct if distinct > most => Err(format!(
+            "{distinct} different branches where at most {most} exist: return the right ones only"
+        )),
+        _ => Ok(branches),
+    }
+}
+
+/// The numbers of an entry.
+pub fn as_slice(entry: &Dimension) -> &[f64] {
+    match entry {
+        Dimension::Number(number) => std::slice::from_ref(number),
+        Dimension::List(list) => list,
+    }
+}
+
+/// How far an entry is off as a fraction of what it should be, in the Euclidean norm; where that is zero, the distance itself.
+pub fn relative_error(answer: &[f64], expected: &[f64]) -> f64 {
+    let norm = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|x| x * x).sum::<f64>().sqrt();
+    if answer.len() != expected.len() {
+        return f64::INFINITY;
+    }
+    let off = norm(&mut answer.iter().zip(expected).map(|(a, e)| a - e));
+    match norm(&mut expected.iter().copied()) {
+        size if size > 0.0 => off / size,
+        _ => off,
+    }
+}
+
+/// How many of the branches differ by more than whole circles and rounding.
+pub fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
+    let mut distinct: Vec<&Vec<f64>> = Vec::new();
+    for branch in branches {
+        if !distinct
+            .iter()
+            .any(|other| same_branch(robot, branch, other))
+        {
+            distinct.push(branch);
+        }
+    }
+    distinct.len()
+}
+
+/// Whether two answers are one configuration: angles equal but for whole circles, positions of prismatic joints equal, to a fiftieth and a thousandth.
+pub fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
+    // what moves the TCP by less than a band is no other branch; two branches inside the boundary differ by far more
+    let (near_rad, near_m) = (0.02, 1e-3);
+    robot
+        .moving_joints()
+        .zip(a.iter().zip(b))
+        .all(|(joint, (a, b))| {
+            let circle = 2.0 * std::f64::consts::PI;
+            if joint.kind.turns() {
+                let gap = (a - b).abs() % circle;
+                gap.min(circle - gap) <= near_rad
+            } else {
+                (a - b).abs() <= near_m
+            }
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_relative_to_what_it_should_be_and_absolute_at_zero() {
+        assert_eq!(relative_error(&[1.5], &[2.0]), 0.25);
+        assert_eq!(relative_error(&[0.5], &[0.0]), 0.5);
+        assert_eq!(relative_error(&[3.0, 5.0], &[3.0, 4.0]), 0.2);
+        assert_eq!(relative_error(&[3.0], &[3.0, 4.0]), f64::INFINITY);
+        assert!(relative_error(&[f64::NAN], &[1.0]).is_nan());
+    }
+}

@@ -1,0 +1,69 @@
+//! The staff's own code, tried: solution and known mistakes are programs, and the solution answers the hidden cases that it is the
+//! measure of. Loading a lab runs none of it.
+
+use kinemark_sim::source::Source;
+
+use crate::judge::staff_faults::staff_fault;
+use crate::judge::{opening, with_expected};
+use crate::lab::model::Lab;
+use crate::lab::staff::Staff;
+use crate::record::staff_fault::StaffSubmission;
+use crate::submission::rhai::ScriptController;
+use crate::task::problem::{LabError, LabProblem, LoadError};
+
+/// Tries the code of `staff`, whose part of `lab` it is.
+///
+/// # Errors
+/// [`LoadError`] at the line of a submission that is no program, or at the draw whose cases the solution does not answer.
+pub fn staff_code(lab: &Lab, staff: &Staff) -> Result<(), LoadError> {
+    builds(lab, None, StaffSubmission::Solution, &staff.solution)?;
+    answers(lab, staff)?;
+    for mutant in &staff.mutants {
+        let task = mutant.tasks.first().map(String::as_str);
+        let whose = StaffSubmission::Mutant(mutant.name.clone());
+        builds(lab, task, whose, &mutant.source)?;
+    }
+    Ok(())
+}
+
+/// Refuses a submission that is no program.
+fn builds(
+    lab: &Lab,
+    task: Option<&str>,
+    whose: StaffSubmission,
+    source: &Source,
+) -> Result<(), LabError> {
+    let mut tasks = lab.tasks.iter();
+    let Some(task) = tasks.find(|known| task.is_none_or(|name| known.name == name)) else {
+        return Ok(());
+    };
+    match ScriptController::open(&opening(lab, task, source)) {
+        Ok(_) => Ok(()),
+        Err(stop) => match staff_fault(whose, None, source, &stop) {
+            Some(fault) => Err(fault.map(LabProblem::of)),
+            None => Ok(()),
+        },
+    }
+}
+
+/// Refuses a draw of cases to which the solution has no answer.
+fn answers(lab: &Lab, staff: &Staff) -> Result<(), LabError> {
+    let Some(source) = &staff.hidden_source else {
+        return Ok(());
+    };
+    for draw in &staff.draws {
+        let Some(task) = lab.tasks.iter().find(|task| task.name == draw.task) else {
+            continue;
+        };
+        if let Err(message) = with_expected(lab, task, &draw.cases, &staff.solution) {
+            let problem = LabProblem {
+                message,
+                code: "staff::solution",
+                label: "what is expected here is what the solution answers".to_owned(),
+                help: Some("correct `solution.rhai`, or draw other numbers".to_owned()),
+            };
+            return Err(LabError::new(problem, source, draw.at.clone()));
+        }
+    }
+    Ok(())
+}

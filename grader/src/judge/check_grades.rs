@@ -1,0 +1,151 @@
+//! What the checks of a task earned, all attempts together: the record of each check is made here, once.
+
+use super::hidden_attempts::{HiddenAttempts, of_control};
+use super::judged::Judged;
+use crate::lab::model::Check;
+use crate::record::grade::{CheckGrade, Evidence, Instant, Measure, Outcome};
+use crate::record::quantity::{points, whole_hundredths};
+
+/// The grades of a task's checks: `visible` and `first_lost` have one entry per check; `explained` says that a stop or a diagnosis
+/// explains the loss, beside which a check's general hint would read as another one.
+pub(super) fn check_grades(
+    checks: &[Check],
+    visible: &[Judged],
+    first_lost: &[Option<Instant>],
+    hidden: &HiddenAttempts,
+    explained: bool,
+) -> Vec<CheckGrade> {
+    let judged = checks.iter().zip(visible).zip(first_lost).enumerate();
+    let grades = judged.map(|(i, ((check, judged), first_lost))| {
+        let mut parts = visible_parts(checks, check, judged);
+        if hidden.is_undecided() {
+            parts = Parts::default();
+        } else if !hidden.is_empty() {
+            parts = parts.averaged(checks, i, hidden);
+        }
+        let has_hint = !explained || parts.outcome == Outcome::NotJudged;
+        CheckGrade {
+            name: check.name.clone(),
+            title: check.title.clone(),
+            outcome: parts.outcome,
+            points: whole_hundredths(check.points * parts.score, check.points),
+            max_points: check.points,
+            measure: parts.measure,
+            first_lost: *first_lost,
+            evidence: parts.evidence,
+            next_step: parts.next_step.filter(|_| has_hint),
+        }
+    });
+    grades.collect()
+}
+
+/// What a check comes to, before it is written down.
+struct Parts {
+    /// The share of the points, in `[0, 1]`.
+    score: f64,
+    outcome: Outcome,
+    measure: Option<Measure>,
+    evidence: Vec<Evidence>,
+    next_step: Option<String>,
+}
+
+impl Default for Parts {
+    /// Those of a check of which nothing is known.
+    fn default() -> Self {
+        Self {
+            score: 0.0,
+            outcome: Outcome::NotJudged,
+            measure: None,
+            evidence: Vec::new(),
+            next_step: None,
+        }
+    }
+}
+
+/// What a check comes to in the visible attempt.
+fn visible_parts(checks: &[Check], check: &Check, judged: &Judged) -> Parts {
+    let loss = judged.loss();
+    let next_step = match (loss, judged.unmet) {
+        (Some(finding), _) => {
+            let hint = check.hint.clone().filter(|_| !finding.insists);
+            Some(hint.unwrap_or_else(|| finding.next_step.clone()))
+        }
+        (None, Some(need)) => Some(format!(
+            "First earn something in \"{}\".",
+            checks[need].title
+        )),
+        (None, None) => None,
+    };
+    let finding = judged.finding.as_ref();
+    Parts {
+        score: judged.score,
+        outcome: judged.outcome,
+        measure: finding.and_then(|finding| finding.measure.clone()),
+        evidence: loss.map_or(Vec::new(), |finding| finding.evidence.clone()),
+        next_step,
+    }
+}
+
+const OTHER_NUMBERS: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, aim for wider margins: what the visible run has to spare tells how wide they are.";
+
+impl Parts {
+    /// The mean of the visible and the hidden attempts; `self` is what check `i` comes to in the visible one.
+    fn averaged(self, checks: &[Check], i: usize, hidden: &HiddenAttempts) -> Self {
+        let check = &checks[i];
+        let was = self.outcome;
+        let score = (self.score + hidden.sum_of_scores(i)) / (hidden.count() + 1) as f64;
+        let mut evidence = self.evidence;
+        let [alone, together] = [self.score, score].map(|score| check.points * score);
+        // as far as it shows
+        if points(alone) != points(together) {
+            evidence.push(mean_of(alone, check.points, hidden.count()));
+        }
+        let [lost, needs_failed] = hidden.losses(i);
+        let is_lost = !lost.is_empty() || !needs_failed.is_empty();
+        let next_step = self.next_step.or_else(|| {
+            // what the visible run lost has its next step already
+            (is_lost && was == Outcome::Full).then(|| hidden_next_step(checks, check, &lost))
+        });
+        evidence.extend(lost);
+        evidence.extend(needs_failed);
+        let outcome = match was {
+            // full in every hidden run, too
+            Outcome::Full if !is_lost => Outcome::Full,
+            _ if score > 0.0 => Outcome::Partial,
+            Outcome::NotJudged => Outcome::NotJudged,
+            was if !is_lost => was,
+            _ => Outcome::None,
+        };
+        Self {
+            score,
+            outcome,
+            measure: self.measure,
+            evidence,
+            next_step,
+        }
+    }
+}
+
+/// What to do where only hidden runs lost points.
+fn hidden_next_step(checks: &[Check], check: &Check, lost: &[Evidence]) -> String {
+    if !lost.is_empty() {
+        return OTHER_NUMBERS.to_owned();
+    }
+    let needed = check.needs.iter().map(|&need| checks[need].title.as_str());
+    let needed: Vec<&str> = needed.collect();
+    format!("First see to \"{}\" there.", needed.join("\" and \""))
+}
+
+/// What the measure of the visible run does not say: that others count as much.
+fn mean_of(alone: f64, of: f64, hidden: usize) -> Evidence {
+    let runs = match hidden {
+        1 => "a hidden run".to_owned(),
+        several => format!("{several} hidden runs"),
+    };
+    let message = format!(
+        "the visible run alone earns {} of {}; the points are the mean of it and {runs}",
+        points(alone),
+        points(of)
+    );
+    of_control(message, None)
+}

@@ -1,0 +1,47 @@
+//! What is expected in hidden cases: of a function of the lab's own, what the reference solution answers when it is called on them.
+
+use kinemark_sim::source::Source;
+
+use super::opening::opening;
+use crate::attempt::ended::record_of;
+use crate::attempt::function;
+use crate::lab::model::{Lab, Task};
+use crate::submission::answer::named_entries;
+use crate::task::model::{Case, Function, FunctionTask, Given, TaskWork};
+
+/// `cases` of `task` with what is expected in them: entry by entry as in the visible cases.
+///
+/// # Errors
+/// Why the solution has no answer, in words.
+pub fn with_expected(
+    lab: &Lab,
+    task: &Task,
+    cases: &[Case],
+    solution: &Source,
+) -> Result<Vec<Case>, String> {
+    let mut cases = cases.to_vec();
+    let TaskWork::Function(FunctionTask {
+        function: function @ Function::Free(_),
+        cases: visible,
+        ..
+    }) = &task.work
+    else {
+        return Ok(cases);
+    };
+    let Some(Given::Values {
+        expected: names, ..
+    }) = visible.first().map(|case| &case.given)
+    else {
+        return Ok(cases);
+    };
+    let opening = opening(lab, task, solution);
+    let answers = function::answers(function, &cases, &opening)
+        .map_err(|stop| record_of(&stop, solution.text()).message)?;
+    for (case, answer) in cases.iter_mut().zip(answers) {
+        if let Given::Values { expected, .. } = &mut case.given {
+            *expected = named_entries(&answer, names)
+                .map_err(|what| format!("`{}` of the solution returned {what}", function.name()))?;
+        }
+    }
+    Ok(cases)
+}

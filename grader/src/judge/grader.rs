@@ -1,0 +1,202 @@
+//! The grader: every task in order, and the record of all of them.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use kinemark_sim::robot::Dimension;
+use kinemark_sim::source::Source;
+
+use super::opening::opening;
+use super::staff_faults::staff_fault;
+use crate::attempt::Ended;
+use crate::lab::Staff;
+use crate::lab::model::{Lab, Task};
+use crate::lab::staff::Mutant;
+use crate::record::grade::{
+    FORMAT, Grade, GradeMode, ParameterValue, Part, TaskGrade, VariantRecord,
+};
+use crate::record::graded::GradedRun;
+use crate::record::quantity::sum_of_points;
+use crate::record::staff_fault::{StaffFault, StaffSubmission};
+use crate::record::verdict::Verdict;
+use crate::submission::controller::Opening;
+use crate::submission::host::Host;
+use crate::task::model::TaskWork;
+use crate::task::robot::LabRobot;
+
+/// Lines of a submission's output that the record keeps.
+pub(super) const MOST_LOG_LINES: usize = 200;
+
+/// The person at the terminal asked to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("interrupted")]
+pub struct Interrupted;
+
+/// Grades `submission` in `lab`; with `staff`, on hidden cases too, and with diagnoses.
+///
+/// # Errors
+/// [`Interrupted`] if the host says so; nothing else stops a grade.
+pub fn grade(
+    lab: &Lab,
+    staff: Option<&Staff>,
+    submission: &Source,
+    host: &mut dyn Host,
+) -> Result<GradedRun, Interrupted> {
+    let mut grader = Grader {
+        lab,
+        staff,
+        submission,
+        passed: Vec::new(),
+        staff_faults: RefCell::new(Vec::new()),
+    };
+    let mut tasks = Vec::new();
+    let mut runs = Vec::new();
+    for task in &lab.tasks {
+        host.begins(&task.title);
+        let (grade, run) = match &task.work {
+            TaskWork::Function(function) => (grader.function(task, function, host)?, None),
+            TaskWork::Motion(motion) => {
+                let (grade, run) = grader.motion(task, motion, host)?;
+                (grade, Some(run))
+            }
+        };
+        if run.is_none() && grade.verdict == Verdict::Passed {
+            grader.passed.push(task.name.clone());
+        }
+        tasks.push(grade);
+        runs.extend(run);
+    }
+    Ok(GradedRun {
+        grade: record(lab, staff, submission, tasks),
+        title: lab.title.clone(),
+        staff_faults: grader.staff_faults.into_inner(),
+        runs,
+    })
+}
+
+/// The grade of all tasks together, with what took part in it.
+fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<TaskGrade>) -> Grade {
+    let verdicts = tasks.iter().map(|task| task.verdict);
+    Grade {
+        format: FORMAT.to_owned(),
+        engine: engine(),
+        mode: if staff.is_some() {
+            GradeMode::Graded
+        } else {
+            GradeMode::Practice
+        },
+        lab: part(&lab.name, digest_of_lab(lab)),
+        variant: variant_record(lab),
+        robot: part(
+            lab.robot.name(),
+            LabRobot::digest(&lab.robot_file, &lab.robot_meshes),
+        ),
+        scenes: scene_parts(lab),
+        submission: part(
+            submission.name(),
+            blake3::hash(submission.text().as_bytes()),
+        ),
+        reference: staff.map(|staff| part(&lab.name, staff.digest)),
+        verdict: verdicts.min().unwrap_or(Verdict::Passed),
+        points: sum_of_points(tasks.iter().map(|task| task.points)),
+        max_points: tasks.iter().map(|task| task.max_points).sum(),
+        tasks,
+    }
+}
+
+fn part(name: &str, digest: blake3::Hash) -> Part {
+    Part {
+        name: name.to_owned(),
+        digest: digest.to_hex().to_string(),
+    }
+}
+
+/// The digest of the lab's own files, and of the numbers of its variant.
+fn digest_of_lab(lab: &Lab) -> blake3::Hash {
+    let variant = lab.variant.as_ref();
+    let numbers = variant.map_or(String::new(), |variant| format!("\n{}", variant.numbers()));
+    let texts = format!(
+        "{}\n{}{numbers}",
+        lab.source.text(),
+        lab.reference_paths.text
+    );
+    blake3::hash(texts.as_bytes())
+}
+
+/// The scenes, each file once whatever its dimensions.
+fn scene_parts(lab: &Lab) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    for scene in &lab.scenes {
+        let scene = part(&scene.name, scene.digest());
+        if !parts.contains(&scene) {
+            parts.push(scene);
+        }
+    }
+    parts
+}
+
+fn variant_record(lab: &Lab) -> Option<VariantRecord> {
+    let variant = lab.variant.as_ref()?;
+    let parameters = lab.parameters.iter().map(|(name, value)| {
+        let value = match value {
+            Dimension::Number(number) => ParameterValue::Number(*number),
+            Dimension::List(numbers) => ParameterValue::List(numbers.clone()),
+        };
+        (name.to_owned(), value)
+    });
+    Some(VariantRecord {
+        student: variant.student().map(str::to_owned),
+        parameters: parameters.collect(),
+    })
+}
+
+/// The engine and its version, as in grade records and logs.
+pub fn engine() -> String {
+    format!("kinemark {}", env!("CARGO_PKG_VERSION"))
+}
+
+pub(super) struct Grader<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) staff: Option<&'a Staff>,
+    pub(super) submission: &'a Source,
+    /// Function tasks so far that passed.
+    passed: Vec<String>,
+    /// Submissions of the staff that failed.
+    staff_faults: RefCell<Vec<Arc<StaffFault>>>,
+}
+
+impl Grader<'_> {
+    pub(super) fn opening(&self, task: &Task, submission: &Source) -> Opening {
+        opening(self.lab, task, submission)
+    }
+
+    /// Keeps that a submission of the staff stopped, once for each.
+    pub(super) fn note_stop(
+        &self,
+        whose: StaffSubmission,
+        task: &Task,
+        source: &Source,
+        ended: Option<&Ended>,
+    ) {
+        let stop = ended.and_then(Ended::stop);
+        let Some(fault) = stop.and_then(|stop| staff_fault(whose, Some(task), source, stop)) else {
+            return;
+        };
+        let mut faults = self.staff_faults.borrow_mut();
+        let name = source.name();
+        if !faults.iter().any(|known| known.source().name() == name) {
+            faults.push(Arc::new(fault));
+        }
+    }
+
+    /// The known mistakes that a task may show: in a run none that a function task would show too and did not.
+    pub(super) fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
+        let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
+        let name = task.name.clone();
+        let is_run = matches!(task.work, TaskWork::Motion(_));
+        all.iter().filter(move |mutant| {
+            let is_refuted = is_run && mutant.tasks.iter().any(|task| self.passed.contains(task));
+            mutant.tasks.contains(&name) && !is_refuted
+        })
+    }
+}

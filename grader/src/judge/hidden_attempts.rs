@@ -1,0 +1,227 @@
+//! Hidden runs: a motion task run again with numbers that only the staff's salt knows, judged by the same checks, and reported by
+//! class alone.
+
+use kinemark_sim::source::Source;
+
+use super::Interrupted;
+use super::judged::Judged;
+use super::motion_judge::MotionJudge;
+use crate::attempt::Disclosure;
+use crate::lab::model::TaskWork;
+use crate::lab::staff::HiddenRun;
+use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped};
+use crate::record::verdict::Verdict;
+use crate::submission::host::Host;
+
+/// The hidden runs of one task, judged; none in practice, and none where the visible run did not come to its end.
+#[derive(Debug, Default)]
+pub(super) struct HiddenAttempts(Vec<HiddenAttempt>);
+
+#[derive(Debug)]
+struct HiddenAttempt {
+    class: String,
+    /// The share of points that each check counts here.
+    scores: Vec<f64>,
+    /// For each check, whether it was judged: a check that needs another one may not have been.
+    judged: Vec<bool>,
+    digest: blake3::Hash,
+    stopped: Option<(Verdict, Stopped)>,
+}
+
+impl HiddenAttempt {
+    /// Whether this machine or the grader failed in it, so that nothing is known.
+    fn is_undecided(&self) -> bool {
+        matches!(&self.stopped, Some((verdict, _)) if !verdict.is_decided())
+    }
+
+    fn score(&self, check: usize) -> f64 {
+        self.scores.get(check).copied().unwrap_or(0.0)
+    }
+
+    /// Whether the check was not judged because one that it needs earned nothing.
+    fn needs_failed(&self, check: usize) -> bool {
+        self.stopped.is_none() && !self.judged.get(check).copied().unwrap_or(false)
+    }
+}
+
+impl HiddenAttempts {
+    /// Runs the task called `task` under `submission` in every lab of `runs`.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if the host says so.
+    pub(super) fn run(
+        runs: &[&HiddenRun],
+        task: &str,
+        submission: &Source,
+        host: &mut dyn Host,
+    ) -> Result<Self, Interrupted> {
+        let mut attempts = Vec::new();
+        for run in runs {
+            attempts.extend(attempt(run, task, submission, host)?);
+            // a worker that ran out of time or memory would do so again
+            if attempts.last().is_some_and(HiddenAttempt::is_undecided) {
+                break;
+            }
+        }
+        Ok(Self(attempts))
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether some run decides nothing, so that nothing is decided.
+    pub(super) fn is_undecided(&self) -> bool {
+        self.0.iter().any(HiddenAttempt::is_undecided)
+    }
+
+    /// The digest of the visible run with those of all hidden ones.
+    pub(super) fn digest(&self, visible: blake3::Hash) -> blake3::Hash {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(visible.as_bytes());
+        for attempt in &self.0 {
+            hasher.update(attempt.digest.as_bytes());
+        }
+        hasher.finalize()
+    }
+
+    /// The scores of a check, summed.
+    pub(super) fn sum_of_scores(&self, check: usize) -> f64 {
+        self.0.iter().map(|attempt| attempt.score(check)).sum()
+    }
+
+    /// What is reported of a check: the classes in which it lost points, and those in which one that it needs earned nothing.
+    pub(super) fn losses(&self, check: usize) -> [Vec<Evidence>; 2] {
+        [
+            self.evidence(
+                |run| run.score(check) < 1.0 && !run.needs_failed(check),
+                "points are lost",
+            ),
+            self.evidence(
+                |run| run.needs_failed(check),
+                "a check that this one needs earns nothing",
+            ),
+        ]
+    }
+
+    /// One sentence per class with a run in which `lost`: how many, and never which numbers.
+    fn evidence(&self, lost: impl Fn(&HiddenAttempt) -> bool, what: &str) -> Vec<Evidence> {
+        let classes = self.classes().into_iter();
+        let evidence = classes.filter_map(|HiddenClass { class, total, .. }| {
+            let of_class = self.0.iter().filter(|run| run.class == class);
+            let lost = of_class.filter(|run| lost(run)).count();
+            let message =
+                format!("in {lost} of {total} hidden runs of the class \"{class}\" {what}");
+            (lost > 0).then(|| of_control(message, Some(class)))
+        });
+        evidence.collect()
+    }
+
+    /// The runs counted by class: good is one in which every check is full.
+    pub(super) fn classes(&self) -> Vec<HiddenClass> {
+        let mut classes: Vec<HiddenClass> = Vec::new();
+        for run in &self.0 {
+            let good = u32::from(run.scores.iter().all(|score| *score >= 1.0));
+            match classes.iter_mut().find(|known| known.class == run.class) {
+                Some(known) => {
+                    known.good += good;
+                    known.total += 1;
+                }
+                None => classes.push(HiddenClass {
+                    class: run.class.clone(),
+                    good,
+                    total: 1,
+                }),
+            }
+        }
+        classes
+    }
+
+    /// The worst stop of a hidden run, of equal ones the first.
+    pub(super) fn into_stopped(self) -> Option<(Verdict, Stopped)> {
+        let stops = self.0.into_iter().filter_map(|run| run.stopped);
+        stops.min_by_key(|(verdict, _)| *verdict)
+    }
+}
+
+/// Evidence about all calls of `control`, at no moment of the visible run.
+pub(super) fn of_control(message: String, class: Option<String>) -> Evidence {
+    Evidence {
+        message,
+        signal: "control".to_owned(),
+        tick: None,
+        time_s: None,
+        run: None,
+        case: class,
+        value: None,
+        limit: None,
+        unit: String::new(),
+    }
+}
+
+/// Steps in which a hidden score counts: finer ones could carry a hidden number out in the points.
+const HIDDEN_STEPS: f64 = 20.0;
+
+/// A score as it counts in a hidden run: cut off to whole steps, so that it is full only where it was full, but for one above zero not
+/// to zero: what a check needs has earned something or it has not, and the points must say the same.
+fn counted_score(score: f64) -> f64 {
+    let steps = (score * HIDDEN_STEPS).floor();
+    let least = if score > 0.0 { 1.0 } else { 0.0 };
+    steps.max(least) / HIDDEN_STEPS
+}
+
+/// One run; `None` if the lab of the run has not the task, which loading has ruled out.
+fn attempt(
+    run: &HiddenRun,
+    name: &str,
+    submission: &Source,
+    host: &mut dyn Host,
+) -> Result<Option<HiddenAttempt>, Interrupted> {
+    let lab = &run.lab;
+    let Some(task) = lab.tasks.iter().find(|task| task.name == name) else {
+        return Ok(None);
+    };
+    let TaskWork::Motion(work) = &task.work else {
+        return Ok(None);
+    };
+    let judge = MotionJudge::new(lab, task, work, submission, None);
+    let attempt = judge.attempt(host);
+    let disclosure = Disclosure::HiddenRun { class: &run.class };
+    let judged = judge.judge(&attempt, disclosure, host)?;
+    let was_judged = |check: &Judged| check.outcome != Outcome::NotJudged;
+    Ok(Some(HiddenAttempt {
+        class: run.class.clone(),
+        scores: judged
+            .checks
+            .iter()
+            .map(|check| counted_score(check.score))
+            .collect(),
+        judged: judged.checks.iter().map(was_judged).collect(),
+        digest: attempt.recorded.digest().all,
+        stopped: judged.stopped.map(|stopped| (judged.verdict, stopped)),
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hidden_score_is_cut_to_twentieths_but_never_to_nothing() {
+        for (score, counted) in [
+            (1.0, 1.0),
+            (0.999, 0.95),
+            (0.5, 0.5),
+            (0.05, 0.05),
+            (0.04, 0.05),
+            (1e-5, 0.05),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(counted_score(score), counted, "{score}");
+        }
+    }
+}

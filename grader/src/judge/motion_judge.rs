@@ -1,0 +1,136 @@
+//! Judging the run of a motion task: the one way for visible runs, hidden runs and the levels of a robustness sweep.
+
+use kinemark_sim::source::Source;
+use kinemark_sim::trace::Trace;
+
+use super::Interrupted;
+use super::bands::pose_band;
+use super::judged::{Judged, all_full, judge};
+use super::opening::opening;
+use super::robustness_sweep::{self, Undecided};
+use crate::attempt::motion;
+use crate::attempt::{Attempt, Disclosure, Ended};
+use crate::check::stay::{self, Stay};
+use crate::check::{self, Climb, MotionFacts};
+use crate::lab::model::{Lab, Task};
+use crate::record::grade::Stopped;
+use crate::record::graded::TcpPath;
+use crate::record::names::Names;
+use crate::record::verdict::Verdict;
+use crate::submission::controller::Opening;
+use crate::submission::host::Host;
+use crate::task::model::{Band, MotionTask};
+
+/// A motion task with a submission that is tried on it.
+pub(super) struct MotionJudge<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) task: &'a Task,
+    pub(super) work: &'a MotionTask,
+    pub(super) opening: Opening,
+    /// The reference solution's path, where the lab ships it.
+    pub(super) reference: Option<&'a TcpPath>,
+    /// The band by which dwells are chosen.
+    pub(super) pose_band: Band,
+}
+
+/// A run, judged.
+pub(super) struct JudgedRun {
+    /// One per check of the task.
+    pub(super) checks: Vec<Judged>,
+    /// The stays at the goals.
+    pub(super) stays: Vec<Stay>,
+    /// The runs of robustness checks.
+    pub(super) sweeps: Vec<Climb>,
+    /// What the run alone comes to.
+    pub(super) verdict: Verdict,
+    /// How it ended, where that was early or nothing could be decided.
+    pub(super) stopped: Option<Stopped>,
+}
+
+impl<'a> MotionJudge<'a> {
+    pub(super) fn new(
+        lab: &'a Lab,
+        task: &'a Task,
+        work: &'a MotionTask,
+        submission: &Source,
+        reference: Option<&'a TcpPath>,
+    ) -> Self {
+        Self {
+            lab,
+            task,
+            work,
+            opening: opening(lab, task, submission),
+            reference,
+            pose_band: pose_band(&task.checks),
+        }
+    }
+
+    /// The names in its runs.
+    pub(super) fn names(&self) -> Names<'a> {
+        Names {
+            robot: &self.lab.robot,
+            scene: self.work.scene.as_ref().map(|scene| &scene.scene),
+            seen_from: &self.lab.frame,
+        }
+    }
+
+    /// Runs the task once.
+    pub(super) fn attempt(&self, host: &mut dyn Host) -> Attempt<Trace> {
+        motion::run(self.lab.workcell(), self.work, &self.opening, host)
+    }
+
+    /// A run as the checks see it.
+    pub(super) fn facts<'t>(&self, trace: &'t Trace) -> MotionFacts<'t>
+    where
+        'a: 't,
+    {
+        MotionFacts {
+            robot: &self.lab.robot,
+            names: self.names(),
+            motion: self.work,
+            trace,
+            stays: stay::best_stays(trace, &self.work.goals, self.pose_band),
+            pose_band: self.pose_band,
+            reference: self.reference,
+            climbs: Vec::new(),
+        }
+    }
+
+    /// Judges a run by every check of its task; one that came to its end is first repeated under the disturbances that robustness
+    /// checks name.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if the person at the terminal asked to stop.
+    pub(super) fn judge(
+        &self,
+        attempt: &Attempt<Trace>,
+        disclosure: Disclosure<'_>,
+        host: &mut dyn Host,
+    ) -> Result<JudgedRun, Interrupted> {
+        let mut facts = self.facts(&attempt.recorded);
+        let mut ended = attempt.ended.clone();
+        if ended.is_none() {
+            match robustness_sweep::sweeps(self, &facts, host) {
+                Ok(sweeps) => facts.climbs = sweeps,
+                // a level that this machine could not run decides nothing, nor does the grade without it
+                Err(Undecided(stop)) => ended = Some(Ended::stopped_by(stop, 0)),
+            }
+        }
+        let checks = judge(&self.task.checks, ended.is_none(), |check| {
+            check::judge_motion(check, &facts)
+        });
+        let verdict = ended.as_ref().map_or(Some(Verdict::Passed), Ended::verdict);
+        let mut verdict = verdict.ok_or(Interrupted)?;
+        if !all_full(&checks) {
+            verdict = verdict.min(Verdict::Missed);
+        }
+        let source = &self.opening.source;
+        Ok(JudgedRun {
+            checks,
+            stays: facts.stays,
+            sweeps: facts.climbs,
+            verdict,
+            stopped: ended.map(|ended| ended.record(source, disclosure)),
+        })
+    }
+}

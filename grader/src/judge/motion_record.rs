@@ -1,0 +1,152 @@
+//! The record of a motion task, and the run that is drawn with it.
+
+use kinemark_sim::trace::{SecondDigest, Trace};
+
+use super::bands::path_band;
+use super::grader::MOST_LOG_LINES;
+use super::motion_judge::MotionJudge;
+use crate::attempt::Attempt;
+use crate::check::Climb;
+use crate::check::stay::Stay;
+use crate::lab::model::{CheckKind, Task};
+use crate::record::grade::{
+    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LogEntry, RungDigest, SecondDigests,
+    Stopped, TaskGrade, TaskKind,
+};
+use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
+use crate::record::names::{contacts, events};
+use crate::record::quantity::sum_of_points;
+use crate::record::verdict::Verdict;
+
+/// What a motion task came to, visible and hidden runs together.
+pub(super) struct MotionResult {
+    pub(super) verdict: Verdict,
+    pub(super) stopped: Option<Stopped>,
+    pub(super) checks: Vec<CheckGrade>,
+    pub(super) diagnoses: Vec<Diagnosis>,
+    pub(super) hidden: Vec<HiddenClass>,
+    pub(super) digests: Digests,
+    pub(super) divergence: Option<Divergence>,
+}
+
+impl MotionResult {
+    /// The record.
+    pub(super) fn grade(&self, judge: &MotionJudge<'_>, attempt: &Attempt<Trace>) -> TaskGrade {
+        let (task, trace) = (judge.task, &attempt.recorded);
+        let names = judge.names();
+        let log = trace.log.iter().take(MOST_LOG_LINES);
+        TaskGrade {
+            name: task.name.clone(),
+            title: task.title.clone(),
+            kind: TaskKind::Motion,
+            verdict: self.verdict,
+            points: sum_of_points(self.checks.iter().map(|check| check.points)),
+            max_points: task.max_points(),
+            stopped: self.stopped.clone(),
+            checks: self.checks.clone(),
+            diagnoses: self.diagnoses.clone(),
+            cases: Vec::new(),
+            hidden: self.hidden.clone(),
+            events: events(&names, trace, &judge.work.periods),
+            contacts: contacts(&names, trace),
+            operations: attempt.operations,
+            log: log
+                .map(|line| LogEntry {
+                    at: line.tick,
+                    text: line.text.clone(),
+                })
+                .collect(),
+            digests: self.digests.clone(),
+            divergence: self.divergence.clone(),
+        }
+    }
+
+    /// The visible run, for whoever draws it.
+    pub(super) fn run(
+        self,
+        judge: &MotionJudge<'_>,
+        attempt: Attempt<Trace>,
+        stays: &[Stay],
+        curves: Vec<Curve>,
+    ) -> TaskRun {
+        let (lab, task, work) = (judge.lab, judge.task, judge.work);
+        let checks = &task.checks;
+        let titles = checks.iter();
+        let titles = titles.map(|check| (check.name.clone(), check.title.clone()));
+        let paths = work.paths.iter().map(|path| AskedPath {
+            name: path.name.clone(),
+            points_m: path.points_m.iter().map(|p| (*p).into()).collect(),
+            tube_m: path_band(checks, &path.name).map(|band| [band.full, band.zero]),
+        });
+        let gains = work.servo.gains.iter();
+        TaskRun {
+            task: task.name.clone(),
+            robot: lab.robot.clone(),
+            scene: work.scene.clone(),
+            sensors: work.sensors.clone(),
+            seen_from: lab.frame.clone(),
+            mode: work.servo.mode,
+            effort_limits: gains.map(|gains| gains.effort_limit).collect(),
+            goals: goals(judge, stays),
+            reference_tcp: judge.reference.cloned(),
+            paths: paths.collect(),
+            curves,
+            check_titles: titles.collect(),
+            divergence: self.divergence,
+            ghost: None,
+            trace: attempt.recorded,
+        }
+    }
+}
+
+/// The goals with the stays that were judged.
+fn goals(judge: &MotionJudge<'_>, stays: &[Stay]) -> Vec<Goal> {
+    let band = judge.pose_band;
+    let goals = judge.work.goals.iter().enumerate();
+    let goals = goals.map(|(i, goal)| Goal {
+        position_m: goal.position_m.into(),
+        dwell_s: judge.work.periods.time_s(goal.dwell_ticks),
+        full_m: band.full,
+        zero_m: band.zero,
+        stay: stays
+            .get(i)
+            .map(|stay| (stay.first as u64, stay.last as u64)),
+    });
+    goals.collect()
+}
+
+/// Identities of every simulated second of a run.
+pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<SecondDigests> {
+    let seconds = seconds.iter().map(|second| {
+        let signal = |i: usize| second.signals[i].to_hex()[..16].to_owned();
+        SecondDigests {
+            q: signal(0),
+            qd: signal(1),
+            command: signal(2),
+            effort: signal(3),
+            tcp: signal(4),
+            bodies: (trace.bodies.width() > 0).then(|| signal(5)),
+            sensors: (trace.sensors.width() > 0).then(|| signal(6)),
+        }
+    });
+    seconds.collect()
+}
+
+/// Identities of the runs of all levels of robustness checks, in the lab's order.
+pub(super) fn rung_digests(task: &Task, sweeps: &[Climb]) -> Vec<RungDigest> {
+    let mut digests = Vec::new();
+    for sweep in sweeps {
+        let check = task.checks.iter().find(|check| check.name == sweep.check);
+        let Some(CheckKind::Robustness(ladder)) = check.map(|check| &check.kind) else {
+            continue;
+        };
+        for (level, facts) in ladder.rungs.iter().zip(&sweep.rungs) {
+            digests.push(RungDigest {
+                check: sweep.check.clone(),
+                rung: level.name.clone(),
+                digest: facts.digest.clone(),
+            });
+        }
+    }
+    digests
+}

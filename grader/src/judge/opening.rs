@@ -1,0 +1,66 @@
+//! What a submission is opened with: the task, the robot's numbers, and what the task grants.
+
+use kinemark_sim::dynamics::GRAVITY_M_S2;
+use kinemark_sim::source::Source;
+
+use crate::attempt::function;
+use crate::attempt::motion;
+use crate::lab::model::{Lab, Task};
+use crate::submission::controller::{Granted, Opening};
+use crate::task::mesh_file::MeshFile;
+use crate::task::model::{Function, FunctionTask, TaskWork};
+use crate::task::value::Value;
+
+/// What a submission is opened with for `task` of `lab`.
+pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
+    let (robot, target, sensors) = match &task.work {
+        TaskWork::Function(_) => (
+            function::robot_facts(&lab.robot, None),
+            Value::Nothing,
+            Vec::new(),
+        ),
+        TaskWork::Motion(motion) => (
+            motion::facts_of(&lab.robot, motion),
+            motion::target_of(motion),
+            motion::sensors_of(motion),
+        ),
+    };
+    Opening {
+        file: submission.name().to_owned(),
+        source: submission.text().to_owned(),
+        task: task.name.clone(),
+        robot,
+        target,
+        sensors,
+        budgets: lab.budgets.clone(),
+        granted: granted(lab, &task.work),
+        function: match &task.work {
+            TaskWork::Function(FunctionTask {
+                function: Function::Free(name),
+                ..
+            }) => Some(name.clone()),
+            _ => None,
+        },
+    }
+}
+
+/// What a task grants, with what the robot's model is made from; none where it grants nothing.
+fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
+    let (functions, gravity_m_s2) = match work {
+        TaskWork::Function(function) => (&function.grants, GRAVITY_M_S2),
+        TaskWork::Motion(motion) => (&motion.grants, motion.gravity_m_s2),
+    };
+    let source = lab.robot_file.source();
+    let mesh = |mesh: &MeshFile| {
+        let name = mesh.path.strip_prefix("robots/").unwrap_or(&mesh.path);
+        (name.to_owned(), mesh.bytes.clone())
+    };
+    (!functions.is_empty()).then(|| Granted {
+        functions: functions.clone(),
+        robot_path: source.name().to_owned(),
+        robot_text: source.text().to_owned(),
+        meshes: lab.robot_meshes.iter().map(mesh).collect(),
+        frame: lab.frame.clone(),
+        gravity_m_s2: gravity_m_s2.into(),
+    })
+}

@@ -1,0 +1,26 @@
+//! Who opens submissions: this process, or whoever starts workers.
+
+use super::controller::{Controller, Opening, Stop};
+use super::rhai::ScriptController;
+
+/// Opens a submission for a task: in this process, or in a worker.
+pub trait Host {
+    /// Starts the submission of `opening`.
+    ///
+    /// # Errors
+    /// [`Stop`] if it cannot start.
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop>;
+
+    /// A task begins; for whoever shows progress.
+    fn begins(&mut self, _task: &str) {}
+}
+
+/// Runs submissions in this process.
+#[derive(Debug, Default)]
+pub struct InProcess;
+
+impl Host for InProcess {
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+        Ok(Box::new(ScriptController::open(opening)?))
+    }
+}

@@ -1,0 +1,93 @@
+//! The likely cause of a runaway: a servo beyond its sampled-data limit, or a feedback that overshoots more at every call.
+
+use crate::control::sampled_loop::{SampledLoop, sampled_loop};
+use crate::run::BlowUp;
+use crate::run::Setup;
+use crate::trace::Trace;
+
+/// Joint rates below this are those of an arm that is still under control \[rad/s or m/s\].
+const CALM_RATE: f64 = 10.0;
+/// So many calls in a row must turn the command round, each further than the one before, to blame the feedback; a strong one has run
+/// away after a few.
+const TURNS: usize = 2;
+
+/// Why a run ran away, as far as it can be computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// The servo's gains are more than its period can hold.
+    ServoGains(SampledLoop),
+    /// The servo's integral gains: without them the loop would be stable.
+    ServoIntegral(SampledLoop),
+    /// The controller's own feedback turns its command round at every call, further each time.
+    Feedback {
+        /// Index of the joint in `q` whose command does it most.
+        joint: usize,
+        /// How many calls in a row did, up to the end.
+        calls: usize,
+    },
+}
+
+/// The likely cause of `what` in a run of `setup` recorded as `trace`; none where nothing computed here explains it.
+///
+/// The servo is looked at where the run started and where the arm was last calm, by [`sampled_loop()`].
+pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<Cause> {
+    if matches!(what, BlowUp::BodyRunaway { .. } | BlowUp::InContact { .. }) {
+        return None;
+    }
+    let calm = |tick: &usize| trace.qd.at(*tick).iter().all(|rate| rate.abs() < CALM_RATE);
+    let last_calm = (0..trace.len()).rev().find(calm);
+    let places = [
+        last_calm.map(|tick| trace.q.at(tick).to_vec()),
+        Some(setup.start_q.clone()),
+    ];
+    for q in places.iter().flatten() {
+        let looked_at = sampled_loop(
+            setup.robot,
+            &setup.servo,
+            setup.periods.servo_s(),
+            &setup.gravity_m_s2,
+            q,
+        );
+        if let Some(found) = &looked_at
+            && !found.is_stable()
+            && found.stable_share_of_all.is_none()
+        {
+            let mut settings = setup.servo.clone();
+            settings.gains.iter_mut().for_each(|gains| gains.ki = 0.0);
+            let servo_s = setup.periods.servo_s();
+            let without = sampled_loop(setup.robot, &settings, servo_s, &setup.gravity_m_s2, q);
+            if without.is_some_and(|without| without.is_stable()) {
+                return Some(Cause::ServoIntegral(found.clone()));
+            }
+        }
+        // gains too weak to hold an upright arm make it grow too, and no share of them helps
+        if let Some(found) = looked_at
+            && !found.is_stable()
+            && (found.stable_share.is_some()
+                || found.stable_share_of_all.is_some()
+                || found.stable_period_s.is_some())
+        {
+            return Some(Cause::ServoGains(found));
+        }
+    }
+    feedback(setup, trace)
+}
+
+/// A command that turns round at every call, further each time, up to the end.
+fn feedback(setup: &Setup<'_>, trace: &Trace) -> Option<Cause> {
+    let stride = setup.periods.ticks_per_control.get() as usize;
+    let calls = trace.len().div_ceil(stride);
+    let command = |call: usize, joint: usize| trace.command.at(call * stride)[joint];
+    let turns = |joint: usize| {
+        let step = |call: usize| command(call, joint) - command(call - 1, joint);
+        (2..calls)
+            .rev()
+            .take_while(|&call| {
+                step(call) * step(call - 1) < 0.0 && step(call).abs() > step(call - 1).abs()
+            })
+            .count()
+    };
+    let worst = (0..setup.robot.n()).map(|joint| (joint, turns(joint)));
+    let (joint, calls) = worst.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    (calls >= TURNS).then_some(Cause::Feedback { joint, calls })
+}

@@ -1,0 +1,75 @@
+//! Colliders: our solids as the engine's shapes, centred and turned as ours are.
+
+use nalgebra::Vector3;
+use rapier3d_f64::geometry::{ColliderBuilder, SharedShape, TriMeshFlags};
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
+
+use super::convert::engine_pose;
+use super::engine_error::EngineError;
+use super::engine_settings::COMBINE;
+use crate::model::inertia::Solid;
+use crate::model::mesh::surface::Mesh;
+use crate::model::robot::{Contact, Shape};
+use crate::spatial::{Pose, rotation_about_axis_deg};
+
+/// A collider of `shape` for a body in whose frame `body_from_owner` places the shape's owner. A mesh becomes its convex hull, or
+/// its own surface where the description says so.
+///
+/// # Errors
+/// A mesh without a volume, or without a usable surface.
+pub(super) fn collider(
+    owner: &str,
+    shape: &Shape,
+    body_from_owner: &Pose,
+    contact: Contact,
+) -> Result<ColliderBuilder, EngineError> {
+    let mut place = engine_pose(&(body_from_owner * shape.link_from_shape));
+    let shared = match &shape.solid {
+        Solid::Box {
+            size_m: [x, y, z], ..
+        } => SharedShape::cuboid(0.5 * x, 0.5 * y, 0.5 * z),
+        Solid::Cylinder { radius_m, length_m } => {
+            // theirs lies along y
+            let upright = rotation_about_axis_deg(Vector3::x(), 90.0);
+            place *= EnginePose::from_rotation(super::convert::rotation(&upright));
+            SharedShape::cylinder(0.5 * length_m, *radius_m)
+        }
+        Solid::Capsule { radius_m, length_m } => SharedShape::capsule_z(0.5 * length_m, *radius_m),
+        Solid::Sphere { radius_m } => SharedShape::ball(*radius_m),
+        Solid::Mesh(solid) if !solid.convex => {
+            surface(&solid.mesh).map_err(|reason| EngineError::Surface {
+                owner: owner.to_owned(),
+                file: solid.file.to_string(),
+                reason,
+            })?
+        }
+        Solid::Mesh(solid) => hull(&solid.mesh).ok_or_else(|| EngineError::Hull {
+            owner: owner.to_owned(),
+            file: solid.file.to_string(),
+        })?,
+    };
+    Ok(ColliderBuilder::new(shared)
+        .position(place)
+        // masses are those of the description
+        .density(0.0)
+        .friction(contact.friction)
+        .friction_combine_rule(COMBINE))
+}
+
+fn points(mesh: &Mesh) -> Vec<Vector> {
+    mesh.vertices()
+        .iter()
+        .map(|[x, y, z]| Vector::new(*x, *y, *z))
+        .collect()
+}
+
+fn hull(mesh: &Mesh) -> Option<SharedShape> {
+    SharedShape::convex_hull(&points(mesh))
+}
+
+fn surface(mesh: &Mesh) -> Result<SharedShape, String> {
+    // without it, bodies catch on the edges between triangles of one plane
+    let flags = TriMeshFlags::FIX_INTERNAL_EDGES;
+    SharedShape::trimesh_with_flags(points(mesh), mesh.triangles().to_vec(), flags)
+        .map_err(|error| error.to_string())
+}

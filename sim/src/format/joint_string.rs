@@ -1,0 +1,258 @@
+//! Robots typed as a row of joints: `RzRyRz` turns about z, y, z; `TzRxTy` slides along z, turns about x, slides along y.
+//!
+//! All link frames are aligned with the world at `q = 0`. Joint 1 stands at the base's height on the z axis; each link leads from
+//! its joint by `(lx, ly, lz)` to the next, and the last one to the tip, frame `tcp`.
+//!
+//! `H = Tz(base) J1(q1) Trans(l1) J2(q2) Trans(l2) ...`; turns are right-handed, in radians, slides in metres.
+
+use nalgebra::{Matrix3, Vector3};
+use toml::Spanned;
+
+use super::assembly::assembler::{MOST_LINKS, axes_with_z_along};
+use super::assembly::description::{Description, FramePart, JointPart, LinkPart};
+use super::robot_problem::{RobotError, RobotProblem};
+use crate::model::inertia::Solid;
+use crate::model::robot::{JointKind, Robot, Shape};
+use crate::spatial::{Pose, pose};
+use crate::text::{Dimensions, Source};
+
+/// A drawn link is this part of the longest link thick.
+const DRAWN_RADIUS: f64 = 0.03;
+
+/// Whether `text` is written like a configuration string: pairs of `R`, `T` or `P` with `x`, `y` or `z`.
+pub fn is_config_string(text: &str) -> bool {
+    joints(&Source::new("", text)).is_ok()
+}
+
+/// Whether `text` starts like a configuration string, so that what is wrong with it is worth telling.
+pub fn looks_like_one(text: &str) -> bool {
+    let mut letters = text.chars();
+    matches!(letters.next(), Some('R' | 'T' | 'P'))
+        && matches!(letters.next(), Some('x' | 'y' | 'z'))
+}
+
+/// Makes the robot of a configuration string.
+///
+/// `base_m` is the height of the first joint; `links_m` holds one `lx, ly, lz` per joint in metres, separated by semicolons, as in
+/// `"0,0,4; 3,0,0; 1,0,0"`. Links are drawn as cylinders and have no mass. Joints are called `joint1` and on, links `base`,
+/// `link1` and on.
+///
+/// # Errors
+/// [`RobotProblem::ConfigString`] at the letter or the link that does not fit.
+pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError> {
+    let source = Source::new("configuration string", text);
+    let joints = joints(&source)?;
+    let links = links(&Source::new("links", links_m), joints.len())?;
+    if !base_m.is_finite() {
+        let message = format!("the base's height must be a finite number of metres, got {base_m}");
+        return refuse(&source, 0..text.len(), message, "write --base 2");
+    }
+    let longest = links.iter().map(Vector3::norm).fold(base_m.abs(), f64::max);
+    let drawn = |end: Vector3<f64>| -> Vec<Shape> {
+        let length_m = end.norm();
+        if length_m > 0.0 && longest.is_finite() {
+            let solid = Solid::Cylinder {
+                radius_m: DRAWN_RADIUS * longest,
+                length_m,
+            };
+            vec![Shape {
+                solid,
+                link_from_shape: pose(axes_with_z_along(&(end / length_m)), end / 2.0),
+            }]
+        } else {
+            Vec::new()
+        }
+    };
+    let whole = 0..text.len();
+    let named = |name: String| Spanned::new(whole.clone(), name);
+    let link = |name: String, end: Vector3<f64>| LinkPart {
+        shapes: drawn(end),
+        ..LinkPart::bare(named(name))
+    };
+    let mut at = Vector3::new(0.0, 0.0, base_m);
+    let mut parts = Description {
+        name: text.to_owned(),
+        at: whole.clone(),
+        dimensions: Dimensions::default(),
+        links: vec![link("base".to_owned(), at)],
+        joints: Vec::new(),
+        frames: Vec::new(),
+        loops: Vec::new(),
+        warnings: Vec::new(),
+        source,
+    };
+    let mut carrier = "base".to_owned();
+    for (i, (joint, end)) in joints.iter().zip(&links).enumerate() {
+        let name = format!("link{}", i + 1);
+        parts.links.push(link(name.clone(), *end));
+        let mut part = JointPart::fixed(
+            Spanned::new(joint.at.clone(), format!("joint{}", i + 1)),
+            named(carrier),
+            named(name.clone()),
+            pose(Matrix3::identity(), at),
+        );
+        part.kind = joint.kind;
+        part.axis = joint.axis;
+        parts.joints.push(part);
+        carrier = name;
+        at = *end;
+    }
+    parts.frames.push(FramePart {
+        name: named("tcp".to_owned()),
+        link: named(carrier),
+        link_from_frame: Pose::translation(at.x, at.y, at.z),
+    });
+    parts.assemble()
+}
+
+fn refuse<T>(
+    source: &Source,
+    at: std::ops::Range<usize>,
+    message: String,
+    help: &str,
+) -> Result<T, RobotError> {
+    let help = help.to_owned();
+    let problem = RobotProblem::ConfigString { message, help };
+    Err(RobotError::new(problem, source, at))
+}
+
+struct Token {
+    kind: JointKind,
+    axis: Vector3<f64>,
+    at: std::ops::Range<usize>,
+}
+
+fn joints(source: &Source) -> Result<Vec<Token>, RobotError> {
+    const HELP: &str =
+        "write pairs like Rz (turns about z) or Tx (slides along x), without spaces: RzRyRz";
+    let text = source.text();
+    let mut tokens = Vec::new();
+    let mut letters = text.char_indices();
+    while let Some((start, letter)) = letters.next() {
+        let here = start..start + letter.len_utf8();
+        let kind = match letter {
+            'R' => JointKind::Continuous,
+            'T' | 'P' => JointKind::Prismatic,
+            _ => {
+                let message = format!("`{letter}` is no joint: expected R, T or P");
+                return refuse(source, here, message, HELP);
+            }
+        };
+        let axis = match letters.next() {
+            Some((_, 'x')) => Vector3::x(),
+            Some((_, 'y')) => Vector3::y(),
+            Some((_, 'z')) => Vector3::z(),
+            Some((at, other)) => {
+                let message = format!("`{other}` is no axis: expected x, y or z after `{letter}`");
+                return refuse(source, at..at + other.len_utf8(), message, HELP);
+            }
+            None => {
+                let message = format!("`{letter}` at the end has no axis: expected x, y or z");
+                return refuse(source, here, message, HELP);
+            }
+        };
+        if tokens.len() == MOST_LINKS {
+            let message = format!("more than {MOST_LINKS} joints");
+            return refuse(source, here, message, "describe a shorter robot");
+        }
+        let at = start..start + 2;
+        tokens.push(Token { kind, axis, at });
+    }
+    if tokens.is_empty() {
+        let message = "an empty string has no joints".to_owned();
+        return refuse(source, 0..0, message, HELP);
+    }
+    Ok(tokens)
+}
+
+fn links(source: &Source, joints: usize) -> Result<Vec<Vector3<f64>>, RobotError> {
+    let example = vec!["0,0,1"; joints.min(4)].join("; ");
+    let help = format!("write one lx,ly,lz per joint, in metres: --links \"{example}\"");
+    let mut links = Vec::with_capacity(joints);
+    let mut start = 0;
+    for piece in source.text().split(';') {
+        let at = start..start + piece.len();
+        start = at.end + 1;
+        if piece.trim().is_empty() && start > source.text().len() {
+            break; // nothing, or nothing after the last semicolon
+        }
+        let numbers: Option<Vec<f64>> = piece
+            .split(',')
+            .map(|number| number.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) => links.push(Vector3::new(x, y, z)),
+            _ => {
+                let message = format!(
+                    "link {} is `{}`: expected three finite numbers",
+                    links.len() + 1,
+                    piece.trim()
+                );
+                return refuse(source, at, message, &help);
+            }
+        }
+    }
+    if links.len() != joints {
+        let plural = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let message = format!(
+            "{} for {}",
+            plural(links.len(), "link"),
+            plural(joints, "joint")
+        );
+        return refuse(source, 0..source.text().len(), message, &help);
+    }
+    Ok(links)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::forward_kinematics;
+
+    #[test]
+    fn what_is_no_configuration_is_refused_at_its_letter() {
+        for (text, column) in [
+            ("", 1),
+            ("R", 1),
+            ("Rw", 2),
+            ("RzRy3", 5),
+            ("zR", 1),
+            ("rzry", 1),
+            ("Rz Ry", 3),
+            ("RzRyRzX", 7),
+            ("RzÄy", 3),
+        ] {
+            assert!(!is_config_string(text), "{text}");
+            let error = robot(text, 0.0, "").expect_err(text);
+            assert_eq!(error.line_and_column(), (1, column), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn links_are_three_numbers_per_joint() {
+        for (links, column) in [
+            ("", 1),
+            ("0,0,1", 1),
+            ("0,0,1; 0,0", 7),
+            ("0,0,1; 0,0,x", 7),
+            ("0,0,1; 0,0,inf", 7),
+            ("0,0,1; 0,0,1; 1,1,1", 1),
+            ("0,0,1;; 0,0,1", 7),
+        ] {
+            let error = robot("RzTx", 0.0, links).expect_err(links);
+            assert_eq!(error.line_and_column(), (1, column), "{links}: {error}");
+        }
+        assert!(robot("RzTx", 0.0, "0,0,1; 0,0,1;").is_ok());
+        assert!(robot("RzTx", f64::NAN, "0,0,1; 0,0,1").is_err());
+    }
+
+    #[test]
+    fn a_right_angle_turns_the_next_link() {
+        let arm = robot("RzTx", 2.0, "1,0,0; 0,0,0.5").unwrap();
+        let q = arm.positions(&[std::f64::consts::FRAC_PI_2, 0.25]).unwrap();
+        let tip = forward_kinematics(&arm, &q).world_from(arm.tcp());
+        // one metre along the turned x, a quarter more by the slide, half a metre up
+        let expected = Vector3::new(0.0, 1.25, 2.5);
+        assert!((tip.translation.vector - expected).norm() < 1e-15, "{tip}");
+    }
+}

@@ -1,0 +1,253 @@
+//! What a link or a body is made of: its shapes and surface, how it resists the air, and its mass properties given or taken from the shapes.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+use toml::Spanned;
+
+use super::part_problem::{PartError, PartProblem};
+use super::part_tables::{
+    ContactTable, DragTable, InertiaTable, MeshTable, RoundTable, ShapeTable,
+};
+use super::values::{Allowed, Values};
+use crate::model::air::Drag;
+use crate::model::inertia;
+use crate::model::inertia::{Inertia, MeshSolid, Solid};
+use crate::model::mesh::mesh_problem::MeshProblem;
+use crate::model::robot::{Contact, Shape};
+use crate::spatial::Symmetric3;
+use crate::text::Located;
+
+impl Values<'_> {
+    pub(crate) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, PartError> {
+        let round = |round: &RoundTable| -> Result<(f64, f64), PartError> {
+            Ok((
+                self.number(&round.radius_m, "radius_m", Allowed::Positive)?,
+                self.number(&round.length_m, "length_m", Allowed::Positive)?,
+            ))
+        };
+        let ShapeTable {
+            cuboid,
+            cylinder,
+            capsule,
+            sphere,
+            mesh,
+            origin,
+        } = table.get_ref();
+        let solid = match (cuboid, cylinder, capsule, sphere, mesh) {
+            (Some(b), None, None, None, None) => {
+                let [x, y, z] = &b.size_m;
+                Solid::Box {
+                    size_m: [
+                        self.number(x, "size_m", Allowed::Positive)?,
+                        self.number(y, "size_m", Allowed::Positive)?,
+                        self.number(z, "size_m", Allowed::Positive)?,
+                    ],
+                }
+            }
+            (None, Some(c), None, None, None) => {
+                let (radius_m, length_m) = round(c)?;
+                Solid::Cylinder { radius_m, length_m }
+            }
+            (None, None, Some(c), None, None) => {
+                let (radius_m, length_m) = round(c)?;
+                Solid::Capsule { radius_m, length_m }
+            }
+            (None, None, None, Some(s), None) => Solid::Sphere {
+                radius_m: self.number(&s.radius_m, "radius_m", Allowed::Positive)?,
+            },
+            (None, None, None, None, Some(m)) => self.mesh(m)?,
+            _ => {
+                return self.err(
+                    table.span(),
+                    PartProblem::Toml {
+                        message: "a shape is exactly one of `box`, `cylinder`, `capsule`, `sphere`, `mesh`"
+                            .to_owned(),
+                        help: Some("{ box = { size_m = [0.05, 0.05, 1.0] } }".to_owned()),
+                    },
+                );
+            }
+        };
+        Ok(Shape {
+            solid,
+            link_from_shape: self.origin(origin.as_ref())?,
+        })
+    }
+
+    fn mesh(&self, table: &MeshTable) -> Result<Solid, PartError> {
+        let file = table.file.get_ref();
+        let scale: Option<[f64; 3]> = match &table.scale {
+            Some(scale) => Some(self.triple(scale, "scale")?.into()),
+            None => None,
+        };
+        if scale.is_some_and(|scale| scale.contains(&0.0)) {
+            return self.err(
+                table.file.span(),
+                PartProblem::Mesh {
+                    message: format!("mesh `{file}` is scaled to nothing"),
+                    help: Some("no part of `scale` may be zero".to_owned()),
+                },
+            );
+        }
+        match self.meshes.get(file) {
+            Some(mesh) => Ok(Solid::Mesh(MeshSolid {
+                file: file.as_str().into(),
+                scale: scale.unwrap_or([1.0; 3]),
+                mesh: match scale {
+                    Some(scale) => Arc::new(mesh.scaled(scale)),
+                    None => Arc::clone(mesh),
+                },
+                convex: table.convex.as_ref().is_some_and(|c| *c.get_ref()),
+            })),
+            None => self.err(
+                table.file.span(),
+                PartProblem::Mesh {
+                    message: format!("mesh `{file}` was not read"),
+                    help: Some(format!("meshes lie beside the {} file", self.kind)),
+                },
+            ),
+        }
+    }
+
+    pub(crate) fn contact(&self, table: &ContactTable) -> Result<Contact, PartError> {
+        let ContactTable {
+            friction,
+            restitution,
+        } = table;
+        Ok(Contact {
+            friction: self.number(friction, "friction", Allowed::NotNegative)?,
+            restitution: self.number_or(
+                restitution.as_ref(),
+                "restitution",
+                Allowed::Fraction, // above one, every bounce would add energy
+                0.0,
+            )?,
+        })
+    }
+
+    pub(crate) fn drag(&self, table: &DragTable) -> Result<Drag, PartError> {
+        let DragTable {
+            area_m2,
+            coefficient,
+        } = table;
+        Ok(Drag {
+            area_m2: self.number(area_m2, "area_m2", Allowed::NotNegative)?,
+            coefficient: self.number(coefficient, "coefficient", Allowed::NotNegative)?,
+        })
+    }
+
+    /// The mass properties of `owner` ("link `arm`"), in its own frame.
+    pub(crate) fn inertia(
+        &self,
+        owner: &str,
+        shapes: &[Shape],
+        table: &Spanned<InertiaTable>,
+    ) -> Result<Inertia, PartError> {
+        let refuse = |message: String, help: &str| {
+            self.err(
+                table.span(),
+                PartProblem::Inertia {
+                    message,
+                    help: help.to_owned(),
+                },
+            )
+        };
+        let InertiaTable {
+            mass_kg,
+            density_kg_m3,
+            com_m,
+            tensor_kg_m2,
+            accept_unphysical,
+        } = table.get_ref();
+        if let Some(tensor_at) = tensor_kg_m2 {
+            let Some(mass) = mass_kg else {
+                return refuse(
+                    format!("{owner} has an inertia tensor but no mass"),
+                    "add `mass_kg`",
+                );
+            };
+            let [xx, yy, zz, xy, xz, yz] = tensor_at.get_ref();
+            let part = |n| self.number(n, "tensor_kg_m2", Allowed::Any);
+            let about_com_kg_m2 = Symmetric3 {
+                xx: part(xx)?,
+                yy: part(yy)?,
+                zz: part(zz)?,
+                xy: part(xy)?,
+                xz: part(xz)?,
+                yz: part(yz)?,
+            };
+            if let Some(why) = inertia::unphysical(&about_com_kg_m2)
+                && !accept_unphysical
+            {
+                return self.err(
+                    tensor_at.span(),
+                    PartProblem::Inertia {
+                        message: format!("{owner}: {why}"),
+                        help: match self.kind {
+                            // contact would not hold such a body
+                            "scene" => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass",
+                            _ => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
+                                  numbers that are so anyway pass with `accept_unphysical = true`",
+                        }
+                        .to_owned(),
+                    },
+                );
+            }
+            return Ok(Inertia {
+                mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
+                com_m: match com_m {
+                    Some(com) => self.triple(com, "com_m")?,
+                    None => Vector3::zeros(),
+                },
+                about_com_kg_m2,
+            });
+        }
+        if com_m.is_some() {
+            return refuse(
+                format!("{owner} has `com_m` but no `tensor_kg_m2`"),
+                "leave `com_m` out to take both from the shapes, or give the tensor too",
+            );
+        }
+        if shapes.is_empty() {
+            return refuse(
+                format!("{owner} has no shapes to take its inertia from"),
+                "add `shapes`, or give `com_m` and `tensor_kg_m2`",
+            );
+        }
+        let from_mesh = |problem: MeshProblem| {
+            let message = format!("{owner} cannot take its inertia from its mesh: {problem}");
+            let help = problem.help();
+            Located::new(
+                PartProblem::Mesh { message, help },
+                self.source,
+                table.span(),
+            )
+        };
+        let volumes = shapes
+            .iter()
+            .map(|shape| shape.solid.volume_m3().map_err(from_mesh))
+            .collect::<Result<Vec<f64>, _>>()?;
+        let volume: f64 = volumes.iter().sum();
+        let density = match (mass_kg, density_kg_m3) {
+            (Some(mass), None) => self.number(mass, "mass_kg", Allowed::NotNegative)? / volume,
+            (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
+            _ => {
+                return refuse(
+                    format!("{owner} needs either a mass or a density"),
+                    "write `mass_kg` or `density_kg_m3`, one of them",
+                );
+            }
+        };
+        let mut sum = Inertia::zero();
+        for (shape, volume) in shapes.iter().zip(volumes) {
+            let mass = match (mass_kg, shapes) {
+                // one shape keeps the mass as typed, without a rounding through its volume
+                (Some(mass), [_]) => self.number(mass, "mass_kg", Allowed::NotNegative)?,
+                _ => density * volume,
+            };
+            let part = shape.solid.inertia(mass).map_err(from_mesh)?;
+            sum = sum.plus(&part.seen_from(&shape.link_from_shape));
+        }
+        Ok(sum)
+    }
+}

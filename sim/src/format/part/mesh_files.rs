@@ -1,0 +1,52 @@
+//! The mesh files that the shapes of a robot or a scene name, each read once.
+
+use std::sync::Arc;
+
+use toml::Spanned;
+
+use super::part_problem::{PartError, PartProblem};
+use super::part_tables::ShapeTable;
+use crate::model::mesh::surface::Mesh;
+use crate::text::{Located, Source};
+
+/// Meshes by the name the file calls them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Meshes(Vec<(String, Arc<Mesh>)>);
+
+impl Meshes {
+    /// Reads what `shapes` name by `read`: the bytes of a file, or why there are none. `kind` is the word for the file.
+    pub(crate) fn read<'a>(
+        source: &Source,
+        kind: &'static str,
+        shapes: impl Iterator<Item = &'a Spanned<ShapeTable>>,
+        mut read: impl FnMut(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, PartError> {
+        let mut meshes = Self::default();
+        for table in shapes.filter_map(|shape| shape.get_ref().mesh.as_ref()) {
+            let file = table.file.get_ref();
+            if meshes.get(file).is_some() {
+                continue;
+            }
+            let refuse = |message: String, help: Option<String>| {
+                Located::new(
+                    PartProblem::Mesh { message, help },
+                    source,
+                    table.file.span(),
+                )
+            };
+            let bytes = read(file).map_err(|why| {
+                let help = format!("the path starts at the folder of the {kind} file");
+                refuse(format!("mesh `{file}`: {why}"), Some(help))
+            })?;
+            let mesh = Mesh::parse(file, &bytes)
+                .map_err(|problem| refuse(format!("mesh `{file}`: {problem}"), problem.help()))?;
+            meshes.0.push((file.clone(), Arc::new(mesh)));
+        }
+        Ok(meshes)
+    }
+
+    pub(crate) fn get(&self, file: &str) -> Option<&Arc<Mesh>> {
+        let found = self.0.iter().find(|(name, _)| name == file);
+        found.map(|(_, mesh)| mesh)
+    }
+}

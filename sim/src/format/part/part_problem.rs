@@ -1,0 +1,147 @@
+//! Everything that can be wrong with a part of a robot or a scene, whichever file it stands in.
+
+use crate::text::Located;
+
+/// A problem in a part, with its place.
+pub(crate) type PartError = Located<PartProblem>;
+
+/// What is wrong with a part of a robot or a scene; `kind` is the word for the file it stands in.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message says what its variant is")]
+pub enum PartProblem {
+    #[error("{message}")]
+    Toml {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("{kind} format {found} is not known")]
+    UnknownFormat { kind: &'static str, found: i64 },
+    #[error("{message}")]
+    Expression {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("{what} `{name}` is there twice")]
+    Duplicate { what: &'static str, name: String },
+    #[error("{what} name {name:?} cannot be used")]
+    BadName {
+        what: &'static str,
+        name: String,
+        help: &'static str,
+    },
+    #[error("{found} {parts} are more than a {kind} may have ({most})")]
+    TooLarge {
+        kind: &'static str,
+        parts: &'static str,
+        found: usize,
+        most: usize,
+    },
+    #[error("{message}")]
+    Axis { message: String },
+    #[error("{what} must be {expected}, got {found}")]
+    OutOfRange {
+        what: String,
+        expected: &'static str,
+        found: String,
+    },
+    #[error("{message}")]
+    Inertia { message: String, help: String },
+    #[error("{message}")]
+    Origin { message: String, help: String },
+    #[error("{message}")]
+    Mesh {
+        message: String,
+        help: Option<String>,
+    },
+    #[error("no dimension `{name}` in this {kind}")]
+    UnknownDimension {
+        kind: &'static str,
+        name: String,
+        help: String,
+    },
+    #[error("dimension `{name}` is {expected} and cannot become {found}")]
+    DimensionShape {
+        kind: &'static str,
+        name: String,
+        expected: String,
+        found: String,
+    },
+}
+
+/// The stable names of a problem, by the file it stands in.
+pub(crate) struct Codes {
+    pub(crate) robot: &'static str,
+    pub(crate) scene: &'static str,
+    pub(crate) sensor: &'static str,
+}
+
+macro_rules! codes {
+    ($name:literal) => {
+        Codes {
+            robot: concat!("robot::", $name),
+            scene: concat!("scene::", $name),
+            sensor: concat!("sensor::", $name),
+        }
+    };
+}
+
+impl PartProblem {
+    pub(crate) fn codes(&self) -> Codes {
+        match self {
+            Self::Toml { .. } => codes!("toml"),
+            Self::UnknownFormat { .. } => codes!("unknown_format"),
+            Self::Expression { .. } => codes!("expression"),
+            Self::Duplicate { .. } => codes!("duplicate"),
+            Self::BadName { .. } => codes!("bad_name"),
+            Self::TooLarge { .. } => codes!("too_large"),
+            Self::Axis { .. } => codes!("axis"),
+            Self::OutOfRange { .. } => codes!("out_of_range"),
+            Self::Inertia { .. } => codes!("inertia"),
+            Self::Origin { .. } => codes!("origin"),
+            Self::Mesh { .. } => codes!("mesh"),
+            Self::UnknownDimension { .. } => codes!("unknown_dimension"),
+            Self::DimensionShape { .. } => codes!("dimension_shape"),
+        }
+    }
+
+    pub(crate) fn label(&self) -> String {
+        match self {
+            Self::Toml { .. } => "here".to_owned(),
+            Self::UnknownFormat { .. } => "this version reads format 1".to_owned(),
+            Self::Expression { .. } => "in this expression".to_owned(),
+            Self::Duplicate { .. } => "the second one".to_owned(),
+            Self::BadName { .. } => "this name".to_owned(),
+            Self::TooLarge { kind, .. } => format!("this {kind}"),
+            Self::Axis { .. } => "this axis".to_owned(),
+            Self::OutOfRange { .. } => "out of range".to_owned(),
+            Self::Inertia { .. } => "this inertia".to_owned(),
+            Self::Origin { .. } => "this origin".to_owned(),
+            Self::Mesh { .. } => "this mesh".to_owned(),
+            Self::UnknownDimension { kind, .. } | Self::DimensionShape { kind, .. } => {
+                format!("the dimensions of this {kind}")
+            }
+        }
+    }
+
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Toml { help, .. } | Self::Expression { help, .. } | Self::Mesh { help, .. } => {
+                help.clone()
+            }
+            Self::UnknownFormat { .. } => Some("write `format = 1`".to_owned()),
+            Self::Duplicate { .. } => Some("give each its own name".to_owned()),
+            Self::BadName { help, .. } => Some((*help).to_owned()),
+            Self::TooLarge { parts, .. } => Some(format!("leave out {parts} that nothing needs")),
+            Self::Axis { .. } => {
+                Some("an axis has three numbers, in the child's frame, not all zero".to_owned())
+            }
+            Self::Inertia { help, .. }
+            | Self::Origin { help, .. }
+            | Self::UnknownDimension { help, .. } => Some(help.clone()),
+            Self::OutOfRange { expected, .. } => Some(format!(
+                "write a number that is {expected}; its unit is in the name of its key"
+            )),
+            Self::DimensionShape { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! The TOML types of a robot file, as typed by a person: numbers may be expressions over `[dimensions]`, and every place a later
+//! check may point at keeps its span.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::format::part::mesh_files::Meshes;
+use crate::format::part::part_problem::PartProblem;
+use crate::format::part::part_tables::{
+    ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
+};
+use crate::format::robot_problem::RobotError;
+use crate::format::sensor_toml::SensorTable;
+use crate::text::{Dimensions, Source, TomlRefusal};
+
+/// What messages call this kind of file.
+pub(crate) const KIND: &str = "robot";
+
+/// A robot file: its text and its tables. [`RobotFile::build`](RobotFile::build) makes the robot.
+#[derive(Debug, Clone)]
+pub struct RobotFile {
+    pub(crate) source: Source,
+    pub(crate) tables: Tables,
+    pub(crate) meshes: Meshes,
+}
+
+impl RobotFile {
+    /// Reads a robot file's text.
+    ///
+    /// # Errors
+    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key.
+    pub fn parse(source: Source) -> Result<Self, RobotError> {
+        match toml::from_str::<Tables>(source.text()) {
+            Ok(tables) => Ok(Self {
+                source,
+                tables,
+                meshes: Meshes::default(),
+            }),
+            Err(error) => {
+                let TomlRefusal { message, help, at } =
+                    TomlRefusal::from_error(&error, source.text());
+                let problem = PartProblem::Toml { message, help };
+                Err(RobotError::new(problem.into(), &source, at))
+            }
+        }
+    }
+
+    /// Reads the meshes that its shapes name, each once, by `read`: the bytes of a file, or why there are none.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no mesh.
+    pub fn with_meshes(
+        mut self,
+        read: impl FnMut(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, RobotError> {
+        let shapes = self.tables.links.iter().flat_map(|link| &link.shapes);
+        self.meshes = Meshes::read(&self.source, KIND, shapes, read)?;
+        Ok(self)
+    }
+
+    /// The text it was read from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The dimensions as the file states them.
+    pub fn dimensions(&self) -> &Dimensions {
+        &self.tables.dimensions
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Tables {
+    pub(crate) format: Spanned<i64>,
+    pub(crate) name: Spanned<String>,
+    #[serde(default)]
+    pub(crate) dimensions: Dimensions,
+    #[serde(default)]
+    pub(crate) links: Vec<LinkTable>,
+    #[serde(default)]
+    pub(crate) joints: Vec<JointTable>,
+    #[serde(default)]
+    pub(crate) frames: Vec<FrameTable>,
+    #[serde(default)]
+    pub(crate) loops: Vec<Spanned<LoopTable>>,
+    pub(crate) dh: Option<DhTable>,
+    #[serde(default)]
+    pub(crate) sensors: Vec<SensorTable>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LinkTable {
+    pub(crate) name: Spanned<String>,
+    #[serde(default)]
+    pub(crate) shapes: Vec<Spanned<ShapeTable>>,
+    pub(crate) inertia: Option<Spanned<InertiaTable>>,
+    pub(crate) contact: Option<ContactTable>,
+    pub(crate) drag: Option<DragTable>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum JointType {
+    Revolute,
+    Continuous,
+    Prismatic,
+    Fixed,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointTable {
+    pub(crate) name: Spanned<String>,
+    #[serde(rename = "type")]
+    pub(crate) kind: Spanned<JointType>,
+    pub(crate) parent: Spanned<String>,
+    pub(crate) child: Spanned<String>,
+    pub(crate) origin: Option<OriginTable>,
+    pub(crate) axis: Option<TripleAt>,
+    pub(crate) damping: Option<NumberAt>,
+    pub(crate) dry_friction: Option<NumberAt>,
+    pub(crate) armature: Option<NumberAt>,
+    pub(crate) limit: Option<Spanned<LimitTable>>,
+    pub(crate) mimic: Option<MimicTable>,
+    #[serde(default)]
+    pub(crate) passive: bool,
+    pub(crate) guess: Option<NumberAt>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MimicTable {
+    pub(crate) joint: Spanned<String>,
+    pub(crate) multiplier: Option<NumberAt>,
+    pub(crate) offset: Option<NumberAt>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum LoopType {
+    Revolute,
+    Spherical,
+    Point,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LoopTable {
+    #[serde(rename = "type")]
+    pub(crate) kind: LoopType,
+    pub(crate) links: [Spanned<String>; 2],
+    pub(crate) frame_on_first: Option<OriginTable>,
+    pub(crate) frame_on_second: Option<OriginTable>,
+    pub(crate) axis: Option<TripleAt>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum DhConvention {
+    Standard,
+    Modified,
+}
+
+/// A Denavit-Hartenberg table: one chain that starts at the first link.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DhTable {
+    pub(crate) convention: Spanned<DhConvention>,
+    pub(crate) base: Option<OriginTable>,
+    pub(crate) tool: Option<OriginTable>,
+    #[serde(default)]
+    pub(crate) rows: Vec<Spanned<DhRowTable>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DhRowTable {
+    pub(crate) joint: Spanned<String>,
+    pub(crate) link: Option<Spanned<String>>,
+    #[serde(rename = "type")]
+    pub(crate) kind: Spanned<JointType>,
+    pub(crate) a_m: Option<NumberAt>,
+    pub(crate) alpha_deg: Option<NumberAt>,
+    pub(crate) d_m: Option<NumberAt>,
+    pub(crate) theta_deg: Option<NumberAt>,
+    pub(crate) direction: Option<NumberAt>,
+    pub(crate) damping: Option<NumberAt>,
+    pub(crate) dry_friction: Option<NumberAt>,
+    pub(crate) armature: Option<NumberAt>,
+    pub(crate) limit: Option<Spanned<LimitTable>>,
+    pub(crate) mimic: Option<MimicTable>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LimitTable {
+    pub(crate) lower: Option<NumberAt>,
+    pub(crate) upper: Option<NumberAt>,
+    pub(crate) speed: Option<NumberAt>,
+    pub(crate) effort: Option<NumberAt>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FrameTable {
+    pub(crate) name: Spanned<String>,
+    pub(crate) link: Spanned<String>,
+    pub(crate) origin: Option<OriginTable>,
+}

@@ -1,0 +1,228 @@
+//! A robot as a robot file, whatever it was read from: every number worked out, in the order of the robot.
+
+use std::fmt::Write as _;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::model::inertia::{Inertia, Solid, unphysical};
+use crate::model::robot::{Joint, JointKind, Robot, Shape};
+use crate::spatial::{Pose, rotation_from_rpy_deg};
+
+/// A rotation is written by angles if they give it back this exactly.
+const SAME_ROTATION: f64 = 1e-15;
+
+impl Robot {
+    /// Writes the robot file of this robot; `mesh_path` tells where a mesh lies, seen from the new file.
+    ///
+    /// Expressions have become numbers, so there are no dimensions. Reading it again gives the same robot but for rounding.
+    pub fn to_toml(&self, mesh_path: &mut dyn FnMut(&str) -> String) -> String {
+        let mut out = format!("format = 1\nname = {}\n", quoted(self.name()));
+        for link in self.links() {
+            let _ = write!(out, "\n[[links]]\nname = {}\n", quoted(&link.name));
+            if !link.shapes.is_empty() {
+                let shapes: Vec<String> = link
+                    .shapes
+                    .iter()
+                    .map(|shape| format!("  {},\n", self::shape(shape, mesh_path)))
+                    .collect();
+                let _ = writeln!(out, "shapes = [\n{}]", shapes.concat());
+            }
+            if link.inertia != Inertia::zero() {
+                let _ = writeln!(out, "inertia = {}", inertia(&link.inertia));
+            }
+            if let Some(contact) = &link.contact {
+                let _ = writeln!(
+                    out,
+                    "contact = {{ friction = {:?}, restitution = {:?} }}",
+                    contact.friction, contact.restitution
+                );
+            }
+            if let Some(drag) = &link.drag {
+                let _ = writeln!(
+                    out,
+                    "drag = {{ area_m2 = {:?}, coefficient = {:?} }}",
+                    drag.area_m2, drag.coefficient
+                );
+            }
+        }
+        for joint in self.joints() {
+            self.joint_table(joint, &mut out);
+        }
+        for frame in &self.frames()[self.links().len()..] {
+            let link = &self.links()[frame.link];
+            let _ = write!(
+                out,
+                "\n[[frames]]\nname = {}\nlink = {}\n",
+                quoted(&frame.name),
+                quoted(&link.name)
+            );
+            let link_from_frame = link
+                .attachment
+                .body_from_here
+                .inv_mul(&frame.attachment.body_from_here);
+            line(&mut out, "origin", &link_from_frame);
+        }
+        for closing in self.loops() {
+            let [first, second] = closing.links.map(|i| quoted(&self.links()[i].name));
+            let _ = write!(
+                out,
+                "\n[[loops]]\ntype = \"{}\"\nlinks = [{first}, {second}]\n",
+                closing.kind.name()
+            );
+            line(&mut out, "frame_on_first", &closing.link_from_end[0]);
+            line(&mut out, "frame_on_second", &closing.link_from_end[1]);
+        }
+        for sensor in self.sensors() {
+            self.sensor_table(sensor, &mut out);
+        }
+        out
+    }
+
+    fn joint_table(&self, joint: &Joint, out: &mut String) {
+        let _ = write!(
+            out,
+            "\n[[joints]]\nname = {}\ntype = \"{}\"\nparent = {}\nchild = {}\n",
+            quoted(&joint.name),
+            joint.kind.name(),
+            quoted(&self.links()[joint.parent].name),
+            quoted(&self.links()[joint.child].name)
+        );
+        line(out, "origin", &joint.parent_from_child);
+        if joint.kind == JointKind::Fixed {
+            return;
+        }
+        let _ = writeln!(out, "axis = {}", triple(&joint.axis));
+        for (key, value) in [
+            ("damping", joint.damping),
+            ("dry_friction", joint.dry_friction),
+            ("armature", joint.armature),
+            ("guess", joint.guess),
+        ] {
+            if value != 0.0 {
+                let _ = writeln!(out, "{key} = {value:?}");
+            }
+        }
+        if joint.passive {
+            out.push_str("passive = true\n");
+        }
+        if let Some(mimic) = &joint.mimic {
+            let _ = writeln!(
+                out,
+                "mimic = {{ joint = {}, multiplier = {:?}, offset = {:?} }}",
+                quoted(&self.joints()[mimic.joint].name),
+                mimic.multiplier,
+                mimic.offset
+            );
+        }
+        let limits: Vec<String> = [
+            ("lower", joint.limits.lower),
+            ("upper", joint.limits.upper),
+            ("speed", joint.limits.speed),
+            ("effort", joint.limits.effort),
+        ]
+        .into_iter()
+        .filter_map(|(key, value)| Some(format!("{key} = {:?}", value?)))
+        .collect();
+        if !limits.is_empty() {
+            let _ = writeln!(out, "limit = {{ {} }}", limits.join(", "));
+        }
+    }
+}
+
+/// A text with the quotes and escapes of TOML.
+pub(super) fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+pub(super) fn triple(v: &Vector3<f64>) -> String {
+    format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
+}
+
+/// One key with an origin, left out where it is the identity.
+fn line(out: &mut String, key: &str, pose: &Pose) {
+    let parts = origin_parts(pose);
+    if !parts.is_empty() {
+        let _ = writeln!(out, "{key} = {{ {} }}", parts.join(", "));
+    }
+}
+
+fn origin_parts(pose: &Pose) -> Vec<String> {
+    let mut parts = Vec::new();
+    let position = &pose.translation.vector;
+    if *position != Vector3::zeros() {
+        parts.push(format!("xyz_m = {}", triple(position)));
+    }
+    let rotation = pose.rotation.matrix();
+    if *rotation != Matrix3::identity() {
+        parts.push(self::rotation(rotation));
+    }
+    parts
+}
+
+/// By angles in degrees where they give the matrix back, else by two axes.
+fn rotation(r: &Matrix3<f64>) -> String {
+    let pitch = libm::atan2(-r.m31, libm::hypot(r.m11, r.m21));
+    let exact = [
+        libm::atan2(r.m32, r.m33).to_degrees(),
+        pitch.to_degrees(),
+        libm::atan2(r.m21, r.m11).to_degrees(),
+    ];
+    // short angles first: 90, not 90.00000000000001
+    let short = exact.map(|degrees| (degrees * 1e6).round() / 1e6);
+    for angles in [short, exact] {
+        if (rotation_from_rpy_deg(angles) - r).amax() <= SAME_ROTATION {
+            return format!("rpy_deg = {}", triple(&Vector3::from(angles)));
+        }
+    }
+    let [x, y] = [0, 1].map(|i| triple(&r.column(i).into_owned()));
+    format!("x_axis = {x}, y_axis = {y}")
+}
+
+fn shape(shape: &Shape, mesh_path: &mut dyn FnMut(&str) -> String) -> String {
+    let solid = match &shape.solid {
+        Solid::Box { size_m } => {
+            format!("box = {{ size_m = {} }}", triple(&Vector3::from(*size_m)))
+        }
+        Solid::Cylinder { radius_m, length_m } => {
+            format!("cylinder = {{ radius_m = {radius_m:?}, length_m = {length_m:?} }}")
+        }
+        Solid::Capsule { radius_m, length_m } => {
+            format!("capsule = {{ radius_m = {radius_m:?}, length_m = {length_m:?} }}")
+        }
+        Solid::Sphere { radius_m } => format!("sphere = {{ radius_m = {radius_m:?} }}"),
+        Solid::Mesh(mesh) => {
+            let file = quoted(&mesh_path(&mesh.file));
+            if mesh.scale.iter().all(|s| s.to_bits() == 1.0_f64.to_bits()) {
+                format!("mesh = {{ file = {file} }}")
+            } else {
+                let scale = triple(&Vector3::from(mesh.scale));
+                format!("mesh = {{ file = {file}, scale = {scale} }}")
+            }
+        }
+    };
+    let origin = origin_parts(&shape.link_from_shape);
+    if origin.is_empty() {
+        format!("{{ {solid} }}")
+    } else {
+        format!("{{ {solid}, origin = {{ {} }} }}", origin.join(", "))
+    }
+}
+
+fn inertia(inertia: &Inertia) -> String {
+    let t = &inertia.about_com_kg_m2;
+    let accepted = match unphysical(t) {
+        Some(_) => ", accept_unphysical = true",
+        None => "",
+    };
+    format!(
+        "{{ mass_kg = {:?}, com_m = {}, tensor_kg_m2 = [{:?}, {:?}, {:?}, {:?}, {:?}, {:?}]{accepted} }}",
+        inertia.mass_kg,
+        triple(&inertia.com_m),
+        t.xx,
+        t.yy,
+        t.zz,
+        t.xy,
+        t.xz,
+        t.yz
+    )
+}

@@ -1,0 +1,147 @@
+//! How a body of a scene file starts and moves: a velocity, or the law of a kinematic body.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+use toml::Spanned;
+
+use super::scene_problem::{SceneError, SceneProblem};
+use super::scene_reader::Resolver;
+use super::scene_tables::{BodyTable, MotionTable, WaypointTable};
+use crate::format::part::part_tables::NumberAt;
+use crate::format::part::values::Allowed;
+use crate::model::prescribed_motion::{Motion, Waypoint};
+use crate::spatial::{Pose, Twist, pose, rotation_from_rpy_deg};
+
+impl Resolver<'_> {
+    pub(crate) fn velocity(&self, table: &BodyTable) -> Result<Twist, SceneError> {
+        match &table.velocity {
+            None => Ok(Twist::zero()),
+            Some(velocity) => {
+                let velocity = velocity.get_ref();
+                self.twist(&velocity.linear_m_s, &velocity.angular_rad_s)
+            }
+        }
+    }
+
+    fn twist(
+        &self,
+        linear: &Option<[NumberAt; 3]>,
+        angular: &Option<[NumberAt; 3]>,
+    ) -> Result<Twist, SceneError> {
+        let read = |numbers: &Option<[NumberAt; 3]>, what| match numbers {
+            Some(numbers) => self.vector(numbers, what),
+            None => Ok(Vector3::zeros()),
+        };
+        Ok(Twist {
+            linear: read(linear, "linear_m_s")?,
+            angular: read(angular, "angular_rad_s")?,
+        })
+    }
+
+    pub(crate) fn motion(
+        &self,
+        body: &str,
+        table: &Spanned<MotionTable>,
+        origin_at: Option<Range<usize>>,
+        start: Pose,
+    ) -> Result<Motion, SceneError> {
+        let MotionTable {
+            linear_m_s,
+            angular_rad_s,
+            waypoints,
+            repeat,
+        } = table.get_ref();
+        let refuse = |at: Range<usize>, message: String, help: &str| {
+            let help = help.to_owned();
+            self.err(at, SceneProblem::Motion { message, help })
+        };
+        let steady = linear_m_s.is_some() || angular_rad_s.is_some();
+        let waypoints = match (waypoints, repeat) {
+            (Some(waypoints), _) if !steady => waypoints,
+            (None, None) if steady => {
+                return Ok(Motion::steady(
+                    start,
+                    self.twist(linear_m_s, angular_rad_s)?,
+                ));
+            }
+            _ => {
+                return refuse(
+                    table.span(),
+                    format!("the motion of body `{body}` is half said, or said twice"),
+                    "say either `linear_m_s` and `angular_rad_s`, or `waypoints` and `repeat`",
+                );
+            }
+        };
+        if let Some(at) = origin_at {
+            return refuse(
+                at,
+                format!("body `{body}` has an origin and waypoints"),
+                "leave `origin` out: the first waypoint says where it starts",
+            );
+        }
+        let points = waypoints
+            .iter()
+            .map(|point| self.waypoint(point))
+            .collect::<Result<Vec<_>, _>>()?;
+        for (pair, table) in points.windows(2).zip(&waypoints[1..]) {
+            let (before, after) = (pair[0].time_s, pair[1].time_s);
+            if before >= after {
+                return refuse(
+                    table.span(),
+                    format!("waypoint at {after} s does not come after the one at {before} s"),
+                    "put the waypoints in the order of their times",
+                );
+            }
+        }
+        let repeat = repeat.as_ref();
+        if let (Some(repeat), Some(first), Some(last)) = (repeat, points.first(), points.last())
+            && *repeat.get_ref()
+            && first.world_from_body != last.world_from_body
+        {
+            return refuse(
+                repeat.span(),
+                format!("body `{body}` would jump from its last waypoint to its first"),
+                "end with a waypoint at the place and rotation of the first",
+            );
+        }
+        let repeat = repeat.is_some_and(|repeat| *repeat.get_ref());
+        let times_s: Vec<f64> = points.iter().map(|point| point.time_s).collect();
+        let Some(motion) = Motion::through(points, repeat) else {
+            return refuse(
+                table.span(),
+                format!("the motion of body `{body}` needs at least two waypoints"),
+                "add a waypoint, or make the body `fixed`",
+            );
+        };
+        for (time_s, table) in times_s.into_iter().zip(waypoints) {
+            let (_, twist) = motion.at(time_s);
+            self.within(table.span(), "speed from here on", &twist.linear)?;
+            self.within(
+                table.span(),
+                "speed of turning from here on",
+                &twist.angular,
+            )?;
+        }
+        Ok(motion)
+    }
+
+    fn waypoint(&self, table: &Spanned<WaypointTable>) -> Result<Waypoint, SceneError> {
+        let WaypointTable {
+            t_s,
+            xyz_m,
+            rpy_deg,
+        } = table.get_ref();
+        let rpy_deg = match rpy_deg {
+            Some(rpy) => self.values.triple(rpy, "rpy_deg")?,
+            None => Vector3::zeros(),
+        };
+        Ok(Waypoint {
+            time_s: self.values.number(t_s, "t_s", Allowed::NotNegative)?,
+            world_from_body: pose(
+                rotation_from_rpy_deg(rpy_deg.into()),
+                self.vector(xyz_m, "xyz_m")?,
+            ),
+        })
+    }
+}

@@ -1,0 +1,159 @@
+//! The TOML types of a scene file, as typed by a person; shapes, masses, surfaces and origins are those of a robot file.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::scene_problem::{SceneError, SceneProblem};
+use crate::format::part::mesh_files::Meshes;
+use crate::format::part::part_problem::PartProblem;
+use crate::format::part::part_tables::{
+    ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
+};
+use crate::text::{Dimensions, Source, TomlRefusal};
+
+/// What messages call this kind of file.
+pub(crate) const KIND: &str = "scene";
+
+/// A scene file: its text and its tables. [`SceneFile::build`] makes the scene.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    pub(crate) source: Source,
+    pub(crate) tables: Tables,
+    pub(crate) meshes: Meshes,
+}
+
+impl SceneFile {
+    /// Reads a scene file's text.
+    ///
+    /// # Errors
+    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key.
+    pub fn parse(source: Source) -> Result<Self, SceneError> {
+        match toml::from_str::<Tables>(source.text()) {
+            Ok(tables) => Ok(Self {
+                source,
+                tables,
+                meshes: Meshes::default(),
+            }),
+            Err(error) => {
+                let TomlRefusal { message, help, at } =
+                    TomlRefusal::from_error(&error, source.text());
+                let problem = SceneProblem::Part(PartProblem::Toml { message, help });
+                Err(SceneError::new(problem, &source, at))
+            }
+        }
+    }
+
+    /// Reads the meshes that its shapes name, each once, by `read`: the bytes of a file, or why there are none.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no mesh.
+    pub fn with_meshes(
+        mut self,
+        read: impl FnMut(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, SceneError> {
+        let shapes = self.tables.bodies.iter().flat_map(|body| &body.shapes);
+        self.meshes = Meshes::read(&self.source, KIND, shapes, read)?;
+        Ok(self)
+    }
+
+    /// The text it was read from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// Where in the text the name of body `index` stands; none where there is no such body.
+    pub fn place_of_body(&self, index: usize) -> Option<std::ops::Range<usize>> {
+        self.tables.bodies.get(index).map(|body| body.name.span())
+    }
+
+    /// The dimensions as the file states them.
+    pub fn dimensions(&self) -> &Dimensions {
+        &self.tables.dimensions
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Tables {
+    pub(crate) format: Spanned<i64>,
+    pub(crate) name: Spanned<String>,
+    #[serde(default)]
+    pub(crate) dimensions: Dimensions,
+    #[serde(default)]
+    pub(crate) environment: EnvironmentTable,
+    #[serde(default)]
+    pub(crate) bodies: Vec<BodyTable>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct EnvironmentTable {
+    pub(crate) gravity_m_s2: Option<[NumberAt; 3]>,
+    pub(crate) ground: Option<ContactTable>,
+    pub(crate) wind: Option<WindTable>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WindTable {
+    pub(crate) velocity_m_s: TripleAt,
+    pub(crate) air_density_kg_m3: Option<NumberAt>,
+    pub(crate) gust: Option<Spanned<GustTable>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GustTable {
+    pub(crate) speed_m_s: NumberAt,
+    pub(crate) correlation_s: NumberAt,
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum BodyType {
+    Fixed,
+    Kinematic,
+    Free,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyTable {
+    pub(crate) name: Spanned<String>,
+    #[serde(rename = "type")]
+    pub(crate) kind: Spanned<BodyType>,
+    #[serde(default)]
+    pub(crate) shapes: Vec<Spanned<ShapeTable>>,
+    pub(crate) inertia: Option<Spanned<InertiaTable>>,
+    pub(crate) contact: ContactTable,
+    pub(crate) origin: Option<Spanned<OriginTable>>,
+    pub(crate) velocity: Option<Spanned<VelocityTable>>,
+    pub(crate) motion: Option<Spanned<MotionTable>>,
+    pub(crate) drag: Option<Spanned<DragTable>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VelocityTable {
+    pub(crate) linear_m_s: Option<[NumberAt; 3]>,
+    pub(crate) angular_rad_s: Option<[NumberAt; 3]>,
+}
+
+/// One velocity for ever, or waypoints.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MotionTable {
+    pub(crate) linear_m_s: Option<[NumberAt; 3]>,
+    pub(crate) angular_rad_s: Option<[NumberAt; 3]>,
+    pub(crate) waypoints: Option<Vec<Spanned<WaypointTable>>>,
+    pub(crate) repeat: Option<Spanned<bool>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WaypointTable {
+    pub(crate) t_s: NumberAt,
+    pub(crate) xyz_m: [NumberAt; 3],
+    pub(crate) rpy_deg: Option<[NumberAt; 3]>,
+}

@@ -1,0 +1,420 @@
+//! The immutable robot: what a description says, and the moving bodies the recursive algorithms walk over.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::air::Drag;
+use super::inertia::{Inertia, Solid};
+use super::sensor::Sensor;
+use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::spatial::{Pose, Symmetric3};
+use crate::text::Dimensions;
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// Turns about its axis, between limits if it has them \[rad\].
+    Revolute,
+    /// Turns about its axis without end \[rad\].
+    Continuous,
+    /// Slides along its axis \[m\].
+    Prismatic,
+    /// Does not move and has no entry in `q`.
+    Fixed,
+}
+
+impl JointKind {
+    /// The word of the robot file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Continuous => "continuous",
+            Self::Prismatic => "prismatic",
+            Self::Fixed => "fixed",
+        }
+    }
+
+    /// Whether the joint turns.
+    pub fn turns(self) -> bool {
+        matches!(self, Self::Revolute | Self::Continuous)
+    }
+}
+
+/// Limits of a joint, SI units of its kind; what is absent is unlimited.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// Lowest position \[rad or m\].
+    pub lower: Option<f64>,
+    /// Highest position \[rad or m\].
+    pub upper: Option<f64>,
+    /// Greatest speed \[rad/s or m/s\].
+    pub speed: Option<f64>,
+    /// Greatest effort \[N m or N\].
+    pub effort: Option<f64>,
+}
+
+/// A joint of the description, fixed ones too.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Index of the link that carries it.
+    pub parent: usize,
+    /// Index of the link it moves.
+    pub child: usize,
+    /// Child frame in the parent link at `q = 0`.
+    pub parent_from_child: Pose,
+    /// Unit axis in the child's frame; zero for a fixed joint.
+    pub axis: Vector3<f64>,
+    /// Viscous damping \[N m s/rad or N s/m\].
+    pub damping: f64,
+    /// Dry (Coulomb) friction \[N m or N\].
+    pub dry_friction: f64,
+    /// Inertia of the drive as felt at the joint \[kg m² or kg\].
+    pub armature: f64,
+    /// Limits.
+    pub limits: Limits,
+    /// The joint that drives it, if it has no entry in `q` of its own.
+    pub mimic: Option<Mimic>,
+    /// Whether no drive acts on it: a joint inside a loop that follows the others.
+    pub passive: bool,
+    /// Where it is looked for when loops are first closed \[rad or m\].
+    pub guess: f64,
+}
+
+/// A joint that follows another: its position is `multiplier * q + offset` of the master's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mimic {
+    /// Index of the master among all joints.
+    pub joint: usize,
+    /// Position of this joint per position of the master.
+    pub multiplier: f64,
+    /// Position of this joint where the master is at zero \[rad or m\].
+    pub offset: f64,
+}
+
+/// What a loop keeps together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoopKind {
+    /// A hinge: one point and the direction of the axis, 5 conditions.
+    Revolute,
+    /// One point: 3 conditions.
+    Spherical,
+}
+
+impl LoopKind {
+    /// The word of the robot file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Spherical => "spherical",
+        }
+    }
+
+    /// How many conditions it sets, redundant ones too.
+    pub fn conditions(self) -> usize {
+        match self {
+            Self::Revolute => 5,
+            Self::Spherical => 3,
+        }
+    }
+}
+
+/// A joint that closes a chain: two frames that stay together. The axis of a hinge is the `z` of both.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loop {
+    /// What it keeps together.
+    pub kind: LoopKind,
+    /// Indices of the two links.
+    pub links: [usize; 2],
+    /// Where its frame lies in each of the links.
+    pub link_from_end: [Pose; 2],
+    /// Where it is fixed, on each side.
+    pub ends: [Attachment; 2],
+}
+
+/// A shape of a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// The solid, centred on its own frame.
+    pub solid: Solid,
+    /// Where that frame lies in the link.
+    pub link_from_shape: Pose,
+}
+
+/// Surface properties of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Coefficient of friction, a ratio of forces.
+    pub friction: f64,
+    /// Coefficient of restitution, a ratio of speeds.
+    pub restitution: f64,
+}
+
+/// A link of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its shapes.
+    pub shapes: Vec<Shape>,
+    /// Its mass properties, in its own frame.
+    pub inertia: Inertia,
+    /// Its surface, if described.
+    pub contact: Option<Contact>,
+    /// What the air does to it; nothing where it is absent.
+    pub drag: Option<Drag>,
+    /// Where it is fixed.
+    pub attachment: Attachment,
+}
+
+/// A frame fixed to a link; every link is also a frame of its own name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Its name.
+    pub name: String,
+    /// Index of the link it is fixed to.
+    pub link: usize,
+    /// Where it is fixed.
+    pub attachment: Attachment,
+}
+
+/// Where something is fixed: on a moving body, or on the world where `body` is `None`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attachment {
+    /// Index of the moving body.
+    pub body: Option<usize>,
+    /// Its pose on that body, or in the world.
+    pub body_from_here: Pose,
+}
+
+/// All that one joint moves as one rigid body: its child link and what hangs on that by fixed joints.
+///
+/// The body's frame has its origin on the joint and its `z` along the joint's axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Body {
+    /// The body that carries the joint; `None` for the world. Always of a lower index.
+    pub(crate) parent: Option<usize>,
+    /// Whether the joint turns about z (else it slides along z).
+    pub(crate) turns: bool,
+    /// Index of its joint, or of that joint's master, in `q`.
+    pub(crate) q_index: usize,
+    /// Position of its joint per entry of `q`: 1, or the multiplier of a mimic joint.
+    pub(crate) gear: f64,
+    /// Position of its joint where that entry is zero: 0, or the offset of a mimic joint.
+    pub(crate) offset: f64,
+    /// Axes of this body in the parent body's axes at `q = 0`.
+    pub(crate) parent_from_body: Matrix3<f64>,
+    /// Origin of this body in the parent body at `q = 0` \[m\].
+    pub(crate) p_body_in_parent: Vector3<f64>,
+    /// Mass \[kg\].
+    pub(crate) mass_kg: f64,
+    /// Mass times centre of mass \[kg m\].
+    pub(crate) first_moment: Vector3<f64>,
+    /// Rotational inertia about the body's origin \[kg m²\].
+    pub(crate) inertia: Symmetric3,
+    pub(crate) damping: f64,
+    pub(crate) dry_friction: f64,
+    pub(crate) armature: f64,
+}
+
+impl Body {
+    /// The position of its joint \[rad or m\].
+    #[inline]
+    pub(crate) fn position(&self, q: &[f64]) -> f64 {
+        self.gear * q[self.q_index] + self.offset
+    }
+
+    /// The rate of its joint from `qd`, or the acceleration from `qdd`.
+    #[inline]
+    pub(crate) fn rate(&self, qd: &[f64]) -> f64 {
+        self.gear * qd[self.q_index]
+    }
+}
+
+/// A robot: a tree of links and joints, and the loops that close it; immutable once built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    pub(crate) name: String,
+    pub(crate) dimensions: Dimensions,
+    pub(crate) links: Vec<Link>,
+    pub(crate) joints: Vec<Joint>,
+    pub(crate) moving: Vec<usize>,
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) world_inertia: Inertia,
+    pub(crate) loops: Vec<Loop>,
+    pub(crate) dependent: Vec<usize>,
+    pub(crate) independent: Vec<usize>,
+    pub(crate) home: Vec<f64>,
+    pub(crate) warnings: Vec<String>,
+    pub(crate) sensors: Vec<Sensor>,
+}
+
+/// Values for a robot with another number of joints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected} numbers, one per joint that moves, got {found}")]
+pub struct JointCountError {
+    /// Joints that move.
+    pub expected: usize,
+    /// Values given.
+    pub found: usize,
+}
+
+impl Robot {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its dimensions, in file order.
+    pub fn dimensions(&self) -> &Dimensions {
+        &self.dimensions
+    }
+
+    /// Its links, in file order; the first is the root, fixed to the world.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// All its joints, in file order, fixed ones too.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The joints that have an entry in `q`, in its order.
+    pub fn moving_joints(&self) -> impl ExactSizeIterator<Item = &Joint> {
+        self.moving.iter().map(|&i| &self.joints[i])
+    }
+
+    /// The length of `q`: joints that move, less those that mimic another.
+    pub fn n(&self) -> usize {
+        self.moving.len()
+    }
+
+    /// Its frames: every link, then the named frames of the file.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// The frame or link called `name`.
+    pub fn frame(&self, name: &str) -> Option<&Frame> {
+        self.frames.iter().find(|frame| frame.name == name)
+    }
+
+    /// The frame commands and checks refer to: the one called `tcp`, else the last link.
+    pub fn tcp(&self) -> &Frame {
+        self.frame("tcp")
+            .unwrap_or_else(|| &self.frames[self.links.len() - 1])
+    }
+
+    /// The loops that close its chains.
+    pub fn loops(&self) -> &[Loop] {
+        &self.loops
+    }
+
+    /// Entries of `q` that are free to choose, in order; all of them where there are no loops.
+    pub fn independent(&self) -> &[usize] {
+        &self.independent
+    }
+
+    /// Entries of `q` that follow from the independent ones because loops are closed, in order.
+    pub fn dependent(&self) -> &[usize] {
+        &self.dependent
+    }
+
+    /// Positions at which every loop is closed, independent joints at zero; all zeros where there are no loops.
+    pub fn home(&self) -> &[f64] {
+        &self.home
+    }
+
+    /// What it measures with, in file order.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// What a reader of the description should know, though it is no mistake.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Whether every entry of `q` drives one body of a tree: no loop and no mimic joint.
+    pub(crate) fn is_plain_tree(&self) -> bool {
+        self.loops.is_empty() && self.bodies.len() == self.moving.len()
+    }
+
+    /// Mass of all links \[kg\].
+    pub fn mass_kg(&self) -> f64 {
+        self.links.iter().map(|link| link.inertia.mass_kg).sum()
+    }
+
+    pub(crate) fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// All that is fixed to the world, as one body in world axes.
+    pub(crate) fn world_inertia(&self) -> &Inertia {
+        &self.world_inertia
+    }
+
+    fn counted(&self, found: usize) -> Result<(), JointCountError> {
+        let expected = self.n();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(JointCountError { expected, found })
+        }
+    }
+
+    /// Joint positions \[rad or m\] of this robot.
+    ///
+    /// # Errors
+    /// Another count than [`Robot::n`].
+    pub fn positions(&self, values: &[f64]) -> Result<JointPositions, JointCountError> {
+        self.counted(values.len())?;
+        Ok(JointPositions::new(values.iter().copied()))
+    }
+
+    /// Joint velocities \[rad/s or m/s\] of this robot.
+    ///
+    /// # Errors
+    /// Another count than [`Robot::n`].
+    pub fn velocities(&self, values: &[f64]) -> Result<JointVelocities, JointCountError> {
+        self.counted(values.len())?;
+        Ok(JointVelocities::new(values.iter().copied()))
+    }
+
+    /// Joint accelerations \[rad/s² or m/s²\] of this robot.
+    ///
+    /// # Errors
+    /// Another count than [`Robot::n`].
+    pub fn accelerations(&self, values: &[f64]) -> Result<JointAccelerations, JointCountError> {
+        self.counted(values.len())?;
+        Ok(JointAccelerations::new(values.iter().copied()))
+    }
+
+    /// Joint efforts \[N m or N\] of this robot.
+    ///
+    /// # Errors
+    /// Another count than [`Robot::n`].
+    pub fn efforts(&self, values: &[f64]) -> Result<JointEfforts, JointCountError> {
+        self.counted(values.len())?;
+        Ok(JointEfforts::new(values.iter().copied()))
+    }
+}
+
+/// Whether each link hangs on the joint `joint` of all joints: its child, and what that carries.
+pub(crate) fn carried_by(robot: &Robot, joint: usize) -> Vec<bool> {
+    let mut children = vec![Vec::new(); robot.links().len()];
+    for joint in robot.joints() {
+        children[joint.parent].push(joint.child);
+    }
+    let mut carried = vec![false; robot.links().len()];
+    let mut ahead = vec![robot.joints()[joint].child];
+    while let Some(link) = ahead.pop() {
+        carried[link] = true;
+        ahead.extend(&children[link]);
+    }
+    carried
+}

@@ -1,0 +1,101 @@
+//! Motion beyond all reason: a state that is no longer finite, or an energy that no course's arm can have.
+//!
+//! A run ends when the kinetic energy of the robot is that of its whole moving mass at [`RUNAWAY_SPEED_M_S`], or a free body of the
+//! scene is that fast. An unstable loop passes it within a fraction of a second, while its numbers can still be told and drawn.
+
+use crate::dynamics::energy::kinetic_energy_j;
+use crate::model::robot::Robot;
+use crate::step::hybrid::HybridStep;
+
+/// The speed no moving mass reaches in earnest \[m/s\].
+pub const RUNAWAY_SPEED_M_S: f64 = 1000.0;
+
+/// Joint rates below this are not looked at: no arm with them runs away \[rad/s or m/s\].
+const CALM_RATE: f64 = 100.0;
+
+/// What was lost when a run blew up.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BlowUp {
+    /// A joint's position or velocity is no longer finite.
+    #[error("the state was no longer finite")]
+    NotFinite {
+        /// Index of the joint in `q`.
+        joint: usize,
+    },
+    /// The robot's kinetic energy is beyond the bound.
+    #[error(
+        "the robot's kinetic energy grew to {kinetic_j:.1e} J, beyond the bound of {bound_j:.1e} J,"
+    )]
+    Runaway {
+        /// Index of the fastest joint in `q`.
+        joint: usize,
+        /// The energy \[J\].
+        kinetic_j: f64,
+        /// The bound \[J\].
+        bound_j: f64,
+    },
+    /// A free body is faster than [`RUNAWAY_SPEED_M_S`].
+    #[error("a body of the scene was as fast as {speed_m_s:.0} m/s")]
+    BodyRunaway {
+        /// Index of the body in the scene.
+        body: usize,
+        /// Its speed \[m/s\].
+        speed_m_s: f64,
+    },
+    /// A body or a link in contact flew apart within one step.
+    #[error("{} flew apart in contact", .body.as_ref().map_or_else(|| "a link".to_owned(), |body| format!("body `{body}`")))]
+    InContact {
+        /// The body's name; none where it is a link of the robot.
+        body: Option<String>,
+    },
+}
+
+/// Looks at every state of a run.
+#[derive(Debug, Clone)]
+pub(crate) struct RunawayGuard {
+    bound_j: f64,
+}
+
+impl RunawayGuard {
+    pub(crate) fn new(robot: &Robot) -> Self {
+        let moving_kg: f64 = robot.bodies().iter().map(|body| body.mass_kg).sum();
+        // a robot of armatures alone has no mass; a gram is less than any arm's
+        let mass_kg = moving_kg.max(1e-3);
+        Self {
+            bound_j: 0.5 * mass_kg * RUNAWAY_SPEED_M_S * RUNAWAY_SPEED_M_S,
+        }
+    }
+
+    /// What is lost in the state `(q, qd)`, shape `(n)` each, and `scene`, if anything is.
+    pub(crate) fn check(
+        &self,
+        robot: &Robot,
+        q: &[f64],
+        qd: &[f64],
+        scene: Option<&HybridStep>,
+    ) -> Option<BlowUp> {
+        let mut fastest = (0, 0.0_f64);
+        for (joint, (position, rate)) in q.iter().zip(qd).enumerate() {
+            if !(position.is_finite() && rate.is_finite()) {
+                return Some(BlowUp::NotFinite { joint });
+            }
+            if rate.abs() > fastest.1 {
+                fastest = (joint, rate.abs());
+            }
+        }
+        if fastest.1 > CALM_RATE {
+            let kinetic_j = kinetic_energy_j(robot, q, qd);
+            // an energy that is no number is beyond any bound
+            let bounded = kinetic_j <= self.bound_j;
+            if !bounded {
+                return Some(BlowUp::Runaway {
+                    joint: fastest.0,
+                    kinetic_j,
+                    bound_j: self.bound_j,
+                });
+            }
+        }
+        let (body, speed_m_s) = scene?.fastest_body()?;
+        (speed_m_s > RUNAWAY_SPEED_M_S).then_some(BlowUp::BodyRunaway { body, speed_m_s })
+    }
+}

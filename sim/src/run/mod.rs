@@ -1,0 +1,10 @@
+//! A run: the tick loop of controller, servos, sensors and step; disturbances of it; and when its motion diverges.
+
+mod disturbance;
+mod divergence;
+mod stepper;
+mod tick_loop;
+
+pub use disturbance::Disturbance;
+pub use divergence::{BlowUp, RUNAWAY_SPEED_M_S};
+pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, RunSnapshot, Setup, run};

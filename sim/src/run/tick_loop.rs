@@ -1,0 +1,407 @@
+//! The tick loop: observe, control, servo, step. Time is counted, never measured.
+//!
+//! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
+//! world moves on to the next tick. [`Run`] goes tick by tick and can be copied in the middle; [`run`] goes to the end.
+
+use nalgebra::Vector3;
+
+use super::disturbance::{Disturbance, Disturbed};
+use super::divergence::{BlowUp, RunawayGuard};
+use super::stepper::{Moved, Stepper};
+use crate::control::servo::{Servo, ServoError, ServoSettings};
+use crate::control::speed_limit::SpeedLimits;
+use crate::dynamics::SingularMassMatrix;
+use crate::engine::EngineError;
+use crate::kinematics::FramePoses;
+use crate::model::robot::{Frame, Robot};
+use crate::model::scene::Scene;
+use crate::model::sensor::Sensor;
+use crate::sensing::{Seen, SensorError, Sensors};
+use crate::spatial::Pose;
+use crate::step::hybrid::HybridStep;
+use crate::ticks::Periods;
+
+/// Everything a run needs but its controller.
+#[derive(Debug, Clone)]
+pub struct Setup<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// What is around it; without a scene nothing is, and limits of joint position and speed do not act.
+    pub scene: Option<&'a Scene>,
+    /// The frame commands and checks refer to.
+    pub tcp: &'a Frame,
+    /// The frame in which the TCP is told.
+    pub seen_from: &'a Frame,
+    /// Step, servo period, control period.
+    pub periods: Periods,
+    /// Gravity in the world \[m/s²\].
+    pub gravity_m_s2: Vector3<f64>,
+    /// The joint servos.
+    pub servo: ServoSettings,
+    /// What the robot measures; [`Robot::sensors`], or others in their place.
+    pub sensors: Vec<Sensor>,
+    /// Positions at tick 0, shape `(n)` \[rad or m\].
+    pub start_q: Vec<f64>,
+    /// Velocities at tick 0, shape `(n)` \[rad/s or m/s\].
+    pub start_qd: Vec<f64>,
+    /// Ticks to run; the last state is recorded at this tick.
+    pub ticks: u64,
+}
+
+/// What the controller sees at the start of a control period.
+#[derive(Debug, Clone, Copy)]
+pub struct Observation<'a> {
+    /// The tick.
+    pub tick: u64,
+    /// Its time \[s\].
+    pub time_s: f64,
+    /// The control period \[s\].
+    pub dt_s: f64,
+    /// Joint positions \[rad or m\].
+    pub q: &'a [f64],
+    /// Joint velocities \[rad/s or m/s\].
+    pub qd: &'a [f64],
+    /// Efforts applied in the tick before; zeros at the start \[N m or N\].
+    pub effort: &'a [f64],
+    /// The TCP in the frame it is told in.
+    pub tcp: &'a Pose,
+    /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
+    pub sensors: &'a [f64],
+}
+
+/// One tick: the state, and the command and effort held from it on.
+#[derive(Debug, Clone, Copy)]
+pub struct Row<'a> {
+    /// The tick.
+    pub tick: u64,
+    /// Joint positions \[rad or m\].
+    pub q: &'a [f64],
+    /// Joint velocities \[rad/s or m/s\].
+    pub qd: &'a [f64],
+    /// The command in the servo's mode.
+    pub command: &'a [f64],
+    /// Joint efforts, after limit switches opened their motors and speed limits were kept \[N m or N\].
+    pub effort: &'a [f64],
+    /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
+    pub sensors: &'a [f64],
+    /// The scene at the tick, with what happened in the step that ended there.
+    pub scene: Option<&'a HybridStep>,
+}
+
+/// Takes the rows of a run, tick by tick.
+pub trait Recorder {
+    /// Takes one row; ticks come in order and none is left out.
+    fn row(&mut self, row: Row<'_>);
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End<E> {
+    /// All ticks were run.
+    Finished,
+    /// The controller stopped it; the tick's row is not recorded.
+    Stopped {
+        /// The tick.
+        tick: u64,
+        /// Why.
+        why: E,
+    },
+    /// The state was lost or grew beyond all reason; rows up to the tick before are recorded.
+    Diverged {
+        /// The first tick without a state that can be used.
+        tick: u64,
+        /// What was lost.
+        what: BlowUp,
+    },
+}
+
+/// A run that cannot start, or a robot that cannot move.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The servo does not fit.
+    #[error(transparent)]
+    Servo(#[from] ServoError),
+    /// A joint moves no inertia.
+    #[error(transparent)]
+    Singular(#[from] SingularMassMatrix),
+    /// Robot or scene cannot have contact.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// A sensor does not fit the physics step.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
+}
+
+/// A run between two ticks.
+#[derive(Debug)]
+pub struct Run<'a> {
+    setup: Setup<'a>,
+    /// The robot as the servos know it.
+    known: &'a Robot,
+    state: State,
+}
+
+/// A run as it stood between two ticks: robot, scene, servos. It goes on from there with the same bits.
+#[derive(Debug, Clone)]
+pub struct RunSnapshot(State);
+
+/// All that the ticks to come depend on, save the controller's memory.
+#[derive(Debug, Clone)]
+struct State {
+    /// The tick that comes next.
+    tick: u64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    command: Vec<f64>,
+    /// What the servos ask for, held between their samples.
+    driven: Vec<f64>,
+    /// What the motors give of it.
+    effort: Vec<f64>,
+    servo: Servo,
+    stepper: Stepper,
+    speed_limits: SpeedLimits,
+    sensors: Sensors,
+    /// Velocities a step ago, for sensors.
+    qd_before: Vec<f64>,
+    /// Mean accelerations over the last step, for sensors.
+    qdd: Vec<f64>,
+    guard: RunawayGuard,
+    poses: FramePoses,
+    /// What keeps the state from being seen and commands from arriving as they are, where anything does.
+    disturbed: Option<Disturbed>,
+}
+
+impl<'a> Run<'a> {
+    /// A run of `setup` before its first tick.
+    ///
+    /// # Errors
+    /// [`RunError`] if the servo settings do not fit the robot, or robot and scene cannot have contact.
+    ///
+    /// # Panics
+    /// If a start vector does not have the shape of the robot.
+    pub fn new(setup: Setup<'a>) -> Result<Self, RunError> {
+        let Setup {
+            robot,
+            periods,
+            gravity_m_s2,
+            ..
+        } = setup;
+        let n = robot.n();
+        assert_eq!(
+            (setup.start_q.len(), setup.start_qd.len()),
+            (n, n),
+            "a start state per joint that moves"
+        );
+        let state = State {
+            tick: 0,
+            q: setup.start_q.clone(),
+            qd: setup.start_qd.clone(),
+            command: vec![0.0; n],
+            driven: vec![0.0; n],
+            effort: vec![0.0; n],
+            servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
+            stepper: Stepper::new(&setup)?,
+            speed_limits: SpeedLimits::new(robot),
+            sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
+            qd_before: setup.start_qd.clone(),
+            qdd: vec![0.0; n],
+            guard: RunawayGuard::new(robot),
+            poses: FramePoses::new(robot),
+            disturbed: None,
+        };
+        Ok(Self {
+            known: robot,
+            setup,
+            state,
+        })
+    }
+
+    /// A run of `setup` under a disturbance. The trace holds the true state, and commands as they reach the servos.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    ///
+    /// # Panics
+    /// As [`Run::new`], and if the known robot has another number of joints than the one that moves.
+    pub fn disturbed(setup: Setup<'a>, disturbance: &Disturbance<'a>) -> Result<Self, RunError> {
+        let n = setup.robot.n();
+        let mut run = Self::new(setup)?;
+        run.state.disturbed = Some(Disturbed::new(disturbance, n));
+        if let Some(known) = disturbance.known {
+            assert_eq!(known.n(), n, "a known robot of the same joints");
+            run.known = known;
+        }
+        Ok(run)
+    }
+
+    /// What is run.
+    pub fn setup(&self) -> &Setup<'a> {
+        &self.setup
+    }
+
+    /// The tick that comes next.
+    pub fn tick(&self) -> u64 {
+        self.state.tick
+    }
+
+    /// Does one tick: asks `control` for a command if a control period begins, records the row, and moves on. The last tick
+    /// is only recorded; its command would move nothing.
+    ///
+    /// Returns how the run ended, once it has.
+    ///
+    /// # Errors
+    /// [`RunError`] if a joint moves no inertia.
+    pub fn advance<E>(
+        &mut self,
+        control: &mut impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
+        recorder: &mut impl Recorder,
+    ) -> Result<Option<End<E>>, RunError> {
+        let Setup {
+            robot,
+            tcp,
+            seen_from,
+            periods,
+            ..
+        } = self.setup;
+        let state = &mut self.state;
+        let tick = state.tick;
+        if tick > self.setup.ticks {
+            return Ok(Some(End::Finished));
+        }
+        state.measure(&self.setup);
+        let begins = |ticks: std::num::NonZeroU32| tick.is_multiple_of(u64::from(ticks.get()));
+        // every control period begins with a servo period
+        if let Some(disturbed) = &mut state.disturbed
+            && begins(periods.ticks_per_servo)
+        {
+            disturbed.measure(&state.q, &state.qd);
+        }
+        let (q, qd) = match &state.disturbed {
+            Some(disturbed) => (&disturbed.q, &disturbed.qd),
+            None => (&state.q, &state.qd),
+        };
+        if begins(periods.ticks_per_control) && (tick < self.setup.ticks || tick == 0) {
+            state.poses.update(robot, q);
+            let world_from_tcp = state.poses.world_from(tcp);
+            let tcp = state.poses.world_from(seen_from).inv_mul(&world_from_tcp);
+            let observation = Observation {
+                tick,
+                time_s: periods.time_s(tick),
+                dt_s: periods.control_s(),
+                q,
+                qd,
+                effort: &state.effort,
+                tcp: &tcp,
+                sensors: state.sensors.values(),
+            };
+            if let Err(why) = control(&observation, &mut state.command) {
+                return Ok(Some(End::Stopped { tick, why }));
+            }
+            if let Some(disturbed) = &mut state.disturbed {
+                disturbed.deliver(&mut state.command);
+            }
+        }
+        if begins(periods.ticks_per_servo) {
+            let (q, qd) = match &state.disturbed {
+                Some(disturbed) => (&disturbed.q, &disturbed.qd),
+                None => (&state.q, &state.qd),
+            };
+            state
+                .servo
+                .sample(self.known, &state.command, q, qd, &mut state.driven);
+        }
+        state.effort.copy_from_slice(&state.driven);
+        state.sensors.open_motors(&mut state.effort);
+        // where there is a scene, limits act: positions as stops, speeds in the drives
+        if self.setup.scene.is_some() {
+            state.speed_limits.hold(&state.qd, &mut state.effort);
+        }
+        recorder.row(Row {
+            tick,
+            q: &state.q,
+            qd: &state.qd,
+            command: &state.command,
+            effort: &state.effort,
+            sensors: state.sensors.values(),
+            scene: state.stepper.scene(),
+        });
+        state.tick += 1;
+        if tick == self.setup.ticks {
+            return Ok(Some(End::Finished));
+        }
+        let moved = state
+            .stepper
+            .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
+        let lost = match moved {
+            Moved::Lost(what) => Some(what),
+            Moved::On => {
+                let scene = state.stepper.scene();
+                state.guard.check(robot, &state.q, &state.qd, scene)
+            }
+        };
+        Ok(lost.map(|what| End::Diverged {
+            tick: tick + 1,
+            what,
+        }))
+    }
+
+    /// The run as it stands. The controller's memory and what was recorded are kept by whoever has them.
+    pub fn snapshot(&self) -> RunSnapshot {
+        RunSnapshot(self.state.clone())
+    }
+
+    /// Goes back, or on, to `snapshot`, which must be of a run of the same setup.
+    pub fn restore(&mut self, snapshot: &RunSnapshot) {
+        self.state = snapshot.0.clone();
+    }
+}
+
+impl State {
+    /// Shows the sensors the tick that has come.
+    fn measure(&mut self, setup: &Setup<'_>) {
+        if self.sensors.is_empty() {
+            return;
+        }
+        if self.tick > 0 {
+            let step_s = setup.periods.step_s;
+            for (i, qdd) in self.qdd.iter_mut().enumerate() {
+                *qdd = (self.qd[i] - self.qd_before[i]) / step_s;
+            }
+        }
+        self.qd_before.copy_from_slice(&self.qd);
+        let scene = self.stepper.scene();
+        self.sensors.sample(&Seen {
+            tick: self.tick,
+            robot: setup.robot,
+            q: &self.q,
+            qd: &self.qd,
+            effort: &self.effort,
+            qdd: &self.qdd,
+            gravity_m_s2: &setup.gravity_m_s2,
+            contacts: scene.map_or(&[], |scene| &scene.report().contacts),
+            scene,
+        });
+    }
+}
+
+/// Runs `setup` under `control`, which writes the command of each control period, and records every tick.
+///
+/// `control` is called at every tick that starts a control period, except the last tick, whose command would move nothing.
+///
+/// # Errors
+/// [`RunError`] if the servo settings do not fit the robot, a joint moves no inertia, or robot and scene cannot have contact.
+///
+/// # Panics
+/// If a start vector does not have the shape of the robot.
+pub fn run<E>(
+    setup: &Setup<'_>,
+    mut control: impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
+    recorder: &mut impl Recorder,
+) -> Result<End<E>, RunError> {
+    let mut run = Run::new(setup.clone())?;
+    loop {
+        if let Some(end) = run.advance(&mut control, recorder)? {
+            return Ok(end);
+        }
+    }
+}

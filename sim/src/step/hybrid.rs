@@ -1,0 +1,327 @@
+//! The step in a scene: our Runge-Kutta step while the robot is free, the contact engine's while something presses on it.
+//!
+//! Every step is first done as if there were no scene. If anything in the scene is awake, or a link may come near anything, the
+//! contact engine steps too, from the same state and under the same efforts. If it then pressed on a link that moves, its state
+//! stands; on all other steps ours does, to the last bit. So free motion keeps fourth order, and motion in contact has the first
+//! order of the engine (semi-implicit Euler in four substeps). Joint limits act as stops in both. The air of a step is the same for
+//! links and bodies; in the engine its drag on links is that at the start of the step, held.
+
+use nalgebra::Vector3;
+
+use super::joint_limits::Stops;
+use super::smooth::SmoothStep;
+use crate::dynamics::SingularMassMatrix;
+use crate::engine::{BodyState, Clearance, EngineError, Ray, World};
+use crate::model::air::AirNow;
+use crate::model::contact::{ContactFact, Party};
+use crate::model::robot::Robot;
+use crate::model::scene::Scene;
+
+/// By how much contact may speed up a body within a step, as a factor of the fastest motion; more is a lost touch of one step.
+const FORCES_MARGIN: f64 = 2.0;
+
+/// A step that could not be done.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// A joint moves no inertia.
+    #[error(transparent)]
+    Singular(#[from] SingularMassMatrix),
+    /// A body flew apart: its pose or velocity is no longer finite.
+    #[error("the motion of {} is no longer finite; look for overlaps at the start, masses that differ by orders of magnitude, or efforts beyond reason",
+        .body.as_ref().map_or_else(|| "a link in contact".to_owned(), |body| format!("body `{body}`")))]
+    Lost {
+        /// The body of the scene; a link where there is none.
+        body: Option<String>,
+    },
+}
+
+/// Whose state the robot has after a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StateFrom {
+    /// The smooth step's: nothing pressed on a moving link.
+    Smooth,
+    /// The contact engine's.
+    Contact,
+}
+
+/// What happened in one step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepReport {
+    /// Whose state the robot has.
+    pub state_from: StateFrom,
+    /// Whether the contact engine stepped at all. Where it did not, `contacts` are those of the last step it did: bodies that rest go on pressing as they did.
+    pub engine_stepped: bool,
+    /// Who pressed on whom, in the order of the parties.
+    pub contacts: Vec<ContactFact>,
+    /// The joints that a stop acted on, with its impulse \[N m s or N s\]; empty while the contact engine's state stands.
+    pub stops: Vec<(usize, f64)>,
+    /// The joints that stand on a position limit after the step.
+    pub at_limit: Vec<usize>,
+}
+
+/// Steps one robot in one scene.
+#[derive(Clone)]
+pub struct HybridStep {
+    smooth: SmoothStep,
+    stops: Stops,
+    clearance: Clearance,
+    world: World,
+    gravity_m_s2: Vector3<f64>,
+    dt_s: f64,
+    /// Which links move: only what presses on these matters to the robot's state.
+    moves: Vec<bool>,
+    names: Vec<String>,
+    /// What gravity adds to the way of a free body in one step, generously \[m\].
+    falls_m: f64,
+    start_q: Vec<f64>,
+    start_qd: Vec<f64>,
+    held: Vec<f64>,
+    /// The air of the last step.
+    air: Option<AirNow>,
+    /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
+    drag: Vec<f64>,
+    report: StepReport,
+}
+
+/// All that the steps to come depend on, save the robot's `(q, qd)`.
+#[derive(Clone)]
+pub struct Snapshot(Box<HybridStep>);
+
+impl HybridStep {
+    /// A step of `dt_s` for `robot` in `scene` under `gravity_m_s2` (world), with the scene's bodies where they start.
+    ///
+    /// # Errors
+    /// Shapes or masses that cannot have contact.
+    pub fn new(
+        robot: &Robot,
+        scene: &Scene,
+        gravity_m_s2: Vector3<f64>,
+        dt_s: f64,
+    ) -> Result<Self, EngineError> {
+        let clearance = Clearance::new(robot);
+        let room = vec![0.0; robot.n()];
+        Ok(Self {
+            smooth: SmoothStep::new(robot, gravity_m_s2, dt_s),
+            stops: Stops::new(robot),
+            world: World::new(robot, scene, &gravity_m_s2, dt_s, clearance.has_shapes())?,
+            clearance,
+            gravity_m_s2,
+            dt_s,
+            moves: robot
+                .links()
+                .iter()
+                .map(|link| link.attachment.body.is_some())
+                .collect(),
+            names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+            falls_m: 2.0 * gravity_m_s2.norm() * dt_s * dt_s,
+            start_q: room.clone(),
+            start_qd: room.clone(),
+            held: room.clone(),
+            drag: room,
+            air: None,
+            report: StepReport {
+                state_from: StateFrom::Smooth,
+                engine_stepped: false,
+                contacts: Vec::new(),
+                stops: Vec::new(),
+                at_limit: Vec::new(),
+            },
+        })
+    }
+
+    /// Moves robot and scene on by one step under `effort`, held; `q` and `qd` become the next state. All have shape `(n)`.
+    ///
+    /// A state that is not finite is left to the caller to see, as after the smooth step alone.
+    ///
+    /// # Errors
+    /// [`StepError`]: a joint without inertia, or a body that flew apart.
+    pub fn advance(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<&StepReport, StepError> {
+        self.start_q.copy_from_slice(q);
+        self.start_qd.copy_from_slice(qd);
+        self.report.state_from = StateFrom::Smooth;
+        self.report.stops.clear();
+        self.report.at_limit.clear();
+        self.air = self.world.air_now();
+        self.smooth.set_air(self.air);
+        self.advance_free(robot, effort, q, qd)?;
+
+        let awake = self.world.is_awake();
+        if self.world.is_driven() {
+            self.clearance.forget();
+        }
+        let others_m = if awake {
+            FORCES_MARGIN * self.world.travel_m() + self.falls_m
+        } else {
+            0.0
+        };
+        let world = &self.world;
+        let near = self
+            .clearance
+            .is_near(robot, &self.start_q, q, others_m, |list| {
+                world.obstacles(list);
+            });
+        let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
+        let usable = finite(q) && finite(qd) && finite(&self.start_q) && finite(effort);
+        self.report.engine_stepped = awake || (near && usable);
+        if self.report.engine_stepped {
+            self.advance_in_contact(robot, effort, q, qd, near && usable)?;
+        } else {
+            self.world.rest();
+        }
+        self.stops.list_at_limit(q, &mut self.report.at_limit);
+        Ok(&self.report)
+    }
+
+    fn advance_free(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<(), StepError> {
+        self.smooth.advance(robot, effort, q, qd)?;
+        if self.stops.allow(&self.start_q, q) {
+            return Ok(());
+        }
+        q.copy_from_slice(&self.start_q);
+        qd.copy_from_slice(&self.start_qd);
+        self.hold_with_drag(robot, effort);
+        let (gravity, dt_s) = (&self.gravity_m_s2, self.dt_s);
+        self.stops
+            .hold(robot, gravity, dt_s, q, qd, &mut self.held)?;
+        if self.smooth.feels_air() {
+            // the step adds it anew
+            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
+                *held -= drag;
+            }
+        }
+        self.smooth.advance(robot, &self.held, q, qd)?;
+        self.stops.catch(robot, &self.start_q, q, qd);
+        let acted = self.stops.impulses().iter().copied().enumerate();
+        self.report
+            .stops
+            .extend(acted.filter(|(_, impulse)| *impulse != 0.0));
+        Ok(())
+    }
+
+    /// Sets `held` to `effort` and the drag on links at the start of the step.
+    fn hold_with_drag(&mut self, robot: &Robot, effort: &[f64]) {
+        self.held.copy_from_slice(effort);
+        if self.smooth.feels_air() {
+            let (q, qd) = (&self.start_q, &self.start_qd);
+            self.drag.fill(0.0);
+            self.smooth.add_drag(robot, q, qd, &mut self.drag);
+            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
+                *held += drag;
+            }
+        }
+    }
+
+    fn advance_in_contact(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+        near: bool,
+    ) -> Result<(), StepError> {
+        let travel_m = near.then(|| self.clearance.travel_m(robot, &self.start_q, q));
+        if near {
+            self.hold_with_drag(robot, effort);
+        }
+        let facts = &mut self.report.contacts;
+        self.world
+            .step(
+                robot,
+                &self.held,
+                &self.start_q,
+                &self.start_qd,
+                travel_m,
+                facts,
+            )
+            .map_err(|lost| StepError::Lost {
+                body: lost.map(|index| self.names[index].clone()),
+            })?;
+        let pressed = |party: &Party| matches!(party, Party::Link(link) if self.moves[*link]);
+        if facts.iter().any(|fact| fact.parties.iter().any(pressed)) {
+            self.world.read_arm(q, qd);
+            self.stops.keep_inside(robot, &self.start_q, q, qd)?;
+            self.report.state_from = StateFrom::Contact;
+            self.report.stops.clear();
+        }
+        Ok(())
+    }
+
+    /// What happened in the last step.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// The bodies of the scene, in its order.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyState> {
+        (0..self.world.body_count()).map(|index| self.world.body(index))
+    }
+
+    /// Body `index` of the scene.
+    ///
+    /// # Panics
+    /// If the scene has no such body.
+    pub fn body(&self, index: usize) -> BodyState {
+        self.world.body(index)
+    }
+
+    /// The air of the last step; none before the first, or without air.
+    pub(crate) fn air_of_last_step(&self) -> Option<&AirNow> {
+        self.air.as_ref()
+    }
+
+    /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
+    pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
+        self.world.fastest_body()
+    }
+
+    /// What a ray `from` a point along the unit vector `direction`, both in the world, meets first of the scene's bodies and the
+    /// ground, and how far away \[m\]; nothing beyond `range_m`. The robot is not seen.
+    ///
+    /// 0 from inside a solid or below the ground. Of things at the same distance the first in the order of [`Party`] is told. The
+    /// answer depends only on where the bodies are, not on whether the engine stepped.
+    pub fn cast_ray(
+        &self,
+        from: &Vector3<f64>,
+        direction: &Vector3<f64>,
+        range_m: f64,
+    ) -> Option<(Party, f64)> {
+        let mut ray = Ray::new(from, direction, range_m);
+        self.show(&mut ray);
+        ray.nearest()
+    }
+
+    /// Shows `ray` the bodies of the scene and the ground.
+    pub(crate) fn show(&self, ray: &mut Ray) {
+        self.world.meet(ray);
+    }
+
+    /// All that the steps to come depend on, save the robot's `(q, qd)`: they continue from it with the same bits.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot(Box::new(self.clone()))
+    }
+
+    /// Goes back, or on, to `snapshot`, which must be of the same robot and scene.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        *self = (*snapshot.0).clone();
+    }
+}
+
+impl std::fmt::Debug for HybridStep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("HybridStep")
+            .field("report", &self.report)
+            .finish_non_exhaustive()
+    }
+}

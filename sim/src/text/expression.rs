@@ -1,0 +1,285 @@
+//! Arithmetic over a robot's dimensions: `+ - * /`, parentheses, names and indexing, as in `"link_lengths[0] / 2"`.
+
+use super::{Dimension, Dimensions};
+
+/// What is wrong with an expression, and at which bytes of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExpressionProblem {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+    /// Bytes of the expression's own text.
+    pub at: std::ops::Range<usize>,
+}
+
+/// The value of `text` over `dimensions`; the result is finite.
+///
+/// # Errors
+/// An unknown name, a missing or superfluous index, a stray character, or a result that is not finite.
+pub fn evaluate(text: &str, dimensions: &Dimensions) -> Result<f64, ExpressionProblem> {
+    evaluate_named(text, dimensions, "dimension")
+}
+
+/// As [`evaluate`], over values that messages call `noun` (`dimension`, `parameter`).
+///
+/// # Errors
+/// Those of [`evaluate`].
+pub fn evaluate_named(
+    text: &str,
+    dimensions: &Dimensions,
+    noun: &'static str,
+) -> Result<f64, ExpressionProblem> {
+    let mut reader = Reader {
+        text,
+        at: 0,
+        depth: 0,
+        dimensions,
+        noun,
+    };
+    let value = reader.sum()?;
+    reader.skip_spaces();
+    if reader.at < text.len() {
+        return Err(reader.stray("expected an operator (+ - * /) or the end"));
+    }
+    if !value.is_finite() {
+        return Err(problem(
+            format!("`{text}` is {value}"),
+            Some("divide by something that is not zero".to_owned()),
+            0..text.len(),
+        ));
+    }
+    Ok(value)
+}
+
+const MAX_DEPTH: usize = 64; // parentheses and signs; far above any real dimension, far below the stack
+
+struct Reader<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+    dimensions: &'a Dimensions,
+    noun: &'static str,
+}
+
+fn problem(message: String, help: Option<String>, at: std::ops::Range<usize>) -> ExpressionProblem {
+    ExpressionProblem { message, help, at }
+}
+
+impl Reader<'_> {
+    fn skip_spaces(&mut self) {
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+    }
+
+    fn peek(&mut self) -> Option<char> {
+        self.skip_spaces();
+        self.text[self.at..].chars().next()
+    }
+
+    fn take(&mut self, wanted: char) -> bool {
+        let found = self.peek() == Some(wanted);
+        if found {
+            self.at += wanted.len_utf8();
+        }
+        found
+    }
+
+    fn stray(&self, expected: &str) -> ExpressionProblem {
+        match self.text[self.at..].chars().next() {
+            Some(c) => problem(
+                format!("`{c}` does not belong in an expression here"),
+                Some(expected.to_owned()),
+                self.at..self.at + c.len_utf8(),
+            ),
+            None => problem(
+                "the expression ends too early".to_owned(),
+                Some(expected.to_owned()),
+                0..self.text.len(),
+            ),
+        }
+    }
+
+    fn sum(&mut self) -> Result<f64, ExpressionProblem> {
+        let mut value = self.product()?;
+        loop {
+            if self.take('+') {
+                value += self.product()?;
+            } else if self.take('-') {
+                value -= self.product()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn product(&mut self) -> Result<f64, ExpressionProblem> {
+        let mut value = self.factor()?;
+        loop {
+            if self.take('*') {
+                value *= self.factor()?;
+            } else if self.take('/') {
+                value /= self.factor()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn factor(&mut self) -> Result<f64, ExpressionProblem> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return Err(problem(
+                format!("more than {MAX_DEPTH} signs and parentheses inside each other"),
+                None,
+                0..self.text.len(),
+            ));
+        }
+        let value = if self.take('-') {
+            -self.factor()?
+        } else if self.take('+') {
+            self.factor()?
+        } else if self.take('(') {
+            let value = self.sum()?;
+            if !self.take(')') {
+                return Err(self.stray("expected `)`"));
+            }
+            value
+        } else {
+            match self.peek() {
+                Some(c) if c.is_ascii_digit() || c == '.' => self.number()?,
+                Some(c) if c.is_ascii_alphabetic() || c == '_' => self.dimension()?,
+                _ => {
+                    return Err(
+                        self.stray(&format!("expected a number, a {}'s name or `(`", self.noun))
+                    );
+                }
+            }
+        };
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn number(&mut self) -> Result<f64, ExpressionProblem> {
+        let start = self.at;
+        let bytes = self.text.as_bytes();
+        while self.at < bytes.len() {
+            let c = bytes[self.at];
+            let exponent_sign =
+                (c == b'+' || c == b'-') && matches!(bytes[self.at - 1], b'e' | b'E');
+            if !(c.is_ascii_digit() || matches!(c, b'.' | b'e' | b'E') || exponent_sign) {
+                break;
+            }
+            self.at += 1;
+        }
+        let digits = &self.text[start..self.at];
+        digits
+            .parse()
+            .map_err(|_| problem(format!("`{digits}` is not a number"), None, start..self.at))
+    }
+
+    fn dimension(&mut self) -> Result<f64, ExpressionProblem> {
+        let start = self.at;
+        let rest = &self.text[start..];
+        let length = rest
+            .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+            .unwrap_or(rest.len());
+        self.at += length;
+        let name = &self.text[start..self.at];
+        let name_at = start..self.at;
+        let dimensions = self.dimensions;
+        let Some(dimension) = dimensions.get(name) else {
+            return Err(problem(
+                format!("no {} is called `{name}`", self.noun),
+                Some(crate::text::suggest(
+                    name,
+                    &format!("{}s", self.noun),
+                    dimensions.names(),
+                )),
+                name_at,
+            ));
+        };
+        match dimension {
+            Dimension::Number(value) => {
+                if self.peek() == Some('[') {
+                    return Err(problem(
+                        format!("`{name}` is one number and takes no index"),
+                        Some(format!("write `{name}`")),
+                        start..self.at + 1,
+                    ));
+                }
+                Ok(*value)
+            }
+            Dimension::List(values) => {
+                let last = values.len().saturating_sub(1);
+                let help = Some(format!(
+                    "write `{name}[0]` to `{name}[{last}]`: it has {} numbers",
+                    values.len()
+                ));
+                if !self.take('[') {
+                    return Err(problem(
+                        format!("`{name}` is a list and needs an index"),
+                        help,
+                        name_at,
+                    ));
+                }
+                self.skip_spaces();
+                let index_start = self.at;
+                while self.text[self.at..].starts_with(|c: char| c.is_ascii_digit()) {
+                    self.at += 1;
+                }
+                let index = self.text[index_start..self.at].parse::<usize>().ok();
+                let index_at = index_start..self.at.max(index_start + 1).min(self.text.len());
+                if !self.take(']') {
+                    return Err(self.stray("expected `]` after a whole index"));
+                }
+                index
+                    .and_then(|i| values.get(i).copied())
+                    .ok_or_else(|| problem("no such index".to_owned(), help, index_at))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dimensions() -> Dimensions {
+        Dimensions::from_pairs([
+            ("h".to_owned(), Dimension::Number(2.0)),
+            ("l".to_owned(), Dimension::List(vec![1.0, 3.0])),
+        ])
+    }
+
+    #[test]
+    fn arithmetic_keeps_the_usual_order() {
+        let d = dimensions();
+        assert_eq!(evaluate("h - l[1] * 2 / 4 + (1 - -1)", &d), Ok(2.5));
+        assert_eq!(evaluate("-h/2-l[0]", &d), Ok(-2.0));
+        assert_eq!(evaluate("1e-3 * 2.", &d), Ok(2e-3));
+    }
+
+    #[test]
+    fn problems_point_at_their_bytes() {
+        let d = dimensions();
+        for (text, at) in [
+            ("h + m", 4..5),
+            ("l", 0..1),
+            ("l[2]", 2..3),
+            ("h[0]", 0..2),
+            ("h $ 1", 2..3),
+            ("1.2.3", 0..5),
+            ("h / (1 - 1)", 0..11),
+            ("(h", 0..2),
+        ] {
+            assert_eq!(evaluate(text, &d).unwrap_err().at, at, "{text}");
+        }
+    }
+
+    #[test]
+    fn deep_nesting_is_refused_not_overflowed() {
+        let text = "(".repeat(100_000);
+        assert!(evaluate(&text, &dimensions()).is_err());
+    }
+}

@@ -1,0 +1,141 @@
+//! Text from outside, and errors that point into it: the file, the line, the column, and what to do next.
+
+use std::fmt;
+use std::sync::Arc;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+
+/// A text with the name a person knows it by (`robots/rrbot.toml`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    name: Arc<str>,
+    text: Arc<str>,
+}
+
+impl Source {
+    /// Keeps `text` under `name`.
+    pub fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
+        Self {
+            name: name.into(),
+            text: text.into(),
+        }
+    }
+
+    /// The name a person knows the text by.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Line and column of a byte offset, both from one, the column in characters.
+    pub fn line_and_column(&self, offset: usize) -> (usize, usize) {
+        let mut end = offset.min(self.text.len());
+        while !self.text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let before = &self.text[..end];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        (line, column)
+    }
+}
+
+/// What can be wrong with a text of one kind: a short message, a way out, and a code for machines.
+pub trait Problem: fmt::Debug + fmt::Display + Send + Sync + 'static {
+    /// Stable name of the problem, such as `robot::unknown_link`.
+    fn code(&self) -> &'static str;
+    /// What stands under the caret.
+    fn label(&self) -> String;
+    /// Something to do, if there is something to say beyond the label.
+    fn help(&self) -> Option<String>;
+}
+
+/// A [`Problem`] with its place in a [`Source`].
+#[derive(Debug)]
+pub struct Located<P> {
+    /// What is wrong.
+    pub problem: P,
+    inner: Box<Place>,
+}
+
+#[derive(Debug)]
+struct Place {
+    source: Source,
+    named: NamedSource<String>,
+    at: SourceSpan,
+}
+
+impl<P> Located<P> {
+    /// Puts `problem` at the bytes `at` of `source`.
+    pub fn new(problem: P, source: &Source, at: std::ops::Range<usize>) -> Self {
+        let named = NamedSource::new(source.name(), source.text().to_owned());
+        Self {
+            problem,
+            inner: Box::new(Place {
+                source: source.clone(),
+                named,
+                at: (at.start, at.end.saturating_sub(at.start)).into(),
+            }),
+        }
+    }
+
+    /// The same place with the problem said in other words.
+    pub fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
+        Located {
+            problem: words(self.problem),
+            inner: self.inner,
+        }
+    }
+
+    /// The text that holds the problem.
+    pub fn source(&self) -> &Source {
+        &self.inner.source
+    }
+
+    /// Line and column where the problem starts, both from one.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        self.inner.source.line_and_column(self.inner.at.offset())
+    }
+}
+
+impl<P: Problem> fmt::Display for Located<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.problem, f)
+    }
+}
+
+impl<P: Problem> std::error::Error for Located<P> {}
+
+impl<P: Problem> Diagnostic for Located<P> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.problem.code()))
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.problem.help().map(|help| Box::new(help) as Box<_>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.inner.named)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = LabeledSpan::new_with_span(Some(self.problem.label()), self.inner.at);
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters_not_bytes() {
+        let source = Source::new("x", "a\nü = 1");
+        assert_eq!(source.line_and_column("a\nü".len()), (2, 2));
+    }
+}

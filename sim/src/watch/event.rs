@@ -1,0 +1,177 @@
+//! What can happen in a run, and when.
+
+use nalgebra::Vector3;
+
+use crate::model::contact::Party;
+
+/// Something that happened at a tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// The tick.
+    pub tick: u64,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// What can happen in a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EventKind {
+    /// A joint's effort reached its limit.
+    Saturated {
+        /// Index of the joint in `q`.
+        joint: usize,
+    },
+    /// A joint reached a position limit: it stands on the stop, or, where nothing stops it, left its range.
+    LimitHit {
+        /// Index of the joint in `q`.
+        joint: usize,
+    },
+    /// In a scene, a joint reached its speed limit: its motor drives it no faster.
+    SpeedLimitHit {
+        /// Index of the joint in `q`.
+        joint: usize,
+    },
+    /// The TCP can hardly move in some direction: see [`crate::watch::run_watch`] for the bound.
+    NearSingular,
+    /// Two parties pressed on each other for the first time.
+    Touched {
+        /// The two, the lesser first.
+        parties: [Party; 2],
+    },
+    /// A free body left the place where it started.
+    Moved {
+        /// Index of the body in the scene.
+        body: usize,
+    },
+    /// What pointed up at a free body no longer does.
+    Toppled {
+        /// Index of the body in the scene.
+        body: usize,
+    },
+    /// Nothing carries a free body any more that stood on something.
+    LeftSupport {
+        /// Index of the body in the scene.
+        body: usize,
+    },
+    /// A free body fell below what it stood on.
+    BodyFell {
+        /// Index of the body in the scene.
+        body: usize,
+        /// Over which side; none where it fell through, or into, what it stood on.
+        side: Option<Side>,
+    },
+    /// The state was no longer finite, or grew beyond all reason: the run ends here.
+    Diverged,
+    /// The controller stopped the run.
+    Stopped,
+}
+
+/// A side of what a body stood on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Side {
+    /// As seen from the robot's base.
+    pub seen: SeenSide,
+    /// The way out over that side, a horizontal unit vector in the world.
+    pub outward: Vector3<f64>,
+}
+
+/// A side as seen from the robot's base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SeenSide {
+    /// Away from the robot.
+    Far,
+    /// Towards the robot.
+    Near,
+    /// To the left, looking from the robot.
+    Left,
+    /// To the right, looking from the robot.
+    Right,
+}
+
+impl SeenSide {
+    /// Its word in files and logs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Far => "far",
+            Self::Near => "near",
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+impl EventKind {
+    /// Its word in logs and digests.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Saturated { .. } => "saturated",
+            Self::LimitHit { .. } => "limit-hit",
+            Self::SpeedLimitHit { .. } => "speed-limit-hit",
+            Self::NearSingular => "near-singular",
+            Self::Touched { .. } => "touched",
+            Self::Moved { .. } => "moved",
+            Self::Toppled { .. } => "toppled",
+            Self::LeftSupport { .. } => "left-support",
+            Self::BodyFell { .. } => "body-fell",
+            Self::Diverged => "diverged",
+            Self::Stopped => "stopped",
+        }
+    }
+
+    /// The joint it happened to, if to one.
+    pub fn joint(&self) -> Option<usize> {
+        match self {
+            Self::Saturated { joint }
+            | Self::LimitHit { joint }
+            | Self::SpeedLimitHit { joint } => Some(*joint),
+            _ => None,
+        }
+    }
+
+    /// The body of the scene it happened to, if to one.
+    pub fn body(&self) -> Option<usize> {
+        match self {
+            Self::Moved { body }
+            | Self::Toppled { body }
+            | Self::LeftSupport { body }
+            | Self::BodyFell { body, .. } => Some(*body),
+            _ => None,
+        }
+    }
+
+    /// Writes what a digest covers: the word, then who and where.
+    pub(crate) fn digest_into(&self, hasher: &mut blake3::Hasher) {
+        let name = self.name();
+        hasher.update(&(name.len() as u64).to_le_bytes());
+        hasher.update(name.as_bytes());
+        let mut number = |value: u64| {
+            hasher.update(&value.to_le_bytes());
+        };
+        match self {
+            Self::Saturated { joint }
+            | Self::LimitHit { joint }
+            | Self::SpeedLimitHit { joint } => number(*joint as u64),
+            Self::Touched { parties } => {
+                for party in parties {
+                    let (kind, index) = party.numbers();
+                    number(kind);
+                    number(index);
+                }
+            }
+            Self::Moved { body } | Self::Toppled { body } | Self::LeftSupport { body } => {
+                number(*body as u64);
+            }
+            Self::BodyFell { body, side } => {
+                number(*body as u64);
+                match side {
+                    None => number(0),
+                    Some(side) => {
+                        number(1 + side.seen as u64);
+                        side.outward.iter().for_each(|x| number(x.to_bits()));
+                    }
+                }
+            }
+            Self::NearSingular | Self::Diverged | Self::Stopped => {}
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! An event as a sentence, with the names of the robot and the scene.
+
+use nalgebra::Vector3;
+
+use super::event::{EventKind, Side};
+use crate::model::contact::Party;
+use crate::model::robot::Robot;
+use crate::model::scene::Scene;
+
+/// The names of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Names<'a> {
+    /// The robot that moved.
+    pub robot: &'a Robot,
+    /// What was around it.
+    pub scene: Option<&'a Scene>,
+    /// The frame in which students work.
+    pub seen_from: &'a str,
+}
+
+impl<'a> Names<'a> {
+    /// The name of a joint by its index in `q`.
+    pub fn joint(&self, index: usize) -> &'a str {
+        let found = self.robot.moving_joints().nth(index);
+        found.map_or("?", |joint| joint.name.as_str())
+    }
+
+    /// The name of a body of the scene.
+    pub fn body(&self, index: usize) -> &'a str {
+        let found = self.scene.and_then(|scene| scene.bodies.get(index));
+        found.map_or("?", |body| body.name.as_str())
+    }
+
+    /// The name of a party of a contact.
+    pub fn party(&self, party: Party) -> &'a str {
+        match party {
+            Party::Link(index) => self.robot.links().get(index).map_or("?", |link| &link.name),
+            Party::Body(index) => self.body(index),
+            Party::Ground => "ground",
+        }
+    }
+
+    /// What happened, in a sentence without its end.
+    pub fn event(&self, kind: &EventKind) -> String {
+        match kind {
+            EventKind::Saturated { joint } => {
+                format!("effort of `{}` reached its limit", self.joint(*joint))
+            }
+            EventKind::LimitHit { joint } => {
+                format!("`{}` reached a position limit", self.joint(*joint))
+            }
+            EventKind::SpeedLimitHit { joint } => {
+                format!("`{}` reached its speed limit", self.joint(*joint))
+            }
+            EventKind::NearSingular => {
+                "the arm is near a position in which the TCP cannot move in some direction"
+                    .to_owned()
+            }
+            EventKind::Touched { parties } => {
+                let [first, second] = parties.map(|party| self.party(party));
+                format!("`{first}` touched `{second}`")
+            }
+            EventKind::Moved { body } => format!("`{}` moved", self.body(*body)),
+            EventKind::Toppled { body } => format!("`{}` toppled", self.body(*body)),
+            EventKind::LeftSupport { body } => {
+                format!("nothing carries `{}` any more", self.body(*body))
+            }
+            EventKind::BodyFell { body, side } => match side {
+                None => format!("`{}` fell", self.body(*body)),
+                Some(side) => format!(
+                    "`{}` fell over the {} side{}",
+                    self.body(*body),
+                    side.seen.name(),
+                    self.axis(side)
+                ),
+            },
+            EventKind::Diverged => "the motion is beyond all reason".to_owned(),
+            EventKind::Stopped => "the submission was stopped".to_owned(),
+        }
+    }
+
+    /// The axis of the students' frame that leads out over a side, in brackets, if one does within 20 degrees.
+    fn axis(&self, side: &Side) -> String {
+        let Some(frame) = self.robot.frame(self.seen_from) else {
+            return String::new();
+        };
+        // frames that move have no fixed axes
+        if frame.attachment.body.is_some() {
+            return String::new();
+        }
+        let world_from_frame = frame.attachment.body_from_here.rotation;
+        let out: Vector3<f64> = world_from_frame.inverse_transform_vector(&side.outward);
+        let axis = out.iamax();
+        if out[axis].abs() < 0.94 {
+            return String::new();
+        }
+        let sign = if out[axis] > 0.0 { '+' } else { '-' };
+        format!(" ({sign}{})", ["x", "y", "z"][axis])
+    }
+}

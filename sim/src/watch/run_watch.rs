@@ -1,0 +1,69 @@
+//! Watches a run tick by tick: what happened, who touched whom, where the bodies went.
+//!
+//! | event | when |
+//! |---|---|
+//! | `saturated` | a joint's effort stands at the servo's limit, and did not for 0.1 s before |
+//! | `limit-hit` | a joint stands on a position limit or beyond, and did not for 0.1 s before |
+//! | `speed-limit-hit` | in a scene, a joint is as fast as its limit, and was not for 0.1 s before |
+//! | `near-singular` | at a control period the TCP's Jacobian has a condition number of 50 or more, after it was below 40 |
+//! | `touched` | two parties press on each other for the first time in the run |
+//! | `moved` | the centre of mass of a free body is 5 mm or more from its start |
+//! | `toppled` | what pointed up at a free body at the start points 45 degrees or more away from it |
+//! | `left-support` | for 20 ms nothing has pushed the body up with a tenth of its weight or more; the tick is the first of them |
+//! | `body-fell` | its centre of mass is 50 mm below where it stood, and below its start, and it was clear of everything for 20 ms since it last touched that |
+//!
+//! Of `moved`, `toppled`, `left-support` and `body-fell` the first of each body is told.
+
+use super::contacts::ContactSpan;
+use super::event::{Event, EventKind};
+use super::{bodies, contacts, joints, singularity};
+use crate::run::{Row, Setup};
+
+/// Nothing shorter than this parts two contacts, or a body from its support \[s\].
+const APART_S: f64 = 0.02;
+
+/// Watches one run.
+#[derive(Debug, Clone)]
+pub struct Watch<'a> {
+    joints: joints::JointWatch,
+    singularity: singularity::SingularityWatch,
+    contacts: contacts::ContactWatch,
+    bodies: bodies::BodyWatch<'a>,
+    ticks_per_control: u64,
+    events: Vec<Event>,
+}
+
+impl<'a> Watch<'a> {
+    /// A watch for a run of `setup`, before its first row.
+    pub fn new(setup: &Setup<'a>) -> Self {
+        let apart_ticks = ((APART_S / setup.periods.step_s).round() as u64).max(1);
+        Self {
+            joints: joints::JointWatch::new(setup),
+            singularity: singularity::SingularityWatch::new(setup),
+            contacts: contacts::ContactWatch::new(apart_ticks),
+            bodies: bodies::BodyWatch::new(setup, apart_ticks),
+            ticks_per_control: u64::from(setup.periods.ticks_per_control.get()),
+            events: Vec::new(),
+        }
+    }
+
+    /// Looks at one tick; ticks come in order and none is left out.
+    pub fn see(&mut self, row: &Row<'_>) {
+        let events = &mut self.events;
+        let mut tell = |tick: u64, kind: EventKind| events.push(Event { tick, kind });
+        self.joints.see(row, &mut tell);
+        if row.tick.is_multiple_of(self.ticks_per_control) {
+            self.singularity.see(row, &mut tell);
+        }
+        if let Some(scene) = row.scene {
+            self.contacts.see(row.tick, scene.report(), &mut tell);
+            self.bodies.see(row.tick, scene, &mut tell);
+        }
+    }
+
+    /// What happened, in tick order, and every contact, in the order they began.
+    pub fn finish(mut self) -> (Vec<Event>, Vec<ContactSpan>) {
+        self.events.sort_by_key(|event| event.tick);
+        (self.events, self.contacts.finish())
+    }
+}

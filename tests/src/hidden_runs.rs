@@ -1,0 +1,100 @@
+//! Hidden runs of a lab with variants: numbers written down lose points there, and nothing tells what the hidden numbers are.
+
+use kinemark_grader::lab::Staff;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::text::text;
+
+use crate::testbed::{files_below, grade};
+use crate::variants::{HIDDEN, SOLUTION, base, bed, graded, places};
+
+#[test]
+fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
+    let bed = bed();
+    let full = graded(&bed, SOLUTION);
+    assert_eq!(full.verdict, Verdict::Passed, "{}", text(&full));
+    assert_eq!(full.tasks[1].hidden[0].good, 2);
+
+    let fixed = SOLUTION.replace("let out = observation.target[0][1];", "let out = 0.9;");
+    let fixed = graded(&bed, &fixed);
+    let touch = &fixed.tasks[1];
+    // one of three runs is right; in the others the place is 150 mm and more from the one written down
+    assert_eq!(touch.points, 1.0, "{}", text(&fixed));
+    assert_eq!(touch.verdict, Verdict::Missed);
+    let told = text(&fixed);
+    assert!(
+        told.contains("in 2 of 2 hidden runs of the class \"nearer places\" points are lost"),
+        "{told}"
+    );
+    assert!(told.contains("hidden runs: nearer places 0/2"), "{told}");
+    assert!(told.contains("run with other numbers, too"), "{told}");
+    assert_ne!(touch.digests.all, full.tasks[1].digests.all);
+    assert_eq!(
+        touch.digests.seconds.len(),
+        full.tasks[1].digests.seconds.len()
+    );
+    // without the staff's part there are none
+    let practice = grade(&base(&bed), None, "mine.rhai", SOLUTION).grade;
+    assert_eq!(practice.tasks[1].hidden, []);
+
+    // what it says and throws there is kept for itself
+    let leaks = SOLUTION.replace(
+        "let out = observation.target[0][1];",
+        "let out = observation.target[0][1]; if out < 0.8 { print(`secret ${out}`); throw `secret ${out}`; }",
+    );
+    let leaks = graded(&bed, &leaks);
+    let touch = &leaks.tasks[1];
+    assert_eq!(touch.verdict, Verdict::Crashed);
+    assert_eq!(touch.points, 1.0);
+    let stopped = touch.stopped.as_ref().expect("stopped");
+    assert_eq!(stopped.message, "the submission failed in a hidden run");
+    assert_eq!(stopped.case.as_deref(), Some("nearer places"));
+    assert_eq!(stopped.tick, None);
+    let json = serde_json::to_string(&leaks).expect("JSON");
+    assert!(!json.contains("secret 0"), "{json}");
+    // in a report neither
+    bed.write("leaks.rhai", SOLUTION);
+    assert_eq!(bed.run(&["grade", "93-touch", "leaks.rhai"]).code, Some(0));
+    let lab = base(&bed);
+    let staff = Staff::load(&places(&bed)[1], &lab, None)
+        .expect("loads")
+        .expect("staff");
+    for run in staff.runs("touch") {
+        let Some(kinemark_sim::robot::Dimension::Number(out)) = run.lab.parameters.get("out")
+        else {
+            panic!("no number");
+        };
+        let number = out.to_string();
+        for (name, bytes) in files_below(&bed.path("out")) {
+            let found = bytes
+                .windows(number.len())
+                .any(|window| window == number.as_bytes());
+            assert!(!found, "{name} holds {number}");
+        }
+    }
+}
+
+#[test]
+fn digests_of_hidden_parts_tell_nothing_without_the_salt() {
+    let bed = bed();
+    let lab = base(&bed);
+    let practice = grade(&lab, None, "mine.rhai", SOLUTION).grade;
+    // answers that depend on no number, so that only the key can make a difference
+    let blind = "fn forward_kinematics(robot, q) { [1.0, 0.0, 0.0] }\nfn control(o) { [0.0, 0.0] }";
+    let of = |salt: &str| {
+        let staff = Staff::load(&places(&bed)[1], &lab, Some(salt)).expect("loads");
+        grade(&lab, staff.as_ref(), "blind.rhai", blind).grade
+    };
+    let (sea, lake) = (of("sea"), of("lake"));
+    for (task, (sea, lake)) in sea.tasks.iter().zip(&lake.tasks).enumerate() {
+        assert_ne!(sea.digests.all, lake.digests.all, "task {task}");
+        assert_eq!(sea.digests.seconds, lake.digests.seconds, "task {task}");
+    }
+    assert_eq!(of("sea"), sea);
+
+    // a task with nothing hidden keeps its digest: anybody may hold it against their own
+    let hidden = bed.path("reference/93-touch/hidden.toml");
+    std::fs::write(hidden, HIDDEN.split("[[runs]]").next().expect("draws")).expect("written");
+    let open = graded(&bed, SOLUTION);
+    assert_ne!(open.tasks[0].digests, practice.tasks[0].digests);
+    assert_eq!(open.tasks[1].digests, practice.tasks[1].digests);
+}

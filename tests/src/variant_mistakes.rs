@@ -1,0 +1,208 @@
+//! Mistakes of whoever writes a lab with parameters, variants and hidden runs: each is told at its place.
+
+use crate::variants::{BRIEF, HIDDEN, LAB, bed};
+
+#[test]
+fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
+    for (from, to, code, message) in [
+        (
+            "\"= lengths[0]\"",
+            "\"= length[0]\"",
+            "lab::expression",
+            "did you mean `lengths`?",
+        ),
+        (
+            "link_lengths =",
+            "link_length =",
+            "lab::dimensions",
+            "did you mean `link_lengths`?",
+        ),
+        (
+            "link_lengths = [\"= lengths[0]\", ",
+            "link_lengths = [",
+            "lab::dimensions",
+            "a list of 2",
+        ),
+        ("can_at =", "cat_at =", "lab::dimensions", "cat_at"),
+        (
+            "\"shelf-and-can\"",
+            "\"shelf-and-cat\"",
+            "lab::unknown_scene",
+            "did you mean `shelf-and-can`?",
+        ),
+        (
+            "step = 0.01 }\n",
+            "step = 0.03 }\n",
+            "lab::variants",
+            "not a whole number of steps",
+        ),
+        (
+            "out = { from",
+            "lengths = { from",
+            "lab::toml",
+            "is there twice",
+        ),
+        (
+            "[variants]\nout",
+            "[variants]\nouf",
+            "lab::variants",
+            "did you mean `out`?",
+        ),
+        (
+            "out = { from = 0.85",
+            "out = { from = \"= out - 0.05\"",
+            "lab::variants",
+            "holds numbers, not expressions",
+        ),
+        (
+            "goals = [{",
+            "target = 1.0\ngoals = [{",
+            "lab::target",
+            "a task with goals has no target",
+        ),
+        (
+            "lengths = [{ from = 0.95, to = 1.05, step = 0.01 }, ",
+            "lengths = [",
+            "lab::variants",
+            "a list of 2",
+        ),
+        (
+            "points = 3.0",
+            "points = \"= out - 1\"",
+            "lab::points",
+            "got -0.09",
+        ),
+    ] {
+        let bed = bed();
+        assert!(LAB.contains(from), "{from}");
+        bed.write("labs/93-touch/lab.toml", LAB.replacen(from, to, 1));
+        let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
+        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
+        let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(shown.contains(code), "{to}: {shown}");
+        assert!(shown.contains(message), "{to}: {shown}");
+        assert!(shown.contains("93-touch/lab.toml:"), "{to}: {shown}");
+    }
+}
+
+#[test]
+fn mistakes_in_hidden_runs_are_told_at_their_place() {
+    for (from, to, message) in [
+        (
+            "parameters = { out",
+            "parameters = { ouf",
+            "did you mean `out`?",
+        ),
+        ("count = 2", "count = 0", "1 to 20 hidden runs"),
+        ("task = \"touch\"", "task = \"fk\"", "is no motion task"),
+        ("[0.6, 0.75]", "[[0.6, 0.75]]", "do not fit its shape"),
+        (
+            "out = [0.6, 0.75]",
+            "lengths = [[-1, -1], [1, 1]]",
+            "must be positive",
+        ),
+        ("[0.6, 0.75]", "[0.75, 0.6]", "write [0.6, 0.75]"),
+        (
+            "out = [0.6, 0.75]",
+            "lengths = [[0.9, 1.0], [1.0, 0.9]]",
+            "`lengths` goes from 1 down to 0.9",
+        ),
+        ("{ out = [0.6, 0.75] }", "{}", "is the visible run again"),
+        ("\"nearer places\"", "\" \"", "the class is empty"),
+        ("\"other bends\"", "\"\"", "the class is empty"),
+        (
+            "q_rad = [[-3.0, 3.0]",
+            "q_rad = [[3.0, -3.0]",
+            "`q_rad` goes from 3 down to -3",
+        ),
+        (
+            "[[runs]]",
+            "dimensions = { link_lengths = [[1.0, 0.9], [1, 1]] }\n[[runs]]",
+            "`link_lengths` goes from 1 down to 0.9",
+        ),
+        ("\"sea\"", "\"\"", "staff::salt"),
+    ] {
+        let bed = bed();
+        assert!(HIDDEN.contains(from), "{from}");
+        bed.write(
+            "reference/93-touch/hidden.toml",
+            HIDDEN.replacen(from, to, 1),
+        );
+        let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
+        assert_eq!(ran.code, Some(3), "{to}: {ran:?}");
+        let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(shown.contains(message), "{to}: {shown}");
+        assert!(shown.contains("93-touch/hidden.toml:"), "{to}: {shown}");
+    }
+}
+
+#[test]
+fn a_motion_task_of_a_robot_without_masses_is_the_labs_mistake() {
+    let bed = bed();
+    let lab = LAB.replace("robot = \"rrbot\"\nframe = \"lab\"", "robot = \"rppr\"");
+    let lab = lab.replace("link_lengths = [\"= lengths[0]\", \"= lengths[1]\"]\n", "");
+    bed.write(
+        "labs/93-touch/lab.toml",
+        lab.replace("[0.5, \"= out\"]", "[0, 0, 0, 0]"),
+    );
+    let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(shown.contains("lab::no_inertia"), "{shown}");
+    assert!(shown.contains("joint `gripper_turn`"), "{shown}");
+    assert!(shown.contains("robot `rppr`"), "{shown}");
+    assert!(shown.contains("lab.toml:5:9"), "{shown}");
+}
+
+#[test]
+fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
+    let bed = bed();
+    let check = |students: &str| {
+        let ran = bed.run(&[
+            "lab",
+            "check",
+            "93-touch",
+            "--salts",
+            "0",
+            "--variants",
+            students,
+        ]);
+        // this lab has no known mistakes, which is a problem of its own
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        ran.stdout
+    };
+    let told = check("0");
+    assert!(told.contains("can be handed out"), "{told}");
+    for (brief, problem) in [
+        (
+            BRIEF.replace("= out -->", "= ouf -->"),
+            "line 3: no parameter is called `ouf`",
+        ),
+        (
+            BRIEF.replace("<!-- grading: end -->", ""),
+            "has no place for the table of points",
+        ),
+    ] {
+        bed.write("labs/93-touch/brief.md", brief);
+        let told = check("0");
+        assert!(told.contains(problem), "{told}");
+    }
+    std::fs::remove_file(bed.path("labs/93-touch/brief.md")).expect("removed");
+    let told = check("0");
+    assert!(told.contains("there is no brief.md"), "{told}");
+
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "out = { from = 0.85, to = 0.95, step = 0.01 }",
+        "out = { from = -0.5, to = 0.5, step = 1.0 }",
+    );
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "points = 3.0",
+        "points = \"= out\"",
+    );
+    let told = check("6");
+    assert!(told.contains("such as that of `student "), "{told}");
+    assert!(told.contains("it cannot be loaded (lengths = ["), "{told}");
+    assert!(told.contains("out = -0.5): "), "{told}");
+}
