@@ -234,7 +234,8 @@ fn real_root(descending: &[f64; 4], constant: f64) -> f64 {
     );
     loop {
         let middle = 0.5 * (near + far);
-        if middle == near || middle == far {
+        // no number between them is left
+        if middle <= near.min(far) || middle >= near.max(far) {
             return middle;
         }
         if (value(middle) > 0.0) == (constant > 0.0) {

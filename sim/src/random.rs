@@ -123,11 +123,11 @@ mod tests {
         assert_eq!(stream.bits(), word(0));
         assert_eq!(
             stream.between([-1.0, 3.0]),
-            -1.0 + 4.0 * ((word(1) >> 11) as f64 / 2_f64.powi(53))
+            -1.0 + 4.0 * ((word(1) >> 11) as f64 / (1_u64 << 53) as f64)
         );
         assert_eq!(
             stream.below(1000),
-            (word(2) as f64 / 2_f64.powi(64) * 1000.0) as u64
+            (word(2) as f64 / (2.0 * (1_u64 << 63) as f64) * 1000.0) as u64
         );
         let mut other = KeyedStream::new("a context", &["a", "bc"], &7_u32.to_le_bytes());
         assert_ne!(other.bits(), word(0));

@@ -256,7 +256,10 @@ fn a_robot_with_loops_moves_as_its_servos_would_move_it_in_a_lab() {
     let mut last = Last(Vec::new());
     let end = run(
         &setup,
-        |_, slot| Ok::<(), ()>(slot.copy_from_slice(&command)),
+        |_, slot| {
+            slot.copy_from_slice(&command);
+            Ok::<(), ()>(())
+        },
         &mut last,
     );
     assert_eq!(end, Ok(End::Finished));

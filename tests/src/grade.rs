@@ -91,7 +91,7 @@ fn an_earlier_report_is_replaced_whole_and_nothing_else_ever() {
     bed.write("out/plots/stale.svg", "old");
     let ran = bed.run(&args);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("holds `plots/stale.svg`"), "{ran:?}");
+    assert!(ran.stderr.contains("contains `plots/stale.svg`"), "{ran:?}");
     bed.edit(
         "out/report.json",
         "\"files\": {",

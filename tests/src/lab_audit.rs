@@ -93,12 +93,15 @@ fn references_lose_no_point_whatever_the_salt() {
             } else {
                 functions.clone()
             };
-            cases.push((format!("{}, salt {salt}", lab.name), (part, salt)));
+            cases.push((
+                format!("{}, salt {salt}", lab.name),
+                (lab.clone(), part, salt),
+            ));
         }
     }
     let paths = Mutex::new(Vec::new());
-    every_case(&cases, |(part, salt)| {
-        let staff = staff(part, Some(&format!("salt {salt}")));
+    every_case(&cases, |(lab, part, salt)| {
+        let staff = staff(lab, Some(&format!("salt {salt}")));
         let solution = staff.solution.clone();
         let graded = grade(part, Some(&staff), "solution.rhai", solution.text());
         let grade = &graded.grade;

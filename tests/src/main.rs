@@ -21,6 +21,7 @@ mod every_case;
 mod exact;
 mod export;
 mod free_function_task;
+mod function_length;
 mod golden;
 mod grade;
 mod grants;

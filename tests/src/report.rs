@@ -141,7 +141,7 @@ fn a_ghost_needs_a_reference() {
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--ghost"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(
-        ran.stderr.contains("--ghost shows the reference solution")
+        ran.stderr.contains("--ghost needs the reference solution")
             && ran.stderr.contains("--reference DIR"),
         "{ran:?}"
     );

@@ -134,7 +134,7 @@ fn what_holds_no_report_is_told() {
     bed.write("folder/file", "");
     let ran = bed.run(&["view", "folder", "--no-open"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
-    assert!(ran.stderr.contains("holds no report"), "{ran:?}");
+    assert!(ran.stderr.contains("contains no report"), "{ran:?}");
 }
 
 /// Pipes and devices in place of a report's files: a page that is none, and a record that never ends.

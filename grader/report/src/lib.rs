@@ -1,5 +1,13 @@
 //! The grade, shown: text for a terminal, plots as SVG and PNG, and a page that holds everything.
 
+#![cfg_attr(
+    test,
+    expect(
+        clippy::float_cmp,
+        reason = "tests state exact values where exactness is the claim"
+    )
+)]
+
 pub mod brief_page;
 pub mod compare_text;
 pub(crate) mod goal;

@@ -219,7 +219,10 @@ pub fn runs<'a>(
     Some((find(a)?, find(b)?))
 }
 
-/// Whether two runs can be held against each other tick by tick.
+/// Whether two runs can be compared tick by tick.
+///
+/// # Errors
+/// Why not, in words.
 pub fn comparable(a: &TaskRun, b: &TaskRun) -> Result<(), String> {
     if a.trace.is_empty() || b.trace.is_empty() {
         let which = match (a.trace.is_empty(), b.trace.is_empty()) {

@@ -99,6 +99,18 @@ impl Shares {
     }
 }
 
+impl TouchingParty {
+    /// Its name as it stands in a sentence.
+    pub fn told(self, names: &Names<'_>) -> String {
+        match self {
+            Self::Arm => "the arm".to_owned(),
+            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
+            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
+            Self::Ground => "the ground".to_owned(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,17 +130,5 @@ mod tests {
             zero: 0.5,
         };
         assert_eq!((threshold.score(0.5), threshold.score(0.49)), (1.0, 0.0));
-    }
-}
-
-impl TouchingParty {
-    /// Its name as it stands in a sentence.
-    pub fn told(self, names: &Names<'_>) -> String {
-        match self {
-            Self::Arm => "the arm".to_owned(),
-            Self::Link(index) => format!("`{}`", names.party(Party::Link(index))),
-            Self::Body(index) => format!("`{}`", names.party(Party::Body(index))),
-            Self::Ground => "the ground".to_owned(),
-        }
     }
 }

@@ -184,7 +184,7 @@ pub enum ServoError {
         found: usize,
     },
     /// A gain that would push the joint away from its command.
-    #[error("`{what}` must be zero or more, got {found:e}")]
+    #[error("`{what}` must be zero or more, got {found}")]
     Gain {
         /// The name of the list.
         what: &'static str,
@@ -192,7 +192,7 @@ pub enum ServoError {
         found: f64,
     },
     /// A limit that would leave no effort at all.
-    #[error("`{what}` must be positive, got {found:e}")]
+    #[error("`{what}` must be positive, got {found}")]
     Limit {
         /// The name of the list.
         what: &'static str,
@@ -475,7 +475,7 @@ mod tests {
                     kp: vec![-1.0],
                     ..none.clone()
                 },
-                "`kp` must be zero or more, got -1e0",
+                "`kp` must be zero or more, got -1",
             ),
             (
                 GainLists {
@@ -489,14 +489,14 @@ mod tests {
                     effort_limit: vec![0.0],
                     ..none.clone()
                 },
-                "`effort_limit` must be positive, got 0e0",
+                "`effort_limit` must be positive, got 0",
             ),
             (
                 GainLists {
                     integral_limit: vec![-2.5],
                     ..none.clone()
                 },
-                "`integral_limit` must be positive, got -2.5e0",
+                "`integral_limit` must be positive, got -2.5",
             ),
             (
                 GainLists {

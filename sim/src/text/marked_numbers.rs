@@ -66,10 +66,13 @@ fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<toml::de::Error> 
         .then_some(error)
 }
 
+/// What is shown an expression and the value that holds it.
+type Visit<'v> = dyn FnMut(&str, &Spanned<DeValue<'_>>) -> Result<(), ExpressionProblem> + 'v;
+
 /// Shows `see` every expression in `value`, in the order of the text, until it refuses one.
 fn each_expression(
     value: &Spanned<DeValue<'_>>,
-    see: &mut dyn FnMut(&str, &Spanned<DeValue<'_>>) -> Result<(), ExpressionProblem>,
+    see: &mut Visit<'_>,
 ) -> Result<(), ExpressionProblem> {
     match value.get_ref() {
         DeValue::String(text) if text.starts_with(MARK) => see(text, value),

@@ -151,7 +151,7 @@ fn a_refusal_names_the_field_and_what_it_must_be() {
                 r#"{{"op": "simulate", {servo}, "command": [0, 0], "servo": {{"mode": "effort", "effort_limit": -1}}}}"#
             ),
             "out-of-range",
-            "`servo.effort_limit` must not be negative, got -1",
+            "`servo.effort_limit` must be positive, got -1",
         ),
         (
             r#"{"op": "bias", "q": [0, 0], "qd": [1e200, 0]}"#,

@@ -237,10 +237,10 @@ impl DrawingBackend for SvgBackend {
             _ => "",
         };
         // half the height of an x below the middle
-        let _ = write!(
+        let _ = writeln!(
             self.svg,
             "<text x=\"{x}\" y=\"{y}\" dy=\"0.5ex\" text-anchor=\"{anchor}\" font-size=\"{size}\" opacity=\"1\" \
-             fill=\"{colour}\"{weight}>\n"
+             fill=\"{colour}\"{weight}>"
         );
         push_escaped(&mut self.svg, text);
         self.svg.push_str("\n</text>\n");

@@ -322,7 +322,14 @@ impl ServoTable {
                 ServoError::Count { .. } => Code::WrongLength,
                 ServoError::VelocityOfVelocity => Code::CannotRun,
             };
-            Refusal::new(code, error.to_string())
+            // a list of gains is a field of `servo`
+            let message = match &error {
+                ServoError::Gain { what, .. } | ServoError::Limit { what, .. } => error
+                    .to_string()
+                    .replace(&format!("`{what}`"), &format!("`servo.{what}`")),
+                ServoError::Count { .. } | ServoError::VelocityOfVelocity => error.to_string(),
+            };
+            Refusal::new(code, message)
         })
     }
 }
