@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::judge::grade;
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::submission::host::InProcess;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 struct Folder(&'static str);
 

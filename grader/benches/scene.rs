@@ -4,8 +4,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::judge::grade;
 use kinemark_grader::lab::{Files, Lab};
 use kinemark_grader::submission::host::InProcess;
-use kinemark_sim::event::EventKind;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
+use kinemark_sim::watch::event::EventKind;
 
 /// The labs of the course, and one lab more.
 struct Labs;

@@ -8,11 +8,12 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_sim::dynamics::crba::Crba;
 use kinemark_sim::dynamics::rnea::Rnea;
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2};
+use kinemark_sim::format::urdf;
+use kinemark_sim::format::urdf::UrdfOptions;
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::kinematics::chain::Chain;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Source;
 use nalgebra::DMatrix;
 
 const STATES: usize = 64;

@@ -3,11 +3,13 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kinemark_sim::control::{Derivative, Gains, Mode, Servo, ServoSettings};
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::hybrid::{HybridStep, StateFrom};
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::scene::{Scene, SceneFile};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::format::SceneFile;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::Scene;
 use kinemark_sim::spatial::{Twist, pose, rotation_about_axis_deg};
+use kinemark_sim::step::hybrid::{HybridStep, StateFrom};
+use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 
 const DT_S: f64 = 1e-3;

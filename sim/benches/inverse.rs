@@ -3,12 +3,13 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use kinemark_sim::format::urdf;
+use kinemark_sim::format::urdf::UrdfOptions;
 use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::kinematics::inverse::{Goal, IkSettings, IkSolver, Target};
 use kinemark_sim::kinematics::joint_samples::JointSamples;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Source;
 
 /// Targets of one round; a round visits each once.
 const TARGETS: usize = 10_000;

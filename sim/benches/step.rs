@@ -6,9 +6,10 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::dynamics::ForwardDynamics;
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::run::{Recorder, Row, Setup, run};
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::TraceRecorder;
 

@@ -57,7 +57,3 @@ pub mod ticks;
 pub mod trace;
 pub mod trajectory;
 pub mod watch;
-
-mod facade;
-#[doc(hidden)]
-pub use facade::*;

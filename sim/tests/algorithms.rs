@@ -3,7 +3,7 @@
 use kinemark_sim::dynamics::{
     bias_effort, energy, forward_dynamics, gravity_effort, inverse_dynamics, mass_matrix,
 };
-use kinemark_sim::joint::{JointAccelerations, JointPositions, JointVelocities};
+use kinemark_sim::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 use kinemark_sim::kinematics::{forward_kinematics, frame_twist, geometric_jacobian};
 use nalgebra::{DVector, Vector3};
 use proptest::prelude::*;
@@ -109,7 +109,7 @@ proptest! {
         let n = robot.n();
         let mut r = Numbers::new(seed ^ 5);
         let (q, qd) = (r.vector(n, 3.0), r.vector(n, 1.0));
-        let tau = kinemark_sim::joint::JointEfforts::new(r.vector(n, 5.0));
+        let tau = kinemark_sim::joint_space::JointEfforts::new(r.vector(n, 5.0));
         let (q0, qd0) = (JointPositions::new(q.clone()), JointVelocities::new(qd.clone()));
         let qdd = forward_dynamics(&robot, &G, &q0, &qd0, &tau).expect("inertia everywhere");
         let h = 1e-6;

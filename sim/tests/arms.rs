@@ -1,8 +1,9 @@
 //! Robots that the tests share: the course's arm, and trees drawn from a seed.
 
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::random::SplitMix64;
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 /// Reads a robot from text.
 pub(crate) fn robot(text: &str) -> Robot {

@@ -1,9 +1,9 @@
 //! Bounces against the laws of impact: faces, rims and balls, free, on the ground and on a link.
 
-use kinemark_sim::hybrid::HybridStep;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::scene::{BodyKind, Scene, SceneBody};
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::{BodyKind, Scene, SceneBody};
+use kinemark_sim::step::hybrid::HybridStep;
 use nalgebra::Vector3;
 
 use crate::arms::robot;

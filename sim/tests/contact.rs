@@ -1,13 +1,16 @@
 //! Contact: forces by hand, rest that is rest, and the course's arm among shelf, can and wall.
 
-use kinemark_sim::engine::Party;
-use kinemark_sim::hybrid::{HybridStep, StateFrom};
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::inertia::{MeshSolid, Solid};
-use kinemark_sim::robot::mesh::Mesh;
-use kinemark_sim::scene::{BodyKind, Drag, Gust, Motion, Scene, Wind};
+use kinemark_sim::model::air::Drag;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::gust::Gust;
+use kinemark_sim::model::inertia::{MeshSolid, Solid};
+use kinemark_sim::model::mesh::Mesh;
+use kinemark_sim::model::prescribed_motion::Motion;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::{BodyKind, Scene, Wind};
 use kinemark_sim::spatial::Twist;
+use kinemark_sim::step::hybrid::{HybridStep, StateFrom};
 use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::Vector3;
 

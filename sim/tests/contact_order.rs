@@ -1,8 +1,8 @@
 //! How exact motion in contact is: first order in the step, against a closed form and against steps 16 times finer.
 
 use kinemark_sim::control::{Derivative, Gains, Mode, Servo, ServoSettings};
-use kinemark_sim::hybrid::{HybridStep, StateFrom};
-use kinemark_sim::scene::BodyKind;
+use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::step::hybrid::{HybridStep, StateFrom};
 
 use crate::arms::{robot, rrbot};
 use crate::contact_scenes::{GRAVITY, at, boxed, part, reach, scene};

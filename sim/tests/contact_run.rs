@@ -1,7 +1,7 @@
 //! One run with everything in it and its digest, for every build that must have its bits: the module of `tests/wasm` too.
 
-use kinemark_sim::hybrid::HybridStep;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::step::hybrid::HybridStep;
 
 use crate::contact_scenes::{GRAVITY, reach, shelf_and_can};
 

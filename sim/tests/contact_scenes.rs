@@ -1,8 +1,8 @@
 //! Scenes that the tests share: the shelf and the can of the labs, loose parts, and where the arm reaches them.
 
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::robot::model::{Contact, Shape};
-use kinemark_sim::scene::{BodyKind, Environment, Scene, SceneBody};
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::robot::{Contact, Shape};
+use kinemark_sim::model::scene::{BodyKind, Environment, Scene, SceneBody};
 use kinemark_sim::spatial::{Pose, Twist, pose};
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,16 +1,17 @@
 //! How frames move, against independent numbers and against difference quotients of where they are.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::format::urdf;
+use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::analytic::{Angles, analytic_jacobian};
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass, centre_of_mass_jacobian};
 use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::kinematics::derivative::jacobian_derivative;
 use kinemark_sim::kinematics::{forward_kinematics, frame_twist, geometric_jacobian};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::spatial::Pose;
+use kinemark_sim::text::Source;
 use nalgebra::{DVector, Point3, Vector3};
 use serde_json::Value;
 

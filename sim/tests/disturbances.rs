@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::run::{Disturbance, Observation, Run, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};

@@ -2,11 +2,12 @@
 
 use kinemark_sim::control::{Derivative, Gains, Mode, Servo, ServoSettings};
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::engine::Party;
-use kinemark_sim::hybrid::HybridStep;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::{Scene, SceneFile};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::SceneFile;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::Scene;
+use kinemark_sim::step::hybrid::HybridStep;
+use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 use serde_json::Value;
 

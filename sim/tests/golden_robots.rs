@@ -5,9 +5,10 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, driven_efforts, driven_mass_matrix, forward_dynamics,
     gravity_effort, inverse_dynamics, mass_matrix,
 };
+use kinemark_sim::format::joint_string;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::kinematics::{forward_kinematics, frame_twist, geometric_jacobian};
-use kinemark_sim::robot::{Frame, Robot, config_string};
+use kinemark_sim::model::robot::{Frame, Robot};
 use kinemark_sim::spatial::Pose;
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use serde_json::Value;
@@ -84,7 +85,7 @@ fn configuration_strings_agree() {
             .map(|l| format!("{},{},{}", l[0], l[1], l[2]))
             .collect();
         let base = case["h_base"].as_f64().expect("base");
-        let robot = config_string::robot(text, base, &links.join("; ")).expect(text);
+        let robot = joint_string::robot(text, base, &links.join("; ")).expect(text);
         let last = robot.links().last().expect("links").name.clone();
         let last = robot.frame(&last).expect("last link");
         for sample in case["samples"].as_array().expect("samples") {
@@ -120,10 +121,7 @@ fn configuration_strings_agree() {
     }
     for text in file["invalid_strings"].as_array().expect("invalid") {
         let text = text.as_str().expect("text");
-        assert!(
-            config_string::robot(text, 2.0, "0,0,1").is_err(),
-            "{text:?}"
-        );
+        assert!(joint_string::robot(text, 2.0, "0,0,1").is_err(), "{text:?}");
     }
 }
 

@@ -5,12 +5,12 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::joint::{JointEfforts, JointPositions};
+use kinemark_sim::format::urdf::{UrdfOptions, robot};
+use kinemark_sim::joint_space::{JointEfforts, JointPositions};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
-use kinemark_sim::robot::urdf::{UrdfOptions, robot};
-use kinemark_sim::robot::{Link, Robot};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::{Link, Robot};
 use kinemark_sim::spatial::Pose;
+use kinemark_sim::text::Source;
 use nalgebra::{Matrix6xX, Vector3};
 use serde_json::Value;
 

@@ -10,7 +10,7 @@ use kinemark_sim::kinematics::inverse::{
     inverse_kinematics,
 };
 use kinemark_sim::kinematics::position_range::position_ranges;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::spatial::{Pose, pose, rotation_exp, rotation_log};
 use nalgebra::{Matrix3, Unit, Vector3};
 

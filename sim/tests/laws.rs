@@ -1,8 +1,8 @@
 //! Laws of motion that any run must keep.
 
 use kinemark_sim::dynamics::{GRAVITY_M_S2, energy};
-use kinemark_sim::joint::{JointPositions, JointVelocities};
-use kinemark_sim::robot::Robot;
+use kinemark_sim::joint_space::{JointPositions, JointVelocities};
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::Vector3;
 

@@ -1,16 +1,18 @@
 //! Drag on links: forces and speeds by hand, Jacobians, order and energy of the step, and the same gusts as the bodies feel.
 
-use kinemark_sim::air::{AirNow, Drag};
 use kinemark_sim::dynamics::drag::LinkDrag;
 use kinemark_sim::dynamics::{GRAVITY_M_S2, energy};
-use kinemark_sim::engine::Party;
-use kinemark_sim::hybrid::{HybridStep, StateFrom};
-use kinemark_sim::joint::{JointPositions, JointVelocities};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::joint_space::{JointPositions, JointVelocities};
 use kinemark_sim::kinematics::geometric_jacobian;
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::scene::{Gust, Scene, Wind};
-use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::model::air::{AirNow, Drag};
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::gust::Gust;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::{Scene, Wind};
+use kinemark_sim::step::hybrid::{HybridStep, StateFrom};
 use kinemark_sim::step::smooth::SmoothStep;
+use kinemark_sim::text::{Problem as _, Source};
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, lab_robot, random_tree, robot, rrbot};

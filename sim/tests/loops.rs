@@ -6,12 +6,13 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, driven_efforts, energy, forward_dynamics, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::joint::{JointAccelerations, JointPositions, JointVelocities};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 use kinemark_sim::kinematics::closure::{LoopError, closed_positions, loop_gap_m};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::step::smooth::SmoothStep;
+use kinemark_sim::text::{Problem as _, Source};
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 

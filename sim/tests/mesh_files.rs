@@ -1,6 +1,6 @@
 //! Mesh files: what each form means, and what is said about a broken one.
 
-use kinemark_sim::robot::mesh::{Mesh, MeshProblem, Place};
+use kinemark_sim::model::mesh::{Mesh, MeshProblem, Place};
 use proptest::prelude::*;
 
 pub(crate) type Corners = [[f64; 3]; 3];

@@ -3,8 +3,8 @@
 
 use std::f64::consts::PI;
 
-use kinemark_sim::robot::inertia::{Inertia, Solid, unphysical};
-use kinemark_sim::robot::mesh::{Mesh, MeshProblem};
+use kinemark_sim::model::inertia::{Inertia, Solid, unphysical};
+use kinemark_sim::model::mesh::{Mesh, MeshProblem};
 use kinemark_sim::spatial::{Symmetric3, pose, rotation_from_rpy_deg};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;

@@ -6,11 +6,11 @@ use kinemark_reference::planar_2r::{IkSolutions, JointState, Planar2r};
 use kinemark_sim::dynamics::{
     bias_effort, energy, forward_dynamics, gravity_effort, inverse_dynamics, mass_matrix,
 };
-use kinemark_sim::joint::{JointAccelerations, JointPositions, JointVelocities};
+use kinemark_sim::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 use kinemark_sim::kinematics::inverse::{IkSettings, Target, inverse_kinematics};
 use kinemark_sim::kinematics::manipulability::Manipulability;
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 

@@ -1,10 +1,10 @@
 //! Range finders: distances by hand, rays against bisection, and bodies that move.
 
-use kinemark_sim::engine::Party;
-use kinemark_sim::hybrid::HybridStep;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::scene::BodyKind;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::spatial::{pose, rotation_from_rpy_deg};
+use kinemark_sim::step::hybrid::HybridStep;
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, robot};

@@ -1,6 +1,6 @@
 //! Robot files: what they may say, and that both ways of saying a thing agree.
 
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
 
 use crate::arms::{robot, rrbot};

@@ -3,14 +3,17 @@
 use std::num::NonZeroU32;
 
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
-use kinemark_sim::engine::Party;
-use kinemark_sim::event::{Event, EventKind, SeenSide};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::run::{self, End, Observation, Run, Setup};
-use kinemark_sim::runaway::{BlowUp, Cause, likely_cause};
-use kinemark_sim::scene::{BodyKind, Drag, Scene, Wind};
+use kinemark_sim::diagnosis::{Cause, likely_cause};
+use kinemark_sim::model::air::Drag;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::{BodyKind, Scene, Wind};
+use kinemark_sim::run;
+use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::{End, Observation, Run, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
+use kinemark_sim::watch::event::{Event, EventKind, SeenSide};
 
 use crate::arms::rrbot;
 use crate::contact_scenes::{GRAVITY, at, part, reach, scene, shelf_and_can};
@@ -330,7 +333,7 @@ fn lowered(slope_deg: f64) -> Trace {
         "format = 1\nname = 'lift'\n[[bodies]]\nname = 'plate'\ntype = 'kinematic'\nshapes = [{{ box = {{ size_m = [2.0, 1.0, 0.1] }} }}]\ncontact = {{ friction = 0.2 }}\nmotion = {{ waypoints = [{{ t_s = 0.5, xyz_m = [3, 0, 1], rpy_deg = [0, {slope_deg}, 0] }}, {{ t_s = 1.5, xyz_m = [3, 0, 0.6], rpy_deg = [0, {slope_deg}, 0] }}] }}\n[[bodies]]\nname = 'box'\ntype = 'free'\norigin = {{ xyz_m = [{x}, 0, {z}], rpy_deg = [0, {slope_deg}, 0] }}\nshapes = [{{ box = {{ size_m = [0.1, 0.1, 0.1] }} }}]\ninertia = {{ mass_kg = 1.0 }}\ncontact = {{ friction = 0.2 }}\n"
     );
     let file =
-        kinemark_sim::scene::SceneFile::parse(kinemark_sim::source::Source::new("lift.toml", text));
+        kinemark_sim::format::SceneFile::parse(kinemark_sim::text::Source::new("lift.toml", text));
     let around = file.and_then(|file| file.build(&[])).expect("a scene");
     let robot = rrbot();
     let setup = setup(&robot, Some(&around), [100.0, 10.0], 2000);
@@ -365,7 +368,7 @@ fn what_rides_down_does_not_fall() {
 
 /// A ball that starts with `speed_m_s` along x, in air that drags on `area_m2` of it and blows with 10 m/s.
 fn flying(speed_m_s: f64, mass_kg: f64, area_m2: f64) -> Scene {
-    let solid = kinemark_sim::robot::inertia::Solid::Sphere { radius_m: 0.05 };
+    let solid = kinemark_sim::model::inertia::Solid::Sphere { radius_m: 0.05 };
     let mut ball = part("ball", BodyKind::Free, solid, mass_kg, at(5.0, 0.0, 5.0));
     ball.twist.linear.x = speed_m_s;
     ball.drag = Some(Drag {

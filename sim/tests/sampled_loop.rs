@@ -4,12 +4,13 @@ use kinemark_sim::control::{
     Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, sampled_loop,
 };
 use kinemark_sim::dynamics::{GRAVITY_M_S2, gravity_effort, mass_matrix};
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::format::urdf;
+use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::closure::closed_positions;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::step::smooth::SmoothStep;
+use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 
 use crate::arms::{lab_robot, robot, rrbot};

@@ -1,12 +1,15 @@
 //! Checks of scenes: overlaps by hand and by separating axes, bodies that do not stay, via points and lines among shelf and can.
 
-use kinemark_sim::engine::{Layout, Overlap, Party};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::scene::{BodyKind, Motion, Scene, SceneBody, SceneFile};
+use kinemark_sim::engine::{Layout, Overlap};
+use kinemark_sim::format::SceneFile;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::prescribed_motion::Motion;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::{BodyKind, Scene, SceneBody};
 use kinemark_sim::scene_check::{Finding, Kind, LineStopCause, Severity, Work, check};
-use kinemark_sim::source::Source;
 use kinemark_sim::spatial::{Twist, pose, rotation_from_rpy};
+use kinemark_sim::text::Source;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::arms::{Numbers, lab_robot, robot, rrbot};

@@ -5,11 +5,12 @@
     reason = "a number that a file states is kept as it is"
 )]
 
-use kinemark_sim::robot::file::Dimension;
-use kinemark_sim::robot::inertia::Solid;
-use kinemark_sim::scene::{BodyKind, Scene, SceneBody, SceneError, SceneFile};
-use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::format::{SceneError, SceneFile};
+use kinemark_sim::model::inertia::Solid;
+use kinemark_sim::model::scene::{BodyKind, Scene, SceneBody};
 use kinemark_sim::spatial::Twist;
+use kinemark_sim::text::Dimension;
+use kinemark_sim::text::{Problem as _, Source};
 use miette::Diagnostic as _;
 use nalgebra::Vector3;
 
@@ -596,7 +597,7 @@ fn a_scene_without_bodies_is_an_empty_world() {
     assert!(scene.bodies.is_empty());
     assert_eq!(
         scene.environment,
-        kinemark_sim::scene::Environment::default()
+        kinemark_sim::model::scene::Environment::default()
     );
 }
 

@@ -1,7 +1,7 @@
 //! The tables of sensors: what they may say, mistakes at their places, and that they survive being written.
 
-use kinemark_sim::robot::RobotFile;
-use kinemark_sim::source::{Problem as _, Source};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::text::{Problem as _, Source};
 
 use crate::arms::{lab_robot, robot, rrbot};
 use crate::sensor_rig::{equipped, text};

@@ -1,10 +1,10 @@
 //! A robot with the sensors of its file in a scene, stepped and sampled as a run does it.
 
-use kinemark_sim::engine::ContactFact;
-use kinemark_sim::hybrid::HybridStep;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::Scene;
-use kinemark_sim::sensor::{Seen, Sensors};
+use kinemark_sim::model::contact::ContactFact;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::Scene;
+use kinemark_sim::sensing::{Seen, Sensors};
+use kinemark_sim::step::hybrid::HybridStep;
 
 use crate::arms::robot;
 use crate::contact_scenes::GRAVITY;

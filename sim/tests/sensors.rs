@@ -1,7 +1,7 @@
 //! Sensors of joints, limit switches, and what devices do to values.
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::sensor::{Seen, SensorError, Sensors};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::sensing::{Seen, SensorError, Sensors};
 
 use crate::arms::robot;
 use crate::contact_scenes::scene;

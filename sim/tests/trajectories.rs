@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::spatial::{Pose, pose, rotation_exp, rotation_log};
 use kinemark_sim::trajectory::{
     AlongPath, Arc, ArcOrientation, Cubic, JerkLimited, JerkLimits, JointTrajectory, Knot, Limits,

@@ -2,12 +2,13 @@
 
 use std::cell::RefCell;
 
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::format::RobotError;
+use kinemark_sim::format::urdf::{UrdfOptions, robot};
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
-use kinemark_sim::robot::urdf::{UrdfOptions, robot};
-use kinemark_sim::robot::{JointKind, Robot, RobotError};
-use kinemark_sim::source::Source;
+use kinemark_sim::model::robot::{JointKind, Robot};
 use kinemark_sim::spatial::{Pose, rotation_about_axis_deg};
+use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 
 pub(crate) fn read(text: &str) -> Result<Robot, RobotError> {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use kinemark_sim::source::Problem as _;
+use kinemark_sim::text::Problem as _;
 use proptest::prelude::*;
 
 use crate::urdf::{arm, good, gripper, link, read};

@@ -1,8 +1,9 @@
 //! Contact and wrench sensors: forces by hand, and joints against the efforts that move them.
 
-use kinemark_sim::engine::Party;
-use kinemark_sim::scene::Wind;
-use kinemark_sim::sensor::{Seen, Sensor, SensorKind, Sensors};
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::scene::Wind;
+use kinemark_sim::model::sensor::{Sensor, SensorKind};
+use kinemark_sim::sensing::{Seen, Sensors};
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, random_tree, robot};

@@ -165,8 +165,8 @@ fn numbers_read_back_to_the_same_bits() {
     assert_eq!(answers[0]["position_m"], answers[1]["position_m"]);
     let robot = {
         let text = std::fs::read_to_string(root().join("labs/robots/rrbot.toml")).expect("robot");
-        let source = kinemark_sim::source::Source::new("rrbot.toml", text);
-        let file = kinemark_sim::robot::RobotFile::parse(source).expect("readable");
+        let source = kinemark_sim::text::Source::new("rrbot.toml", text);
+        let file = kinemark_sim::format::RobotFile::parse(source).expect("readable");
         file.build(&[]).expect("robot")
     };
     let poses =

@@ -59,8 +59,7 @@ fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
         .expect("loads")
         .expect("staff");
     for run in staff.runs("touch") {
-        let Some(kinemark_sim::robot::Dimension::Number(out)) = run.lab.parameters.get("out")
-        else {
+        let Some(kinemark_sim::text::Dimension::Number(out)) = run.lab.parameters.get("out") else {
             panic!("no number");
         };
         let number = out.to_string();

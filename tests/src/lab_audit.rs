@@ -9,7 +9,7 @@ use kinemark_grader::lab::{Lab, Staff, TaskWork};
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::every_case::every_case;
 use crate::golden;
@@ -217,11 +217,11 @@ fn hidden_targets_lie_inside_the_boundary() {
         for case in staff.hidden("ik") {
             let robot = lab.robot_file.build(&case.dimensions).expect("a robot");
             let length = |joint: usize| match robot.dimensions().get("link_lengths") {
-                Some(kinemark_sim::robot::Dimension::List(lengths)) => lengths[joint],
+                Some(kinemark_sim::text::Dimension::List(lengths)) => lengths[joint],
                 other => panic!("{other:?}"),
             };
             let base_height_m = match robot.dimensions().get("base_height") {
-                Some(kinemark_sim::robot::Dimension::Number(height)) => *height,
+                Some(kinemark_sim::text::Dimension::Number(height)) => *height,
                 other => panic!("{other:?}"),
             };
             let (l1_m, l2_m) = (length(0), length(1));

@@ -4,7 +4,7 @@
 use kinemark_grader::judge::with_expected;
 use kinemark_grader::lab::model::{Given, TaskWork};
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 
 use crate::testbed::{lab, staff};
 

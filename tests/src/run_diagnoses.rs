@@ -6,7 +6,7 @@ use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, TaskGrade};
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::every_case::every_case;
 use crate::testbed::{Folder, TestBed, grade};

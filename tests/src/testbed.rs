@@ -12,7 +12,7 @@ use kinemark_grader::judge;
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::submission::host::InProcess;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 /// The checkout.
 pub(crate) fn root() -> PathBuf {

@@ -2,7 +2,7 @@
 
 use kinemark_grader::lab::{Lab, Staff, Variant};
 use kinemark_grader::record::grade::Grade;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use serde_json::Value as Json;
 
 use crate::lab_audit::passes_variants;

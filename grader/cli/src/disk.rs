@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::Files;
 use kinemark_grader::lab::files::text;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::failure::Failure;
 
@@ -192,7 +192,7 @@ fn near_in_folder(path: &Path) -> String {
     };
     let wanted = path.file_name().unwrap_or_default().to_string_lossy();
     let names = Folder::new(folder.to_owned()).list("");
-    let near = kinemark_sim::source::nearest(&wanted, names.iter().map(String::as_str));
+    let near = kinemark_sim::text::nearest(&wanted, names.iter().map(String::as_str));
     match near {
         Some(near) => format!("did you mean `{}`?", folder.join(near).display()),
         None if folder.is_dir() => "check the path".to_owned(),

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::LabRobot;
 use kinemark_grader::lab::robot::robot_names;
-use kinemark_sim::robot::urdf::UrdfOptions;
-use kinemark_sim::robot::urdf::mesh_location::{MeshLocation, mesh_location};
-use kinemark_sim::robot::{Robot, RobotError};
-use kinemark_sim::source::suggest;
+use kinemark_sim::format::RobotError;
+use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::urdf::mesh_location::{MeshLocation, mesh_location};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::suggest;
 use kinemark_toolbox::robot_source::{
     MeshReader, RobotFormat, is_meant_as_joint_string, robot, robot_of_joint_string,
 };

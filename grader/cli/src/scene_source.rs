@@ -4,8 +4,9 @@ use std::path::Path;
 
 use kinemark_grader::lab::LabScene;
 use kinemark_grader::lab::scene::scene_names;
-use kinemark_sim::scene::{Scene, SceneError, SceneFile};
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::format::{SceneError, SceneFile};
+use kinemark_sim::model::scene::Scene;
+use kinemark_sim::text::{Source, suggest};
 
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
 use crate::failure::{BROKEN, Failure};

@@ -1,6 +1,6 @@
 //! What stands on another from the start: a contact that is there before anything has moved, and so no news.
 
-use kinemark_sim::engine::Party;
+use kinemark_sim::model::contact::Party;
 use kinemark_sim::watch::event::EventKind;
 
 use kinemark_grader::record::graded::TaskRun;

@@ -1,6 +1,6 @@
 //! The answers of a submission to the cases of a function task, each with how far off it is.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use nalgebra::Vector3;
 
 use crate::record::grade::LogEntry;

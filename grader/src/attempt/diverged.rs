@@ -1,7 +1,8 @@
 //! A simulation that diverged, in words: what grew without bound, the likely cause, and what to do about it.
 
 use kinemark_sim::control::{Mode, SampledLoop};
-use kinemark_sim::runaway::{BlowUp, Cause};
+use kinemark_sim::diagnosis::Cause;
+use kinemark_sim::run::BlowUp;
 
 use crate::record::names::Names;
 use crate::record::quantity::trimmed;

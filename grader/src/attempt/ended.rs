@@ -1,6 +1,7 @@
 //! How an attempt ended early: its verdict, and its record for people.
 
-use kinemark_sim::runaway::{BlowUp, Cause};
+use kinemark_sim::diagnosis::Cause;
+use kinemark_sim::run::BlowUp;
 
 use super::diverged::DivergedWords as _;
 use crate::record::grade::Stopped;

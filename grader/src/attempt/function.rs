@@ -1,6 +1,7 @@
 //! Runs a function task: calls the submission on every case and measures each answer.
 
-use kinemark_sim::robot::{Dimension, Robot};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Dimension;
 
 use super::answers::{Answered, Answers, CaseFacts};
 use super::measure::measure;

@@ -1,6 +1,7 @@
 //! How far an answer of a function task is off, by the kind of its case.
 
-use kinemark_sim::robot::{Dimension, Robot};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Dimension;
 use nalgebra::Vector3;
 
 use super::answers::{Answered, CaseError, CaseFacts};

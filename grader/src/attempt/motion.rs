@@ -1,11 +1,12 @@
 //! Runs a motion task: the simulator under the submission's `control`.
 
-use kinemark_sim::event::{Event, EventKind};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::run::{self, Disturbance, End, Run, Setup};
-use kinemark_sim::runaway::likely_cause;
-use kinemark_sim::sensor::{Sensor, SensorKind};
+use kinemark_sim::diagnosis::likely_cause;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::sensor::{Sensor, SensorKind};
+use kinemark_sim::run;
+use kinemark_sim::run::{Disturbance, End, Run, Setup};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
+use kinemark_sim::watch::event::{Event, EventKind};
 
 use super::function::robot_facts;
 use super::{Attempt, EndReason, Ended};

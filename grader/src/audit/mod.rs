@@ -7,7 +7,7 @@
 mod staff_code;
 mod variants;
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use serde::Serialize;
 
 use crate::judge::grade;

@@ -1,7 +1,7 @@
 //! The staff's own code, tried: solution and known mistakes are programs, and the solution answers the hidden cases that it is the
 //! measure of. Loading a lab runs none of it.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::judge::staff_faults::staff_fault;
 use crate::judge::{opening, with_expected};

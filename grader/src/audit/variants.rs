@@ -1,6 +1,6 @@
 //! The reference solution in the variants of many students: it has full marks in every one, and some room in every band.
 
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
 use super::{Audit, Tried, graded, loss_of, staff_code};

@@ -6,7 +6,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 use super::facts::MotionFacts;
 use super::finding::Finding;

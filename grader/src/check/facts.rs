@@ -1,6 +1,6 @@
 //! What checks of a motion task look at: a run, and how it went under disturbances.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 

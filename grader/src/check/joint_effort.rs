@@ -1,6 +1,6 @@
 //! The effort of one joint, or of the joint with the greatest, as a statistic of a run: what several kinds share.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 use super::facts::MotionFacts;
 use crate::task::joint_units::JointUnits;

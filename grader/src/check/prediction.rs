@@ -2,7 +2,7 @@
 
 use kinemark_sim::control::LinearStep;
 use kinemark_sim::control::linear_step::Fed;
-use kinemark_sim::source::Problem;
+use kinemark_sim::text::Problem;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

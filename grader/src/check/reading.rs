@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::BodyKind;
-use kinemark_sim::source::{Problem, suggest};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::text::{Problem, suggest};
 use kinemark_sim::ticks::whole_ratio;
 use toml::Spanned;
 

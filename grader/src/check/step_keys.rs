@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use kinemark_sim::control::LinearStep;
 use kinemark_sim::control::linear_step::Fed;
-use kinemark_sim::source::Problem;
+use kinemark_sim::text::Problem;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

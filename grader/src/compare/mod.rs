@@ -1,6 +1,6 @@
 //! Two graded submissions of one lab beside each other: what each check earned, and where the motions first part.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 use crate::judge::divergence;
 use crate::lab::Lab;

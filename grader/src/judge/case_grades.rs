@@ -1,6 +1,6 @@
 //! The cases of a function task as the record has them: visible ones with their numbers, hidden ones by class.
 
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
 use crate::attempt::measure::as_slice;

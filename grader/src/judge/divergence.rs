@@ -3,7 +3,7 @@
 //! To differ is no mistake by itself. Another branch, another path or another time may be as right, so this is told only of
 //! runs that lost points, and as the place where to look first.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 

@@ -1,6 +1,6 @@
 //! What is expected in hidden cases: of a function of the lab's own, what the reference solution answers when it is called on them.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use super::opening::opening;
 use crate::attempt::ended::record_of;

@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use kinemark_sim::robot::Dimension;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Dimension;
+use kinemark_sim::text::Source;
 
 use super::opening::opening;
 use super::staff_faults::staff_fault;

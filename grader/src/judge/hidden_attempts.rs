@@ -1,7 +1,7 @@
 //! Hidden runs: a motion task run again with numbers that only the staff's salt knows, judged by the same checks, and reported by
 //! class alone.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use super::Interrupted;
 use super::judged::Judged;

@@ -1,6 +1,6 @@
 //! Judging the run of a motion task: the one way for visible runs, hidden runs and the levels of a robustness sweep.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;

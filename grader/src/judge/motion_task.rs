@@ -1,6 +1,6 @@
 //! Grading a motion task: its visible run is judged and diagnosed, then its hidden runs, and both together make the grade.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;

@@ -1,7 +1,7 @@
 //! What a submission is opened with: the task, the robot's numbers, and what the task grants.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::attempt::function;
 use crate::attempt::motion;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::attempt::ended::record_of;
 use crate::lab::model::Task;

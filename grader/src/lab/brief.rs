@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use kinemark_sim::robot::expression::evaluate_named;
+use kinemark_sim::text::expression::evaluate_named;
 
 use super::model::Lab;
 use crate::record::quantity::{points, trimmed};
@@ -244,10 +244,7 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
     fn a_variant_is_a_lab_of_other_numbers() {
         let files = Copies::from_texts([("x/lab.toml", LAB), ("robots/r.toml", ROBOT)]);
         let lab = Lab::load(&files, "x").unwrap();
-        let changed = [(
-            "far".to_owned(),
-            kinemark_sim::robot::Dimension::Number(2.5),
-        )];
+        let changed = [("far".to_owned(), kinemark_sim::text::Dimension::Number(2.5))];
         let other = lab.with_parameters(&changed).unwrap();
         assert_eq!(
             with_numbers("0<!-- = far -->", &other).as_deref(),
@@ -255,7 +252,7 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
         );
         let unknown = [(
             "near".to_owned(),
-            kinemark_sim::robot::Dimension::Number(2.5),
+            kinemark_sim::text::Dimension::Number(2.5),
         )];
         let error = lab.with_parameters(&unknown).unwrap_err();
         assert_eq!(error.to_string(), "lab `x` has no parameter `near`");

@@ -1,6 +1,6 @@
 //! The files of a lab as it was loaded, held in memory: copied into reports, and read again with other numbers.
 
-use kinemark_sim::robot::{Dimension, Dimensions};
+use kinemark_sim::text::{Dimension, Dimensions};
 
 use super::model::Lab;
 use super::variant::{VARIANT_FILE, Variant};

@@ -2,8 +2,9 @@
 //!
 //! Numbers are keyed by salt, task, class and the case's number, so that adding a draw changes no other draw's cases.
 
+use kinemark_sim::format::RobotFile;
 use kinemark_sim::random::KeyedStream;
-use kinemark_sim::robot::{Dimension, RobotFile};
+use kinemark_sim::text::Dimension;
 
 use super::file::{Ranges, RangesTable};
 use super::model::Lab;

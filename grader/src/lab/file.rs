@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use kinemark_sim::sensor::SensorTable;
+use kinemark_sim::format::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -73,7 +73,7 @@ pub(super) struct FunctionTable {
 )]
 pub(super) enum ExpectedTable {
     One(f64),
-    Entries(BTreeMap<String, kinemark_sim::robot::Dimension>),
+    Entries(BTreeMap<String, kinemark_sim::text::Dimension>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -84,8 +84,8 @@ pub(super) struct CaseTable {
     pub(super) position_m: Option<[f64; 3]>,
     pub(super) branches: Option<Spanned<u64>>,
     #[serde(default)]
-    pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
-    pub(super) given: Option<BTreeMap<String, kinemark_sim::robot::Dimension>>,
+    pub(super) dimensions: BTreeMap<String, kinemark_sim::text::Dimension>,
+    pub(super) given: Option<BTreeMap<String, kinemark_sim::text::Dimension>>,
     pub(super) expected: Option<ExpectedTable>,
 }
 
@@ -156,7 +156,7 @@ pub(super) enum PerJoint {
 
 impl<'de> Deserialize<'de> for PerJoint {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        use kinemark_sim::robot::Dimension;
+        use kinemark_sim::text::Dimension;
         Ok(match Dimension::deserialize(deserializer)? {
             Dimension::Number(value) => Self::All(value),
             Dimension::List(values) => Self::Each(values),
@@ -219,8 +219,8 @@ impl Ranges {
     }
 
     /// The low ends (0) or the high ones (1).
-    pub(super) fn end(&self, end: usize) -> kinemark_sim::robot::Dimension {
-        use kinemark_sim::robot::Dimension;
+    pub(super) fn end(&self, end: usize) -> kinemark_sim::text::Dimension {
+        use kinemark_sim::text::Dimension;
         match self {
             Self::One(range) => Dimension::Number(range[end]),
             Self::Each(ranges) => Dimension::List(ranges.iter().map(|r| r[end]).collect()),
@@ -240,7 +240,7 @@ impl<'de> Deserialize<'de> for Ranges {
                 self,
                 mut seq: A,
             ) -> Result<Ranges, A::Error> {
-                use kinemark_sim::robot::Dimension;
+                use kinemark_sim::text::Dimension;
                 let mut numbers = Vec::new();
                 let mut pairs = Vec::new();
                 while let Some(item) = seq.next_element::<Dimension>()? {
@@ -288,7 +288,7 @@ pub(super) struct MutantTable {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct SceneTable {
     pub(super) name: String,
-    pub(super) dimensions: BTreeMap<String, kinemark_sim::robot::Dimension>,
+    pub(super) dimensions: BTreeMap<String, kinemark_sim::text::Dimension>,
     /// Where the name stands in a table.
     pub(super) name_at: Option<Range<usize>>,
     /// Where the dimensions' names stand.
@@ -318,7 +318,7 @@ impl<'de> Deserialize<'de> for SceneTable {
                 struct Table {
                     name: Spanned<String>,
                     #[serde(default)]
-                    dimensions: BTreeMap<Spanned<String>, kinemark_sim::robot::Dimension>,
+                    dimensions: BTreeMap<Spanned<String>, kinemark_sim::text::Dimension>,
                 }
                 let table = serde::de::value::MapAccessDeserializer::new(map);
                 let Table { name, dimensions } = Table::deserialize(table)?;

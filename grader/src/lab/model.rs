@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use kinemark_sim::robot::{Dimensions, Robot, RobotFile};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Dimensions;
+use kinemark_sim::text::Source;
 
 use super::mesh_file::MeshFile;
 use super::scene::LabScene;

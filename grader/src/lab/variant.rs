@@ -1,8 +1,8 @@
 //! Variants of a lab: the numbers of one student, read from a `variant.toml` or drawn from the course's salt and the student's id.
 
 use kinemark_sim::random::KeyedStream;
-use kinemark_sim::robot::Dimension;
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::text::Dimension;
+use kinemark_sim::text::{Source, suggest};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -104,7 +104,7 @@ impl Variant {
     pub(super) fn fits(
         &self,
         lab: &str,
-        stated: &kinemark_sim::robot::Dimensions,
+        stated: &kinemark_sim::text::Dimensions,
     ) -> Result<(), LabError> {
         let report = Reporter {
             source: &self.source,
@@ -278,7 +278,7 @@ const MOST_STEPS: f64 = 1e6;
 pub(super) fn rules(
     report: Reporter<'_>,
     table: &std::collections::BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
-    stated: &kinemark_sim::robot::Dimensions,
+    stated: &kinemark_sim::text::Dimensions,
 ) -> Result<Vec<VariantRule>, LabError> {
     let mut rules = Vec::new();
     for (at, typed) in table {

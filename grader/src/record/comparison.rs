@@ -1,7 +1,7 @@
 //! A comparison of two graded submissions as data: what each check earned, and where the motions first part.
 
-use kinemark_sim::event::EventKind;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::watch::event::EventKind;
 use serde::Serialize;
 
 use crate::record::grade::{Outcome, Stopped, TaskGrade};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kinemark_sim::control::Mode;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::sensor::Sensor;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::sensor::Sensor;
 use kinemark_sim::trace::Trace;
 
 use crate::record::grade::{Divergence, Grade};

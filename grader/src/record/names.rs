@@ -1,9 +1,9 @@
 //! What a record keeps of what happened in a run: events and contacts, in words.
 
-use kinemark_sim::event::EventKind;
-pub use kinemark_sim::event_words::Names;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
+pub use kinemark_sim::watch::Names;
+use kinemark_sim::watch::event::EventKind;
 
 use crate::record::grade::{ContactRecord, EventRecord};
 

@@ -1,12 +1,13 @@
 //! A graded run to try the renderers on: a real simulation with a grade made by hand.
 
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
-use kinemark_sim::event::{Event, EventKind};
-use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::run::{Observation, Setup, run};
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
+use kinemark_sim::watch::event::{Event, EventKind};
 use nalgebra::Vector3;
 
 use crate::record::grade::{

@@ -1,7 +1,7 @@
 //! A submission of the course staff that fails: the reference solution, or a known mistake. What it would have shown of a student's
 //! work is missing, so whoever grades is told at which line.
 
-use kinemark_sim::source::{Located, Problem};
+use kinemark_sim::text::{Located, Problem};
 
 /// A fault in the staff's own code, with its place in their file.
 pub type StaffFault = Located<StaffProblem>;

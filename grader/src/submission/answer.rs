@@ -1,6 +1,6 @@
 //! From what a submission returned to what was asked for: shape and finiteness, or words for what came instead.
 
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 use nalgebra::Vector3;
 
 use crate::record::quantity::trimmed;

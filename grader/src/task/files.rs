@@ -1,6 +1,6 @@
 //! Where labs are read from: a folder, or the copy inside the binary. The grader asks for files by path and opens none itself.
 
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use super::problem::LoadError;
 

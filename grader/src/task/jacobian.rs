@@ -2,7 +2,7 @@
 
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::kinematics::jacobian::fill;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use nalgebra::{Matrix6xX, Vector3};
 
 use crate::task::model::Rows;
@@ -70,8 +70,8 @@ fn root_of_squares(entries: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kinemark_sim::robot::RobotFile;
-    use kinemark_sim::source::Source;
+    use kinemark_sim::format::RobotFile;
+    use kinemark_sim::text::Source;
 
     /// A planar arm of two unequal links whose lab frame is that of lab 1, and one whose lab frame rides on the first link.
     fn arm(frame_link: &str) -> Robot {

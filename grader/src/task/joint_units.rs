@@ -1,6 +1,6 @@
 //! Units of what a joint does: one that turns has rad and N m, one that slides m and N.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 /// The units of one joint, or of all joints of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,8 +60,8 @@ impl JointUnits {
 
 #[cfg(test)]
 mod tests {
-    use kinemark_sim::robot::RobotFile;
-    use kinemark_sim::source::Source;
+    use kinemark_sim::format::RobotFile;
+    use kinemark_sim::text::Source;
 
     use super::*;
 

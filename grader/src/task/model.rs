@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
-use kinemark_sim::robot::Dimension;
-use kinemark_sim::sensor::Sensor;
+use kinemark_sim::model::sensor::Sensor;
+use kinemark_sim::text::Dimension;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 

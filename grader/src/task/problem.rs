@@ -1,8 +1,8 @@
 //! Everything that can be wrong with a lab.
 
-use kinemark_sim::robot::RobotError;
-use kinemark_sim::scene::SceneError;
-use kinemark_sim::source::{Located, Problem};
+use kinemark_sim::format::RobotError;
+use kinemark_sim::format::SceneError;
+use kinemark_sim::text::{Located, Problem};
 use miette::Diagnostic;
 
 /// A problem in a lab's files, with its place.

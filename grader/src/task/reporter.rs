@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::source::{Problem, Source};
+use kinemark_sim::text::{Problem, Source};
 use toml::Spanned;
 
 use super::model::Band;

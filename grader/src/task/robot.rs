@@ -1,6 +1,6 @@
 //! The robot of a lab: its file, and the meshes that file names, all of them inside `robots/`.
 
-use kinemark_sim::robot::RobotFile;
+use kinemark_sim::format::RobotFile;
 
 use super::files::{Files, read_source};
 use super::mesh_file::{self, MeshFile};

@@ -1,7 +1,9 @@
 //! A scene of the labs: its file, and the meshes that file names, all of them inside `scenes/`.
 
-use kinemark_sim::robot::{Dimension, Robot};
-use kinemark_sim::scene::{Scene, SceneError, SceneFile};
+use kinemark_sim::format::{SceneError, SceneFile};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::Scene;
+use kinemark_sim::text::Dimension;
 
 use super::files::{Files, read_source};
 use super::mesh_file::{self, MeshFile};

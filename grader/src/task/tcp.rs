@@ -1,7 +1,7 @@
 //! Where the TCP of a lab's robot is, in the frame in which students work.
 
 use kinemark_sim::kinematics::forward_kinematics;
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use nalgebra::Vector3;
 
 /// Position of the TCP in the frame `frame` \[m\]; `None` if `q` does not fit the robot, or there is no such frame.

@@ -1,8 +1,8 @@
 //! What checks of a run in a scene look at: a body's fall, two that touch, the moment of a speed, a path to be followed.
 
-use kinemark_sim::engine::Party;
-use kinemark_sim::event::SeenSide;
-use kinemark_sim::event_words::Names;
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::watch::Names;
+use kinemark_sim::watch::event::SeenSide;
 use nalgebra::Vector3;
 
 /// How a free body is to fall, and what less than that is worth.

@@ -1,6 +1,7 @@
 //! What all tasks of a lab are done with: its robot, and the frame in which students work.
 
-use kinemark_sim::robot::{Robot, RobotFile};
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
 
 /// The robot of a lab, and the frame in which positions are given to submissions.
 #[derive(Debug, Clone, Copy)]

@@ -19,7 +19,6 @@ mod wind;
 mod world;
 
 #[doc(hidden)]
-pub use crate::model::contact::{ContactFact, Party};
 pub(crate) use clearance::Clearance;
 pub use engine_error::EngineError;
 pub use overlap::{Layout, Overlap};

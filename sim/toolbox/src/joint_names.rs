@@ -1,6 +1,6 @@
 //! Names of joints by their entries of `q`.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 /// The names of the joints that have these entries of `q`.
 pub(crate) fn joint_names(robot: &Robot, entries: &[usize]) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! Any robot as a robot file.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 /// A robot file, and what its reader should know.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,10 @@
 //! A robot from its text: which format the text is in, and how it is read.
 
-use kinemark_sim::robot::urdf::{self, UrdfOptions};
-use kinemark_sim::robot::{Robot, RobotError, RobotFile, config_string};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::urdf;
+use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{RobotError, RobotFile, joint_string};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Source;
 
 /// The format of a robot's description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +61,7 @@ pub fn robot(
 
 /// Whether a text is meant as a joint string such as `RzRyRz`.
 pub fn is_meant_as_joint_string(text: &str) -> bool {
-    config_string::looks_like_one(text)
+    joint_string::looks_like_one(text)
 }
 
 /// The robot of a joint string such as `RzRyRz`, with the height of its first joint and one `lx,ly,lz` per joint \[m\].
@@ -71,7 +73,7 @@ pub fn robot_of_joint_string(
     base_m: f64,
     links_m: &str,
 ) -> Result<Robot, RobotError> {
-    config_string::robot(joints, base_m, links_m)
+    joint_string::robot(joints, base_m, links_m)
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@ mod eval_errors;
 mod eval_requests;
 mod texts;
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::robot::urdf::UrdfOptions;
-use kinemark_sim::source::Source;
+use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Source;
 use kinemark_toolbox::eval::{Subject, answer_line};
 use kinemark_toolbox::robot_source::{MeshReader, RobotFormat, robot};
 use serde_json::{Value, json};

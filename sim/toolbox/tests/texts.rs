@@ -1,7 +1,7 @@
 //! Robots and scenes as text and as JSON.
 
-use kinemark_sim::scene::SceneFile;
-use kinemark_sim::source::Source;
+use kinemark_sim::format::SceneFile;
+use kinemark_sim::text::Source;
 use kinemark_toolbox::robot_convert::robot_file;
 use kinemark_toolbox::robot_show::{robot_record, robot_text};
 use kinemark_toolbox::robot_source::{is_meant_as_joint_string, robot_of_joint_string};

@@ -2,12 +2,12 @@
 #![no_main]
 
 use kinemark_fuzz::{exercise, explain};
-use kinemark_sim::robot::config_string;
+use kinemark_sim::format::joint_string;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
     let (string, lengths) = text.split_once('\n').unwrap_or((text, ""));
-    match config_string::robot(string, 0.5, lengths) {
+    match joint_string::robot(string, 0.5, lengths) {
         Ok(robot) => exercise(&robot),
         Err(error) => explain(&error),
     }

@@ -1,7 +1,7 @@
 //! Bytes to mesh, in each format that a name can announce, and its mass properties.
 #![no_main]
 
-use kinemark_sim::robot::mesh::Mesh;
+use kinemark_sim::model::mesh::Mesh;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -2,8 +2,8 @@
 #![no_main]
 
 use kinemark_fuzz::{exercise, explain};
-use kinemark_sim::robot::RobotFile;
-use kinemark_sim::source::Source;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::text::Source;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -2,8 +2,9 @@
 #![no_main]
 
 use kinemark_fuzz::{exercise, explain};
-use kinemark_sim::robot::urdf::{UrdfOptions, mesh_location::mesh_location, robot};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::urdf::mesh_location::mesh_location;
+use kinemark_sim::format::urdf::{UrdfOptions, robot};
+use kinemark_sim::text::Source;
 use libfuzzer_sys::fuzz_target;
 
 /// The smallest mesh that loads: one triangle, as OBJ.

@@ -4,13 +4,16 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, driven_efforts, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use kinemark_sim::format::RobotError;
+use kinemark_sim::joint_space::{
+    JointAccelerations, JointEfforts, JointPositions, JointVelocities,
+};
 use kinemark_sim::kinematics::derivative::jacobian_derivative;
 use kinemark_sim::kinematics::inverse::{IkSettings, Target, inverse_kinematics};
 use kinemark_sim::kinematics::manipulability::{Manipulability, TWIST};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
-use kinemark_sim::robot::{Robot, RobotError};
-use kinemark_sim::source::Problem as _;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Problem as _;
 
 /// Robots with more joints are only loaded: the algorithms' time grows with the square of it.
 const MOST_JOINTS: usize = 50;

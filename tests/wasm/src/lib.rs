@@ -19,8 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use kinemark_grader::judge;
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::submission::host::InProcess;
-use kinemark_sim::robot::RobotFile;
-use kinemark_sim::source::Source;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::text::Source;
 
 /// Digest of the run with contact, as committed.
 pub const CONTACT_DIGEST: &str = contact_run::DIGEST;

@@ -12,7 +12,7 @@ use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 
 use crate::chosen_variant::{self, Chosen, VariantArgs};
 use crate::failure::{self, FAULT, Failure, LOST};

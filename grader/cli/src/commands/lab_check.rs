@@ -11,7 +11,7 @@ use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt, staff
 use kinemark_grader::lab::{Files, Lab, Staff};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::submission::rhai::STACK_BYTES;
-use kinemark_sim::source::Source;
+use kinemark_sim::text::Source;
 use owo_colors::OwoColorize as _;
 
 use crate::disk::Folder;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_grader::lab::{Lab, Variant};
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
 use crate::disk::plain;

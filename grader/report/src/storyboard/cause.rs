@@ -1,6 +1,6 @@
 //! What a storyboard may tell of a run: where points were lost, what was touched, goals, events, and where it left the reference.
 
-use kinemark_sim::engine::Party;
+use kinemark_sim::model::contact::Party;
 use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 

@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 
-use kinemark_sim::event::{EventKind, SeenSide};
-use kinemark_sim::robot::Robot;
-use kinemark_sim::source::Problem;
+use kinemark_sim::watch::event::{EventKind, SeenSide};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Problem;
 use kinemark_sim::trace::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::scene::BodyKind;
-use kinemark_sim::source::{Problem, suggest};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::text::{Problem, suggest};
 use kinemark_sim::watch::ContactSpan;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -283,7 +283,7 @@ impl ContactImpulse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kinemark_sim::engine::Party;
+    use kinemark_sim::model::contact::Party;
     use nalgebra::Vector3;
 
     fn span(parties: [Party; 2], first_tick: u64, impulse_n_s: f64, peak_n: f64) -> ContactSpan {

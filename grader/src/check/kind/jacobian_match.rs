@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use kinemark_sim::robot::Robot;
-use kinemark_sim::source::Problem;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Problem;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;

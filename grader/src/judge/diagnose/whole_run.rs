@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use kinemark_sim::runaway::BlowUp;
+use kinemark_sim::run::BlowUp;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 

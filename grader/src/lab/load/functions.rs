@@ -1,6 +1,6 @@
 //! Function tasks: the function that is called, its rows, and its visible cases.
 
-use kinemark_sim::source::suggest;
+use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::Reader;

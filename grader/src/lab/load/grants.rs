@@ -1,6 +1,6 @@
 //! What a task grants: functions of `robot`, each once, none that is what the task asks for.
 
-use kinemark_sim::source::suggest;
+use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::Reader;

@@ -14,8 +14,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::robot::{Robot, RobotFile};
-use kinemark_sim::source::suggest;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};

@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
-use kinemark_sim::hybrid::HybridStep;
+use kinemark_sim::format::resolve_all;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
-use kinemark_sim::sensor::{Sensor, Sensors, replaced, resolve_all};
+use kinemark_sim::model::sensor::{Sensor, replaced};
+use kinemark_sim::sensing::Sensors;
+use kinemark_sim::step::hybrid::HybridStep;
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::text::{Source, suggest};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 

@@ -1,6 +1,6 @@
 //! Hidden cases that are drawn: their table held against the lab.
 
-use kinemark_sim::robot::Dimension;
+use kinemark_sim::text::Dimension;
 use toml::Spanned;
 
 use super::{all_rising, known_task, named, rising};

@@ -1,7 +1,7 @@
 //! Hidden runs of motion tasks: a lab of its own each, with drawn numbers.
 
-use kinemark_sim::robot::Dimension;
-use kinemark_sim::source::suggest;
+use kinemark_sim::text::Dimension;
+use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::{HiddenRun, all_rising, known_task, named};

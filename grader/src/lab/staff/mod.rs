@@ -5,7 +5,7 @@ mod hidden_runs;
 
 use std::ops::Range;
 
-use kinemark_sim::source::{Source, suggest};
+use kinemark_sim::text::{Source, suggest};
 use toml::Spanned;
 
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};

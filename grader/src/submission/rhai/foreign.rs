@@ -1,6 +1,6 @@
 //! Names and signs that people bring from MATLAB, Python and C, and what to write here.
 
-use kinemark_sim::source::nearest;
+use kinemark_sim::text::nearest;
 
 /// Functions of other languages, and what to write here.
 const FUNCTIONS: &[(&str, &str)] = &[

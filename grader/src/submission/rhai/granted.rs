@@ -6,8 +6,10 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use kinemark_sim::dynamics::{gravity_effort, mass_matrix};
-use kinemark_sim::robot::{Dimension, Robot, RobotFile};
-use kinemark_sim::source::Source;
+use kinemark_sim::format::RobotFile;
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::Dimension;
+use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 use rhai::{Dynamic, Map};
 

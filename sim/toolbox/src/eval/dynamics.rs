@@ -1,6 +1,7 @@
 //! The operations on efforts, accelerations and energy.
 
-use kinemark_sim::dynamics::{self, GRAVITY_M_S2};
+use kinemark_sim::dynamics;
+use kinemark_sim::dynamics::GRAVITY_M_S2;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 

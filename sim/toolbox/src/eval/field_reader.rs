@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use kinemark_sim::source::{nearest, suggest};
+use kinemark_sim::text::{nearest, suggest};
 use serde::de::value::{MapDeserializer, SeqDeserializer};
 use serde::de::{DeserializeOwned, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor};
 use serde::forward_to_deserialize_any;

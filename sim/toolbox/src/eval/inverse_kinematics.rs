@@ -1,11 +1,13 @@
 //! The operation `ik`: joint positions that bring one frame, or a group of frames, to targets.
 
+use kinemark_sim::kinematics;
+use kinemark_sim::kinematics::inverse;
 use kinemark_sim::kinematics::inverse::groups::{Group, solve_by_priority, solve_in_turn};
-use kinemark_sim::kinematics::inverse::{self, Goal, Posture};
-use kinemark_sim::kinematics::{self, IkError, IkSettings, IkSolver, Target, forward_kinematics};
-use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::source::suggest;
+use kinemark_sim::kinematics::inverse::{Goal, Posture};
+use kinemark_sim::kinematics::{IkError, IkSettings, IkSolver, Target, forward_kinematics};
+use kinemark_sim::model::robot::{Frame, Robot};
 use kinemark_sim::spatial::{Pose, pose};
+use kinemark_sim::text::suggest;
 use nalgebra::{Matrix3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 

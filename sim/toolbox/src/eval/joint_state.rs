@@ -1,11 +1,13 @@
 //! The state of a robot in a request: one number per joint that moves or, for a robot with loops, per independent joint, from which
 //! the others follow.
 
-use kinemark_sim::joint::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use kinemark_sim::joint_space::{
+    JointAccelerations, JointEfforts, JointPositions, JointVelocities,
+};
 use kinemark_sim::kinematics::closure::{
     LoopError, closed_accelerations, closed_positions, closed_velocities,
 };
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 use super::number_fields::Numbers;
 use super::refusal::{Code, Refusal};

@@ -1,6 +1,6 @@
 //! The operations on poses, velocities and reach.
 
-use kinemark_sim::joint::JointPositions;
+use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::analytic::{Angles, analytic_jacobian};
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass};
 use kinemark_sim::kinematics::closure::independent_motions;
@@ -8,7 +8,7 @@ use kinemark_sim::kinematics::derivative::jacobian_derivative;
 use kinemark_sim::kinematics::manipulability;
 use kinemark_sim::kinematics::workspace::sample_workspace;
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
-use kinemark_sim::robot::{Frame, Robot};
+use kinemark_sim::model::robot::{Frame, Robot};
 use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! The operations: one line each, and how a line of JSON becomes an answer.
 
-use kinemark_sim::robot::{Frame, Robot};
-use kinemark_sim::scene::Scene;
-use kinemark_sim::source::suggest;
+use kinemark_sim::model::robot::{Frame, Robot};
+use kinemark_sim::model::scene::Scene;
+use kinemark_sim::text::suggest;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 

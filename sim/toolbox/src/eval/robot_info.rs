@@ -1,6 +1,6 @@
 //! The operation `info`: the names and limits that other requests need.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 use serde::{Deserialize, Serialize};
 
 use super::operation::{Operation, Subject};

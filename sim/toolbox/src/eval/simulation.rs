@@ -2,8 +2,9 @@
 
 use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::kinematics::closure::loop_gap_m;
-use kinemark_sim::robot::Robot;
-use kinemark_sim::run::{self, End, Setup};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::run;
+use kinemark_sim::run::{End, Setup};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use serde::{Deserialize, Serialize};
 

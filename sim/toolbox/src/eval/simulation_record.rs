@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use kinemark_sim::event::{Event, EventKind};
-use kinemark_sim::event_words::Names;
 use kinemark_sim::run::{Recorder, Row, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::pose_numbers;
+use kinemark_sim::watch::Names;
+use kinemark_sim::watch::event::{Event, EventKind};
 use kinemark_sim::watch::{ContactSpan, Watch};
 use serde::{Deserialize, Serialize};
 

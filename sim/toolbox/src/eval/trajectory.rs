@@ -1,6 +1,6 @@
 //! The operation `trajectory`: a motion of the joints or of the TCP, sampled at given times.
 
-use kinemark_sim::joint::{JointAccelerations, JointPositions, JointVelocities};
+use kinemark_sim::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 use kinemark_sim::spatial::{Pose, pose};
 use kinemark_sim::trajectory::{
     AlongPath, Arc, Cubic, JerkLimited, JerkLimits, JointSample, JointTrajectory, Knot, Limits,

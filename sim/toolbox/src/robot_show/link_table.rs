@@ -1,6 +1,6 @@
 //! The tree as a table: a link a line, with the joint that moves it.
 
-use kinemark_sim::robot::{Joint, JointKind, Robot};
+use kinemark_sim::model::robot::{Joint, JointKind, Robot};
 use nalgebra::Vector3;
 
 use super::link_tree::{Branch, branches};

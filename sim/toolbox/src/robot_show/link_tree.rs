@@ -1,6 +1,6 @@
 //! Links in the order of a drawn tree, each with the lines that lead to it.
 
-use kinemark_sim::robot::Robot;
+use kinemark_sim::model::robot::Robot;
 
 /// One line of the tree.
 #[derive(Debug, Clone, PartialEq, Eq)]

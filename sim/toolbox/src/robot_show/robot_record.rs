@@ -1,6 +1,6 @@
 //! A robot as JSON.
 
-use kinemark_sim::robot::{Joint, JointKind, Link, Robot};
+use kinemark_sim::model::robot::{Joint, JointKind, Link, Robot};
 use serde_json::{Value, json};
 
 use super::robot_text::com_at_home_m;

@@ -1,8 +1,8 @@
 //! A robot as text: its links and joints as a table, and what the table does not say as a list of facts.
 
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass};
-use kinemark_sim::robot::model::Mimic;
-use kinemark_sim::robot::{JointKind, Robot};
+use kinemark_sim::model::robot::Mimic;
+use kinemark_sim::model::robot::{JointKind, Robot};
 
 use super::link_table::{WIDEST, table, triple};
 use crate::joint_names::joint_names;

@@ -1,9 +1,10 @@
 //! A scene to check, alone or with a robot in it, and what the check found.
 
-use kinemark_sim::engine::Party;
+use kinemark_sim::format::SceneFile;
 use kinemark_sim::kinematics::FramePoses;
-use kinemark_sim::robot::{Joint, Robot};
-use kinemark_sim::scene::{Scene, SceneFile};
+use kinemark_sim::model::contact::Party;
+use kinemark_sim::model::robot::{Joint, Robot};
+use kinemark_sim::model::scene::Scene;
 use kinemark_sim::scene_check::{Finding, Kind, SceneCheckError, Severity, Work, check};
 use kinemark_sim::spatial::Pose;
 use nalgebra::{Point3, Vector3};

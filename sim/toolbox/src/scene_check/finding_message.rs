@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use kinemark_sim::engine::{Overlap, Party};
+use kinemark_sim::engine::Overlap;
+use kinemark_sim::model::contact::Party;
 use kinemark_sim::scene_check::{Finding, Kind, LineStop, LineStopCause};
 
 use super::checked_scene::SceneToCheck;

@@ -1,6 +1,7 @@
 //! Findings as JSON: the numbers behind each sentence, in SI units.
 
-use kinemark_sim::engine::{Overlap, Party};
+use kinemark_sim::engine::Overlap;
+use kinemark_sim::model::contact::Party;
 use kinemark_sim::scene_check::{Finding, Kind, LineStopCause};
 use serde_json::{Map, Value, json};
 
