@@ -5,7 +5,7 @@
 //! are then raised until every point that came in faster than [`SLOWEST_M_S`] leaves with its share of that speed, and none that
 //! pressed comes in faster than before (Newton's hypothesis, by projected Gauss-Seidel over all points).
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 use rapier3d_f64::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d_f64::geometry::{ColliderHandle, ColliderSet, NarrowPhase};
 
@@ -49,17 +49,51 @@ enum End {
     Arm { row: Vec<f64>, solved: DVector<f64> },
 }
 
-struct Point {
+/// A point that presses, as the engine leaves it.
+struct Touch {
+    /// In the engine's order.
     parties: [Party; 2],
+    /// World axes \[m\].
     p: Vector3<f64>,
     /// From the first to the second.
     normal: Vector3<f64>,
+}
+
+/// A touch whose speed an impulse changes.
+struct Point {
+    touch: Touch,
     ends: [End; 2],
     /// Change of the speed along the normal by an impulse of one \[1/kg\].
     softness: f64,
     /// The least speed along the normal after the bounce \[m/s\].
     least_m_s: f64,
     impulse_n_s: f64,
+}
+
+/// The bodies of the scene after the engine's step, before any of them bounces.
+struct BodiesAfter<'a> {
+    bodies: &'a RigidBodySet,
+    handles: &'a [RigidBodyHandle],
+    /// Centres of mass, world axes \[m\].
+    coms: Vec<Vector3<f64>>,
+}
+
+impl<'a> BodiesAfter<'a> {
+    fn new(bodies: &'a RigidBodySet, handles: &'a [RigidBodyHandle]) -> Self {
+        Self {
+            bodies,
+            handles,
+            coms: handles
+                .iter()
+                .map(|handle| from_vector(bodies[*handle].center_of_mass()))
+                .collect(),
+        }
+    }
+
+    /// The velocity of the body's matter at `p`, world axes \[m/s\].
+    fn velocity_at(&self, index: usize, p: &Vector3<f64>) -> Vector3<f64> {
+        from_vector(self.bodies[self.handles[index]].velocity_at_point(vector(p)))
+    }
 }
 
 /// Velocities of free bodies and joints while they are looked for.
@@ -197,12 +231,58 @@ impl Bounce {
         dt_s: f64,
         facts: &mut [ContactFact],
     ) {
-        let contacts = pressed(narrow_phase, colliders, bodies);
-        let coms: Vec<Vector3<f64>> = handles
-            .iter()
-            .map(|handle| from_vector(bodies[*handle].center_of_mass()))
-            .collect();
-        let speed_before = |party: Party, p: &Vector3<f64>| match party {
+        let touches = pressed(narrow_phase, colliders, bodies);
+        let after = BodiesAfter::new(bodies, handles);
+        let leaves = self.leaves_m_s(robot, &after, &touches);
+        if !leaves.iter().flatten().any(|out| *out > 0.0) {
+            return;
+        }
+        let mut velocities = self.velocities(&after, arm.as_ref());
+        let mass = self.arm_mass(robot, arm.as_ref());
+        let mut points = Vec::new();
+        for (touch, leaves_m_s) in touches.into_iter().zip(leaves) {
+            let ends = touch
+                .parties
+                .map(|party| self.end(robot, &after, mass.as_ref(), party, &touch));
+            points.extend(Point::new(touch, ends, leaves_m_s, &velocities));
+        }
+        settle(&mut points, &mut velocities);
+        self.move_bodies(&velocities, bodies, handles);
+        if let Some(arm) = &mut arm {
+            arm.qd.copy_from_slice(&velocities.qd);
+        }
+        for point in points.iter().filter(|point| point.impulse_n_s > 0.0) {
+            tell(point, dt_s, facts);
+        }
+    }
+
+    /// How fast each touch that came in fast enough is to leave along its normal \[m/s\]; the livelier party decides.
+    fn leaves_m_s(
+        &self,
+        robot: &Robot,
+        after: &BodiesAfter<'_>,
+        touches: &[Touch],
+    ) -> Vec<Option<f64>> {
+        let leaves = |touch: &Touch| {
+            let velocity = |party| self.velocity_before(robot, after, party, &touch.p);
+            let [first, second] = touch.parties.map(velocity);
+            let came_in = touch.normal.dot(&(second - first));
+            let [first, second] = touch.parties.map(|party| self.of(party));
+            (came_in < -SLOWEST_M_S).then(|| -came_in * first.max(second))
+        };
+        touches.iter().map(leaves).collect()
+    }
+
+    /// The velocity that `party` had at `p` before the step, world axes \[m/s\]. A body that is not free keeps to its law, and so
+    /// has it still.
+    fn velocity_before(
+        &self,
+        robot: &Robot,
+        after: &BodiesAfter<'_>,
+        party: Party,
+        p: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        match party {
             Party::Ground => Vector3::zeros(),
             Party::Link(index) => {
                 let motion = self.arm_before.of(&robot.links()[index].attachment);
@@ -210,30 +290,16 @@ impl Bounce {
             }
             Party::Body(index) if self.inverse[index].is_some() => {
                 let (v, w) = &self.before[index];
-                v + w.cross(&(p - coms[index]))
+                v + w.cross(&(p - after.coms[index]))
             }
-            Party::Body(index) => from_vector(bodies[handles[index]].velocity_at_point(vector(p))),
-        };
-        let came_in: Vec<f64> = contacts
-            .iter()
-            .map(|(parties, p, normal)| {
-                let [first, second] = parties.map(|party| speed_before(party, p));
-                normal.dot(&(second - first))
-            })
-            .collect();
-        // how fast each point that came in fast enough is to leave
-        let leaves: Vec<Option<f64>> = contacts
-            .iter()
-            .zip(came_in)
-            .map(|((parties, ..), came_in)| {
-                let [first, second] = parties.map(|party| self.of(party));
-                (came_in < -SLOWEST_M_S).then(|| -came_in * first.max(second))
-            })
-            .collect();
-        if !leaves.iter().flatten().any(|out| *out > 0.0) {
-            return;
+            Party::Body(index) => after.velocity_at(index, p),
         }
-        let mut velocities = Velocities {
+    }
+
+    /// What the bounce starts from: the velocities that the engine's step left, world axes.
+    fn velocities(&self, after: &BodiesAfter<'_>, arm: Option<&ArmAfter<'_>>) -> Velocities {
+        let (bodies, handles) = (after.bodies, after.handles);
+        Velocities {
             free: handles
                 .iter()
                 .map(|handle| {
@@ -251,78 +317,61 @@ impl Bounce {
                     inverse.map(|(mass, tensor)| (mass, turn * tensor * turn.transpose()))
                 })
                 .collect(),
-            qd: arm.as_ref().map_or_else(Vec::new, |arm| arm.qd.to_vec()),
-        };
-        let mut solve = None;
-        if let Some(arm) = arm.as_ref().filter(|_| robot.loops().is_empty()) {
-            self.arm_after.update(robot, arm.q, arm.qd);
-            let mut mass = DMatrix::zeros(robot.n(), robot.n());
-            Crba::new(robot).fill(robot, arm.q, &mut mass);
-            solve = mass.cholesky();
+            qd: arm.map_or_else(Vec::new, |arm| arm.qd.to_vec()),
         }
-        let end_of = |party: Party, p: &Vector3<f64>, normal: &Vector3<f64>| {
-            let driven = |velocity: Vector3<f64>| End::Driven(normal.dot(&velocity));
-            match (party, &solve) {
-                (Party::Ground, _) => End::Driven(0.0),
-                (Party::Body(index), _) if self.inverse[index].is_some() => {
-                    End::Free(index, p - coms[index])
+    }
+
+    /// The factor of the arm's mass matrix where the step left it, and `arm_after` brought there too. Without it the arm counts as
+    /// driven: so does one with closed loops, where the mass matrix alone does not say how an impulse moves the joints.
+    fn arm_mass(
+        &mut self,
+        robot: &Robot,
+        arm: Option<&ArmAfter<'_>>,
+    ) -> Option<Cholesky<f64, Dyn>> {
+        let arm = arm.filter(|_| robot.loops().is_empty())?;
+        self.arm_after.update(robot, arm.q, arm.qd);
+        let mut mass = DMatrix::zeros(robot.n(), robot.n());
+        Crba::new(robot).fill(robot, arm.q, &mut mass);
+        mass.cholesky()
+    }
+
+    /// What `touch` presses on at its side of `party`.
+    fn end(
+        &self,
+        robot: &Robot,
+        after: &BodiesAfter<'_>,
+        mass: Option<&Cholesky<f64, Dyn>>,
+        party: Party,
+        touch: &Touch,
+    ) -> End {
+        let Touch { p, normal, .. } = touch;
+        match (party, mass) {
+            (Party::Ground, _) => End::Driven(0.0),
+            (Party::Body(index), _) if self.inverse[index].is_some() => {
+                End::Free(index, p - after.coms[index])
+            }
+            (Party::Link(index), Some(mass)) => match robot.links()[index].attachment.body {
+                None => End::Driven(0.0),
+                Some(body) => {
+                    let row = self.row(robot, body, p, normal);
+                    let mut solved = DVector::from_column_slice(&row);
+                    mass.solve_mut(&mut solved);
+                    End::Arm { row, solved }
                 }
-                (Party::Body(index), _) => driven(from_vector(
-                    bodies[handles[index]].velocity_at_point(vector(p)),
-                )),
-                (Party::Link(index), Some(solve)) => match robot.links()[index].attachment.body {
-                    None => End::Driven(0.0),
-                    Some(body) => {
-                        let row = self.row(robot, body, p, normal);
-                        let mut solved = DVector::from_column_slice(&row);
-                        solve.solve_mut(&mut solved);
-                        End::Arm { row, solved }
-                    }
-                },
-                (Party::Link(index), None) => {
-                    let motion = self.arm_before.of(&robot.links()[index].attachment);
-                    driven(motion.at(&(p - motion.placed.position)).velocity)
-                }
-            }
-        };
-        let mut points: Vec<Point> = Vec::new();
-        for (i, (parties, p, normal)) in contacts.iter().enumerate() {
-            let ends = parties.map(|party| end_of(party, p, normal));
-            let softness: f64 = ends
-                .iter()
-                .map(|end| velocities.softness(end, normal))
-                .sum();
-            let now = velocities.along(&ends[1], normal) - velocities.along(&ends[0], normal);
-            if softness > 0.0 {
-                points.push(Point {
-                    parties: *parties,
-                    p: *p,
-                    normal: *normal,
-                    least_m_s: leaves[i].unwrap_or(now.min(0.0)),
-                    ends,
-                    softness,
-                    impulse_n_s: 0.0,
-                });
+            },
+            (Party::Body(_), _) | (Party::Link(_), None) => {
+                End::Driven(normal.dot(&self.velocity_before(robot, after, party, p)))
             }
         }
-        for _ in 0..PASSES {
-            let mut changed_m_s = 0.0_f64;
-            for point in &mut points {
-                let [first, second] = &point.ends;
-                let now = velocities.along(second, &point.normal)
-                    - velocities.along(first, &point.normal);
-                let wanted = point.impulse_n_s + (point.least_m_s - now) / point.softness;
-                let change = wanted.max(0.0) - point.impulse_n_s;
-                point.impulse_n_s += change;
-                changed_m_s = changed_m_s.max((change * point.softness).abs());
-                let impulse = point.normal * change;
-                velocities.push(second, &impulse, change);
-                velocities.push(first, &-impulse, -change);
-            }
-            if changed_m_s <= SETTLED_M_S {
-                break;
-            }
-        }
+    }
+
+    /// Gives the free bodies their velocities after the bounce, and wakes those that it moved.
+    fn move_bodies(
+        &self,
+        velocities: &Velocities,
+        bodies: &mut RigidBodySet,
+        handles: &[RigidBodyHandle],
+    ) {
         for (index, handle) in handles.iter().enumerate() {
             if self.inverse[index].is_some() {
                 let (v, w) = velocities.free[index];
@@ -333,12 +382,6 @@ impl Bounce {
                     body.set_angvel(vector(&w), true);
                 }
             }
-        }
-        if let Some(arm) = &mut arm {
-            arm.qd.copy_from_slice(&velocities.qd);
-        }
-        for point in points.iter().filter(|point| point.impulse_n_s > 0.0) {
-            tell(point, dt_s, facts);
         }
     }
 
@@ -362,12 +405,60 @@ impl Bounce {
     }
 }
 
-/// Every point that presses: the parties in the engine's order, where, and the normal from the first to the second.
+impl Point {
+    /// None where no impulse changes the speed of the touch. One that did not come in fast enough to bounce is held to the speed it
+    /// has, at most to rest.
+    fn new(
+        touch: Touch,
+        ends: [End; 2],
+        leaves_m_s: Option<f64>,
+        velocities: &Velocities,
+    ) -> Option<Self> {
+        let normal = &touch.normal;
+        let softness: f64 = ends
+            .iter()
+            .map(|end| velocities.softness(end, normal))
+            .sum();
+        let now = velocities.along(&ends[1], normal) - velocities.along(&ends[0], normal);
+        (softness > 0.0).then(|| Self {
+            touch,
+            least_m_s: leaves_m_s.unwrap_or(now.min(0.0)),
+            ends,
+            softness,
+            impulse_n_s: 0.0,
+        })
+    }
+}
+
+/// Finds the impulses that give every point at least its speed, none of them pulling (projected Gauss-Seidel), and raises
+/// `velocities` by them.
+fn settle(points: &mut [Point], velocities: &mut Velocities) {
+    for _ in 0..PASSES {
+        let mut changed_m_s = 0.0_f64;
+        for point in &mut *points {
+            let [first, second] = &point.ends;
+            let normal = &point.touch.normal;
+            let now = velocities.along(second, normal) - velocities.along(first, normal);
+            let wanted = point.impulse_n_s + (point.least_m_s - now) / point.softness;
+            let change = wanted.max(0.0) - point.impulse_n_s;
+            point.impulse_n_s += change;
+            changed_m_s = changed_m_s.max((change * point.softness).abs());
+            let impulse = normal * change;
+            velocities.push(second, &impulse, change);
+            velocities.push(first, &-impulse, -change);
+        }
+        if changed_m_s <= SETTLED_M_S {
+            break;
+        }
+    }
+}
+
+/// Every point that presses, in the order in which the engine has them.
 fn pressed(
     narrow_phase: &NarrowPhase,
     colliders: &ColliderSet,
     bodies: &RigidBodySet,
-) -> Vec<([Party; 2], Vector3<f64>, Vector3<f64>)> {
+) -> Vec<Touch> {
     let party = |handle: ColliderHandle| {
         let collider = colliders.get(handle)?;
         Some(from_user_data(collider.user_data))
@@ -387,7 +478,11 @@ fn pressed(
                     .is_some_and(|point| point.data.impulse > 0.0);
                 if presses {
                     let (a, b) = manifold.data.solver_contact_world_points(contact, bodies);
-                    points.push(([first, second], from_vector((a + b) * 0.5), normal));
+                    points.push(Touch {
+                        parties: [first, second],
+                        p: from_vector((a + b) * 0.5),
+                        normal,
+                    });
                 }
             }
         }
@@ -397,17 +492,18 @@ fn pressed(
 
 /// Adds a bounce to what its pair did in the step.
 fn tell(point: &Point, dt_s: f64, facts: &mut [ContactFact]) {
-    let [first, second] = point.parties;
+    let touch = &point.touch;
+    let [first, second] = touch.parties;
     let (parties, sign) = if first > second {
         ([second, first], -1.0)
     } else {
         ([first, second], 1.0)
     };
     if let Some(fact) = facts.iter_mut().find(|fact| fact.parties == parties) {
-        let on_second = point.normal * (sign * point.impulse_n_s);
+        let on_second = touch.normal * (sign * point.impulse_n_s);
         fact.impulse_n_s += point.impulse_n_s;
         fact.normal_impulse_n_s += on_second;
-        fact.moment_impulse_n_m_s += point.p.cross(&on_second);
+        fact.moment_impulse_n_m_s += touch.p.cross(&on_second);
         fact.force_n += point.impulse_n_s / dt_s;
     }
 }

@@ -1,5 +1,6 @@
 //! What a link or a body is made of: its shapes and surface, how it resists the air, and its mass properties given or taken from the shapes.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
@@ -7,7 +8,7 @@ use toml::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{
-    ContactTable, DragTable, InertiaTable, MeshTable, RoundTable, ShapeTable,
+    ContactTable, DragTable, InertiaTable, MeshTable, NumberAt, RoundTable, ShapeTable,
 };
 use super::values::{Allowed, Values};
 use crate::model::air::Drag;
@@ -143,77 +144,103 @@ impl Values<'_> {
         shapes: &[Shape],
         table: &Spanned<InertiaTable>,
     ) -> Result<Inertia, PartError> {
-        let refuse = |message: String, help: &str| {
-            self.err(
-                table.span(),
-                PartProblem::Inertia {
-                    message,
-                    help: help.to_owned(),
-                },
-            )
-        };
-        let InertiaTable {
-            mass_kg,
-            density_kg_m3,
-            com_m,
-            tensor_kg_m2,
-            accept_unphysical,
-        } = table.get_ref();
-        if let Some(tensor_at) = tensor_kg_m2 {
-            let Some(mass) = mass_kg else {
-                return refuse(
-                    format!("{owner} has an inertia tensor but no mass"),
-                    "add `mass_kg`",
-                );
-            };
-            let [xx, yy, zz, xy, xz, yz] = tensor_at.get_ref();
-            let part = |n| self.number(n, "tensor_kg_m2", Allowed::Any);
-            let about_com_kg_m2 = Symmetric3 {
-                xx: part(xx)?,
-                yy: part(yy)?,
-                zz: part(zz)?,
-                xy: part(xy)?,
-                xz: part(xz)?,
-                yz: part(yz)?,
-            };
-            if let Some(why) = inertia::unphysical(&about_com_kg_m2)
-                && !accept_unphysical
-            {
-                return self.err(
-                    tensor_at.span(),
-                    PartProblem::Inertia {
-                        message: format!("{owner}: {why}"),
-                        help: match self.kind {
-                            // contact would not hold such a body
-                            "scene" => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass",
-                            _ => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
-                                  numbers that are so anyway pass with `accept_unphysical = true`",
-                        }
-                        .to_owned(),
-                    },
-                );
-            }
-            return Ok(Inertia {
-                mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
-                com_m: match com_m {
-                    Some(com) => self.triple(com, "com_m")?,
-                    None => Vector3::zeros(),
-                },
-                about_com_kg_m2,
-            });
+        if let Some(tensor) = &table.get_ref().tensor_kg_m2 {
+            return self.given_inertia(owner, table, tensor);
         }
-        if com_m.is_some() {
-            return refuse(
+        if table.get_ref().com_m.is_some() {
+            return self.refuse_inertia(
+                table.span(),
                 format!("{owner} has `com_m` but no `tensor_kg_m2`"),
                 "leave `com_m` out to take both from the shapes, or give the tensor too",
             );
         }
         if shapes.is_empty() {
-            return refuse(
+            return self.refuse_inertia(
+                table.span(),
                 format!("{owner} has no shapes to take its inertia from"),
                 "add `shapes`, or give `com_m` and `tensor_kg_m2`",
             );
         }
+        self.inertia_of_shapes(owner, shapes, table)
+    }
+
+    fn refuse_inertia<T>(
+        &self,
+        at: Range<usize>,
+        message: String,
+        help: &str,
+    ) -> Result<T, PartError> {
+        let help = help.to_owned();
+        self.err(at, PartProblem::Inertia { message, help })
+    }
+
+    /// Mass properties written out in full; the tensor is about the centre of mass, which is the owner's origin where the file does
+    /// not say.
+    fn given_inertia(
+        &self,
+        owner: &str,
+        table: &Spanned<InertiaTable>,
+        tensor: &Spanned<[NumberAt; 6]>,
+    ) -> Result<Inertia, PartError> {
+        let given = table.get_ref();
+        let Some(mass) = &given.mass_kg else {
+            return self.refuse_inertia(
+                table.span(),
+                format!("{owner} has an inertia tensor but no mass"),
+                "add `mass_kg`",
+            );
+        };
+        let about_com_kg_m2 = self.tensor(tensor.get_ref())?;
+        if let Some(why) = inertia::unphysical(&about_com_kg_m2)
+            && !given.accept_unphysical
+        {
+            let help = match self.kind {
+                // contact would not hold such a body
+                "scene" => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass",
+                _ => {
+                    "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
+                     numbers that are so anyway pass with `accept_unphysical = true`"
+                }
+            };
+            return self.refuse_inertia(tensor.span(), format!("{owner}: {why}"), help);
+        }
+        Ok(Inertia {
+            mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
+            com_m: match &given.com_m {
+                Some(com) => self.triple(com, "com_m")?,
+                None => Vector3::zeros(),
+            },
+            about_com_kg_m2,
+        })
+    }
+
+    /// A tensor as the file lists it: the diagonal first, then `xy`, `xz`, `yz` \[kg m²\].
+    fn tensor(&self, numbers: &[NumberAt; 6]) -> Result<Symmetric3, PartError> {
+        let [xx, yy, zz, xy, xz, yz] = numbers;
+        let part = |n| self.number(n, "tensor_kg_m2", Allowed::Any);
+        Ok(Symmetric3 {
+            xx: part(xx)?,
+            yy: part(yy)?,
+            zz: part(zz)?,
+            xy: part(xy)?,
+            xz: part(xz)?,
+            yz: part(yz)?,
+        })
+    }
+
+    /// Mass properties from shapes of one density, which is given or follows from the mass of all of them together; overlaps count
+    /// twice.
+    fn inertia_of_shapes(
+        &self,
+        owner: &str,
+        shapes: &[Shape],
+        table: &Spanned<InertiaTable>,
+    ) -> Result<Inertia, PartError> {
+        let InertiaTable {
+            mass_kg,
+            density_kg_m3,
+            ..
+        } = table.get_ref();
         let from_mesh = |problem: MeshProblem| {
             let message = format!("{owner} cannot take its inertia from its mesh: {problem}");
             let help = problem.help();
@@ -232,7 +259,8 @@ impl Values<'_> {
             (Some(mass), None) => self.number(mass, "mass_kg", Allowed::NotNegative)? / volume,
             (None, Some(density)) => self.number(density, "density_kg_m3", Allowed::NotNegative)?,
             _ => {
-                return refuse(
+                return self.refuse_inertia(
+                    table.span(),
                     format!("{owner} needs either a mass or a density"),
                     "write `mass_kg` or `density_kg_m3`, one of them",
                 );

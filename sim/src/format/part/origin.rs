@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
-use super::part_tables::OriginTable;
+use super::part_tables::{OriginTable, TripleAt};
 use super::values::{Allowed, Values};
 use crate::spatial::{Pose, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
 
@@ -23,16 +23,6 @@ impl Values<'_> {
     }
 
     fn rotation(&self, table: &OriginTable) -> Result<Matrix3<f64>, PartError> {
-        let help = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
-        let clash = |at: Range<usize>, message: &str| {
-            self.err(
-                at,
-                PartProblem::Origin {
-                    message: message.to_owned(),
-                    help: help.to_owned(),
-                },
-            )
-        };
         match table {
             OriginTable {
                 rpy_deg: Some(rpy),
@@ -62,19 +52,7 @@ impl Values<'_> {
                 x_axis: Some(x),
                 y_axis: Some(y),
                 ..
-            } => {
-                let x_axis = self.unit(x, "x_axis")?;
-                let y_axis = self.unit(y, "y_axis")?;
-                if x_axis.dot(&y_axis).abs() > 1e-6 {
-                    return clash(y.span(), "`y_axis` is not perpendicular to `x_axis`");
-                }
-                let z_axis = x_axis.cross(&y_axis).normalize();
-                Ok(Matrix3::from_columns(&[
-                    x_axis,
-                    z_axis.cross(&x_axis),
-                    z_axis,
-                ]))
-            }
+            } => self.rotation_of_axes(x, y),
             OriginTable {
                 rpy_deg: None,
                 axis: None,
@@ -99,11 +77,38 @@ impl Values<'_> {
                     y_axis.as_ref().map(Spanned::span),
                 ];
                 let at = at.into_iter().flatten().max_by_key(|at| at.start);
-                clash(
+                self.clash(
                     at.unwrap_or(0..0),
                     "this rotation is half said, or said twice",
                 )
             }
         }
+    }
+
+    /// From the axes `x` and `y` of the frame, said in its parent. What rounding leaves them off a right angle, `y` takes.
+    fn rotation_of_axes(&self, x: &TripleAt, y: &TripleAt) -> Result<Matrix3<f64>, PartError> {
+        let x_axis = self.unit(x, "x_axis")?;
+        let y_axis = self.unit(y, "y_axis")?;
+        if x_axis.dot(&y_axis).abs() > 1e-6 {
+            return self.clash(y.span(), "`y_axis` is not perpendicular to `x_axis`");
+        }
+        let z_axis = x_axis.cross(&y_axis).normalize();
+        Ok(Matrix3::from_columns(&[
+            x_axis,
+            z_axis.cross(&x_axis),
+            z_axis,
+        ]))
+    }
+
+    /// Refuses a rotation; every such message helps with all the ways to say one.
+    fn clash<T>(&self, at: Range<usize>, message: &str) -> Result<T, PartError> {
+        let help = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
+        self.err(
+            at,
+            PartProblem::Origin {
+                message: message.to_owned(),
+                help: help.to_owned(),
+            },
+        )
     }
 }

@@ -52,10 +52,6 @@ impl Resolver<'_> {
             waypoints,
             repeat,
         } = table.get_ref();
-        let refuse = |at: Range<usize>, message: String, help: &str| {
-            let help = help.to_owned();
-            self.err(at, SceneProblem::Motion { message, help })
-        };
         let steady = linear_m_s.is_some() || angular_rad_s.is_some();
         let waypoints = match (waypoints, repeat) {
             (Some(waypoints), _) if !steady => waypoints,
@@ -66,7 +62,7 @@ impl Resolver<'_> {
                 ));
             }
             _ => {
-                return refuse(
+                return self.refuse_motion(
                     table.span(),
                     format!("the motion of body `{body}` is half said, or said twice"),
                     "say either `linear_m_s` and `angular_rad_s`, or `waypoints` and `repeat`",
@@ -74,41 +70,19 @@ impl Resolver<'_> {
             }
         };
         if let Some(at) = origin_at {
-            return refuse(
+            return self.refuse_motion(
                 at,
                 format!("body `{body}` has an origin and waypoints"),
                 "leave `origin` out: the first waypoint says where it starts",
             );
         }
-        let points = waypoints
-            .iter()
-            .map(|point| self.waypoint(point))
-            .collect::<Result<Vec<_>, _>>()?;
-        for (pair, table) in points.windows(2).zip(&waypoints[1..]) {
-            let (before, after) = (pair[0].time_s, pair[1].time_s);
-            if before >= after {
-                return refuse(
-                    table.span(),
-                    format!("waypoint at {after} s does not come after the one at {before} s"),
-                    "put the waypoints in the order of their times",
-                );
-            }
-        }
+        let points = self.points(waypoints)?;
         let repeat = repeat.as_ref();
-        if let (Some(repeat), Some(first), Some(last)) = (repeat, points.first(), points.last())
-            && *repeat.get_ref()
-            && first.world_from_body != last.world_from_body
-        {
-            return refuse(
-                repeat.span(),
-                format!("body `{body}` would jump from its last waypoint to its first"),
-                "end with a waypoint at the place and rotation of the first",
-            );
-        }
+        self.check_return(body, &points, repeat)?;
         let repeat = repeat.is_some_and(|repeat| *repeat.get_ref());
         let times_s: Vec<f64> = points.iter().map(|point| point.time_s).collect();
         let Some(motion) = Motion::through(points, repeat) else {
-            return refuse(
+            return self.refuse_motion(
                 table.span(),
                 format!("the motion of body `{body}` needs at least two waypoints"),
                 "add a waypoint, or make the body `fixed`",
@@ -124,6 +98,55 @@ impl Resolver<'_> {
             )?;
         }
         Ok(motion)
+    }
+
+    fn refuse_motion<T>(
+        &self,
+        at: Range<usize>,
+        message: String,
+        help: &str,
+    ) -> Result<T, SceneError> {
+        let help = help.to_owned();
+        self.err(at, SceneProblem::Motion { message, help })
+    }
+
+    /// Waypoints in the world, each later than the one before it: between two at the same time the speed would have no bound.
+    fn points(&self, waypoints: &[Spanned<WaypointTable>]) -> Result<Vec<Waypoint>, SceneError> {
+        let points = waypoints
+            .iter()
+            .map(|point| self.waypoint(point))
+            .collect::<Result<Vec<_>, _>>()?;
+        for (pair, table) in points.windows(2).zip(waypoints.iter().skip(1)) {
+            let (before, after) = (pair[0].time_s, pair[1].time_s);
+            if before >= after {
+                return self.refuse_motion(
+                    table.span(),
+                    format!("waypoint at {after} s does not come after the one at {before} s"),
+                    "put the waypoints in the order of their times",
+                );
+            }
+        }
+        Ok(points)
+    }
+
+    /// A motion that repeats ends where it began, to the last bit: what it presses on would feel any jump as an endless speed.
+    fn check_return(
+        &self,
+        body: &str,
+        points: &[Waypoint],
+        repeat: Option<&Spanned<bool>>,
+    ) -> Result<(), SceneError> {
+        if let (Some(repeat), Some(first), Some(last)) = (repeat, points.first(), points.last())
+            && *repeat.get_ref()
+            && first.world_from_body != last.world_from_body
+        {
+            return self.refuse_motion(
+                repeat.span(),
+                format!("body `{body}` would jump from its last waypoint to its first"),
+                "end with a waypoint at the place and rotation of the first",
+            );
+        }
+        Ok(())
     }
 
     fn waypoint(&self, table: &Spanned<WaypointTable>) -> Result<Waypoint, SceneError> {

@@ -102,28 +102,7 @@ pub(super) fn chain(
 ) -> Result<Chain, RobotError> {
     let node = head.node;
     let owner = format!("joint `{}`", head.name.get_ref());
-    reader.check(
-        node,
-        &owner,
-        &["name", "type"],
-        &[
-            "origin",
-            "parent",
-            "child",
-            "axis",
-            "limit",
-            "dynamics",
-            "mimic",
-            "calibration",
-            "safety_controller",
-            "gazebo",
-        ],
-    );
-    for tag in ["parent", "child"] {
-        if let Some(child) = reader.child(node, tag, &owner) {
-            reader.check(child, &owner, &["link"], &[]);
-        }
-    }
+    check_tags(reader, node, &owner);
     let mut joint = JointPart::fixed(
         head.name.clone(),
         head.parent.clone(),
@@ -159,37 +138,74 @@ pub(super) fn chain(
                 };
                 return reader.err(Reader::tag(mimic), problem);
             }
-            // URDF does not say which of the motions they are for
-            for tag in ["limit", "dynamics"] {
-                if let Some(child) = reader.child(node, tag, &owner) {
-                    let message =
-                        format!("{owner}: `<{tag}>` of a joint with several motions is left out");
-                    reader.warn(Reader::tag(child), &message);
-                }
-            }
-            let motions = if head.kind == Type::Planar {
-                let axes = axes_with_z_along(&axis(reader, node, &owner)?);
-                let [x, y, z] = [0, 1, 2].map(|i| axes.column(i).into_owned());
-                vec![slide("x", x), slide("y", y), turn("yaw", z)]
-            } else if is_base {
-                vec![
-                    slide("x", Vector3::x()),
-                    slide("y", Vector3::y()),
-                    slide("z", Vector3::z()),
-                    turn("yaw", Vector3::z()),
-                    turn("pitch", Vector3::y()),
-                    turn("roll", Vector3::x()),
-                ]
-            } else {
-                return reader.refuse(
-                    Reader::tag(node),
-                    format!("{owner} is floating, but not the base"),
-                    "a floating joint",
-                    "only the base floats: its parent is the root, and it is the root's only joint",
-                );
-            };
+            let motions = motions(reader, head, &owner, is_base)?;
             Ok(unfold(&joint, &motions))
         }
+    }
+}
+
+/// Warns of what does not belong in a joint; tags for other programs are let through.
+fn check_tags(reader: &mut Reader<'_>, node: Node<'_>, owner: &str) {
+    reader.check(
+        node,
+        owner,
+        &["name", "type"],
+        &[
+            "origin",
+            "parent",
+            "child",
+            "axis",
+            "limit",
+            "dynamics",
+            "mimic",
+            "calibration",
+            "safety_controller",
+            "gazebo",
+        ],
+    );
+    for tag in ["parent", "child"] {
+        if let Some(child) = reader.child(node, tag, owner) {
+            reader.check(child, owner, &["link"], &[]);
+        }
+    }
+}
+
+/// The motions of a floating or planar joint, from its parent to its child: slides before turns, so that the turns do not tilt the
+/// axes of the slides.
+fn motions(
+    reader: &mut Reader<'_>,
+    head: &Head<'_>,
+    owner: &str,
+    is_base: bool,
+) -> Result<Vec<Motion>, RobotError> {
+    let node = head.node;
+    // URDF does not say which of the motions they are for
+    for tag in ["limit", "dynamics"] {
+        if let Some(child) = reader.child(node, tag, owner) {
+            let message = format!("{owner}: `<{tag}>` of a joint with several motions is left out");
+            reader.warn(Reader::tag(child), &message);
+        }
+    }
+    if head.kind == Type::Planar {
+        let axes = axes_with_z_along(&axis(reader, node, owner)?);
+        let [x, y, z] = [0, 1, 2].map(|i| axes.column(i).into_owned());
+        Ok(vec![slide("x", x), slide("y", y), turn("yaw", z)])
+    } else if is_base {
+        Ok(vec![
+            slide("x", Vector3::x()),
+            slide("y", Vector3::y()),
+            slide("z", Vector3::z()),
+            turn("yaw", Vector3::z()),
+            turn("pitch", Vector3::y()),
+            turn("roll", Vector3::x()),
+        ])
+    } else {
+        reader.refuse(
+            Reader::tag(node),
+            format!("{owner} is floating, but not the base"),
+            "a floating joint",
+            "only the base floats: its parent is the root, and it is the root's only joint",
+        )
     }
 }
 
