@@ -256,13 +256,7 @@ impl<'a> Run<'a> {
         control: &mut impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
         recorder: &mut impl Recorder,
     ) -> Result<Option<End<E>>, RunError> {
-        let Setup {
-            robot,
-            tcp,
-            seen_from,
-            periods,
-            ..
-        } = self.setup;
+        let Setup { robot, periods, .. } = self.setup;
         let state = &mut self.state;
         let tick = state.tick;
         if tick > self.setup.ticks {
@@ -276,36 +270,14 @@ impl<'a> Run<'a> {
         {
             disturbed.measure(&state.q, &state.qd);
         }
-        let (q, qd) = match &state.disturbed {
-            Some(disturbed) => (&disturbed.q, &disturbed.qd),
-            None => (&state.q, &state.qd),
-        };
-        if begins(periods.ticks_per_control) && (tick < self.setup.ticks || tick == 0) {
-            state.poses.update(robot, q);
-            let world_from_tcp = state.poses.world_from(tcp);
-            let tcp = state.poses.world_from(seen_from).inv_mul(&world_from_tcp);
-            let observation = Observation {
-                tick,
-                time_s: periods.time_s(tick),
-                dt_s: periods.control_s(),
-                q,
-                qd,
-                effort: &state.effort,
-                tcp: &tcp,
-                sensors: state.sensors.values(),
-            };
-            if let Err(why) = control(&observation, &mut state.command) {
-                return Ok(Some(End::Stopped { tick, why }));
-            }
-            if let Some(disturbed) = &mut state.disturbed {
-                disturbed.deliver(&mut state.command);
-            }
+        if begins(periods.ticks_per_control)
+            && (tick < self.setup.ticks || tick == 0)
+            && let Err(why) = state.ask(&self.setup, control)
+        {
+            return Ok(Some(End::Stopped { tick, why }));
         }
         if begins(periods.ticks_per_servo) {
-            let (q, qd) = match &state.disturbed {
-                Some(disturbed) => (&disturbed.q, &disturbed.qd),
-                None => (&state.q, &state.qd),
-            };
+            let (q, qd) = seen(&state.disturbed, &state.q, &state.qd);
             state
                 .servo
                 .sample(self.known, &state.command, q, qd, &mut state.driven);
@@ -381,6 +353,49 @@ impl State {
             contacts: scene.map_or(&[], |scene| &scene.report().contacts),
             scene,
         });
+    }
+
+    /// Asks `control` for the command of the control period that begins, which reaches the servos as the disturbance lets it.
+    ///
+    /// # Errors
+    /// Why the controller stops the run.
+    fn ask<E>(
+        &mut self,
+        setup: &Setup<'_>,
+        control: &mut impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (q, qd) = seen(&self.disturbed, &self.q, &self.qd);
+        self.poses.update(setup.robot, q);
+        let world_from_tcp = self.poses.world_from(setup.tcp);
+        let world_from_seen = self.poses.world_from(setup.seen_from);
+        let tcp = world_from_seen.inv_mul(&world_from_tcp);
+        let observation = Observation {
+            tick: self.tick,
+            time_s: setup.periods.time_s(self.tick),
+            dt_s: setup.periods.control_s(),
+            q,
+            qd,
+            effort: &self.effort,
+            tcp: &tcp,
+            sensors: self.sensors.values(),
+        };
+        control(&observation, &mut self.command)?;
+        if let Some(disturbed) = &mut self.disturbed {
+            disturbed.deliver(&mut self.command);
+        }
+        Ok(())
+    }
+}
+
+/// Positions and velocities as controller and servos see them: measured under a disturbance, else the true ones.
+fn seen<'s>(
+    disturbed: &'s Option<Disturbed>,
+    q: &'s [f64],
+    qd: &'s [f64],
+) -> (&'s [f64], &'s [f64]) {
+    match disturbed {
+        Some(disturbed) => (&disturbed.q, &disturbed.qd),
+        None => (q, qd),
     }
 }
 

@@ -80,22 +80,8 @@ pub(super) fn check(
             // where the others are by now says nothing
             return Ok(());
         }
-        for (index, body) in scene.bodies.iter().enumerate() {
-            if !matches!(body.kind, BodyKind::Fixed) {
-                let state = world.body(index);
-                if !state.sleeps {
-                    layout.place_body(index, &state.world_from_body);
-                }
-            }
-        }
-        for fact in &facts {
-            if let [Party::Body(first), Party::Body(second)] = fact.parties {
-                let either = moved[first] || moved[second];
-                for body in [first, second] {
-                    moved[body] |= either && matches!(scene.bodies[body].kind, BodyKind::Free);
-                }
-            }
-        }
+        follow(scene, &world, layout);
+        pass_on(scene, &facts, &mut moved);
         if let Some(down) = down.filter(|_| tick <= STANDS_TICKS) {
             for one in &mut falling {
                 one.stand(&facts, &world, &down);
@@ -127,6 +113,30 @@ pub(super) fn check(
         one.judge(scene, &world, layout, &state, severities, findings);
     }
     Ok(())
+}
+
+/// Puts the bodies of `layout` where those of `world` are by now; one that sleeps is where it was.
+fn follow(scene: &Scene, world: &World, layout: &mut Layout) {
+    for (index, body) in scene.bodies.iter().enumerate() {
+        if !matches!(body.kind, BodyKind::Fixed) {
+            let state = world.body(index);
+            if !state.sleeps {
+                layout.place_body(index, &state.world_from_body);
+            }
+        }
+    }
+}
+
+/// Marks free bodies that touch one that is moved as moved too.
+fn pass_on(scene: &Scene, facts: &[ContactFact], moved: &mut [bool]) {
+    for fact in facts {
+        if let [Party::Body(first), Party::Body(second)] = fact.parties {
+            let either = moved[first] || moved[second];
+            for body in [first, second] {
+                moved[body] |= either && matches!(scene.bodies[body].kind, BodyKind::Free);
+            }
+        }
+    }
 }
 
 /// A robot that is nowhere: the engine's world always has one.

@@ -153,6 +153,42 @@ fn checking_reader() -> LinearReader {
     LinearReader::new_with_options(options)
 }
 
+/// What has come of a log so far, against what may.
+struct Taken {
+    /// Bytes that all its records may unpack to.
+    most: u64,
+    unpacked: u64,
+    /// Bytes of topics and schemas.
+    known_bytes: usize,
+}
+
+impl Taken {
+    /// Counts a record, before anything is made of it.
+    fn unpack(&mut self, size: usize) -> Result<(), ReadError> {
+        self.unpacked += size as u64;
+        if self.unpacked > self.most {
+            return Err(ReadError::TooLarge {
+                what: format!("it unpacks to more than {} MiB", self.most >> 20),
+            });
+        }
+        Ok(())
+    }
+
+    /// Counts a topic or a schema, which stays in memory.
+    fn keep(&mut self, size: usize) -> Result<(), ReadError> {
+        self.known_bytes += size;
+        if self.known_bytes > MOST_KNOWN_BYTES {
+            return Err(ReadError::TooLarge {
+                what: format!(
+                    "its schemas and topics take more than {} MiB",
+                    MOST_KNOWN_BYTES >> 20
+                ),
+            });
+        }
+        Ok(())
+    }
+}
+
 fn stream(
     log: &[u8],
     count: &mut u64,
@@ -170,9 +206,11 @@ fn stream(
     // the reader must not see a chunk that contradicts itself
     let torn = chunks::first_torn(log);
     let mut rest = &log[..torn.unwrap_or(log.len())];
-    let most = most_of(log, MOST_BYTES);
-    let mut unpacked = 0_u64;
-    let mut known_bytes = 0_usize;
+    let mut taken = Taken {
+        most: most_of(log, MOST_BYTES),
+        unpacked: 0,
+        known_bytes: 0,
+    };
     while let Some(event) = reader.next_event() {
         let event = event.map_err(|error| match (error, torn) {
             (McapError::UnexpectedEof, Some(_)) => ReadError::Damaged {
@@ -191,24 +229,11 @@ fn stream(
             }
             LinearReadEvent::Record { opcode, data } => (opcode, data),
         };
-        unpacked += data.len() as u64;
-        if unpacked > most {
-            return Err(ReadError::TooLarge {
-                what: format!("it unpacks to more than {} MiB", most >> 20),
-            });
-        }
         let size = data.len();
+        taken.unpack(size)?;
         let record = parse_record(opcode, data).map_err(|error| told(error, *count))?;
         if matches!(record, Record::Schema { .. } | Record::Channel(_)) {
-            known_bytes += size;
-            if known_bytes > MOST_KNOWN_BYTES {
-                return Err(ReadError::TooLarge {
-                    what: format!(
-                        "its schemas and topics take more than {} MiB",
-                        MOST_KNOWN_BYTES >> 20
-                    ),
-                });
-            }
+            taken.keep(size)?;
         }
         let known = match record {
             Record::Schema { header, data } => channels.add_schema_from_slice(header, &data),

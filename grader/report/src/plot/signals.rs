@@ -253,23 +253,40 @@ fn typical_value(curve: &Curve) -> f64 {
         .unwrap_or(1.0)
 }
 
+/// What the run did, in the unit that is shown, and what a linear loop would have done.
+fn curve_lines(curve: &Curve, scale: f64) -> Vec<Line> {
+    let over_time = |values: &[f64]| {
+        let values = values.iter().map(|value| value * scale);
+        curve.t_s.iter().copied().zip(values).collect()
+    };
+    let mut lines = vec![line(over_time(&curve.values), BLUE, false)];
+    let step = curve.step.as_ref();
+    // its dashes on the run's line: where both are one, both are seen
+    if let Some(prediction) = step.and_then(|step| step.prediction.as_ref()) {
+        lines.push(line(over_time(prediction), PURPLE_DASHED, false));
+    }
+    lines
+}
+
+/// The marks of a curve in order of time: the first forty that have a time.
+fn curve_marks(curve: &Curve) -> Vec<(f64, String)> {
+    let mut marks: Vec<(f64, String)> = curve
+        .marks
+        .iter()
+        .filter(|mark| mark.0.is_finite())
+        .take(40)
+        .cloned()
+        .collect();
+    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    marks
+}
+
 /// A curve that a check judged, with its band and marks.
 pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
     let typical = typical_value(curve);
     let (unit, scale) = shown_unit(&curve.unit, typical);
-    let points = curve
-        .t_s
-        .iter()
-        .copied()
-        .zip(curve.values.iter().map(|value| value * scale));
+    let lines = curve_lines(curve, scale);
     let step = curve.step.as_ref();
-    let mut lines = vec![line(points.collect(), BLUE, false)];
-    // its dashes on the run's line: where both are one, both are seen
-    if let Some(prediction) = step.and_then(|step| step.prediction.as_ref()) {
-        let values = prediction.iter().map(|value| value * scale);
-        let points = curve.t_s.iter().copied().zip(values);
-        lines.push(line(points.collect(), PURPLE_DASHED, false));
-    }
     let target = step.and_then(|step| step.target);
     let levels: Vec<_> = [
         (curve.zero, VERMILLION_DASHED),
@@ -321,19 +338,11 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         legend.extend(step_entries(step, unit, scale));
     }
     let last_s = extent(curve.t_s.iter().copied()).map_or(0.0, |reach| reach.1);
-    let mut marks: Vec<(f64, String)> = curve
-        .marks
-        .iter()
-        .filter(|mark| mark.0.is_finite())
-        .take(40)
-        .cloned()
-        .collect();
-    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     Timeline {
         title: format!("Judged: {}", shortened(&judged.replace('`', ""), 60)),
         panels: vec![panel],
         legend,
-        marks,
+        marks: curve_marks(curve),
         end_s: last_s.max(end_s(run)),
         stopped_s: stopped_s(run),
         most_points: most_points(run),

@@ -85,14 +85,7 @@ impl Timeline {
             3 => 125.0,
             _ => 105.0,
         };
-        let mut legend = self.legend.clone();
-        let told = self.marks.iter().take(MOST_MARKS).enumerate();
-        legend.extend(told.map(|(i, (t_s, text))| {
-            Entry::new(
-                Swatch::Number(i + 1),
-                format!("{}, {}", shortened(text, 60), seconds(*t_s)),
-            )
-        }));
+        let legend = self.legend_with_marks();
         // the legend's height is known once it is laid out, which a picture of its own does
         let mut top = 0.0;
         picture("", 1.0, |canvas| top = canvas.legend(&legend, 20.0, 50.0));
@@ -157,6 +150,19 @@ impl Timeline {
             of_width: percent(WIDTH),
         };
         (svg, axes, head)
+    }
+
+    /// The legend, and below it the words and times of the marks by their numbers.
+    fn legend_with_marks(&self) -> Vec<Entry> {
+        let mut legend = self.legend.clone();
+        let told = self.marks.iter().take(MOST_MARKS).enumerate();
+        legend.extend(told.map(|(i, (t_s, text))| {
+            Entry::new(
+                Swatch::Number(i + 1),
+                format!("{}, {}", shortened(text, 60), seconds(*t_s)),
+            )
+        }));
+        legend
     }
 
     fn panel(

@@ -86,7 +86,7 @@ impl Context<'_> {
     }
 
     /// Says why the run ended.
-    // one arm per error of the engine: a table, and as long as the engine has errors
+    // long: one arm per error of the engine: a table, and as long as the engine has errors
     pub(super) fn running(&self, error: &EvalAltResult) -> Stop {
         let mut inner = error;
         while let EvalAltResult::ErrorInFunctionCall(_, _, nested, _) = inner {

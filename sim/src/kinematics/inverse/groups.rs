@@ -91,15 +91,7 @@ pub fn solve_by_priority(
     }
     let joints = match &settings.chain {
         Some(chain) => chain.clone(),
-        None => {
-            let goals = levels.iter().flatten();
-            let mut all: Vec<usize> = goals
-                .flat_map(|goal| Chain::new(robot, goal.frame).joints().to_vec())
-                .collect();
-            all.sort_unstable();
-            all.dedup();
-            all
-        }
+        None => carrying(robot, levels),
     };
     let alone = IkSettings {
         chain: Some(joints.clone()),
@@ -159,4 +151,15 @@ pub fn solve_by_priority(
         q,
         groups,
     })
+}
+
+/// The joints that carry a frame of any goal, each once and in order.
+fn carrying(robot: &Robot, levels: &[Vec<Goal<'_>>]) -> Vec<usize> {
+    let goals = levels.iter().flatten();
+    let mut all: Vec<usize> = goals
+        .flat_map(|goal| Chain::new(robot, goal.frame).joints().to_vec())
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }

@@ -9,6 +9,7 @@ use super::Posture;
 use super::adaptive::{Rules, descend};
 use super::ik_step::StepRoom;
 use super::system::System;
+use crate::kinematics::position_range::PositionRange;
 
 /// Singular values of the first system below this part of the largest do not hold the second back; larger than for a
 /// pseudo-inverse, since a step along them would move the frames all the same.
@@ -145,33 +146,8 @@ pub(super) fn follow(
             break;
         }
         steps += 1;
-        // joints held at a limit take no part, in either system: found by trying, as the step decides which
-        let mut held = vec![false; unknowns.len()];
-        for _ in 0..=unknowns.len().min(8) {
-            let rows = system.rows();
-            hold(&mut system.jacobian, rows, &held);
-            room.pseudo_inverse(&system.jacobian, &system.error);
-            step.copy_from_slice(&room.step);
-            if !wish.add_step(&unknowns, room, &held, q, &mut step) {
-                return steps;
-            }
-            let mut met = false;
-            if let Some(limits) = rules.limits {
-                for (k, &i) in unknowns.iter().enumerate() {
-                    let outward = (q[i] <= limits[i].lower && step[k] < 0.0)
-                        || (q[i] >= limits[i].upper && step[k] > 0.0);
-                    if outward && !held[k] {
-                        held[k] = true;
-                        met = true;
-                    }
-                    if held[k] {
-                        step[k] = 0.0;
-                    }
-                }
-            }
-            if !met {
-                break;
-            }
+        if !step_inside(system, room, rules.limits, &mut wish, q, &mut step) {
+            return steps;
         }
         let largest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
         let mut part = (LARGEST_STEP / largest).min(1.0);
@@ -200,6 +176,48 @@ pub(super) fn follow(
         }
     }
     steps
+}
+
+/// Writes the step of both systems at `q`, where the first is differentiated, such that no joint at a limit goes beyond it. Returns
+/// whether the wish has a step.
+fn step_inside(
+    system: &mut System<'_>,
+    room: &mut StepRoom,
+    limits: Option<&[PositionRange]>,
+    wish: &mut Wish<'_, '_>,
+    q: &[f64],
+    step: &mut [f64],
+) -> bool {
+    let rows = system.rows();
+    let unknowns = &system.unknowns;
+    // joints held at a limit take no part, in either system: found by trying, as the step decides which
+    let mut held = vec![false; unknowns.len()];
+    for _ in 0..=unknowns.len().min(8) {
+        hold(&mut system.jacobian, rows, &held);
+        room.pseudo_inverse(&system.jacobian, &system.error);
+        step.copy_from_slice(&room.step);
+        if !wish.add_step(unknowns, room, &held, q, step) {
+            return false;
+        }
+        let mut met = false;
+        if let Some(limits) = limits {
+            for (k, &i) in unknowns.iter().enumerate() {
+                let outward = (q[i] <= limits[i].lower && step[k] < 0.0)
+                    || (q[i] >= limits[i].upper && step[k] > 0.0);
+                if outward && !held[k] {
+                    held[k] = true;
+                    met = true;
+                }
+                if held[k] {
+                    step[k] = 0.0;
+                }
+            }
+        }
+        if !met {
+            break;
+        }
+    }
+    true
 }
 
 /// Takes the joints that are held out of a stacked Jacobian.
