@@ -88,7 +88,10 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
             if path.file_name().is_none_or(|name| name != "tests") {
                 rust_files(&path, files);
             }
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
+        } else if path.extension().is_some_and(|extension| extension == "rs")
+            // a graded run made up for tests
+            && path.file_name().is_none_or(|name| name != "sample.rs")
+        {
             files.push(path);
         }
     }
