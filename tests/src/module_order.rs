@@ -170,7 +170,27 @@ impl Crate {
                         here.pop();
                     }
                 }
-                other => self.tokens(other.to_token_stream(), file, here),
+                other => {
+                    if let Item::Macro(given) = other {
+                        self.declared_by_macro(given.mac.tokens.clone(), folder, here);
+                    }
+                    self.tokens(other.to_token_stream(), file, here);
+                }
+            }
+        }
+    }
+
+    /// Walks the files whose modules a macro declares: those of `folder` that its input names.
+    fn declared_by_macro(&mut self, input: TokenStream, folder: &Path, here: &mut Vec<String>) {
+        for token in input {
+            if let TokenTree::Ident(name) = token {
+                let path = folder.join(format!("{name}.rs"));
+                if path.is_file() {
+                    here.push(name.to_string());
+                    let inside = folder.join(name.to_string());
+                    self.items(&parsed(&path).items, &path, &inside, here);
+                    here.pop();
+                }
             }
         }
     }
@@ -465,6 +485,21 @@ fn a_file_deep_in_a_module_is_read() {
     assert_eq!(
         found_in(&files),
         ["/low/deep/deeper.rs:2: `low` uses `high`, which stands below it"]
+    );
+}
+
+#[test]
+fn a_file_that_a_macro_declares_is_read() {
+    let files = [
+        ROOT,
+        ("low/mod.rs", "files! { motion deep other }"),
+        ("low/deep.rs", "use crate::high::A;"),
+        ("middle.rs", ""),
+        ("high.rs", ""),
+    ];
+    assert_eq!(
+        found_in(&files),
+        ["/low/deep.rs:1: `low` uses `high`, which stands below it"]
     );
 }
 

@@ -6,10 +6,10 @@
 
 use std::ops::Range;
 
-use kinemark_sim::watch::event::{EventKind, SeenSide};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
 use kinemark_sim::trace::Trace;
+use kinemark_sim::watch::event::{EventKind, SeenSide};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

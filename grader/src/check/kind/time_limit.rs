@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
-use kinemark_sim::watch::event::{Event, EventKind};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::watch::event::{Event, EventKind};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
