@@ -7,12 +7,12 @@
 //! | [`text`] | text from outside, expressions in it, and errors that point into it |
 //! | [`spatial`] | poses, twists, symmetric tensors |
 //! | [`random`] | numbers drawn from a seed |
-//! | [`ticks`] | time as whole numbers of physics steps |
+//! | [`ticks`] | time as integer counts of physics steps |
 //! | [`joint_space`] | vectors over the joints that move |
 //! | [`trajectory`] | time in; position, velocity, acceleration out |
 //! | [`model`] | the values: robot, scene, sensor, mesh, air, contact |
 //! | [`kinematics`] | where frames are and how they move |
-//! | [`format`] | from text to the model: robot and scene files, URDF, strings of joints, meshes |
+//! | [`mod@format`] | from text to the model: robot and scene files, URDF, strings of joints, meshes |
 //! | [`dynamics`] | RNEA, CRBA, ABA, energy, drag and friction |
 //! | [`control`] | joint servos: command in, effort out; when they are stable |
 //! | [`engine`] | contact, and the only place that knows how it is computed |

@@ -246,7 +246,7 @@ pub fn hash_bits(values: &[f64]) -> blake3::Hash {
     }
 }
 
-/// Records a run as a [`Trace`], with the TCP's pose at every tick, the bodies of the scene, and what [`crate::watch::run_watch`] sees.
+/// Records a run as a [`Trace`], with the TCP's pose at every tick, the bodies of the scene, and what a [`Watch`] reports.
 #[derive(Debug, Clone)]
 pub struct TraceRecorder<'a> {
     robot: &'a Robot,

@@ -1,6 +1,6 @@
 //! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`ForwardDynamics`]), energy
-//! ([`mod@energy`]), closed loops ([`loops`]), dry friction as it acts over a step ([`dry_friction`]), the drag of the air on
-//! links ([`drag`]), joint limits as stops ([`stops`]), and the smooth step ([`smooth`]).
+//! ([`mod@energy`]), closed loops ([`loops`]), dry friction as it acts over a step ([`dry_friction`]), and the drag of
+//! the air on links ([`drag`]).
 //!
 //! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
 //! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is

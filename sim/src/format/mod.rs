@@ -1,6 +1,6 @@
 //! From text to values: the formats of robots, scenes, sensors and meshes, each in a folder or a file of its own.
 //!
-//! A description of a robot, in whatever format, becomes parts with their places in the text; [`assembly`] makes the robot of them.
+//! A description of a robot, in whatever format, becomes parts with their places in the text; `assembly` makes the robot of them.
 
 mod assembly;
 mod detect;

@@ -12,7 +12,7 @@
 //! | [`turn`] | orientation about one fixed axis |
 //! | [`line`](mod@line), [`arc`] | straight and circular paths in task space |
 //! | [`path`] | a path with a time law: pose, twist and its rate |
-//! | [`error`] | what cannot be planned, with numbers |
+//! | [`TrajectoryError`] | what cannot be planned, with numbers |
 //!
 //! A trajectory lives on the closed interval from 0 to its duration. There the ends are exact to the bit in position, and
 //! acceleration is the limit from inside. Before and after, it holds the end position with velocity and acceleration zero,

@@ -31,7 +31,7 @@ pub enum EventKind {
         /// Index of the joint in `q`.
         joint: usize,
     },
-    /// The TCP can hardly move in some direction: see [`crate::watch::run_watch`] for the bound.
+    /// The TCP can hardly move in some direction: see [`Watch`](super::Watch) for the bound.
     NearSingular,
     /// Two parties pressed on each other for the first time.
     Touched {

@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use crate::format::part::part_tables::{NumberAt, TripleAt};
 
-/// A `[[sensors]]` table; [`resolve`](super::resolve()) makes the [`Sensor`](super::Sensor) of it.
+/// A `[[sensors]]` table; [`resolve`](super::resolve()) makes the [`Sensor`](crate::model::sensor::Sensor) of it.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SensorTable {

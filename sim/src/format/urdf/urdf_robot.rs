@@ -24,11 +24,11 @@ pub struct UrdfOptions {
 /// Reads the robot of a URDF.
 ///
 /// `read_mesh` gets the `filename` of a mesh as written (`package://x/y.stl`, `file:///x.stl`, `y.stl`; see
-/// [`mesh_location`]) and returns the bytes of that file, or why it cannot. Each file is asked for once. What cannot be read is in
+/// `mesh_location`) and returns the bytes of that file, or why it cannot. Each file is asked for once. What cannot be read is in
 /// [`Robot::warnings`], and its shape is left out.
 ///
 /// # Errors
-/// Whatever makes the text no robot, with its place: see [`RobotProblem`](super::RobotProblem).
+/// Whatever makes the text no robot, with its place: see [`RobotProblem`](crate::format::RobotProblem).
 pub fn robot(
     source: Source,
     options: &UrdfOptions,
