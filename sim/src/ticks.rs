@@ -1,4 +1,4 @@
-//! Time as whole numbers: the physics step is the tick, the servo and control periods are whole multiples of the one before.
+//! Time as integers: the physics step is the tick, the servo and control periods are whole multiples of the one before.
 
 use std::num::NonZeroU32;
 
@@ -9,13 +9,13 @@ pub struct Periods {
     pub step_s: f64,
     /// Ticks from one servo sample to the next.
     pub ticks_per_servo: NonZeroU32,
-    /// Ticks from one call of `control` to the next; a whole number of servo periods.
+    /// Ticks from one call of `control` to the next; an integer number of servo periods.
     pub ticks_per_control: NonZeroU32,
 }
 
 /// A time that is no whole, positive number of shorter ones.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{longer} of {longer_s} s is not a whole number of {shorter} of {shorter_s} s")]
+#[error("{longer} of {longer_s} s is not an integer multiple of the {shorter} of {shorter_s} s")]
 pub struct PeriodError {
     /// What the longer time is.
     pub longer: &'static str,
@@ -52,9 +52,9 @@ impl Periods {
                     shorter_s,
                 })
         };
-        let ticks_per_servo = ratio("a servo period", servo_s, "physics steps", step_s)?;
-        ratio("a control period", control_s, "servo periods", servo_s)?;
-        let ticks_per_control = ratio("a control period", control_s, "physics steps", step_s)?;
+        let ticks_per_servo = ratio("a servo period", servo_s, "physics step", step_s)?;
+        ratio("a control period", control_s, "servo period", servo_s)?;
+        let ticks_per_control = ratio("a control period", control_s, "physics step", step_s)?;
         Ok(Self {
             step_s,
             ticks_per_servo,

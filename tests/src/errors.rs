@@ -84,7 +84,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             lab,
             "control_period_ms = 10.0",
             "control_period_ms = 10.5",
-            "not a whole number",
+            "not an integer multiple",
             "lab.toml:24",
         ),
         (

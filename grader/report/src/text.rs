@@ -259,7 +259,7 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     if let (Outcome::Full, Some(margin)) = (outcome, told.margin)
         && measure.margin() > Some(0.0)
     {
-        let _ = write!(text, "; {margin} to spare");
+        let _ = write!(text, "; margin {margin}");
     }
     text
 }

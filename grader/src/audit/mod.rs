@@ -1,5 +1,5 @@
 //! The grader of a lab, graded: the starter must miss, the reference solution must have full marks whatever the hidden cases, every
-//! known mistake must lose points and be named.
+//! mutant must lose points and be named.
 //!
 //! An [`Audit`] collects rows. A lab that can be had in several forms is audited form by form: each call takes the lab as it is
 //! there, and says in words which it is.
@@ -28,7 +28,7 @@ pub use self::variants::{Room, Variants};
 pub const MOST_STARTER_SHARE: f64 = 0.1;
 /// Known mistakes that a lab has at least.
 pub const LEAST_MUTANTS: usize = 6;
-/// The share of a function task's cases in which a known mistake must show.
+/// The share of a function task's cases in which a mutant must show.
 pub const LEAST_SHARE: f64 = 0.3;
 /// How far `reference-path.json` may be from the reference solution's path: its numbers are rounded to a tenth of a micrometre \[m\].
 const SAME_PATH_M: f64 = 1e-6;
@@ -58,9 +58,9 @@ pub enum Tried {
     Reference,
     /// The reference solution's path that students see.
     ReferencePath,
-    /// How many known mistakes there are.
+    /// How many mutants there are.
     Mutants,
-    /// A known mistake in one task.
+    /// A mutant in one task.
     Mutant,
 }
 
@@ -149,14 +149,14 @@ impl Audit {
                 format!(
                     "brief.md has no place for the table of points: `{BEGIN}` with `{END}` after it"
                 ),
-                "write the two marks, each on a line, where the table shall be",
+                "write the two marks, each on a line, where the table should be",
             )),
             Some((_, Ok(_))) => None,
         };
         self.add((Tried::Brief, ""), None, None, problem);
     }
 
-    /// Tries what students begin with: it runs, earns next to nothing, and makes no known mistake.
+    /// Tries what students begin with: it runs, earns next to nothing, and is diagnosed with no mistake.
     pub fn starter(&mut self, lab: &Lab, staff: &Staff, starter: &Source) {
         let Some(GradedRun { grade, .. }) = graded(lab, staff, starter) else {
             return;
@@ -182,7 +182,7 @@ impl Audit {
         } else {
             named.map(|task| {
                 let what = format!(
-                    "task `{}` is told the mistake `{}`",
+                    "task `{}` is diagnosed with the mistake `{}`",
                     task.name, task.diagnoses[0].mistake
                 );
                 (
@@ -232,11 +232,11 @@ impl Audit {
         }
     }
 
-    /// Tries every known mistake in each of its tasks: it loses points, shows in enough cases, and is named.
+    /// Tries every mutant in each of its tasks: it loses points, shows in enough cases, and is named.
     pub fn mutants(&mut self, lab: &Lab, staff: &Staff) {
         let count = staff.mutants.len();
         let few = (count < LEAST_MUTANTS).then(|| {
-            let what = format!("{count} known mistakes, and a lab has at least {LEAST_MUTANTS}");
+            let what = format!("{count} mutants, and a lab needs at least {LEAST_MUTANTS}");
             (what, "add what students really do wrong to mutants.toml")
         });
         self.add((Tried::Mutants, ""), None, None, few);
@@ -245,7 +245,7 @@ impl Audit {
         }
     }
 
-    /// Tries one known mistake.
+    /// Tries one mutant.
     pub fn mutant(&mut self, lab: &Lab, staff: &Staff, mutant: &Mutant) {
         // only the tasks that are looked at are run
         let mut part = lab.clone();
@@ -281,7 +281,7 @@ fn mutant_problem(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static
         let stopped = task.stopped.as_ref();
         let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, &mutant.source));
         let what = format!("{}{place}", stop_of(task));
-        return Some((what, "a known mistake runs, and is wrong"));
+        return Some((what, "a mutant runs to its end, and is wrong"));
     }
     let hidden = |of: fn(&crate::record::grade::HiddenClass) -> u32| -> usize {
         task.hidden.iter().map(|class| of(class) as usize).sum()
@@ -297,10 +297,10 @@ fn mutant_problem(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static
         ));
     }
     match task.diagnoses.as_slice() {
-        [told] if told.mistake == mutant.name => None,
-        [told, ..] => Some((
-            format!("is told as `{}`", told.mistake),
-            "two mistakes that cannot be told apart are one: leave one out",
+        [found] if found.mistake == mutant.name => None,
+        [other, ..] => Some((
+            format!("is diagnosed as `{}`", other.mistake),
+            "two mistakes with the same results are one: leave one out",
         )),
         [] => Some((
             "is not named".to_owned(),

@@ -101,7 +101,7 @@ fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
     let mut notes = Vec::new();
     let variant = |grade: &Grade| {
         let words = grade.variant.as_ref().map(|variant| variant.words());
-        words.unwrap_or_else(|| "everybody's numbers".to_owned())
+        words.unwrap_or_else(|| "the default variant".to_owned())
     };
     if a.variant != b.variant {
         notes.push(format!(

@@ -37,7 +37,7 @@ impl StaffProblem {
         };
         match &self.task {
             Some(task) => format!("{submission} stops in task `{task}`"),
-            None => format!("{submission} is no program"),
+            None => format!("{submission} does not compile"),
         }
     }
 }

@@ -27,7 +27,7 @@ pub enum EngineError {
     },
     /// A free body without mass or with a flat tensor.
     #[error(
-        "free body `{body}` has a mass of {mass_kg} kg and a least moment of inertia of {least_kg_m2} kg m^2; both must be positive"
+        "dynamic body `{body}` has a mass of {mass_kg} kg and a least moment of inertia of {least_kg_m2} kg m^2; both must be positive"
     )]
     Massless {
         /// The body.

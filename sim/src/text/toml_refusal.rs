@@ -101,8 +101,8 @@ fn value(message: &str, given: &str) -> Option<Words> {
     let (found, _) = found.split_once(", expected ")?;
     let (kind, _) = found.split_once([' ', '`']).unwrap_or((found, ""));
     let kind = match kind {
-        "string" => "a text",
-        "integer" => "a whole number",
+        "string" => "a string",
+        "integer" => "an integer",
         "floating" => "a number",
         "boolean" => "true or false",
         "sequence" => "a list",
@@ -116,9 +116,9 @@ fn value(message: &str, given: &str) -> Option<Words> {
         format!("this is {kind}")
     };
     let bare = given.trim_matches(['"', '\'']);
-    let help = if kind == "a text" && expected.contains("number") && bare.parse::<f64>().is_ok() {
+    let help = if kind == "a string" && expected.contains("number") && bare.parse::<f64>().is_ok() {
         format!("write {bare}, without quotes")
-    } else if expected == "a text" {
+    } else if expected == "a string" {
         "put it in quotes".to_owned()
     } else {
         format!("write {expected}")
@@ -133,9 +133,9 @@ fn in_our_words(expected: &str) -> String {
     }
     match expected {
         "f64" | "f32" => "a number".to_owned(),
-        "i64" | "i32" => "a whole number".to_owned(),
-        "u64" | "u32" | "usize" => "a whole number, zero or more".to_owned(),
-        "a string" | "string" => "a text".to_owned(),
+        "i64" | "i32" => "an integer".to_owned(),
+        "u64" | "u32" | "usize" => "an integer, zero or more".to_owned(),
+        "a string" | "string" => "a string".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "a list".to_owned(),
         other => other.replace("an array of length ", "a list of "),
@@ -145,7 +145,10 @@ fn in_our_words(expected: &str) -> String {
 /// A text that is no TOML.
 fn syntax(message: &str) -> Words {
     let (message, help) = if message.starts_with("invalid basic string") {
-        ("a text is not closed", "end it with `\"` in the same line")
+        (
+            "a string is not closed",
+            "end it with `\"` in the same line",
+        )
     } else if message.starts_with("missing comma between array elements") {
         (
             "a list is neither closed here nor goes on",
@@ -236,22 +239,22 @@ mod tests {
             ),
             (
                 "mass_kg = \"5.0\"",
-                "`\"5.0\"` is a text, expected a number",
+                "`\"5.0\"` is a string, expected a number",
                 "write 5.0, without quotes",
             ),
             (
                 "mass_kg = \"five\"",
-                "`\"five\"` is a text, expected a number",
+                "`\"five\"` is a string, expected a number",
                 "write a number",
             ),
             (
                 "mass_kg = 1\nname = 2",
-                "`2` is a whole number, expected a text",
+                "`2` is an integer, expected a string",
                 "put it in quotes",
             ),
             (
                 "mass_kg = 1\naxis = \"y\"",
-                "`\"y\"` is a text, expected a list of 3",
+                "`\"y\"` is a string, expected a list of 3",
                 "write a list of 3",
             ),
             (
@@ -261,8 +264,8 @@ mod tests {
             ),
             (
                 "mass_kg = 1\ncount = -1",
-                "`-1` is a whole number, expected a whole number, zero or more",
-                "write a whole number, zero or more",
+                "`-1` is an integer, expected an integer, zero or more",
+                "write an integer, zero or more",
             ),
             (
                 "mass_kg = 1\nside = \"nera\"",
@@ -286,7 +289,7 @@ mod tests {
             ),
             (
                 "name = \"a\nmass_kg = 1",
-                "a text is not closed",
+                "a string is not closed",
                 "end it with `\"` in the same line",
             ),
             (

@@ -264,7 +264,7 @@ fn task_difference(before: &TaskGrade, after: &TaskGrade) -> Option<Difference> 
     if difference.recorded == difference.now {
         let rungs = before.digests.rungs.iter().zip(&after.digests.rungs);
         if let Some((old, new)) = rungs.into_iter().find(|(old, new)| old != new) {
-            difference.what = format!("run of rung `{}` of check `{}`", old.rung, old.check);
+            difference.what = format!("run of level `{}` of check `{}`", old.rung, old.check);
             difference.recorded.clone_from(&old.digest);
             difference.now.clone_from(&new.digest);
         }

@@ -27,7 +27,7 @@ pub(super) fn measure_text(measure: &Measure) -> MeasureText {
         ("≥", "≤")
     };
     let words = if measure.margin() > Some(0.0) {
-        "to spare"
+        "margin"
     } else {
         "short of full points"
     };
@@ -126,7 +126,7 @@ mod tests {
     fn a_band_can_run_downwards() {
         let told = measure_text(&measure(Some(0.5), 0.45, 0.1));
         assert_eq!(told.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
-        assert_eq!(told.margin.as_deref(), Some("50.0\u{a0}mm to spare"));
+        assert_eq!(told.margin.as_deref(), Some("50.0\u{a0}mm margin"));
     }
 
     #[test]

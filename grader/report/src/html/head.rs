@@ -98,11 +98,11 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
                 @match grade.mode {
                     GradeMode::Practice => {
                         strong { "Practice. " }
-                        "Visible cases only: this run had neither the staff's reference nor the hidden cases, so the points may differ when it is graded."
+                        "Visible cases only: this run had neither the reference solution nor the hidden cases, so the points may differ when it is graded."
                     }
                     GradeMode::Graded => {
                         strong { "Graded. " }
-                        "The staff's reference and the hidden cases took part."
+                        "The reference solution and the hidden cases were used."
                     }
                 }
             }

@@ -185,7 +185,7 @@ fn register_refusals(library: &mut Library) {
     }
 }
 
-/// Ranges between whole numbers, written as whole numbers or not.
+/// Ranges between integers, written as integers or not.
 fn register_ranges(library: &mut Library) {
     for types in [[TypeId::of::<INT>(); 2], [TypeId::of::<Dynamic>(); 2]] {
         for (symbol, beyond) in [("..", 0), ("..=", 1)] {
@@ -196,7 +196,7 @@ fn register_ranges(library: &mut Library) {
                         Ok(Dynamic::from(Range { from, to }))
                     }
                     _ => Err(fault(format!(
-                        "a range goes from one whole number to another, got {} and {}",
+                        "a range goes from one integer to another, got {} and {}",
                         describe(arguments[0]),
                         describe(arguments[1])
                     ))),
@@ -286,7 +286,7 @@ fn matrix_product(meter: &Meter, a: &Operand, b: &Operand) -> Result<Option<Dyna
     })
 }
 
-/// `+` with a text on either side joins texts; everything else that gets here is refused.
+/// `+` with a string on either side joins texts; everything else that gets here is refused.
 fn join_text(
     meter: &Meter,
     operator: Operator,

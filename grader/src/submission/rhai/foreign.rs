@@ -22,10 +22,10 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("printf", "write print(\"x =\", x)"),
     ("fprintf", "write print(\"x =\", x)"),
     ("println", "write print(x)"),
-    ("sprintf", "join texts with +: \"x = \" + x"),
-    ("format", "join texts with +: \"x = \" + x"),
-    ("str", "write to_string(x), or join texts with +"),
-    ("num2str", "write to_string(x), or join texts with +"),
+    ("sprintf", "join strings with +: \"x = \" + x"),
+    ("format", "join strings with +: \"x = \" + x"),
+    ("str", "write to_string(x), or join strings with +"),
+    ("num2str", "write to_string(x), or join strings with +"),
     ("float", "numbers need no conversion"),
     ("int", "write trunc(x), floor(x) or round(x)"),
     ("to_int", "write trunc(x), floor(x) or round(x)"),
@@ -168,7 +168,7 @@ const SIGNS: &[(&str, &str)] = &[
     ("?", "write if condition { a } else { b }"),
     (
         "'",
-        "a text goes in double quotes; the transpose is transpose(m)",
+        "a string goes in double quotes; the transpose is transpose(m)",
     ),
 ];
 

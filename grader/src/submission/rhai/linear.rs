@@ -378,7 +378,7 @@ pub(super) fn index(
             return Err(fault(format!("a {container} has no `{text}`")));
         }
         return Err(fault(format!(
-            "an index is a whole number, got {}",
+            "an index is an integer, got {}",
             describe(value)
         )));
     };

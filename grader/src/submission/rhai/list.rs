@@ -58,7 +58,7 @@ pub(super) fn register(library: &mut Library) {
     library.function("range", 2, |_, arguments| {
         match (as_whole(arguments[0]), as_whole(arguments[1])) {
             (Some(from), Some(to)) => Ok(Dynamic::from(Range { from, to })),
-            _ => Err(fault("`range` takes whole numbers")),
+            _ => Err(fault("`range` takes integers")),
         }
     });
 }
@@ -76,7 +76,7 @@ fn length(value: &Dynamic) -> Result<INT, Problem> {
         text.chars().count()
     } else {
         return Err(fault(format!(
-            "`len` takes a list, a vector, a matrix, a map or a text, got {}",
+            "`len` takes a list, a vector, a matrix, a map or a string, got {}",
             describe(value)
         )));
     };
@@ -125,7 +125,7 @@ fn register_changes(library: &mut Library) {
             meter.charge(map.len())?;
             let key = key
                 .into_immutable_string()
-                .map_err(|_| fault("the key of a map is a text"))?;
+                .map_err(|_| fault("the key of a map is a string"))?;
             return Ok(map.remove(key.as_str()).unwrap_or_default());
         }
         let mut list = list_mut("remove", arguments[0])?;
@@ -206,7 +206,7 @@ fn register_lists(library: &mut Library) {
         } else if all.iter().all(Dynamic::is_string) {
             all.sort_by_cached_key(|text| text.clone().into_string().unwrap_or_default());
         } else {
-            return Err(fault("`sort` takes a list of numbers, or of texts"));
+            return Err(fault("`sort` takes a list of numbers, or of strings"));
         }
         Ok(in_kind(all, arguments[0]))
     });
@@ -264,7 +264,7 @@ fn register_maps(library: &mut Library) {
         let map: &Map = &map;
         meter.charge(map.len())?;
         let Ok(key) = arguments[1].as_immutable_string_ref() else {
-            return Err(fault("the key of a map is a text"));
+            return Err(fault("the key of a map is a string"));
         };
         Ok(map.get(key.as_str()).cloned().unwrap_or(otherwise))
     });
@@ -287,7 +287,7 @@ fn with_map(
     Ok(Dynamic::from_array(list(map)))
 }
 
-/// Whether a list holds a value, a map a key, or a text a text; what `in` asks.
+/// Whether a list holds a value, a map a key, or a string a string; what `in` asks.
 fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem> {
     let (container, wanted) = (&*arguments[0], &*arguments[1]);
     if let Ok(map) = container.as_map_ref() {
@@ -295,7 +295,7 @@ fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Prob
         meter.charge(map.len())?;
         return match wanted.as_immutable_string_ref() {
             Ok(key) => Ok(map.contains_key(key.as_str()).into()),
-            Err(_) => Err(fault("the key of a map is a text")),
+            Err(_) => Err(fault("the key of a map is a string")),
         };
     }
     if let (Ok(text), Ok(part)) = (

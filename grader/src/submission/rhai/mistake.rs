@@ -134,7 +134,7 @@ impl Context<'_> {
                 ),
             ),
             EvalAltResult::ErrorFor(_) => (
-                "`for` goes over a range, a list, a vector or a text".to_owned(),
+                "`for` goes over a range, a list, a vector or a string".to_owned(),
                 Some(
                     "count with `for i in 0..n`; go over a map with `for key in keys(m)`"
                         .to_owned(),
@@ -155,10 +155,7 @@ impl Context<'_> {
                 if matches!(wanted.as_str(), "i64" | "INT") =>
             {
                 (
-                    format!(
-                        "the index of a list is a whole number, got {}",
-                        type_words(got)
-                    ),
+                    format!("the index of a list is an integer, got {}", type_words(got)),
                     Some(WHOLE_INDEX.to_owned()),
                 )
             }
@@ -168,7 +165,7 @@ impl Context<'_> {
                 None,
             ),
             EvalAltResult::ErrorStringBounds(length, index, _) => (
-                format!("index {index} is outside of a text of {length}"),
+                format!("index {index} is outside of a string of {length}"),
                 None,
             ),
             other => (plain(&other.to_string()), None),
@@ -236,11 +233,11 @@ impl Context<'_> {
                 Some("a closing `}`, `)` or `]` is missing".to_owned()),
             ),
             ParseErrorType::BadInput(LexError::UnterminatedString) => (
-                "a text is not closed".to_owned(),
+                "a string is not closed".to_owned(),
                 Some("put a `\"` at its end".to_owned()),
             ),
             ParseErrorType::BadInput(LexError::MalformedChar(_)) => (
-                "a text goes in double quotes".to_owned(),
+                "a string goes in double quotes".to_owned(),
                 Some("write \"text\" instead of 'text'".to_owned()),
             ),
             ParseErrorType::Reserved(word)
@@ -277,11 +274,11 @@ impl Context<'_> {
                 (format!("a `{token}` is missing before this"), None)
             }
             ParseErrorType::MalformedIndexExpr(text) if text.contains("integer") => (
-                "the index of a list is a whole number".to_owned(),
+                "the index of a list is an integer".to_owned(),
                 Some(WHOLE_INDEX.to_owned()),
             ),
             ParseErrorType::MismatchedType(wanted, _) if wanted.contains("iterable") => (
-                "`for` goes over a range, a list, a vector or a text".to_owned(),
+                "`for` goes over a range, a list, a vector or a string".to_owned(),
                 Some("count with `for i in 0..n`".to_owned()),
             ),
             ParseErrorType::BadInput(LexError::UnexpectedInput(sign)) if sign == "|" => {
@@ -348,16 +345,16 @@ fn property_words(text: &str) -> String {
 
 fn type_words(kind: &str) -> String {
     match kind {
-        "i64" | "INT" | "integer" => "a whole number".to_owned(),
+        "i64" | "INT" | "integer" => "an integer".to_owned(),
         "f64" => "a number".to_owned(),
         "bool" => "true or false".to_owned(),
-        "string" | "char" | "&str | ImmutableString | String" => "a text".to_owned(),
+        "string" | "char" | "&str | ImmutableString | String" => "a string".to_owned(),
         "array" => "a list".to_owned(),
         "map" => "a map".to_owned(),
         "()" => "nothing `()`".to_owned(),
         "vector" => "a vector".to_owned(),
         "matrix" => "a matrix".to_owned(),
-        other if other.contains("ImmutableString") => "a text".to_owned(),
+        other if other.contains("ImmutableString") => "a string".to_owned(),
         other if other.ends_with("Vector") => "a vector".to_owned(),
         other if other.ends_with("Matrix") => "a matrix".to_owned(),
         other => other.to_owned(),

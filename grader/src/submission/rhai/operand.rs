@@ -117,13 +117,13 @@ pub(super) fn matrix(function: &str, value: &Dynamic) -> Result<Matrix, Problem>
     }
 }
 
-/// The whole number a value is: `2` and `2.0`, not `2.5`.
+/// The integer a value is: `2` and `2.0`, not `2.5`.
 pub(super) fn as_whole(value: &Dynamic) -> Option<INT> {
     if let Ok(whole) = value.as_int() {
         return Some(whole);
     }
     let number = value.as_float().ok()?;
-    // beyond 2^53 neighbours of a float are not whole numbers any more
+    // beyond 2^53 neighbours of a float are not integers any more
     (number.fract().abs() == 0.0 && number.abs() <= 9_007_199_254_740_992.0)
         .then_some(number as INT)
 }
@@ -134,7 +134,7 @@ pub(super) fn count(function: &str, value: &Dynamic) -> Result<usize, Problem> {
         .and_then(|whole| usize::try_from(whole).ok())
         .ok_or_else(|| {
             fault(format!(
-                "`{function}` takes a whole number from 0, got {}",
+                "`{function}` takes an integer from 0, got {}",
                 describe(value)
             ))
         })

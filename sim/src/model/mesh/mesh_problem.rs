@@ -89,7 +89,7 @@ pub enum MeshProblem {
         first: Vec<[[f64; 3]; 2]>,
     },
     #[error(
-        "the mesh has only one side, as a Möbius strip has: no winding tells inside from outside"
+        "the mesh has only one side, as a Möbius strip has: no winding separates inside from outside"
     )]
     OneSided,
     #[error(

@@ -78,15 +78,15 @@ fn mistakes_are_told_with_names_values_and_a_way_out() {
         ),
         (
             "observation.q[0.5]",
-            "an index is a whole number, got the number 0.5",
+            "an index is an integer, got the number 0.5",
         ),
         (
             "[1, 2][1.0]",
-            "the index of a list is a whole number | round(i) makes it whole; a vector takes 2.0 for 2",
+            "the index of a list is an integer | round(i) makes it whole; a vector takes 2.0 for 2",
         ),
         (
             "let a = [1, 2]; let i = 0.5 + 0.5; a[i]",
-            "the index of a list is a whole number, got a number | round(i) makes it whole; a vector takes 2.0 for 2",
+            "the index of a list is an integer, got a number | round(i) makes it whole; a vector takes 2.0 for 2",
         ),
         ("observation.tcp.w", "a vector has no `w`"),
         ("let x = 1.5; x[0]", "the number 1.5 has no elements"),
@@ -177,7 +177,7 @@ fn names_and_signs_of_other_languages_get_a_hint() {
         ),
         (
             "'abc'",
-            "a text goes in double quotes | write \"text\" instead of 'text'",
+            "a string goes in double quotes | write \"text\" instead of 'text'",
         ),
         (
             "let x = 1 let y = 2;",
@@ -197,11 +197,11 @@ fn names_and_signs_of_other_languages_get_a_hint() {
         ),
         (
             "for i in 3 { }",
-            "`for` goes over a range, a list, a vector or a text | count with `for i in 0..n`",
+            "`for` goes over a range, a list, a vector or a string | count with `for i in 0..n`",
         ),
         (
             "let n = 3; for i in n { }",
-            "`for` goes over a range, a list, a vector or a text | count with `for i in 0..n`; go over a map with `for key in keys(m)`",
+            "`for` goes over a range, a list, a vector or a string | count with `for i in 0..n`; go over a map with `for key in keys(m)`",
         ),
         ("None", "variable `None` is not known here | write ()"),
     ]);
