@@ -150,6 +150,13 @@ step_fuzz_check() {
   cargo check --manifest-path tests/fuzz/Cargo.toml --locked --all-targets --target-dir "$target/fuzz"
 }
 
+# What a browser calls: pages and plots without logs and pixels, and the toolbox.
+step_wasm() {
+  need wasm || return 0
+  cargo check --locked --package kinemark-report --package kinemark-toolbox --lib --no-default-features \
+    --target wasm32-unknown-unknown --target-dir "$target/other"
+}
+
 step_doc() { RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet; }
 
 step_licences() {
