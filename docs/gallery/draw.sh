@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the gallery anew: the brief of every lab, and the report of its good submission, light and dark, on a phone and on a desk.
+# Makes the pictures of the gallery: the brief of every lab and the report of its good submission, light and dark, on a phone and a computer.
 #
 #     cargo build --release && (cd grader/web && npm ci) && docs/gallery/draw.sh
 set -euo pipefail
@@ -12,8 +12,8 @@ rm -f docs/gallery/*.webp
 {
   echo "# The course in pictures"
   echo
-  echo "The brief of every lab, and the report of a submission with full marks, on a desk and on a phone. The replays stand at a moment"
-  echo "of the run; in the report itself they move. \`docs/gallery/draw.sh\` draws them anew."
+  echo "The brief of every lab and the report of a submission with full marks, on a computer and on a phone. Each picture shows one"
+  echo "moment of a replay; in the report itself the replay moves. \`docs/gallery/draw.sh\` makes the pictures again."
 } > docs/gallery/README.md
 
 shown() { # NAME, width here, words: the picture that suits the reader's screen
