@@ -447,7 +447,7 @@ export function small({ code, tasks }, seconds) {
 }
 
 /** Time of the viewer's own code per frame while it plays [ms]: median, 95th percentile, count. The first frames make shaders and do not count. */
-export async function frameTimes(page, index, wanted = 40) {
+export async function frameTimes(page, index, wanted = 20) {
   const { replay } = (await places(page))[index];
   const place = `[data-replay="${replay}"]`;
   await page.$eval(place, (element) => element.scrollIntoView());

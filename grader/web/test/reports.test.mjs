@@ -210,7 +210,7 @@ test("it prints, with a picture of the moment in place of the stage", async () =
   });
 });
 
-// The aim is 4 ms. A machine under load may miss it, so the figure is told and not held.
+// The aim is 4 ms. A machine under load may miss it, so the figure is printed and not asserted.
 test("the time of its own code per frame is measured", async (t) => {
   for (const lab of ["03-knock-with-position", "humanoid", "long-run"]) {
     // a small stage: the software that stands in for a graphics card takes its time by the pixel
