@@ -102,7 +102,8 @@ pub(super) fn passages(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Option<
         let (mut least, mut at) = (f64::INFINITY, 0);
         let mut choice = Vec::with_capacity(p_tcp_m.len());
         for (tick, (p, before)) in p_tcp_m.iter().zip(&mut before).enumerate() {
-            let cost = *before + gap_m(p, point) * gap_m(p, point);
+            let gap_m = gap_m(p, point);
+            let cost = *before + gap_m * gap_m;
             if cost < least {
                 (least, at) = (cost, tick);
             }

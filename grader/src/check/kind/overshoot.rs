@@ -54,12 +54,13 @@ fn past_goals(facts: &MotionFacts<'_>) -> (Vec<f64>, Option<Furthest>) {
         let length_m = line.norm();
         if length_m > 1e-6 {
             let along = line / length_m;
-            for tick in start..=dwell.last {
+            let ticks = values.iter_mut().enumerate();
+            for (tick, value) in ticks.take(dwell.last + 1).skip(start) {
                 let past_m = (trace.tcp_position(tick) - goal.position_m)
                     .dot(&along)
                     .max(0.0);
                 let fraction = past_m / length_m;
-                values[tick] = fraction;
+                *value = fraction;
                 if furthest.is_none_or(|furthest| fraction > furthest.fraction) {
                     furthest = Some(Furthest {
                         goal: goal_index,
