@@ -2,8 +2,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::judge::grade;
-use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::submission::host::InProcess;
+use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
 
 struct Folder(&'static str);

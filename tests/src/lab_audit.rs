@@ -208,7 +208,7 @@ fn labs_have_no_problem_that_lab_check_finds() {
 
 #[test]
 fn hidden_targets_lie_inside_the_boundary() {
-    use kinemark_grader::lab::model::Given;
+    use kinemark_grader::task::model::Given;
     use kinemark_reference::planar_2r::{IkSolutions, Planar2r};
     let lab = lab("01-kinematics");
     for salt in 0..20 {

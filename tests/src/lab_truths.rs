@@ -2,7 +2,8 @@
 //! hidden cases is what the solution answers.
 
 use kinemark_grader::judge::with_expected;
-use kinemark_grader::lab::model::{Given, TaskWork};
+use kinemark_grader::lab::TaskWork;
+use kinemark_grader::task::model::Given;
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
 use kinemark_sim::text::Dimension;
 

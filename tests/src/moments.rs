@@ -288,7 +288,7 @@ fn a_mean_with_hidden_runs_says_what_the_visible_one_earns() {
     // a check that needs it earns something just where it does
     for (task, asked) in graded.grade.tasks.iter().zip(&lab.tasks) {
         for (check, asked) in task.checks.iter().zip(asked.checks()) {
-            for need in asked.needs {
+            for need in &asked.needs {
                 let needed = &task.checks[*need];
                 assert!(
                     check.points <= 0.0 || needed.points > 0.0,

@@ -4,7 +4,9 @@
 use std::cell::OnceCell;
 
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::lab::{Files, Lab, LoadError, Staff};
+use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::task::files::Files;
+use kinemark_grader::task::problem::LoadError;
 use serde_json::Value as Json;
 
 use crate::testbed::{Folder, Ran, TestBed, root};

@@ -9,9 +9,10 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use kinemark_grader::judge;
-use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::submission::host::InProcess;
+use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
 
 /// The checkout.

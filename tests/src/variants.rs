@@ -346,7 +346,7 @@ fn a_variant_file_that_does_not_fit_is_refused_at_its_place() {
             .map_err(Into::into)
             .and_then(|variant| Lab::load_variant(files, "93-touch", Some(&variant)));
         match loaded {
-            Err(kinemark_grader::lab::LoadError::Lab(error)) => {
+            Err(kinemark_grader::task::problem::LoadError::Lab(error)) => {
                 assert!(error.to_string().contains(message), "{error}");
                 assert_eq!(error.line_and_column(), at, "{error}");
             }

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
-use kinemark_grader::lab::{Files, Lab, LoadError, Staff, Variant};
+use kinemark_grader::lab::{Lab, Staff, Variant};
+use kinemark_grader::task::files::Files;
+use kinemark_grader::task::problem::LoadError;
 
 use crate::disk::{self, Folder};
 use crate::failure::Failure;

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::lab::Files;
-use kinemark_grader::lab::files::text;
+use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::text;
 use kinemark_sim::text::Source;
 
 use crate::failure::Failure;

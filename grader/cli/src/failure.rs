@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use kinemark_grader::lab::LoadError;
+use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 /// Points lost, or a comparison that differs.

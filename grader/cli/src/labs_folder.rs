@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::lab::Files;
+use kinemark_grader::task::files::Files;
 use rust_embed::Embed;
 
 use crate::disk::Folder;

@@ -3,11 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::lab::files::text;
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_grader::lab::{Files as _, Lab, LoadError, Variant};
+use kinemark_grader::lab::{Lab, Variant};
 use kinemark_grader::record::grade::{self, Grade};
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::task::files::Files as _;
+use kinemark_grader::task::files::text;
+use kinemark_grader::task::problem::LoadError;
 use kinemark_report::output::{
     self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, Manifest, Material, OutFile, OutputError, Pixels,
     RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,

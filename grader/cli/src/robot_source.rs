@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use kinemark_grader::lab::LabRobot;
-use kinemark_grader::lab::robot::robot_names;
+use kinemark_grader::task::robot::LabRobot;
+use kinemark_grader::task::robot::robot_names;
 use kinemark_sim::format::RobotError;
 use kinemark_sim::format::urdf::UrdfOptions;
 use kinemark_sim::format::urdf::mesh_location::{MeshLocation, mesh_location};

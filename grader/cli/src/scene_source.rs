@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use kinemark_grader::lab::LabScene;
-use kinemark_grader::lab::scene::scene_names;
+use kinemark_grader::task::scene::LabScene;
+use kinemark_grader::task::scene::scene_names;
 use kinemark_sim::format::{SceneError, SceneFile};
 use kinemark_sim::model::scene::Scene;
 use kinemark_sim::text::{Source, suggest};

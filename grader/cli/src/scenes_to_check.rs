@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::lab::scene::scene_names;
 use kinemark_grader::lab::{Lab, TaskWork};
+use kinemark_grader::task::scene::scene_names;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::suggest;

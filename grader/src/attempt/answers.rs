@@ -32,7 +32,7 @@ pub struct CaseFacts<'a> {
 
 impl CaseFacts<'_> {
     /// What may be reported of the case: its name, or the class of a hidden one.
-    pub fn told(&self) -> &str {
+    pub fn label(&self) -> &str {
         self.case.hidden_class.as_deref().unwrap_or(&self.case.name)
     }
 

@@ -130,7 +130,7 @@ impl Ended {
         Stopped {
             message,
             help,
-            ..no_words()
+            ..Stopped::default()
         }
     }
 
@@ -154,26 +154,13 @@ impl Ended {
     }
 }
 
-fn no_words() -> Stopped {
-    Stopped {
-        message: String::new(),
-        help: None,
-        line: None,
-        column: None,
-        source_line: None,
-        tick: None,
-        time_s: None,
-        case: None,
-    }
-}
-
 /// A record of something hidden. Neither the submission's words nor the line that fails are in it: a chain of comparisons could
 /// count a hidden number out.
 fn without_place(message: &str, class: &str) -> Stopped {
     Stopped {
         message: message.to_owned(),
         case: Some(class.to_owned()),
-        ..no_words()
+        ..Stopped::default()
     }
 }
 
@@ -248,9 +235,7 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
         source_line: place
             .and_then(|place| source.lines().nth(place.line.checked_sub(1)?))
             .map(shortened),
-        tick: None,
-        time_s: None,
-        case: None,
+        ..Stopped::default()
     }
 }
 

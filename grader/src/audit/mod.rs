@@ -11,9 +11,9 @@ use kinemark_sim::text::Source;
 use serde::Serialize;
 
 use crate::judge::grade;
+use crate::lab::Lab;
+use crate::lab::TaskWork;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
-use crate::lab::model::Lab;
-use crate::lab::model::TaskWork;
 use crate::lab::staff::{Mutant, Staff};
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TcpPath};

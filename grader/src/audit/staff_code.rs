@@ -1,15 +1,25 @@
 //! The staff's own code, tried: solution and known mistakes are programs, and the solution answers the hidden cases that it is the
 //! measure of. Loading a lab runs none of it.
 
-use kinemark_sim::text::Source;
+use kinemark_sim::text::{Problem, Source};
 
 use crate::judge::staff_faults::staff_fault;
 use crate::judge::{opening, with_expected};
-use crate::lab::model::Lab;
+use crate::lab::Lab;
 use crate::lab::staff::Staff;
 use crate::record::staff_fault::StaffSubmission;
 use crate::submission::rhai::ScriptController;
-use crate::task::problem::{LabError, LabProblem, LoadError};
+use crate::task::problem::{LabError, LoadError, problems};
+use crate::task::reporter::Reporter;
+
+problems! {
+    /// What is wrong with the reference solution as the measure of hidden cases.
+    enum SolutionProblem {
+        NoAnswer { why: String }:
+            "staff::solution", "{why}", "what is expected here is what the solution answers",
+            "correct `solution.rhai`, or draw other numbers";
+    }
+}
 
 /// Tries the code of `staff`, whose part of `lab` it is.
 ///
@@ -40,7 +50,7 @@ fn builds(
     match ScriptController::open(&opening(lab, task, source)) {
         Ok(_) => Ok(()),
         Err(stop) => match staff_fault(whose, None, source, &stop) {
-            Some(fault) => Err(fault.map(LabProblem::of)),
+            Some(fault) => Err(fault.map(|fault| Box::new(fault) as Box<dyn Problem>)),
             None => Ok(()),
         },
     }
@@ -55,14 +65,9 @@ fn answers(lab: &Lab, staff: &Staff) -> Result<(), LabError> {
         let Some(task) = lab.tasks.iter().find(|task| task.name == draw.task) else {
             continue;
         };
-        if let Err(message) = with_expected(lab, task, &draw.cases, &staff.solution) {
-            let problem = LabProblem {
-                message,
-                code: "staff::solution",
-                label: "what is expected here is what the solution answers".to_owned(),
-                help: Some("correct `solution.rhai`, or draw other numbers".to_owned()),
-            };
-            return Err(LabError::new(problem, source, draw.at.clone()));
+        if let Err(why) = with_expected(lab, task, &draw.cases, &staff.solution) {
+            let problem = SolutionProblem::NoAnswer { why };
+            return Reporter { source }.refuse(draw.at.clone(), problem);
         }
     }
     Ok(())

@@ -4,8 +4,8 @@ use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
 use super::{Audit, Tried, graded, loss_of, staff_code};
+use crate::lab::Lab;
 use crate::lab::Variant;
-use crate::lab::model::Lab;
 use crate::lab::staff::Staff;
 use crate::record::grade::{Grade, Measure};
 use crate::record::verdict::Verdict;

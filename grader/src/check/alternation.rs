@@ -31,7 +31,7 @@ fn alternates(samples: &[f64]) -> bool {
 
 /// Why joint `joint` rattles from tick `first` on, and what to do about it; none where neither its command nor its servo turns
 /// round at every sample.
-pub(super) fn told(
+pub(super) fn explained(
     facts: &MotionFacts<'_>,
     joint: usize,
     first: usize,

@@ -4,8 +4,10 @@ use kinemark_sim::run::{Recorder as _, Row, Setup};
 use kinemark_sim::trace::TraceRecorder;
 
 use super::{Finding, MotionFacts, judge_motion};
-use crate::lab::{Band, Files, Lab, TaskWork};
+use crate::lab::{Lab, TaskWork};
 use crate::record::names::Names;
+use crate::task::files::Files;
+use crate::task::model::Band;
 
 /// One row of the course's arm.
 #[derive(Debug, Clone, Copy, Default)]
@@ -110,13 +112,13 @@ fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> F
         },
         motion,
         trace: &trace,
-        stays: Vec::new(),
+        dwells: Vec::new(),
         pose_band: Band {
             full: 0.0,
             zero: 1.0,
         },
         reference: None,
-        climbs: Vec::new(),
+        sweeps: Vec::new(),
     };
     judge_motion(&checks[0], &facts)
 }

@@ -24,29 +24,29 @@ impl CaseScore {
     }
 }
 
-/// How answers are summed up.
-pub(super) struct Summary<'a> {
+/// The answers to all cases of a task, and the band of a check over them.
+pub(crate) struct Cases<'a> {
     /// The function of the task.
     pub(super) function: &'a Function,
-    /// What is measured, for a person.
-    pub(super) quantity: String,
+    /// One entry per case, hidden ones too.
+    pub(super) cases: &'a [CaseFacts<'a>],
     /// The band of a single case.
     pub(super) band: Band,
     /// Unit of that band; empty for a ratio.
     pub(super) unit: &'static str,
 }
 
-impl Summary<'_> {
+impl Cases<'_> {
     /// The mean of the scores of those cases that `score` looks at; nothing where it looks at none.
     pub(super) fn mean_score(
-        self,
-        cases: &[CaseFacts<'_>],
+        &self,
+        quantity: impl Into<String>,
         score: impl Fn(&CaseFacts<'_>) -> Option<CaseScore>,
     ) -> Finding {
         let mut judged = Vec::new();
         let mut failed = Vec::new();
         let mut sum = 0.0;
-        for facts in cases {
+        for facts in self.cases {
             let Some(CaseScore { score, lost }) = score(facts) else {
                 continue;
             };
@@ -59,19 +59,19 @@ impl Summary<'_> {
         } else {
             sum / judged.len() as f64
         };
-        let evidence = evidence(self.function, failed, &judged, self.band.full, self.unit);
-        Finding::share(mean, self.quantity).because(evidence)
+        Finding::share(mean, quantity).because(self.evidence(failed, &judged))
     }
 
     /// The mean of all errors, held against the band; `message` says what is wrong with an answer that is too far off.
     pub(super) fn mean_error(
-        self,
-        cases: &[CaseFacts<'_>],
+        &self,
+        quantity: &str,
         error: impl Fn(&CaseFacts<'_>) -> f64,
         message: impl Fn(&CaseFacts<'_>, f64) -> String,
     ) -> Finding {
+        let cases = self.cases;
         let mean = cases.iter().map(&error).sum::<f64>() / cases.len() as f64;
-        let finding = Finding::against(self.band, mean, self.unit, self.quantity);
+        let finding = Finding::against(self.band, mean, self.unit, quantity);
         let mut failed = Vec::new();
         for facts in cases.iter().filter(|_| finding.is_lost()) {
             let error = error(facts);
@@ -82,16 +82,59 @@ impl Summary<'_> {
             }
         }
         let all: Vec<&CaseFacts<'_>> = cases.iter().collect();
-        let evidence = evidence(self.function, failed, &all, self.band.full, self.unit);
-        finding.because(evidence)
+        finding.because(self.evidence(failed, &all))
+    }
+
+    /// At most three visible cases, then hidden classes without their numbers: what a student can act on.
+    fn evidence(
+        &self,
+        mut failed: Vec<(&CaseFacts<'_>, f64, String)>,
+        totals: &[&CaseFacts<'_>],
+    ) -> Vec<Evidence> {
+        // worst first; cases without a number are the worst of all
+        failed.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let visible = failed.iter().filter(|(facts, ..)| facts.is_visible());
+        let mut evidence: Vec<Evidence> = visible
+            .take(3)
+            .map(|(facts, value, message)| {
+                let value = value.is_finite().then_some(*value);
+                self.of_case(facts.label(), message.clone(), value)
+            })
+            .collect();
+        let hidden = failed.iter().filter(|(facts, ..)| !facts.is_visible());
+        let mut classes: Vec<&str> = hidden.map(|(facts, ..)| facts.label()).collect();
+        classes.sort_unstable();
+        classes.dedup();
+        for class in classes {
+            let of_class = |facts: &CaseFacts<'_>| !facts.is_visible() && facts.label() == class;
+            let lost = failed.iter().filter(|(facts, ..)| of_class(facts)).count();
+            let total = totals.iter().filter(|facts| of_class(facts)).count();
+            let message =
+                format!("{lost} of {total} hidden cases of the class \"{class}\" are off");
+            evidence.push(self.of_case(class, message, None));
+        }
+        evidence
+    }
+
+    /// Evidence of a case, or of a class of hidden ones.
+    fn of_case(&self, case: &str, message: String, value: Option<f64>) -> Evidence {
+        Evidence {
+            message,
+            signal: self.function.name().to_owned(),
+            case: Some(case.to_owned()),
+            value,
+            limit: Some(self.band.full),
+            unit: self.unit.to_owned(),
+            ..Evidence::default()
+        }
     }
 }
 
 /// What is wrong with a case that has no answer of the right shape.
 pub(super) fn without_answer(facts: &CaseFacts<'_>) -> Option<String> {
     match &facts.answer {
-        Answered::Invalid(what) => Some(format!("{}: {what}", facts.told())),
-        Answered::Stopped => Some(format!("{}: no answer", facts.told())),
+        Answered::Invalid(what) => Some(format!("{}: {what}", facts.label())),
+        Answered::Stopped => Some(format!("{}: no answer", facts.label())),
         Answered::Position(_)
         | Answered::Branches(_)
         | Answered::Matrix(_)
@@ -99,59 +142,37 @@ pub(super) fn without_answer(facts: &CaseFacts<'_>) -> Option<String> {
     }
 }
 
-/// Evidence of a case, or of a class of hidden ones.
-fn of_case(
-    function: &Function,
-    case: &str,
-    message: String,
-    value: Option<f64>,
-    limit: f64,
-    unit: &str,
-) -> Evidence {
-    Evidence {
-        message,
-        signal: function.name().to_owned(),
-        tick: None,
-        time_s: None,
-        run: None,
-        case: Some(case.to_owned()),
-        value,
-        limit: Some(limit),
-        unit: unit.to_owned(),
-    }
+/// What is wrong with a case that has no answer that could be compared.
+pub(super) fn no_answer(facts: &CaseFacts<'_>) -> String {
+    without_answer(facts).unwrap_or_else(|| format!("{}: no answer", facts.label()))
 }
 
-/// At most three visible cases, then hidden classes without their numbers: what a student can act on.
-fn evidence(
-    function: &Function,
-    mut failed: Vec<(&CaseFacts<'_>, f64, String)>,
-    totals: &[&CaseFacts<'_>],
-    limit: f64,
-    unit: &str,
-) -> Vec<Evidence> {
-    // worst first; cases without a number are the worst of all
-    failed.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let visible = failed.iter().filter(|(facts, ..)| facts.is_visible());
-    let mut evidence: Vec<Evidence> = visible
-        .take(3)
-        .map(|(facts, value, message)| {
-            let value = value.is_finite().then_some(*value);
-            of_case(function, facts.told(), message.clone(), value, limit, unit)
-        })
-        .collect();
-    let mut classes: Vec<&str> = Vec::new();
-    for (facts, ..) in failed.iter().filter(|(facts, ..)| !facts.is_visible()) {
-        if !classes.contains(&facts.told()) {
-            classes.push(facts.told());
-        }
+/// Two numbers, or lists of them, with as few digits as make them differ, four at least; `write` has the number of digits.
+pub(super) fn distinct_texts(write: impl Fn(usize) -> (String, String)) -> (String, String) {
+    let mut texts = (4..=12).map(&write);
+    texts.find(|(a, b)| a != b).unwrap_or_else(|| write(12))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distinct_texts;
+    use crate::check::function_cases::written;
+    use crate::record::quantity::trimmed;
+
+    #[test]
+    fn near_numbers_are_written_so_that_they_differ() {
+        let of = |a: f64, b: f64| distinct_texts(|digits| (trimmed(a, digits), trimmed(b, digits)));
+        assert_eq!(of(0.2, -0.8), ("0.2".to_owned(), "-0.8".to_owned()));
+        assert_eq!(
+            of(0.250001, 0.25),
+            ("0.250001".to_owned(), "0.25".to_owned())
+        );
+        let of = |a: f64, b: f64| distinct_texts(|n| (written(&[a], n), written(&[b], n)));
+        assert_eq!(of(24.5, 12.0), ("24.5".to_owned(), "12".to_owned()));
+        assert_eq!(
+            of(2.2000001, 2.2),
+            ("2.2000001".to_owned(), "2.2".to_owned())
+        );
+        assert_eq!(written(&[1.0, 2.5], 4), "[1, 2.5]");
     }
-    classes.sort_unstable();
-    for class in classes {
-        let of_class = |facts: &CaseFacts<'_>| !facts.is_visible() && facts.told() == class;
-        let lost = failed.iter().filter(|(facts, ..)| of_class(facts)).count();
-        let total = totals.iter().filter(|facts| of_class(facts)).count();
-        let message = format!("{lost} of {total} hidden cases of the class \"{class}\" are off");
-        evidence.push(of_case(function, class, message, None, limit, unit));
-    }
-    evidence
 }

@@ -4,9 +4,10 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 
+use super::dwell::Dwell;
 use super::finding::curve;
-use super::kind::robustness::RungFacts;
-use super::stay::Stay;
+use super::kind::robustness::LevelOutcome;
+use super::signal::greatest;
 use crate::record::grade::Evidence;
 use crate::record::graded::{Curve, TcpPath};
 use crate::record::names::Names;
@@ -24,25 +25,23 @@ pub struct MotionFacts<'a> {
     pub motion: &'a MotionTask,
     /// What was recorded.
     pub trace: &'a Trace,
-    /// The best stay at each goal, in order; empty where the task has no goals or the run is shorter than the dwells.
-    pub stays: Vec<Stay>,
-    /// The band by which stays were chosen \[m\].
+    /// The best dwell at each goal, in order; empty where the task has no goals or the run is shorter than all dwells.
+    pub dwells: Vec<Dwell>,
+    /// The band by which dwells were chosen \[m\].
     pub pose_band: Band,
     /// The reference's path.
     pub reference: Option<&'a TcpPath>,
-    /// How the same motion went on the rungs of robustness checks; empty where nothing was disturbed.
-    pub climbs: Vec<Climb>,
+    /// How the same motion went under the levels of robustness checks; empty where nothing was disturbed.
+    pub sweeps: Vec<SweepRuns>,
 }
 
 /// The runs of one robustness check.
 #[derive(Debug, Clone)]
-pub struct Climb {
+pub struct SweepRuns {
     /// The check's name.
     pub check: String,
-    /// Title of the check that is repeated.
-    pub repeated: String,
-    /// One run per rung.
-    pub rungs: Vec<RungFacts>,
+    /// One run per level; none where the repeated check earned nothing undisturbed.
+    pub levels: Vec<LevelOutcome>,
 }
 
 impl MotionFacts<'_> {
@@ -64,23 +63,21 @@ impl MotionFacts<'_> {
 
     /// The joint `asked`, or that with the greatest value, and its value; one that is no number is the greatest of all.
     pub fn worst_joint(&self, asked: Option<usize>, value: impl Fn(usize) -> f64) -> (usize, f64) {
-        let joints = match asked {
-            Some(joint) => joint..joint + 1,
-            None => 0..self.robot.n(),
-        };
-        let values = joints.map(|joint| (joint, value(joint)));
-        let greater = |a: &(usize, f64), b: &(usize, f64)| {
-            // of equal ones the first
-            b.1.abs().total_cmp(&a.1.abs()).is_gt()
-        };
-        values
-            .reduce(|a, b| if greater(&a, &b) { b } else { a })
-            .unwrap_or((0, f64::NAN))
+        match asked {
+            Some(joint) => (joint, value(joint)),
+            None => greatest((0..self.robot.n()).map(value)).unwrap_or((0, f64::NAN)),
+        }
     }
 
     /// Ticks whose efforts were applied: all but the last.
     pub fn applied_ticks(&self) -> usize {
         self.trace.len().saturating_sub(1)
+    }
+
+    /// The efforts of a joint that were applied, tick by tick \[N m or N\].
+    pub fn applied_efforts(&self, joint: usize) -> Vec<f64> {
+        let efforts = self.trace.effort.component(joint);
+        efforts.take(self.applied_ticks()).collect()
     }
 
     /// The last tick of the run.
@@ -114,11 +111,7 @@ impl MotionFacts<'_> {
             signal,
             tick: Some(tick as u64),
             time_s: Some(self.time_s(tick)),
-            run: None,
-            case: None,
-            value: None,
-            limit: None,
-            unit: String::new(),
+            ..Evidence::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a check found: the share of points, what was measured, the evidence where points are lost, and the curve it judged.
 
 use super::facts::MotionFacts;
+use super::signal::Statistic;
 use crate::record::grade::{Evidence, Measure};
 use crate::record::graded::Curve;
 use crate::task::model::Band;
@@ -20,6 +21,9 @@ pub struct Finding {
     pub insists: bool,
     /// The curve it judged.
     pub curve: Option<Curve>,
+    /// What of the curve counts. Without it there is no curve, or moments beyond the band may cost nothing, as on the way to a goal:
+    /// then the evidence says where points were first lost.
+    pub statistic: Option<Statistic>,
 }
 
 impl Finding {
@@ -29,6 +33,21 @@ impl Finding {
             band.score(value),
             measure(quantity, value, unit, [band.full, band.zero]),
         )
+    }
+
+    /// A statistic of a curve, held against the band.
+    pub(super) fn of_curve(
+        band: Band,
+        statistic: Statistic,
+        unit: &str,
+        quantity: impl Into<String>,
+        curve: Curve,
+    ) -> Self {
+        let value = statistic.of(&curve.values);
+        Self {
+            statistic: Some(statistic),
+            ..Self::against(band, value, unit, quantity).drawn(curve)
+        }
     }
 
     /// A score that is itself what was measured: the mean of other scores, or a fixed one.
@@ -51,6 +70,7 @@ impl Finding {
             next_step: String::new(),
             insists: false,
             curve: None,
+            statistic: None,
         }
     }
 

@@ -1,32 +1,38 @@
-//! Checks: what is measured, the band it is held against, and the evidence where points are lost. One file per [`kind`].
+//! Checks: what is measured, the band in which it is judged, and the evidence where points are lost. One file per [`kind`].
 
 mod alternation;
 #[cfg(test)]
 mod by_hand;
 mod cases;
 mod contract;
+mod disturbance;
 #[cfg(test)]
 mod documentation;
+mod dwell;
 mod facts;
 mod finding;
-mod joint_effort;
+mod in_band;
 pub mod kind;
+mod path_following;
 mod prediction;
+mod prelude;
 pub(crate) mod reading;
 pub(crate) mod registry;
-pub mod road;
+mod rest_error;
+mod segments;
+mod signal;
 #[cfg(test)]
 mod sliding;
-pub mod stay;
 mod step_keys;
 mod step_response;
 
 pub use contract::{
-    AnyCheck, Check, CheckKind, FirstLoss, FunctionCheck, MotionCheck, answer_band, dwell_band,
-    judge_function, judge_motion, path_band,
+    Check, Criterion, FunctionCheck, MotionCheck, answer_band, dwell_band, judge_motion, path_band,
 };
-pub use facts::{Climb, MotionFacts};
+pub use disturbance::Level;
+pub use dwell::{Dwell, best_dwells};
+pub use facts::{MotionFacts, SweepRuns};
 pub use finding::Finding;
-pub use kind::{function_cases, ik_branches, robustness};
-pub use reading::ReadingProblem;
-pub use registry::{CheckProblem, Kind};
+pub use kind::{function_cases, robustness};
+pub use registry::Kind;
+pub use signal::Statistic;

@@ -2,13 +2,11 @@
 
 use kinemark_sim::control::LinearStep;
 use kinemark_sim::control::linear_step::Fed;
-use kinemark_sim::text::Problem;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
-use super::reading::MotionReading;
-use crate::task::problem::LabError;
+use super::reading::{At, MotionReading};
+use crate::task::problem::{LabError, problems};
 
 /// The linear loop drawn beside the run.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -43,38 +41,19 @@ enum DerivativeOf {
     Velocity,
 }
 
-/// Numbers that make no loop, or none that can be drawn.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-enum NoLoop {
-    #[error("`inertia` must be positive, got {inertia}")]
-    Inertia { inertia: f64 },
-    #[error("`{name}` must be zero or more, got {value}")]
-    Negative { name: &'static str, value: f64 },
-    #[error(
-        "the predicted loop is unstable: (damping + kd) kp = {damped} is less than inertia ki = {driven}"
-    )]
-    Unstable { damped: f64, driven: f64 },
-    #[error("the predicted loop is too fast to be computed")]
-    TooFast,
-}
-
-impl Problem for NoLoop {
-    fn code(&self) -> &'static str {
-        "lab::prediction"
-    }
-
-    fn label(&self) -> String {
-        "this prediction".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        let help = match self {
-            Self::Inertia { .. } => "it is the joint's moment of inertia [kg m²]",
-            Self::Negative { .. } => "left out it is 0",
-            Self::Unstable { .. } => "predict a loop that settles, or leave the prediction out",
-            Self::TooFast => "look at its inertia and gains",
-        };
-        Some(help.to_owned())
+problems! {
+    /// Numbers that make no loop, or none that can be drawn.
+    enum LoopProblem {
+        Inertia { inertia: f64 }:
+            "lab::prediction", "`inertia` must be positive, got {inertia}", "this prediction",
+            "it is the joint's moment of inertia [kg m²]";
+        Negative { name: &'static str, value: f64 }:
+            "lab::prediction", "`{name}` must be zero or more, got {value}", "this prediction", "left out it is 0";
+        Unstable { damped: f64, driven: f64 }:
+            "lab::prediction", "the predicted loop is unstable: (damping + kd) kp = {damped} is less than inertia ki = {driven}",
+            "this prediction", "predict a loop that settles, or leave the prediction out";
+        TooFast:
+            "lab::prediction", "the predicted loop is too fast to be computed", "this prediction", "look at its inertia and gains";
     }
 }
 
@@ -82,14 +61,14 @@ impl MotionReading<'_> {
     /// The loop that a table describes, closed over the signal `of`.
     pub(super) fn prediction(
         &self,
-        spanned: &Spanned<PredictionTable>,
+        typed: &At<PredictionTable>,
         of: Fed,
     ) -> Result<LinearStep, LabError> {
-        let table = spanned.get_ref();
-        let refuse = |problem| self.report.refuse(spanned.span(), problem);
+        let table = typed.get_ref();
+        let refuse = |problem| self.refuse_at(typed, problem);
         let inertia = table.inertia;
         if !(inertia > 0.0 && inertia.is_finite()) {
-            return refuse(NoLoop::Inertia { inertia });
+            return refuse(LoopProblem::Inertia { inertia });
         }
         let others = [
             ("damping", table.damping),
@@ -99,7 +78,7 @@ impl MotionReading<'_> {
         ];
         for (name, value) in others {
             if !(value >= 0.0 && value.is_finite()) {
-                return refuse(NoLoop::Negative { name, value });
+                return refuse(LoopProblem::Negative { name, value });
             }
         }
         let prediction = LinearStep {
@@ -113,13 +92,13 @@ impl MotionReading<'_> {
             derivative_of_error: table.derivative == DerivativeOf::Error,
         };
         if !prediction.is_bounded() {
-            return refuse(NoLoop::Unstable {
+            return refuse(LoopProblem::Unstable {
                 damped: (table.damping + table.kd) * table.kp,
                 driven: inertia * table.ki,
             });
         }
         if prediction.response(0.001, 2).is_none() {
-            return refuse(NoLoop::TooFast);
+            return refuse(LoopProblem::TooFast);
         }
         Ok(prediction)
     }

@@ -1,28 +1,76 @@
 //! What a kind of check has at hand while its table is read: the robot, the task, the checks before it; names become indices.
 
-use std::ops::Range;
+use std::borrow::Cow;
+use std::ops::{Deref, Range};
 use std::sync::Arc;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
-use kinemark_sim::text::{Problem, suggest};
+use kinemark_sim::text::Problem;
 use kinemark_sim::ticks::whole_ratio;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
 use toml::Spanned;
 
 use super::contract::{Check, MotionCheck};
+use crate::task::joint_units::JointUnits;
 use crate::task::model::{FunctionTask, MotionTask};
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
 use crate::task::scene::LabScene;
 use crate::task::watched::PathToFollow;
 
-/// A number as typed, whole or not, with its place.
-pub(super) type NumberAt = Spanned<f64>;
+/// A value as typed, with its place; in a schema it is the value alone.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct At<T>(Spanned<T>);
 
-/// What checks of a motion task are read with.
-pub(crate) struct MotionReading<'a> {
+impl<T> Deref for At<T> {
+    type Target = Spanned<T>;
+
+    fn deref(&self) -> &Spanned<T> {
+        &self.0
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for At<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+/// What the table of a check is read with: `T` is what the kind may look at.
+#[derive(Debug, Clone)]
+pub(crate) struct Reading<'a, T> {
     /// Where problems are reported.
     pub(crate) report: Reporter<'a>,
+    /// Where the table stands.
+    pub(crate) at: Range<usize>,
+    /// What the check is of.
+    pub(crate) of: T,
+}
+
+/// What a check of a motion task is read with.
+pub(crate) type MotionReading<'a> = Reading<'a, InMotion<'a>>;
+
+/// What a check of a function task is read with.
+pub(crate) type FunctionReading<'a> = Reading<'a, &'a FunctionTask>;
+
+/// What a check of a motion task can name.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InMotion<'a> {
     /// The robot of the lab.
     pub(crate) robot: &'a Robot,
     /// The name of the task.
@@ -31,158 +79,78 @@ pub(crate) struct MotionReading<'a> {
     pub(crate) motion: &'a MotionTask,
     /// Whether the lab has the reference's path in this task.
     pub(crate) has_reference_path: bool,
-}
-
-/// What checks of a function task are read with.
-pub(crate) struct FunctionReading<'a> {
-    /// Where problems are reported.
-    pub(crate) report: Reporter<'a>,
-    /// The task.
-    pub(crate) function: &'a FunctionTask,
-}
-
-/// A motion check as it is read: what it can name.
-pub(crate) struct InTask<'a> {
-    /// The task around it.
-    pub(crate) reading: &'a MotionReading<'a>,
-    /// Its own name.
+    /// The name of the check.
     pub(crate) check: &'a str,
     /// The checks before it.
     pub(crate) earlier: &'a [Check<dyn MotionCheck>],
 }
 
-impl<'a> std::ops::Deref for InTask<'a> {
-    type Target = MotionReading<'a>;
+impl<T> Deref for Reading<'_, T> {
+    type Target = T;
 
-    fn deref(&self) -> &Self::Target {
-        self.reading
+    fn deref(&self) -> &T {
+        &self.of
     }
 }
 
-/// A name or a time in the table of a check that does not fit the task, the robot or the scene.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ReadingProblem {
-    /// No joint that moves has this name.
-    #[error("robot `{robot}` has no joint `{joint}` that moves")]
-    UnknownJoint {
-        /// The robot's name.
-        robot: String,
-        /// The name as typed.
-        joint: String,
-        /// The joints that move.
-        known: Vec<String>,
-    },
-    /// The kind looks at bodies, and the task has none.
-    #[error("a check of kind `{kind}` needs `scene` in [tasks.motion]")]
-    NoScene {
-        /// The kind.
-        kind: &'static str,
-    },
-    /// No body of the scene has this name.
-    #[error("scene `{scene}` has no body `{body}`")]
-    UnknownBody {
-        /// The scene's name.
-        scene: String,
-        /// The name as typed.
-        body: String,
-        /// The bodies of the scene.
-        known: Vec<String>,
-    },
-    /// The body is fixed, or moves by itself.
-    #[error("body `{body}` cannot fall: it is not free")]
-    CannotFall {
-        /// The body's name.
-        body: String,
-        /// The bodies that can fall.
-        free: Vec<String>,
-    },
-    /// No path of the task has this name.
-    #[error("this task has no path `{path}`")]
-    UnknownPath {
-        /// The name as typed.
-        path: String,
-        /// The paths of the task.
-        known: Vec<String>,
-    },
-    /// The path has fewer segments.
-    #[error("path `{path}` has segments 1 to {count}, got {segment}")]
-    NoSegment {
-        /// The path's name.
-        path: String,
-        /// How many segments it has.
-        count: usize,
-        /// The number as typed.
-        segment: u64,
-    },
-    /// A time between two physics steps.
-    #[error("{time_s} s is not a whole number of physics steps of {step_s} s")]
-    NotWholeSteps {
-        /// The time as typed \[s\].
-        time_s: f64,
-        /// The physics step \[s\].
-        step_s: f64,
-    },
-    /// A time that the run does not have.
-    #[error("{time_s} s is longer than the run")]
-    LongerThanRun {
-        /// The time as typed \[s\].
-        time_s: f64,
-    },
+problems! {
+    /// A name or a time in the table of a check that does not fit the task, the robot or the scene.
+    enum ReadingProblem {
+        UnknownJoint { robot: String, joint: String, known: Vec<String> }:
+            "lab::unknown_joint", "robot `{robot}` has no joint `{joint}` that moves", "not a joint of this robot",
+            near(joint, "joints", known);
+        NoScene { kind: &'static str }:
+            "lab::check_kind", "a check of kind `{kind}` needs `scene` in [tasks.motion]", "there is no scene in this task",
+            "name one, such as `scene = \"shelf-and-can\"`";
+        UnknownBody { scene: String, body: String, known: Vec<String> }:
+            "lab::unknown_body", "scene `{scene}` has no body `{body}`", "not a body of this scene",
+            near(body, "bodies", known);
+        CannotFall { body: String, free: Vec<String> }:
+            "lab::body_falls", "body `{body}` cannot fall: it is not free", "not a free body",
+            near(body, "free bodies", free);
+        NoPaths { path: String }:
+            "lab::unknown_path", "this task has no path `{path}`", "not a path of [tasks.motion.paths]",
+            format!("add a table: [tasks.motion.paths] with `{path} = {{ points_m = [[..], [..]], trim_m = 0.05 }}`");
+        UnknownPath { path: String, known: Vec<String> }:
+            "lab::unknown_path", "this task has no path `{path}`", "not a path of [tasks.motion.paths]",
+            near(path, "paths", known);
+        NoSegment { path: String, count: usize, segment: u64 }:
+            "lab::path", "path `{path}` has segments 1 to {count}, got {segment}", "not a segment of this path",
+            "leave `segment` out to have the worst one counted";
+        NotWholeSteps { time_s: f64, step_s: f64 }:
+            "lab::periods", "{time_s} s is not a whole number of physics steps of {step_s} s", "does not divide";
+        LongerThanRun { time_s: f64 }:
+            "lab::periods", "{time_s} s is longer than the run", "longer than the run";
+    }
 }
 
-impl Problem for ReadingProblem {
-    fn code(&self) -> &'static str {
-        match self {
-            Self::UnknownJoint { .. } => "lab::unknown_joint",
-            Self::NoScene { .. } => "lab::check_kind",
-            Self::UnknownBody { .. } => "lab::unknown_body",
-            Self::CannotFall { .. } => "lab::body_falls",
-            Self::UnknownPath { .. } => "lab::unknown_path",
-            Self::NoSegment { .. } => "lab::path",
-            Self::NotWholeSteps { .. } | Self::LongerThanRun { .. } => "lab::periods",
-        }
+impl<T> Reading<'_, T> {
+    /// Refuses the table for `problem`.
+    pub(crate) fn refuse<R>(&self, problem: impl Problem) -> Result<R, LabError> {
+        self.report.refuse(self.at.clone(), problem)
     }
 
-    fn label(&self) -> String {
-        match self {
-            Self::UnknownJoint { .. } => "not a joint of this robot",
-            Self::NoScene { .. } => "there is no scene in this task",
-            Self::UnknownBody { .. } => "not a body of this scene",
-            Self::CannotFall { .. } => "not a free body",
-            Self::UnknownPath { .. } => "not a path of [tasks.motion.paths]",
-            Self::NoSegment { .. } => "not a segment of this path",
-            Self::NotWholeSteps { .. } => "does not divide",
-            Self::LongerThanRun { .. } => "longer than the run",
-        }
-        .to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        let near = |typed: &str, what: &str, known: &[String]| {
-            Some(suggest(typed, what, known.iter().map(String::as_str)))
-        };
-        match self {
-            Self::UnknownJoint { joint, known, .. } => near(joint, "joints", known),
-            Self::NoScene { .. } => {
-                Some("name one, such as `scene = \"shelf-and-can\"`".to_owned())
-            }
-            Self::UnknownBody { body, known, .. } => near(body, "bodies", known),
-            Self::CannotFall { body, free } => near(body, "free bodies", free),
-            Self::UnknownPath { path, known } if known.is_empty() => Some(format!(
-                "add a table: [tasks.motion.paths] with `{path} = {{ points_m = [[..], [..]], trim_m = 0.05 }}`"
-            )),
-            Self::UnknownPath { path, known } => near(path, "paths", known),
-            Self::NoSegment { .. } => {
-                Some("leave `segment` out to have the worst one counted".to_owned())
-            }
-            Self::NotWholeSteps { .. } | Self::LongerThanRun { .. } => None,
-        }
+    /// Refuses what was `typed` for `problem`.
+    pub(crate) fn refuse_at<R, V>(
+        &self,
+        typed: &Spanned<V>,
+        problem: impl Problem,
+    ) -> Result<R, LabError> {
+        self.report.refuse_at(typed, problem)
     }
 }
 
 impl MotionReading<'_> {
+    /// Units of the joint with this index in `q`, or of all joints.
+    pub(super) fn units(&self, joint: Option<usize>) -> JointUnits {
+        match joint {
+            Some(joint) => JointUnits::of(self.robot, joint),
+            None => JointUnits::of_all(self.robot),
+        }
+    }
+
     /// Index in `q` of the joint called `name`.
-    pub(crate) fn joint(&self, name: &Spanned<String>) -> Result<usize, LabError> {
+    pub(super) fn joint(&self, name: &Spanned<String>) -> Result<usize, LabError> {
         let joints = self.robot.moving_joints();
         let known: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
         if let Some(index) = known.iter().position(|known| known == name.get_ref()) {
@@ -193,31 +161,24 @@ impl MotionReading<'_> {
             joint: name.get_ref().clone(),
             known,
         };
-        self.report.refuse(name.span(), problem)
+        self.refuse_at(name, problem)
     }
 
     /// Index in `q` of the joint called `name`, where one is named.
-    pub(crate) fn maybe_joint(
-        &self,
-        name: Option<&Spanned<String>>,
-    ) -> Result<Option<usize>, LabError> {
+    pub(super) fn maybe_joint(&self, name: Option<&At<String>>) -> Result<Option<usize>, LabError> {
         name.map(|name| self.joint(name)).transpose()
     }
 
-    /// The scene of the task, which a check of `kind` at `at` needs.
-    pub(crate) fn scene(
-        &self,
-        kind: &'static str,
-        at: Range<usize>,
-    ) -> Result<&Arc<LabScene>, LabError> {
+    /// The scene of the task, which a check of `kind` needs.
+    pub(super) fn scene(&self, kind: &'static str) -> Result<&Arc<LabScene>, LabError> {
         match &self.motion.scene {
             Some(scene) => Ok(scene),
-            None => self.report.refuse(at, ReadingProblem::NoScene { kind }),
+            None => self.refuse(ReadingProblem::NoScene { kind }),
         }
     }
 
     /// Index of a body of the scene.
-    pub(crate) fn body(&self, scene: &LabScene, name: &Spanned<String>) -> Result<usize, LabError> {
+    pub(super) fn body(&self, scene: &LabScene, name: &Spanned<String>) -> Result<usize, LabError> {
         let bodies = scene.scene.bodies.iter();
         let known: Vec<String> = bodies.map(|body| body.name.clone()).collect();
         if let Some(index) = known.iter().position(|known| known == name.get_ref()) {
@@ -228,11 +189,11 @@ impl MotionReading<'_> {
             body: name.get_ref().clone(),
             known,
         };
-        self.report.refuse(name.span(), problem)
+        self.refuse_at(name, problem)
     }
 
     /// Index of a body of the scene that can fall.
-    pub(crate) fn free_body(
+    pub(super) fn free_body(
         &self,
         scene: &LabScene,
         name: &Spanned<String>,
@@ -249,26 +210,28 @@ impl MotionReading<'_> {
             body: name.get_ref().clone(),
             free: free.map(|body| body.name.clone()).collect(),
         };
-        self.report.refuse(name.span(), problem)
+        self.refuse_at(name, problem)
     }
 
     /// The path of the task called `name`.
-    pub(crate) fn path(&self, name: &Spanned<String>) -> Result<PathToFollow, LabError> {
+    pub(super) fn path(&self, name: &Spanned<String>) -> Result<PathToFollow, LabError> {
         let paths = &self.motion.paths;
         if let Some(path) = paths.iter().find(|path| path.name == *name.get_ref()) {
             return Ok(path.clone());
         }
-        let problem = ReadingProblem::UnknownPath {
-            path: name.get_ref().clone(),
-            known: paths.iter().map(|path| path.name.clone()).collect(),
+        let path = name.get_ref().clone();
+        let known: Vec<String> = paths.iter().map(|path| path.name.clone()).collect();
+        let problem = match known.is_empty() {
+            true => ReadingProblem::NoPaths { path },
+            false => ReadingProblem::UnknownPath { path, known },
         };
-        self.report.refuse(name.span(), problem)
+        self.refuse_at(name, problem)
     }
 
     /// The index of a segment that is counted from 1, where one is named.
-    pub(crate) fn segment(
+    pub(super) fn segment(
         &self,
-        typed: Option<&Spanned<u64>>,
+        typed: Option<&At<u64>>,
         path: &PathToFollow,
     ) -> Result<Option<usize>, LabError> {
         let Some(typed) = typed else {
@@ -284,14 +247,14 @@ impl MotionReading<'_> {
             count,
             segment: *typed.get_ref(),
         };
-        self.report.refuse(typed.span(), problem)
+        self.refuse_at(typed, problem)
     }
 
     /// A time within the run, in ticks; `what` names it in the message.
-    pub(crate) fn ticks(&self, time: &NumberAt, what: &str) -> Result<u64, LabError> {
+    pub(super) fn ticks(&self, time: &At<f64>, what: &str) -> Result<u64, LabError> {
         let time_s = self.report.positive(time, what)?;
         let step_s = self.motion.periods.step_s;
-        let refuse = |problem| self.report.refuse(time.span(), problem);
+        let refuse = |problem| self.refuse_at(time, problem);
         match whole_ratio(time_s, step_s) {
             None => refuse(ReadingProblem::NotWholeSteps { time_s, step_s }),
             Some(ticks) if ticks > self.motion.ticks => {

@@ -3,20 +3,18 @@
 //! The list of kinds is [`super::kind`]. A kind's table says how it is read ([`MotionTable`], [`FunctionTable`]).
 
 use std::fmt;
-use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::text::{Problem, suggest};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use toml::Spanned;
 
-use super::contract::{Check, FunctionCheck, MotionCheck};
+use super::contract::{Check, Criterion, FunctionCheck, MotionCheck};
 use super::kind;
-use super::reading::{FunctionReading, InTask, MotionReading, NumberAt};
-use crate::task::model::{Function, MotionTask};
-use crate::task::problem::LabError;
+use super::reading::{FunctionReading, InMotion, MotionReading, Reading};
+use crate::task::model::{FunctionTask, MotionTask};
+use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
 
 /// The table of a kind that judges runs.
@@ -32,8 +30,8 @@ pub(crate) trait MotionTable: DeserializeOwned + JsonSchema + fmt::Debug + 'stat
         None
     }
 
-    /// Reads the table that stands at `at`.
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<Self::Check, LabError>;
+    /// Reads the table.
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError>;
 }
 
 /// The table of a kind that judges answers.
@@ -42,20 +40,13 @@ pub(crate) trait FunctionTable:
 {
     /// The key of the table, which is the name of the kind.
     const NAME: &'static str;
-    /// The task that the kind needs, in words.
-    const TASK: &'static str;
+    /// The function whose answers it judges; none for a function of the lab's own.
+    const FUNCTION: Option<&'static str>;
     /// What the table becomes.
     type Check: FunctionCheck + 'static;
 
-    /// Whether the kind judges answers of `function`.
-    fn fits(function: &Function) -> bool;
-
-    /// Reads the table that stands at `at`.
-    fn read(
-        &self,
-        at: Range<usize>,
-        reading: &FunctionReading<'_>,
-    ) -> Result<Self::Check, LabError>;
+    /// Reads the table.
+    fn read(&self, reading: &FunctionReading<'_>) -> Result<Self::Check, LabError>;
 }
 
 /// What kinds need that look at how goals are reached.
@@ -117,7 +108,11 @@ impl KindTable {
 pub(crate) trait ReadMotion: fmt::Debug {
     fn name(&self) -> &'static str;
     fn lacks(&self, task: &MotionTask) -> Option<&'static str>;
-    fn read(&self, reading: &InTask<'_>) -> Result<Arc<dyn MotionCheck>, LabError>;
+    fn read(
+        &self,
+        report: Reporter<'_>,
+        of: InMotion<'_>,
+    ) -> Result<Arc<dyn MotionCheck>, LabError>;
 }
 
 impl<T: MotionTable> ReadMotion for Spanned<T> {
@@ -129,17 +124,29 @@ impl<T: MotionTable> ReadMotion for Spanned<T> {
         T::lacks(task)
     }
 
-    fn read(&self, reading: &InTask<'_>) -> Result<Arc<dyn MotionCheck>, LabError> {
-        Ok(Arc::new(self.get_ref().read(self.span(), reading)?))
+    fn read(
+        &self,
+        report: Reporter<'_>,
+        of: InMotion<'_>,
+    ) -> Result<Arc<dyn MotionCheck>, LabError> {
+        let at = self.span();
+        Ok(Arc::new(self.get_ref().read(&Reading {
+            report,
+            at,
+            of,
+        })?))
     }
 }
 
 /// A [`FunctionTable`] whose type is not known.
 pub(crate) trait ReadFunction: fmt::Debug {
     fn name(&self) -> &'static str;
-    fn task(&self) -> &'static str;
-    fn fits(&self, function: &Function) -> bool;
-    fn read(&self, reading: &FunctionReading<'_>) -> Result<Arc<dyn FunctionCheck>, LabError>;
+    fn function(&self) -> Option<&'static str>;
+    fn read(
+        &self,
+        report: Reporter<'_>,
+        of: &FunctionTask,
+    ) -> Result<Arc<dyn FunctionCheck>, LabError>;
 }
 
 impl<T: FunctionTable> ReadFunction for Spanned<T> {
@@ -147,16 +154,29 @@ impl<T: FunctionTable> ReadFunction for Spanned<T> {
         T::NAME
     }
 
-    fn task(&self) -> &'static str {
-        T::TASK
+    fn function(&self) -> Option<&'static str> {
+        T::FUNCTION
     }
 
-    fn fits(&self, function: &Function) -> bool {
-        T::fits(function)
+    fn read(
+        &self,
+        report: Reporter<'_>,
+        of: &FunctionTask,
+    ) -> Result<Arc<dyn FunctionCheck>, LabError> {
+        let at = self.span();
+        Ok(Arc::new(self.get_ref().read(&Reading {
+            report,
+            at,
+            of,
+        })?))
     }
+}
 
-    fn read(&self, reading: &FunctionReading<'_>) -> Result<Arc<dyn FunctionCheck>, LabError> {
-        Ok(Arc::new(self.get_ref().read(self.span(), reading)?))
+/// The task that a kind of function checks needs, in words.
+fn task_of(function: Option<&str>) -> String {
+    match function {
+        Some(name) => format!("a function task of `{name}`"),
+        None => "a function task of the lab's own, with `given` and `expected`".to_owned(),
     }
 }
 
@@ -166,7 +186,7 @@ pub(crate) struct CheckTable {
     /// Unique in its task.
     pub(crate) name: Spanned<String>,
     title: String,
-    points: NumberAt,
+    points: Spanned<f64>,
     needs: Vec<Spanned<String>>,
     hint: Option<String>,
     kinds: Vec<KindTable>,
@@ -230,109 +250,56 @@ impl<'de> Deserialize<'de> for CheckTable {
     }
 }
 
-/// What is wrong with the keys that every check has.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CheckProblem {
-    /// Points that nobody could earn, or too many.
-    #[error("check `{check}` must be worth more than 0 and at most 1000 points, got {points}")]
-    Points {
-        /// The check's name.
-        check: String,
-        /// The number as typed.
-        points: f64,
-    },
-    /// `needs` names what does not stand before the check.
-    #[error("no earlier check of this task is called `{needed}`")]
-    UnknownNeed {
-        /// The name as typed.
-        needed: String,
-        /// The checks before this one.
-        known: Vec<String>,
-    },
-    /// There is no table of a kind, or more than one.
-    #[error("check `{check}` must have exactly one kind")]
-    NotOneKind {
-        /// The check's name.
-        check: String,
-    },
-    /// The task has nothing of what the kind judges.
-    #[error("check `{check}` of kind `{kind}` needs {wanted}")]
-    Misfit {
-        /// The check's name.
-        check: String,
-        /// The kind.
-        kind: &'static str,
-        /// What the kind needs, in words.
-        wanted: &'static str,
-    },
-}
-
-impl Problem for CheckProblem {
-    fn code(&self) -> &'static str {
-        match self {
-            Self::Points { .. } => "lab::points",
-            Self::UnknownNeed { .. } => "lab::unknown_check",
-            Self::NotOneKind { .. } | Self::Misfit { .. } => "lab::check_kind",
-        }
-    }
-
-    fn label(&self) -> String {
-        match self {
-            Self::Points { .. } => "out of range",
-            Self::UnknownNeed { .. } => "must stand before this check",
-            Self::NotOneKind { .. } | Self::Misfit { .. } => "this check",
-        }
-        .to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        match self {
-            Self::Points { .. } => Some(
-                "points are earned, never taken away: write what full marks are worth".to_owned(),
-            ),
-            Self::UnknownNeed { needed, known } => {
-                let known = known.iter().map(String::as_str);
-                Some(suggest(needed, "earlier checks", known))
-            }
-            Self::NotOneKind { .. } => {
-                Some("add one table, such as [tasks.checks.pose-reached]".to_owned())
-            }
-            Self::Misfit { .. } => None,
-        }
+problems! {
+    /// What is wrong with the keys that every check has.
+    enum CheckProblem {
+        Points { check: String, points: f64 }:
+            "lab::points", "check `{check}` must be worth more than 0 and at most 1000 points, got {points}", "out of range",
+            "points are earned, never taken away: write what full marks are worth";
+        UnknownNeed { needed: String, known: Vec<String> }:
+            "lab::unknown_check", "no earlier check of this task is called `{needed}`", "must stand before this check",
+            near(needed, "earlier checks", known);
+        NotOneKind { check: String }:
+            "lab::check_kind", "check `{check}` must have exactly one kind", "this check",
+            "add one table, such as [tasks.checks.pose-reached]";
+        Misfit { check: String, kind: &'static str, wanted: String }:
+            "lab::check_kind", "check `{check}` of kind `{kind}` needs {wanted}", "this check";
     }
 }
 
-/// Reads the checks of a motion task, in order.
+/// Reads the checks of a motion task, in order; `of` is what they can name, without name and checks before.
 pub(crate) fn motion_checks(
     tables: &[Spanned<CheckTable>],
-    reading: &MotionReading<'_>,
+    report: Reporter<'_>,
+    of: InMotion<'_>,
 ) -> Result<Vec<Check<dyn MotionCheck>>, LabError> {
     let mut checks: Vec<Check<dyn MotionCheck>> = Vec::new();
     for table in tables {
         let table = table.get_ref();
-        let mut check = table.check(reading.report, &checks, |kind| {
-            let (name, wanted) = match kind {
-                KindTable::Motion(kind) => match kind.lacks(reading.motion) {
-                    None => {
-                        return kind.read(&InTask {
-                            reading,
-                            check: table.name.get_ref(),
-                            earlier: &checks,
-                        });
-                    }
-                    Some(lacks) => (kind.name(), lacks),
-                },
-                KindTable::Function(kind) => (kind.name(), kind.task()),
-            };
-            table.misfit(reading.report, name, wanted)
-        })?;
+        let kind = match table.kind(report)? {
+            KindTable::Motion(kind) => match kind.lacks(of.motion) {
+                None => kind,
+                Some(lacks) => return table.misfit(report, kind.name(), lacks.to_owned()),
+            },
+            KindTable::Function(kind) => {
+                return table.misfit(report, kind.name(), task_of(kind.function()));
+            }
+        };
+        let needs = table.needs(report, checks.iter().map(|check| check.name.as_str()))?;
+        let of = InMotion {
+            check: table.name.get_ref(),
+            earlier: &checks,
+            ..of
+        };
+        let kind = kind.read(report, of)?;
+        let mut criterion = table.criterion(needs, kind.bounds());
         // what earned nothing undisturbed is not tried again
-        if let Some(sweep) = check.kind.sweep()
-            && !check.needs.contains(&sweep.check)
+        if let Some(sweep) = kind.sweep()
+            && !criterion.needs.contains(&sweep.check)
         {
-            check.needs.push(sweep.check);
+            criterion.needs.push(sweep.check);
         }
-        checks.push(check);
+        checks.push(Check { criterion, kind });
     }
     Ok(checks)
 }
@@ -340,72 +307,79 @@ pub(crate) fn motion_checks(
 /// Reads the checks of a function task, in order.
 pub(crate) fn function_checks(
     tables: &[Spanned<CheckTable>],
-    reading: &FunctionReading<'_>,
+    report: Reporter<'_>,
+    task: &FunctionTask,
 ) -> Result<Vec<Check<dyn FunctionCheck>>, LabError> {
-    let mut checks = Vec::new();
+    let mut checks: Vec<Check<dyn FunctionCheck>> = Vec::new();
     for table in tables {
         let table = table.get_ref();
-        let check = table.check(reading.report, &checks, |kind| {
-            let (name, wanted) = match kind {
-                KindTable::Function(kind) if kind.fits(&reading.function.function) => {
-                    return kind.read(reading);
-                }
-                KindTable::Function(kind) => (kind.name(), kind.task()),
-                KindTable::Motion(kind) => (kind.name(), "a motion task"),
-            };
-            table.misfit(reading.report, name, wanted)
-        })?;
-        checks.push(check);
+        let kind = match table.kind(report)? {
+            KindTable::Function(kind) if kind.function() == task.function.known_name() => kind,
+            KindTable::Function(kind) => {
+                return table.misfit(report, kind.name(), task_of(kind.function()));
+            }
+            KindTable::Motion(kind) => {
+                return table.misfit(report, kind.name(), "a motion task".to_owned());
+            }
+        };
+        let needs = table.needs(report, checks.iter().map(|check| check.name.as_str()))?;
+        let kind = kind.read(report, task)?;
+        let criterion = table.criterion(needs, kind.bounds());
+        checks.push(Check { criterion, kind });
     }
     Ok(checks)
 }
 
 impl CheckTable {
-    /// Reads the keys that every check has, and its one kind with `read`.
-    fn check<K: ?Sized>(
-        &self,
-        report: Reporter<'_>,
-        earlier: &[Check<K>],
-        read: impl FnOnce(&KindTable) -> Result<Arc<K>, LabError>,
-    ) -> Result<Check<K>, LabError> {
-        let name = self.name.get_ref();
+    /// Its one kind; its points are in range.
+    fn kind(&self, report: Reporter<'_>) -> Result<&KindTable, LabError> {
+        let check = self.name.get_ref().clone();
         let points = *self.points.get_ref();
         if !(points > 0.0 && points <= 1000.0) {
-            let check = name.clone();
-            let problem = CheckProblem::Points { check, points };
-            return report.refuse(self.points.span(), problem);
+            return report.refuse(self.points.span(), CheckProblem::Points { check, points });
         }
-        let mut needs = Vec::new();
-        for needed in &self.needs {
-            let is_needed = |check: &Check<K>| check.name == *needed.get_ref();
-            let Some(index) = earlier.iter().position(is_needed) else {
-                let problem = CheckProblem::UnknownNeed {
-                    needed: needed.get_ref().clone(),
-                    known: earlier.iter().map(|check| check.name.clone()).collect(),
-                };
-                return report.refuse(needed.span(), problem);
-            };
-            needs.push(index);
+        match &self.kinds[..] {
+            [kind] => Ok(kind),
+            _ => report.refuse(self.name.span(), CheckProblem::NotOneKind { check }),
         }
-        let [kind] = &self.kinds[..] else {
-            let check = name.clone();
-            return report.refuse(self.name.span(), CheckProblem::NotOneKind { check });
+    }
+
+    /// The checks that it needs, by index among the `earlier` ones.
+    fn needs<'c>(
+        &self,
+        report: Reporter<'_>,
+        earlier: impl Iterator<Item = &'c str>,
+    ) -> Result<Vec<usize>, LabError> {
+        let known: Vec<String> = earlier.map(str::to_owned).collect();
+        let index = |typed: &Spanned<String>| {
+            let needed = typed.get_ref().clone();
+            match known.iter().position(|check| *check == needed) {
+                Some(index) => Ok(index),
+                None => {
+                    let known = known.clone();
+                    report.refuse(typed.span(), CheckProblem::UnknownNeed { needed, known })
+                }
+            }
         };
-        Ok(Check {
-            name: name.clone(),
+        self.needs.iter().map(index).collect()
+    }
+
+    fn criterion(&self, needs: Vec<usize>, bounds: [String; 2]) -> Criterion {
+        Criterion {
+            name: self.name.get_ref().clone(),
             title: self.title.clone(),
-            points,
+            points: *self.points.get_ref(),
             needs,
             hint: self.hint.clone(),
-            kind: read(kind)?,
-        })
+            bounds,
+        }
     }
 
     fn misfit<T>(
         &self,
         report: Reporter<'_>,
         kind: &'static str,
-        wanted: &'static str,
+        wanted: String,
     ) -> Result<T, LabError> {
         let check = self.name.get_ref().clone();
         let problem = CheckProblem::Misfit {

@@ -1,18 +1,14 @@
 //! The keys that checks of a step response share: a joint and its signal, where it should go, and the linear loop drawn beside it.
 
-use std::ops::Range;
-
 use kinemark_sim::control::LinearStep;
 use kinemark_sim::control::linear_step::Fed;
-use kinemark_sim::text::Problem;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::prediction::PredictionTable;
-use super::reading::{MotionReading, NumberAt};
+use super::reading::{At, MotionReading};
 use crate::task::joint_units::JointUnits;
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, problems};
 
 /// The step response of a joint that a check looks at.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,17 +56,17 @@ pub(super) enum OfName {
 
 /// The shared keys, of one table.
 pub(super) struct StepKeys<'t> {
-    pub(super) joint: &'t Spanned<String>,
+    pub(super) joint: &'t At<String>,
     pub(super) of: OfName,
-    pub(super) target_rad: Option<&'t NumberAt>,
-    pub(super) target_rad_s: Option<&'t NumberAt>,
+    pub(super) target_rad: Option<&'t At<f64>>,
+    pub(super) target_rad_s: Option<&'t At<f64>>,
     /// Length of the part at the end that counts.
-    pub(super) last_s: Option<&'t NumberAt>,
+    pub(super) last_s: Option<&'t At<f64>>,
     /// The key of that, in backquotes.
     pub(super) last_key: &'static str,
     /// Length of that part where the lab does not say \[s\].
     pub(super) absent_s: f64,
-    pub(super) prediction: Option<&'t Spanned<PredictionTable>>,
+    pub(super) prediction: Option<&'t At<PredictionTable>>,
 }
 
 /// A `Table` with the keys of every check of a step response, the one of its last part under `$last` with its default, and with its
@@ -85,23 +81,18 @@ macro_rules! step_table {
         #[serde(deny_unknown_fields)]
         pub(crate) struct Table {
             /// A joint that moves.
-            #[schemars(with = "String")]
-            joint: Spanned<String>,
+            joint: At<String>,
             /// The signal: `position` or `velocity`; `position` where it is left out.
             #[serde(default)]
             of: $crate::check::step_keys::OfName,
             /// The setpoint of a `position` \[rad, or m of a prismatic joint\]; needed with a `prediction`.
-            #[schemars(with = "Option<f64>")]
-            target_rad: Option<NumberAt>,
+            target_rad: Option<At<f64>>,
             /// The setpoint of a `velocity` \[rad/s, or m/s of a prismatic joint\]; needed with a `prediction`.
-            #[schemars(with = "Option<f64>")]
-            target_rad_s: Option<NumberAt>,
+            target_rad_s: Option<At<f64>>,
             $(#[$last_doc])*
-            #[schemars(with = "Option<f64>")]
-            $last: Option<NumberAt>,
+            $last: Option<At<f64>>,
             /// The linear loop that is drawn beside the run.
-            #[schemars(with = "Option<crate::check::prediction::PredictionTable>")]
-            prediction: Option<Spanned<$crate::check::prediction::PredictionTable>>,
+            prediction: Option<At<$crate::check::prediction::PredictionTable>>,
             $($(#[$own_doc])* $own: $type,)*
         }
 
@@ -123,54 +114,21 @@ macro_rules! step_table {
 }
 pub(super) use step_table;
 
-/// What is wrong with the keys of a step response.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-enum StepProblem {
-    #[error("{what} is a share of the step, above 0 and below 1, got {value}")]
-    Share {
-        what: &'static str,
-        value: f64,
-        absent: f64,
-    },
-    #[error("the target has the unit of another signal than `of` names")]
-    TargetOfOther { wanted: &'static str },
-    #[error("a prediction needs to know the step")]
-    NoTarget { wanted: &'static str },
-    #[error("{what} is {length_s} s, and the run has {run_s} s in all")]
-    NotShorterThanRun {
-        what: &'static str,
-        length_s: f64,
-        run_s: f64,
-    },
-}
-
-impl Problem for StepProblem {
-    fn code(&self) -> &'static str {
-        match self {
-            Self::Share { .. } | Self::TargetOfOther { .. } | Self::NoTarget { .. } => "lab::step",
-            Self::NotShorterThanRun { .. } => "lab::periods",
-        }
-    }
-
-    fn label(&self) -> String {
-        match self {
-            Self::Share { .. } => "this share",
-            Self::TargetOfOther { .. } => "of the wrong unit",
-            Self::NoTarget { .. } => "the target is missing",
-            Self::NotShorterThanRun { .. } => "not shorter than the run",
-        }
-        .to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some(match self {
-            Self::Share { absent, .. } => format!("left out it is {absent}"),
-            Self::TargetOfOther { wanted } => format!("write `{wanted}`, or change `of`"),
-            Self::NoTarget { wanted } => format!("add it, such as `{wanted} = 1.0`"),
-            Self::NotShorterThanRun { what, .. } => {
-                format!("make {what} shorter, or the run longer")
-            }
-        })
+problems! {
+    /// What is wrong with the keys of a step response.
+    enum StepProblem {
+        Share { what: &'static str, value: f64, absent: f64 }:
+            "lab::step", "{what} is a share of the step, above 0 and below 1, got {value}", "this share",
+            format!("left out it is {absent}");
+        TargetOfOther { wanted: &'static str }:
+            "lab::step", "the target has the unit of another signal than `of` names", "of the wrong unit",
+            format!("write `{wanted}`, or change `of`");
+        NoTarget { wanted: &'static str }:
+            "lab::step", "a prediction needs to know the step", "the target is missing",
+            format!("add it, such as `{wanted} = 1.0`");
+        NotShorterThanRun { what: &'static str, length_s: f64, run_s: f64 }:
+            "lab::periods", "{what} is {length_s} s, and the run has {run_s} s in all", "not shorter than the run",
+            format!("make {what} shorter, or the run longer");
     }
 }
 
@@ -178,7 +136,7 @@ impl MotionReading<'_> {
     /// A share of the step, above 0 and below 1; `absent` where none is typed.
     pub(super) fn share_of_step(
         &self,
-        typed: Option<&NumberAt>,
+        typed: Option<&At<f64>>,
         what: &'static str,
         absent: f64,
     ) -> Result<f64, LabError> {
@@ -194,15 +152,11 @@ impl MotionReading<'_> {
             value,
             absent,
         };
-        self.report.refuse(number.span(), problem)
+        self.refuse_at(number, problem)
     }
 
-    /// What a check at `at` looks at.
-    pub(super) fn step_response(
-        &self,
-        keys: &StepKeys<'_>,
-        at: Range<usize>,
-    ) -> Result<StepResponse, LabError> {
+    /// What a check looks at.
+    pub(super) fn step_response(&self, keys: &StepKeys<'_>) -> Result<StepResponse, LabError> {
         let joint = self.joint(keys.joint)?;
         let position = (keys.target_rad, "target_rad");
         let velocity = (keys.target_rad_s, "target_rad_s");
@@ -212,25 +166,25 @@ impl MotionReading<'_> {
         };
         if let Some(typed) = foreign {
             let problem = StepProblem::TargetOfOther { wanted };
-            return self.report.refuse(typed.span(), problem);
+            return self.refuse_at(typed, problem);
         }
         let prediction = keys.prediction.map(|table| self.prediction(table, of));
         let prediction = prediction.transpose()?;
         if prediction.is_some() && target.is_none() {
-            return self.report.refuse(at, StepProblem::NoTarget { wanted });
+            return self.refuse(StepProblem::NoTarget { wanted });
         }
         Ok(StepResponse {
             joint,
             units: JointUnits::of(self.robot, joint),
             of,
             target: target.map(|number| *number.get_ref()),
-            final_ticks: self.final_ticks(keys, at)?,
+            final_ticks: self.final_ticks(keys)?,
             prediction,
         })
     }
 
     /// Ticks of the part at the end that counts.
-    fn final_ticks(&self, keys: &StepKeys<'_>, at: Range<usize>) -> Result<usize, LabError> {
+    fn final_ticks(&self, keys: &StepKeys<'_>) -> Result<usize, LabError> {
         let length_s = match keys.last_s {
             Some(number) => self.report.positive(number, keys.last_key)?,
             None => keys.absent_s,
@@ -245,7 +199,9 @@ impl MotionReading<'_> {
             length_s,
             run_s: periods.time_s(self.motion.ticks),
         };
-        let at = keys.last_s.map_or(at, Spanned::span);
-        self.report.refuse(at, problem)
+        match keys.last_s {
+            Some(typed) => self.refuse_at(typed, problem),
+            None => self.refuse(problem),
+        }
     }
 }

@@ -43,15 +43,6 @@ pub(super) struct Loss {
     pub(super) next_step: String,
 }
 
-/// What a check measures of a step response.
-pub(super) struct Measured {
-    pub(super) quantity: String,
-    /// Infinite where there is none.
-    pub(super) value: f64,
-    pub(super) unit: &'static str,
-    pub(super) band: Band,
-}
-
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
@@ -97,7 +88,7 @@ impl<'a> Response<'a> {
     }
 
     /// A value of the signal with its unit.
-    pub(super) fn told(&self, value: f64) -> String {
+    pub(super) fn with_unit(&self, value: f64) -> String {
         format!("{} {}", trimmed(value, 4), self.asked.unit())
     }
 
@@ -120,6 +111,26 @@ impl<'a> Response<'a> {
         }
     }
 
+    /// Why a time of `value_s`, which ends at `tick`, loses points in `band`.
+    pub(super) fn late(
+        &self,
+        message: String,
+        (value_s, tick): (f64, f64),
+        band: Band,
+        next_step: &str,
+    ) -> Loss {
+        let tick = (tick.max(0.0) as usize).min(self.values.len().saturating_sub(1));
+        Loss {
+            evidence: Evidence {
+                value: value_s.is_finite().then_some(value_s),
+                limit: Some(band.full),
+                unit: "s".to_owned(),
+                ..self.evidence(message, tick)
+            },
+            next_step: next_step.to_owned(),
+        }
+    }
+
     /// Why there is no step response to judge, if there is none: the joint hardly moved, or never settles.
     pub(super) fn fault(&self, tolerance: f64) -> Option<Loss> {
         self.stayed().or_else(|| self.unsettled(tolerance))
@@ -136,20 +147,20 @@ impl<'a> Response<'a> {
             return None;
         }
         let asked = self.asked.target.map_or_else(String::new, |target| {
-            format!("; {} was asked for", self.told(target))
+            format!("; {} was asked for", self.with_unit(target))
         });
         let message = if self.step().abs() < LEAST_STEP {
             format!(
                 "{} hardly moved: it ends at {}{asked}",
                 self.what(),
-                self.told(self.end)
+                self.with_unit(self.end)
             )
         } else {
             format!(
                 "{} did not go to its target: it starts at {} and ends at {}{asked}",
                 self.what(),
-                self.told(self.start),
-                self.told(self.end)
+                self.with_unit(self.start),
+                self.with_unit(self.end)
             )
         };
         let last = self.values.len().saturating_sub(1);
@@ -182,8 +193,8 @@ impl<'a> Response<'a> {
         let mut message = format!(
             "{} never settles: in the last {last_s} it still goes from {} to {}",
             self.what(),
-            self.told(low),
-            self.told(high),
+            self.with_unit(low),
+            self.with_unit(high),
         );
         let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
         // a swing passes the middle twice
@@ -191,15 +202,16 @@ impl<'a> Response<'a> {
             message = format!(
                 "{} never settles: in the last {last_s} it still swings between {} and {}, about {} times a second",
                 self.what(),
-                self.told(low),
-                self.told(high),
+                self.with_unit(low),
+                self.with_unit(high),
                 trimmed(0.5 * f64::from(turns) / length_s, 0)
             );
             next_step =
                 "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
                     .to_owned();
         }
-        if let Some((why, help)) = alternation::told(self.facts, self.asked.joint, self.final_tick)
+        if let Some((why, help)) =
+            alternation::explained(self.facts, self.asked.joint, self.final_tick)
         {
             message = format!("{message}; {why}");
             next_step = help;
@@ -210,20 +222,16 @@ impl<'a> Response<'a> {
         })
     }
 
-    /// What the linear loop would have done, from the start to the target.
-    pub(super) fn predicted(&self) -> Option<Vec<f64>> {
+    /// What the linear loop would have done, from the start to the target, and where it ends over the same final part.
+    pub(super) fn predicted(&self) -> Option<(Vec<f64>, f64)> {
         let (prediction, target) = (self.asked.prediction?, self.asked.target?);
         let step_s = self.facts.motion.periods.step_s;
         let mut values = prediction.response(step_s, self.values.len())?;
         for value in &mut values {
             *value = self.start + (target - self.start) * *value;
         }
-        Some(values)
-    }
-
-    /// Where the prediction ends, over the same final part.
-    pub(super) fn predicted_end(&self, predicted: &[f64]) -> f64 {
-        mean(&predicted[self.final_tick..])
+        let end = mean(&values[self.final_tick..]);
+        Some((values, end))
     }
 
     /// The curve of the run, with what is drawn beside it.
@@ -242,7 +250,7 @@ impl<'a> Response<'a> {
         Curve {
             marks,
             step: Some(StepBackdrop {
-                prediction: self.predicted(),
+                prediction: self.predicted().map(|(values, _)| values),
                 target: self.asked.target,
                 band,
             }),
@@ -250,20 +258,13 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// The finding of a check: where there is no step response it insists on saying why, else `short` says why points are lost.
+    /// What a check found where its `finding` holds the measured value: where there is no step response it insists on saying why, else
+    /// `short` says why points are lost.
     pub(super) fn finding(
-        measured: Measured,
+        finding: Finding,
         fault: Option<Loss>,
         short: impl FnOnce() -> Loss,
-        drawn: Curve,
     ) -> Finding {
-        let Measured {
-            quantity,
-            value,
-            unit,
-            band,
-        } = measured;
-        let finding = Finding::against(band, value, unit, quantity).drawn(drawn);
         let insists = fault.is_some();
         let loss = fault.or_else(|| finding.is_lost().then(short));
         let Some(loss) = loss else {

@@ -4,7 +4,7 @@ use kinemark_sim::model::robot::Robot;
 
 use crate::judge::divergence;
 use crate::lab::Lab;
-use crate::lab::model::TaskWork;
+use crate::lab::TaskWork;
 use crate::record::comparison::{
     CheckComparison, Comparison, Ended, FORMAT, FirstDifference, MotionComparison, Pair,
     SideRecord, TaskComparison, comparable, ended, runs,

@@ -5,7 +5,7 @@ use kinemark_sim::text::Dimension;
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
 use crate::attempt::measure::as_slice;
 use crate::check::function_cases::written;
-use crate::lab::model::Lab;
+use crate::lab::Lab;
 use crate::record::grade::{CaseGrade, HiddenClass};
 use crate::record::quantity::{list, lists, trimmed};
 use crate::task::model::{Band, Given};

@@ -5,8 +5,8 @@ use kinemark_sim::text::Source;
 use super::opening::opening;
 use crate::attempt::ended::record_of;
 use crate::attempt::function;
-use crate::lab::model::TaskWork;
-use crate::lab::model::{Lab, Task};
+use crate::lab::TaskWork;
+use crate::lab::{Lab, Task};
 use crate::submission::answer::named_entries;
 use crate::task::model::{Case, Function, FunctionTask, Given};
 

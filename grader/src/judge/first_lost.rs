@@ -1,29 +1,24 @@
 //! Where a check of a motion task began to lose points: the moment at which the curve it judged left the band of full points, or the
-//! earliest moment its evidence tells.
+//! earliest moment of its evidence.
 
 use kinemark_sim::ticks::Periods;
 
-use crate::check::FirstLoss;
-use crate::record::grade::{Evidence, Instant};
+use crate::check::{Finding, Statistic};
+use crate::record::grade::Instant;
 use crate::record::graded::Curve;
 
 /// Where a check that lost points in the visible run began to lose them, if its curve or its evidence says when.
-pub(super) fn first_lost(
-    kind: FirstLoss,
-    evidence: &[Evidence],
-    curve: Option<&Curve>,
-    periods: &Periods,
-) -> Option<Instant> {
-    let told = || evidence.iter().filter_map(|fact| fact.time_s);
-    let left = curve.and_then(|curve| match kind {
-        FirstLoss::Greatest => first_beyond(curve),
-        FirstLoss::Mean => told()
+pub(super) fn first_lost(finding: &Finding, periods: &Periods) -> Option<Instant> {
+    let evident = || finding.evidence.iter().filter_map(|fact| fact.time_s);
+    let left = finding.curve.as_ref().zip(finding.statistic);
+    let left = left.and_then(|(curve, statistic)| match statistic {
+        Statistic::Greatest => first_beyond(curve),
+        Statistic::RootMeanSquare => evident()
             .filter_map(|time_s| went_beyond(curve, time_s))
             .min_by(f64::total_cmp),
-        FirstLoss::SoFar => went_beyond(curve, f64::INFINITY),
-        FirstLoss::Evidence => None,
+        Statistic::SoFar => went_beyond(curve, f64::INFINITY),
     });
-    let time_s = left.or_else(|| told().min_by(f64::total_cmp))?;
+    let time_s = left.or_else(|| evident().min_by(f64::total_cmp))?;
     // times of curves and of evidence are those of ticks
     let tick = (time_s / periods.step_s).round() as u64;
     Some(Instant {

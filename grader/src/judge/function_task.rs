@@ -11,7 +11,7 @@ use super::judged::{Judged, all_full, judge};
 use crate::attempt::answers::{Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
 use crate::check::{self, Check, FunctionCheck};
-use crate::lab::model::Task;
+use crate::lab::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{CheckGrade, Diagnosis, Digests, Stopped, TaskGrade, TaskKind};
 use crate::record::quantity::sum_of_points;
@@ -40,7 +40,7 @@ impl Grader<'_> {
         let facts = &attempt.recorded.facts;
         let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
         let judged = judge(checks, can_be_judged, |check| {
-            check::judge_function(check, &work.function, facts)
+            check.kind.judge(&work.function, facts)
         });
         if !all_full(&judged) {
             verdict = verdict.min(Verdict::Missed);

@@ -10,9 +10,9 @@ use super::opening::opening;
 use super::staff_faults::staff_fault;
 use crate::attempt::Ended;
 use crate::lab::Staff;
-use crate::lab::model::TaskWork;
-use crate::lab::model::{Lab, Task};
+use crate::lab::TaskWork;
 use crate::lab::staff::Mutant;
+use crate::lab::{Lab, Task};
 use crate::record::grade::{
     FORMAT, Grade, GradeMode, ParameterValue, Part, TaskGrade, VariantRecord,
 };

@@ -7,7 +7,7 @@ use super::Interrupted;
 use super::judged::Judged;
 use super::motion_judge::MotionJudge;
 use crate::attempt::Disclosure;
-use crate::lab::model::TaskWork;
+use crate::lab::TaskWork;
 use crate::lab::staff::HiddenRun;
 use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped};
 use crate::record::verdict::Verdict;
@@ -153,13 +153,8 @@ pub(super) fn of_control(message: String, class: Option<String>) -> Evidence {
     Evidence {
         message,
         signal: "control".to_owned(),
-        tick: None,
-        time_s: None,
-        run: None,
         case: class,
-        value: None,
-        limit: None,
-        unit: String::new(),
+        ..Evidence::default()
     }
 }
 

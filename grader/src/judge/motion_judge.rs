@@ -9,9 +9,8 @@ use super::opening::opening;
 use super::robustness_sweep::{self, Undecided};
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
-use crate::check::stay::{self, Stay};
-use crate::check::{self, Check, Climb, MotionCheck, MotionFacts};
-use crate::lab::model::{Lab, Task};
+use crate::check::{self, Check, Dwell, MotionCheck, MotionFacts, SweepRuns};
+use crate::lab::{Lab, Task};
 use crate::record::grade::Stopped;
 use crate::record::graded::TcpPath;
 use crate::record::names::Names;
@@ -37,10 +36,10 @@ pub(super) struct MotionJudge<'a> {
 pub(super) struct JudgedRun {
     /// One per check of the task.
     pub(super) checks: Vec<Judged>,
-    /// The stays at the goals.
-    pub(super) stays: Vec<Stay>,
+    /// The dwells at the goals.
+    pub(super) dwells: Vec<Dwell>,
     /// The runs of robustness checks.
-    pub(super) sweeps: Vec<Climb>,
+    pub(super) sweeps: Vec<SweepRuns>,
     /// What the run alone comes to.
     pub(super) verdict: Verdict,
     /// How it ended, where that was early or nothing could be decided.
@@ -90,10 +89,10 @@ impl<'a> MotionJudge<'a> {
             names: self.names(),
             motion: self.work,
             trace,
-            stays: stay::best_stays(trace, &self.work.goals, self.pose_band),
+            dwells: check::best_dwells(trace, &self.work.goals, self.pose_band),
             pose_band: self.pose_band,
             reference: self.reference,
-            climbs: Vec::new(),
+            sweeps: Vec::new(),
         }
     }
 
@@ -112,7 +111,7 @@ impl<'a> MotionJudge<'a> {
         let mut ended = attempt.ended.clone();
         if ended.is_none() {
             match robustness_sweep::sweeps(self, &facts, host) {
-                Ok(sweeps) => facts.climbs = sweeps,
+                Ok(sweeps) => facts.sweeps = sweeps,
                 // a level that this machine could not run decides nothing, nor does the grade without it
                 Err(Undecided(stop)) => ended = Some(Ended::stopped_by(stop, 0)),
             }
@@ -128,8 +127,8 @@ impl<'a> MotionJudge<'a> {
         let source = &self.opening.source;
         Ok(JudgedRun {
             checks,
-            stays: facts.stays,
-            sweeps: facts.climbs,
+            dwells: facts.dwells,
+            sweeps: facts.sweeps,
             verdict,
             stopped: ended.map(|ended| ended.record(source, disclosure)),
         })

@@ -5,8 +5,7 @@ use kinemark_sim::trace::{SecondDigest, Trace};
 use super::grader::MOST_LOG_LINES;
 use super::motion_judge::MotionJudge;
 use crate::attempt::Attempt;
-use crate::check::stay::Stay;
-use crate::check::{self, Check, Climb, MotionCheck};
+use crate::check::{self, Check, Dwell, MotionCheck, SweepRuns};
 use crate::record::grade::{
     CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LogEntry, RungDigest, SecondDigests,
     Stopped, TaskGrade, TaskKind,
@@ -64,7 +63,7 @@ impl MotionResult {
         self,
         judge: &MotionJudge<'_>,
         attempt: Attempt<Trace>,
-        stays: &[Stay],
+        dwells: &[Dwell],
         curves: Vec<Curve>,
     ) -> TaskRun {
         let (lab, task, work) = (judge.lab, judge.task, judge.work);
@@ -85,7 +84,7 @@ impl MotionResult {
             seen_from: lab.frame.clone(),
             mode: work.servo.mode,
             effort_limits: gains.map(|gains| gains.effort_limit).collect(),
-            goals: goals(judge, stays),
+            goals: goals(judge, dwells),
             reference_tcp: judge.reference.cloned(),
             paths: paths.collect(),
             curves,
@@ -97,8 +96,8 @@ impl MotionResult {
     }
 }
 
-/// The goals with the stays that were judged.
-fn goals(judge: &MotionJudge<'_>, stays: &[Stay]) -> Vec<Goal> {
+/// The goals with the dwells that were judged.
+fn goals(judge: &MotionJudge<'_>, dwells: &[Dwell]) -> Vec<Goal> {
     let band = judge.pose_band;
     let goals = judge.work.goals.iter().enumerate();
     let goals = goals.map(|(i, goal)| Goal {
@@ -106,9 +105,9 @@ fn goals(judge: &MotionJudge<'_>, stays: &[Stay]) -> Vec<Goal> {
         dwell_s: judge.work.periods.time_s(goal.dwell_ticks),
         full_m: band.full,
         zero_m: band.zero,
-        stay: stays
+        stay: dwells
             .get(i)
-            .map(|stay| (stay.first as u64, stay.last as u64)),
+            .map(|dwell| (dwell.first as u64, dwell.last as u64)),
     });
     goals.collect()
 }
@@ -131,14 +130,17 @@ pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<Sec
 }
 
 /// Identities of the runs of all levels of robustness checks, in the lab's order.
-pub(super) fn rung_digests(checks: &[Check<dyn MotionCheck>], sweeps: &[Climb]) -> Vec<RungDigest> {
+pub(super) fn rung_digests(
+    checks: &[Check<dyn MotionCheck>],
+    sweeps: &[SweepRuns],
+) -> Vec<RungDigest> {
     let mut digests = Vec::new();
     for sweep in sweeps {
         let check = checks.iter().find(|check| check.name == sweep.check);
         let Some(asked) = check.and_then(|check| check.kind.sweep()) else {
             continue;
         };
-        for (level, facts) in asked.rungs.iter().zip(&sweep.rungs) {
+        for (level, facts) in asked.levels.iter().zip(&sweep.levels) {
             digests.push(RungDigest {
                 check: sweep.check.clone(),
                 rung: level.name.clone(),

@@ -16,7 +16,7 @@ use super::motion_record::{MotionResult, rung_digests, second_digests};
 use crate::attempt::motion::Session;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck};
-use crate::lab::model::Task;
+use crate::lab::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{Diagnosis, Digests, Divergence, Instant, Outcome, TaskGrade};
 use crate::record::graded::{Curve, TaskRun, TcpPath};
@@ -80,7 +80,7 @@ impl Grader<'_> {
             divergence: differs,
         };
         let grade = result.grade(&judge, &attempt);
-        let run = result.run(&judge, attempt, &visible.stays, curves(visible.checks));
+        let run = result.run(&judge, attempt, &visible.dwells, curves(visible.checks));
         Ok((grade, run))
     }
 
@@ -216,17 +216,9 @@ impl Grader<'_> {
 
 /// Where each check began to lose points in the visible run.
 fn first_losses(judge: &MotionJudge<'_>, judged: &[Judged]) -> Vec<Option<Instant>> {
-    let checks = judge.checks.iter().zip(judged);
-    let losses = checks.map(|(check, judged)| {
-        let finding = judged.loss()?;
-        let curve = finding.curve.as_ref();
-        first_lost(
-            check.kind.first_loss(),
-            &finding.evidence,
-            curve,
-            &judge.work.periods,
-        )
-    });
+    let losses = judged
+        .iter()
+        .map(|judged| first_lost(judged.loss()?, &judge.work.periods));
     losses.collect()
 }
 

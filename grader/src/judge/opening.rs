@@ -5,8 +5,8 @@ use kinemark_sim::text::Source;
 
 use crate::attempt::function;
 use crate::attempt::motion;
-use crate::lab::model::TaskWork;
-use crate::lab::model::{Lab, Task};
+use crate::lab::TaskWork;
+use crate::lab::{Lab, Task};
 use crate::submission::controller::{Granted, Opening};
 use crate::task::mesh_file::MeshFile;
 use crate::task::model::{Function, FunctionTask};

@@ -2,7 +2,7 @@
 
 use crate::attempt::motion;
 use crate::judge::opening;
-use crate::lab::model::TaskWork;
+use crate::lab::TaskWork;
 use crate::lab::{Lab, Staff};
 use crate::record::graded::GradedRun;
 use crate::submission::host::InProcess;

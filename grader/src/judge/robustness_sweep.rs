@@ -7,8 +7,8 @@ use kinemark_sim::trace::Trace;
 use super::motion_judge::MotionJudge;
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
-use crate::check::robustness::{Rung, RungEnd, RungFacts};
-use crate::check::{self, Check, Climb, MotionCheck, MotionFacts};
+use crate::check::robustness::{EarlyEnd, LevelOutcome};
+use crate::check::{self, Check, Level, MotionCheck, MotionFacts, SweepRuns};
 use crate::submission::controller::Stop;
 use crate::submission::host::Host;
 use crate::task::workcell::Workcell;
@@ -25,7 +25,7 @@ pub(super) fn sweeps(
     judge: &MotionJudge<'_>,
     undisturbed: &MotionFacts<'_>,
     host: &mut dyn Host,
-) -> Result<Vec<Climb>, Undecided> {
+) -> Result<Vec<SweepRuns>, Undecided> {
     let mut sweeps = Vec::new();
     for check in judge.checks {
         let Some(sweep) = check.kind.sweep() else {
@@ -35,22 +35,21 @@ pub(super) fn sweeps(
         let before = check::judge_motion(repeated, undisturbed);
         let mut levels = Vec::new();
         if before.score > 0.0 {
-            for level in &sweep.rungs {
+            for level in &sweep.levels {
                 let attempt = attempt(judge, level, host);
                 levels.push(judged(judge, repeated, &attempt)?);
             }
         }
-        sweeps.push(Climb {
+        sweeps.push(SweepRuns {
             check: check.name.clone(),
-            repeated: repeated.title.clone(),
-            rungs: levels,
+            levels,
         });
     }
     Ok(sweeps)
 }
 
 /// Runs the task under one level of disturbance.
-fn attempt(judge: &MotionJudge<'_>, level: &Rung, host: &mut dyn Host) -> Attempt<Trace> {
+fn attempt(judge: &MotionJudge<'_>, level: &Level, host: &mut dyn Host) -> Attempt<Trace> {
     let lab = judge.lab;
     let mut robot = lab.robot.clone();
     if level.payload_kg > 0.0 {
@@ -86,18 +85,18 @@ fn judged(
     judge: &MotionJudge<'_>,
     repeated: &Check<dyn MotionCheck>,
     attempt: &Attempt<Trace>,
-) -> Result<RungFacts, Undecided> {
+) -> Result<LevelOutcome, Undecided> {
     let outcome = match &attempt.ended {
         None => Ok(check::judge_motion(
             repeated,
             &judge.facts(&attempt.recorded),
         )),
-        Some(ended) => Err(RungEnd {
+        Some(ended) => Err(EarlyEnd {
             message: end_message(judge, ended)?,
             tick: ended.at,
         }),
     };
-    Ok(RungFacts {
+    Ok(LevelOutcome {
         outcome,
         digest: attempt.recorded.digest().all.to_hex().to_string(),
     })

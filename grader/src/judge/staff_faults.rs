@@ -5,7 +5,7 @@ use std::ops::Range;
 use kinemark_sim::text::Source;
 
 use crate::attempt::ended::record_of;
-use crate::lab::model::Task;
+use crate::lab::Task;
 use crate::record::staff_fault::{StaffFault, StaffProblem, StaffSubmission};
 use crate::submission::controller::Stop;
 

@@ -119,14 +119,13 @@ fn table(lab: &Lab) -> String {
     let mut total = 0.0;
     for task in &lab.tasks {
         let checks = task.checks();
-        let titles: Vec<&str> = checks.iter().map(|check| check.title).collect();
         for check in &checks {
             total += check.points;
-            let [full, zero] = check.kind.bounds(&lab.robot, &titles);
+            let [full, zero] = &check.bounds;
             let needs: Vec<String> = check
                 .needs
                 .iter()
-                .map(|&need| format!("\"{}\"", titles[need]))
+                .map(|&need| format!("\"{}\"", checks[need].title))
                 .collect();
             let note = if needs.is_empty() {
                 String::new()

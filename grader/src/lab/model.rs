@@ -7,15 +7,13 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimensions;
 use kinemark_sim::text::Source;
 
-use super::mesh_file::MeshFile;
-use super::scene::LabScene;
 use super::variant::{Variant, VariantRule};
-use crate::check::{AnyCheck, Check, FunctionCheck, MotionCheck};
+use crate::check::{Check, Criterion, FunctionCheck, MotionCheck};
 use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
-pub use crate::task::model::{
-    Band, Case, Function, FunctionTask, Given, MotionGoal, MotionTask, Rows,
-};
+use crate::task::mesh_file::MeshFile;
+use crate::task::model::{FunctionTask, MotionTask};
+use crate::task::scene::LabScene;
 use crate::task::workcell::Workcell;
 
 /// A lab: ordered tasks on one robot.
@@ -95,11 +93,21 @@ pub enum TaskWork {
 
 impl Task {
     /// Its checks, in order, whatever they judge.
-    pub fn checks(&self) -> Vec<AnyCheck<'_>> {
+    pub fn checks(&self) -> Vec<&Criterion> {
         match &self.work {
-            TaskWork::Function(_, checks) => checks.iter().map(AnyCheck::of_function).collect(),
-            TaskWork::Motion(_, checks) => checks.iter().map(AnyCheck::of_motion).collect(),
+            TaskWork::Function(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
+            TaskWork::Motion(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
         }
+    }
+
+    /// The name of its first check that compares the whole run with the reference's path.
+    pub fn one_path(&self) -> Option<&str> {
+        let TaskWork::Motion(_, checks) = &self.work else {
+            return None;
+        };
+        let mut checks = checks.iter();
+        let found = checks.find(|check| check.kind.follows_one_path())?;
+        Some(&found.name)
     }
 
     /// Points of all its checks.

@@ -4,15 +4,53 @@ use std::collections::BTreeMap;
 
 use kinemark_sim::text::expression::{ExpressionProblem, MARK};
 use kinemark_sim::text::{
-    Dimension, Dimensions, MarkedNumbersProblem, Source, TomlRefusal, read_with_marked_numbers,
+    Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, TomlRefusal,
+    read_with_marked_numbers,
 };
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::load::{Reporter, refuse_not_finite};
-use crate::task::problem::{LabError, LabProblem};
+use super::load::refuse_not_finite;
+use crate::task::problem::{LabError, problems};
+use crate::task::reporter::Reporter;
+
+problems! {
+    /// What is wrong with parameters, or with what they are drawn from.
+    enum ParameterProblem {
+        BadName { name: String }:
+            "lab::bad_name", "parameter name {name:?} cannot be used", "this name",
+            "use letters, digits and `_`, and begin with a letter";
+        DrawnFromExpression:
+            "lab::variants", "[variants] holds numbers, not expressions: parameters are drawn from it", "an expression",
+            "write the number";
+    }
+}
+
+/// What the readers of TOML and of expressions refuse, in their words.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+struct ReadersProblem {
+    code: &'static str,
+    message: String,
+    label: &'static str,
+    help: Option<String>,
+}
+
+impl Problem for ReadersProblem {
+    fn code(&self) -> &'static str {
+        self.code
+    }
+
+    fn label(&self) -> String {
+        self.label.to_owned()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.help.clone()
+    }
+}
 
 /// A table of names with numbers or lists of numbers, every place kept.
 pub(super) type NumbersTable = BTreeMap<Spanned<String>, Spanned<Dimension>>;
@@ -44,13 +82,8 @@ fn named(report: Reporter<'_>, at: &Spanned<String>) -> Result<(), LabError> {
     if name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
         return Ok(());
     }
-    report.err(
-        at.span(),
-        "lab::bad_name",
-        format!("parameter name {name:?} cannot be used"),
-        "this name",
-        Some("use letters, digits and `_`, and begin with a letter".to_owned()),
-    )
+    let name = name.clone();
+    report.refuse_at(at, ParameterProblem::BadName { name })
 }
 
 /// Reads a lab file's tables, every `"= expression"` over `parameters` a number.
@@ -68,13 +101,13 @@ pub(super) fn tables_with<T: DeserializeOwned>(
     read_with_marked_numbers(source, parameters, "parameter").map_err(|problem| match problem {
         MarkedNumbersProblem::Refused(refusal) => refusal_at(source, refusal),
         MarkedNumbersProblem::Expression(ExpressionProblem { message, help, at }) => {
-            let problem = LabProblem {
-                message,
+            let problem = ReadersProblem {
                 code: "lab::expression",
-                label: "in this expression".to_owned(),
+                message,
+                label: "in this expression",
                 help,
             };
-            LabError::new(problem, source, at)
+            LabError::new(Box::new(problem), source, at)
         }
     })
 }
@@ -82,13 +115,9 @@ pub(super) fn tables_with<T: DeserializeOwned>(
 /// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.
 fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(), LabError> {
     match value.get_ref() {
-        DeValue::String(text) if text.starts_with(MARK) => Reporter { source }.err(
-            value.span(),
-            "lab::variants",
-            "[variants] holds numbers, not expressions: parameters are drawn from it".to_owned(),
-            "an expression",
-            Some("write the number".to_owned()),
-        ),
+        DeValue::String(text) if text.starts_with(MARK) => {
+            Reporter { source }.refuse_at(value, ParameterProblem::DrawnFromExpression)
+        }
         DeValue::Array(items) => items
             .iter()
             .try_for_each(|item| refuse_expressions(item, source)),
@@ -106,13 +135,13 @@ pub(super) fn refused(source: &Source, error: &toml::de::Error) -> LabError {
 
 fn refusal_at(source: &Source, refusal: TomlRefusal) -> LabError {
     let TomlRefusal { message, help, at } = refusal;
-    let problem = LabProblem {
-        message,
+    let problem = ReadersProblem {
         code: "lab::toml",
-        label: "here".to_owned(),
+        message,
+        label: "here",
         help,
     };
-    LabError::new(problem, source, at)
+    LabError::new(Box::new(problem), source, at)
 }
 
 #[cfg(test)]

@@ -2,15 +2,16 @@
 
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::Dimension;
-use kinemark_sim::text::{Source, suggest};
+use kinemark_sim::text::Source;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::{StepsOrEach, StepsTable};
-use super::load::{Reporter, tables};
+use super::load::tables;
 use super::model::Lab;
 use super::parameters::NumbersTable;
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, near, problems};
+use crate::task::reporter::Reporter;
 
 /// The name of the file beside a submission, and in the copy of a lab in a report.
 pub const VARIANT_FILE: &str = "variant.toml";
@@ -38,6 +39,22 @@ struct VariantTable {
     parameters: NumbersTable,
 }
 
+problems! {
+    /// What is wrong with a `variant.toml`, or with it as one of a lab.
+    enum VariantProblem {
+        Student { why: String }:
+            "variant::student", "{why}", "this id", "write the id as the course writes it";
+        OtherLab { of: String, lab: String }:
+            "variant::lab", "this is a variant of lab `{of}`, not of `{lab}`", "another lab",
+            "name the right file with --variant, or move this one away";
+        UnknownParameter { lab: String, name: String, known: Vec<String> }:
+            "variant::unknown_parameter", "lab `{lab}` has no parameter `{name}`", "not a parameter of this lab",
+            near(name, "parameters", known);
+        Shape { name: String, base: Dimension, value: Dimension }:
+            "variant::shape", "parameter `{name}` is {base}, got {value}", "another shape", "write it as in lab.toml";
+    }
+}
+
 impl Variant {
     /// Reads a `variant.toml`.
     ///
@@ -50,8 +67,7 @@ impl Variant {
         if let Some(student) = &table.student
             && let Err(why) = student_id(student.get_ref())
         {
-            let help = Some("write the id as the course writes it".to_owned());
-            return report.err(student.span(), "variant::student", why, "this id", help);
+            return report.refuse_at(student, VariantProblem::Student { why });
         }
         Ok(Self {
             lab: table.lab,
@@ -110,39 +126,28 @@ impl Variant {
             source: &self.source,
         };
         if self.lab.get_ref() != lab {
-            return report.err(
-                self.lab.span(),
-                "variant::lab",
-                format!(
-                    "this is a variant of lab `{}`, not of `{lab}`",
-                    self.lab.get_ref()
-                ),
-                "another lab",
-                Some("name the right file with --variant, or move this one away".to_owned()),
-            );
+            let problem = VariantProblem::OtherLab {
+                of: self.lab.get_ref().clone(),
+                lab: lab.to_owned(),
+            };
+            return report.refuse_at(&self.lab, problem);
         }
         for (name, value) in &self.parameters {
             let Some(base) = stated.get(name.get_ref()) else {
-                return report.err(
-                    name.span(),
-                    "variant::unknown_parameter",
-                    format!("lab `{lab}` has no parameter `{}`", name.get_ref()),
-                    "not a parameter of this lab",
-                    Some(suggest(name.get_ref(), "parameters", stated.names())),
-                );
+                let problem = VariantProblem::UnknownParameter {
+                    lab: lab.to_owned(),
+                    name: name.get_ref().clone(),
+                    known: stated.names().map(str::to_owned).collect(),
+                };
+                return report.refuse_at(name, problem);
             };
             if base.to_string() != value.get_ref().to_string() {
-                return report.err(
-                    value.span(),
-                    "variant::shape",
-                    format!(
-                        "parameter `{}` is {base}, got {}",
-                        name.get_ref(),
-                        value.get_ref()
-                    ),
-                    "another shape",
-                    Some("write it as in lab.toml".to_owned()),
-                );
+                let problem = VariantProblem::Shape {
+                    name: name.get_ref().clone(),
+                    base: base.clone(),
+                    value: value.get_ref().clone(),
+                };
+                return report.refuse_at(value, problem);
             }
         }
         Ok(())
@@ -274,6 +279,21 @@ fn chosen(
 /// More steps than this are a slip of the pen.
 const MOST_STEPS: f64 = 1e6;
 
+problems! {
+    /// What is wrong with a lab's `[variants]`.
+    enum RuleProblem {
+        UnknownParameter { name: String, known: Vec<String> }:
+            "lab::variants", "no parameter is called `{name}`", "not in [parameters]", near(name, "parameters", known);
+        Shape { name: String, base: Dimension }:
+            "lab::variants", "parameter `{name}` is {base}, and this varies something else", "another shape",
+            "give { from, to, step } for one number, and a list of such tables for a list";
+        Steps { from: f64, to: f64, step: f64 }:
+            "lab::variants",
+            "from {from} to {to} is not a whole number of steps of {step}, or none, or more than {MOST_STEPS}", "these steps",
+            "write such as { from = 2.9, to = 3.1, step = 0.01 }";
+    }
+}
+
 /// The rules of a lab's `[variants]`.
 pub(super) fn rules(
     report: Reporter<'_>,
@@ -284,13 +304,11 @@ pub(super) fn rules(
     for (at, typed) in table {
         let name = at.get_ref();
         let Some(base) = stated.get(name) else {
-            return report.err(
-                at.span(),
-                "lab::variants",
-                format!("no parameter is called `{name}`"),
-                "not in [parameters]",
-                Some(suggest(name, "parameters", stated.names())),
-            );
+            let problem = RuleProblem::UnknownParameter {
+                name: name.clone(),
+                known: stated.names().map(str::to_owned).collect(),
+            };
+            return report.refuse_at(at, problem);
         };
         let (tables, list) = match (typed.get_ref(), base) {
             (StepsOrEach::One(steps), Dimension::Number(_)) => (vec![*steps], false),
@@ -298,16 +316,8 @@ pub(super) fn rules(
                 (each.clone(), true)
             }
             _ => {
-                return report.err(
-                    typed.span(),
-                    "lab::variants",
-                    format!("parameter `{name}` is {base}, and this varies something else"),
-                    "another shape",
-                    Some(
-                        "give { from, to, step } for one number, and a list of such tables for a list"
-                            .to_owned(),
-                    ),
-                );
+                let (name, base) = (name.clone(), base.clone());
+                return report.refuse_at(typed, RuleProblem::Shape { name, base });
             }
         };
         let mut steps = Vec::new();
@@ -317,15 +327,7 @@ pub(super) fn rules(
                 && (0.0..=MOST_STEPS).contains(&whole)
                 && (from + whole * step - to).abs() <= 1e-6 * step;
             if !fits {
-                return report.err(
-                    typed.span(),
-                    "lab::variants",
-                    format!(
-                        "from {from} to {to} is not a whole number of steps of {step}, or none, or more than {MOST_STEPS}"
-                    ),
-                    "these steps",
-                    Some("write such as { from = 2.9, to = 3.1, step = 0.01 }".to_owned()),
-                );
+                return report.refuse_at(typed, RuleProblem::Steps { from, to, step });
             }
             steps.push(Steps {
                 from,

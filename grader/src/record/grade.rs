@@ -213,7 +213,7 @@ pub struct ContactRecord {
 }
 
 /// What stopped a submission in a task.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stopped {
     /// What happened.
@@ -309,7 +309,7 @@ impl Measure {
 }
 
 /// A fact that cost points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Evidence {
     /// What happened, in a sentence with its numbers.

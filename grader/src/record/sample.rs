@@ -367,11 +367,11 @@ fn evidence(
         signal: signal.to_owned(),
         tick: at.0,
         time_s: at.0.map(|tick| tick as f64 / 1000.0),
-        run: None,
         case: at.1.map(str::to_owned),
         value: Some(numbers.0),
         limit: Some(numbers.1),
         unit: numbers.2.to_owned(),
+        ..Evidence::default()
     }
 }
 

@@ -36,6 +36,14 @@ impl Function {
             Self::Free(name) => name,
         }
     }
+
+    /// Its name where it is not one of the lab's own.
+    pub fn known_name(&self) -> Option<&str> {
+        match self {
+            Self::Free(_) => None,
+            known => Some(known.name()),
+        }
+    }
 }
 
 /// The rows of a Jacobian that a lab asks for, always in the order of [`Rows::NAMES`].
@@ -153,7 +161,7 @@ pub struct MotionGoal {
 }
 
 /// A band of linear partial credit: `full` and better earn everything, `zero` and worse nothing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Band {
     /// The value that earns all points.
     pub full: f64,

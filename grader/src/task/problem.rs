@@ -2,11 +2,11 @@
 
 use kinemark_sim::format::RobotError;
 use kinemark_sim::format::SceneError;
-use kinemark_sim::text::{Located, Problem};
+use kinemark_sim::text::{Located, Problem, suggest};
 use miette::Diagnostic;
 
-/// A problem in a lab's files, with its place.
-pub type LabError = Located<LabProblem>;
+/// A problem in a lab's files, with its place. What it is about is a type of whoever found it.
+pub type LabError = Located<Box<dyn Problem>>;
 
 /// Why a lab cannot be loaded.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -44,42 +44,67 @@ pub enum LoadError {
     Scene(#[from] SceneError),
 }
 
-/// What is wrong with a lab file.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{message}")]
-pub struct LabProblem {
-    /// What is wrong.
-    pub message: String,
-    /// Its stable name.
-    pub code: &'static str,
-    /// What stands under the caret.
-    pub label: String,
-    /// Something to do.
-    pub help: Option<String>,
+/// The nearest of `known` to what was typed, in words.
+pub(crate) fn near<'n>(
+    typed: &str,
+    what: &str,
+    known: impl IntoIterator<Item = &'n (impl AsRef<str> + ?Sized + 'n)>,
+) -> String {
+    suggest(typed, what, known.into_iter().map(AsRef::as_ref))
 }
 
-impl LabProblem {
-    /// A problem that another reader found in a lab's file.
-    pub(crate) fn of(problem: impl Problem) -> Self {
-        Self {
-            code: problem.code(),
-            label: problem.label(),
-            help: problem.help(),
-            message: problem.to_string(),
+/// An enum of problems, each a line of a table: its data, then its code, its message, what stands under the caret, and something to
+/// do where there is something to say beyond that. The message is a format string over the data; the others are expressions over it.
+macro_rules! problems {
+    (
+        $(#[$of_all:meta])*
+        $vis:vis enum $name:ident {
+            $(
+                $variant:ident $({ $($field:ident: $type:ty),+ })?:
+                    $code:literal, $message:literal, $label:expr $(, $help:expr)?;
+            )+
         }
-    }
+    ) => {
+        $(#[$of_all])*
+        #[derive(Debug)]
+        $vis enum $name {
+            $($variant $({ $($field: $type),+ })?,)+
+        }
+
+        impl $name {
+            /// The message, the label and the help.
+            fn words(&self) -> (String, String, Option<String>) {
+                match self {
+                    $(Self::$variant { $($($field),+)? } => (
+                        std::fmt::format(format_args!($message)),
+                        String::from($label),
+                        None$(.or(Some(String::from($help))))?,
+                    ),)+
+                }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(&self.words().0)
+            }
+        }
+
+        impl kinemark_sim::text::Problem for $name {
+            fn code(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $code,)+
+                }
+            }
+
+            fn label(&self) -> String {
+                self.words().1
+            }
+
+            fn help(&self) -> Option<String> {
+                self.words().2
+            }
+        }
+    };
 }
-
-impl Problem for LabProblem {
-    fn code(&self) -> &'static str {
-        self.code
-    }
-
-    fn label(&self) -> String {
-        self.label.clone()
-    }
-
-    fn help(&self) -> Option<String> {
-        self.help.clone()
-    }
-}
+pub(crate) use problems;

@@ -6,7 +6,7 @@ use kinemark_sim::text::{Problem, Source};
 use toml::Spanned;
 
 use super::model::Band;
-use super::problem::{LabError, LabProblem};
+use super::problem::{LabError, problems};
 
 /// Reports problems of one text.
 #[derive(Debug, Clone, Copy)]
@@ -15,98 +15,35 @@ pub(crate) struct Reporter<'a> {
     pub(crate) source: &'a Source,
 }
 
-/// Numbers and names that a lab file gives wrongly, whatever they are for.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum ValueProblem {
-    /// A number that must be above zero.
-    #[error("{what} must be positive and finite, got {value}")]
-    NotPositive {
-        /// What it is, such as `` `hold_s` ``.
-        what: String,
-        /// The number as typed.
-        value: f64,
-    },
-    /// A band whose ends are the wrong way round.
-    #[error("a band needs `full` at or below `zero`, got {full} and {zero}")]
-    Band {
-        /// The value that earns all points, as typed.
-        full: f64,
-        /// The value that earns none, as typed.
-        zero: f64,
-    },
-    /// A name that no file name or link could hold.
-    #[error("{what} name {name:?} cannot be used")]
-    BadName {
-        /// What is called so, such as `task`.
-        what: &'static str,
-        /// The name as typed.
-        name: String,
-    },
-    /// A name that something of the same kind already has.
-    #[error("{what} `{name}` is there twice")]
-    Duplicate {
-        /// What is called so, such as `task`.
-        what: &'static str,
-        /// The name as typed.
-        name: String,
-    },
-}
-
-impl Problem for ValueProblem {
-    fn code(&self) -> &'static str {
-        match self {
-            Self::NotPositive { .. } => "lab::out_of_range",
-            Self::Band { .. } => "lab::band",
-            Self::BadName { .. } => "lab::bad_name",
-            Self::Duplicate { .. } => "lab::duplicate",
-        }
-    }
-
-    fn label(&self) -> String {
-        match self {
-            Self::NotPositive { .. } => "out of range",
-            Self::Band { .. } => "this band",
-            Self::BadName { .. } => "this name",
-            Self::Duplicate { .. } => "the second one",
-        }
-        .to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        let help = match self {
-            Self::NotPositive { .. } => return None,
-            Self::Band { .. } => {
-                "`full` is the value that earns all points, `zero` the one that earns none"
-            }
-            Self::BadName { .. } => "use lower-case letters, digits and `-`",
-            Self::Duplicate { .. } => "give each its own name",
-        };
-        Some(help.to_owned())
+problems! {
+    /// Numbers and names that a lab file gives wrongly, whatever they are for.
+    enum ValueProblem {
+        NotPositive { what: String, value: f64 }:
+            "lab::out_of_range", "{what} must be positive and finite, got {value}", "out of range";
+        Band { full: f64, zero: f64 }:
+            "lab::band", "a band needs `full` at or below `zero`, got {full} and {zero}", "this band",
+            "`full` is the value that earns all points, `zero` the one that earns none";
+        BadName { what: &'static str, name: String }:
+            "lab::bad_name", "{what} name {name:?} cannot be used", "this name",
+            "use lower-case letters, digits and `-`";
+        Duplicate { what: &'static str, name: String }:
+            "lab::duplicate", "{what} `{name}` is there twice", "the second one", "give each its own name";
     }
 }
 
 impl Reporter<'_> {
     /// The error of `problem` at `at`.
     pub(crate) fn refuse<T>(&self, at: Range<usize>, problem: impl Problem) -> Result<T, LabError> {
-        Err(LabError::new(LabProblem::of(problem), self.source, at))
+        Err(LabError::new(Box::new(problem), self.source, at))
     }
 
-    /// An error put together where it is found.
-    pub(crate) fn err<T>(
+    /// The error of `problem` at what was `typed`.
+    pub(crate) fn refuse_at<T, V>(
         &self,
-        at: Range<usize>,
-        code: &'static str,
-        message: String,
-        label: &str,
-        help: Option<String>,
+        typed: &Spanned<V>,
+        problem: impl Problem,
     ) -> Result<T, LabError> {
-        let problem = LabProblem {
-            message,
-            code,
-            label: label.to_owned(),
-            help,
-        };
-        Err(LabError::new(problem, self.source, at))
+        self.refuse(typed.span(), problem)
     }
 
     /// A number above zero; `what` names it in the message.
@@ -116,7 +53,7 @@ impl Reporter<'_> {
             return Ok(value);
         }
         let what = what.to_owned();
-        self.refuse(number.span(), ValueProblem::NotPositive { what, value })
+        self.refuse_at(number, ValueProblem::NotPositive { what, value })
     }
 
     /// A band of a measured value that is better when it is smaller.
@@ -139,11 +76,11 @@ impl Reporter<'_> {
             let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
             if name.is_empty() || !name.chars().all(plain) {
                 let name = name.to_owned();
-                return self.refuse(at.span(), ValueProblem::BadName { what, name });
+                return self.refuse_at(at, ValueProblem::BadName { what, name });
             }
             if known.contains(&name) {
                 let name = name.to_owned();
-                return self.refuse(at.span(), ValueProblem::Duplicate { what, name });
+                return self.refuse_at(at, ValueProblem::Duplicate { what, name });
             }
             known.push(name);
         }

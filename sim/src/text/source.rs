@@ -54,6 +54,20 @@ pub trait Problem: fmt::Debug + fmt::Display + Send + Sync + 'static {
     fn help(&self) -> Option<String>;
 }
 
+impl Problem for Box<dyn Problem> {
+    fn code(&self) -> &'static str {
+        self.as_ref().code()
+    }
+
+    fn label(&self) -> String {
+        self.as_ref().label()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.as_ref().help()
+    }
+}
+
 /// A [`Problem`] with its place in a [`Source`].
 #[derive(Debug)]
 pub struct Located<P> {

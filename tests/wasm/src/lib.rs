@@ -17,8 +17,9 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use kinemark_grader::judge;
-use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::submission::host::InProcess;
+use kinemark_grader::task::files::Files;
 use kinemark_sim::format::RobotFile;
 use kinemark_sim::text::Source;
 

@@ -6,10 +6,11 @@ use std::process::ExitCode;
 use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
-use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
+use kinemark_grader::task::files::Files;
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_sim::text::Source;

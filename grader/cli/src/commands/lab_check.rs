@@ -8,9 +8,10 @@ use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
 use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt, staff_code};
-use kinemark_grader::lab::{Files, Lab, Staff};
+use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::submission::rhai::STACK_BYTES;
+use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
 use owo_colors::OwoColorize as _;
 

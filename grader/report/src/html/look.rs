@@ -99,14 +99,9 @@ mod tests {
         });
         check.evidence = vec![Evidence {
             message: "it was `late`".to_owned(),
-            signal: String::new(),
             tick: Some(10),
             time_s: Some(0.01),
-            case: None,
-            run: None,
-            value: None,
-            limit: None,
-            unit: String::new(),
+            ..Evidence::default()
         }];
         let card = look(&grade, |_| true).into_string();
         for part in [

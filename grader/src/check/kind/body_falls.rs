@@ -4,27 +4,12 @@
 //! none; `moved` where it was only moved; 0 where it stayed. What each word means is in docs/physics.md. It does not matter how the
 //! body was brought down.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem;
 use kinemark_sim::trace::Trace;
 use kinemark_sim::watch::event::{EventKind, SeenSide};
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
 
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::grade::Evidence;
+use crate::check::prelude::*;
 use crate::record::names::Names;
-use crate::record::quantity::{seconds, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
-use crate::task::watched::{Fall, TouchingParty};
+use crate::task::watched::TouchingParty;
 
 /// A side of what a body stands on, seen from the robot's base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -36,27 +21,12 @@ enum SideName {
     Right,
 }
 
-/// Shares of the points that do not grow with what happened.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error(
-    "`moved` and `toppled` are shares in order, 0 <= moved <= toppled <= 1, got {moved} and {toppled}"
-)]
-struct NotInOrder {
-    moved: f64,
-    toppled: f64,
-}
-
-impl Problem for NotInOrder {
-    fn code(&self) -> &'static str {
-        "lab::body_falls"
-    }
-
-    fn label(&self) -> String {
-        "this check".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some("left out they are 0.3 and 0.6".to_owned())
+problems! {
+    /// Shares of the points that do not grow with what happened.
+    enum ShareProblem {
+        NotInOrder { moved: f64, toppled: f64 }:
+            "lab::body_falls", "`moved` and `toppled` are shares in order, 0 <= moved <= toppled <= 1, got {moved} and {toppled}",
+            "this check", "left out they are 0.3 and 0.6";
     }
 }
 
@@ -65,8 +35,7 @@ impl Problem for NotInOrder {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// A dynamic body of the scene.
-    #[schemars(with = "String")]
-    body: Spanned<String>,
+    body: At<String>,
     /// The side it should fall over, as seen from the robot's first joint: `far`, `near`, `left` or `right`; any where it is left
     /// out.
     side: Option<SideName>,
@@ -80,12 +49,11 @@ impl MotionTable for Table {
     const NAME: &'static str = "body-falls";
     type Check = BodyFalls;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<BodyFalls, LabError> {
-        let scene = reading.scene(Self::NAME, at.clone())?;
-        let body = reading.free_body(scene, &self.body)?;
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let body = reading.free_body(reading.scene(Self::NAME)?, &self.body)?;
         let (toppled, moved) = (self.toppled.unwrap_or(0.6), self.moved.unwrap_or(0.3));
         if !(0.0 <= moved && moved <= toppled && toppled <= 1.0) {
-            return reading.report.refuse(at, NotInOrder { moved, toppled });
+            return reading.refuse(ShareProblem::NotInOrder { moved, toppled });
         }
         Ok(BodyFalls(Fall {
             body,
@@ -105,25 +73,17 @@ impl MotionTable for Table {
 #[derive(Debug)]
 pub(crate) struct BodyFalls(Fall);
 
-impl CheckKind for BodyFalls {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        None
-    }
-
-    fn bounds(&self, _: &Robot, _: &[&str]) -> [String; 2] {
-        let Self(fall) = self;
-        [
-            fall.side.map_or_else(
-                || "it falls".to_owned(),
-                |side| format!("it falls over the {} side", side.name()),
-            ),
-            format!(
-                "it stays ({} if it topples, {} if it moves)",
-                with_unit(fall.toppled, ""),
-                with_unit(fall.moved, "")
-            ),
-        ]
-    }
+/// How a free body is to fall, and what less than that is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Fall {
+    /// Index of the body in the scene.
+    body: usize,
+    /// The side it is to fall over; any where there is none.
+    side: Option<SeenSide>,
+    /// Share of the points where it toppled, or fell otherwise.
+    toppled: f64,
+    /// Share of the points where it only moved.
+    moved: f64,
 }
 
 /// What happened to the body: first ticks.
@@ -168,7 +128,7 @@ impl Fate {
     }
 
     /// What did happen, with its tick, and one thing to do; the score is not full.
-    fn told(
+    fn explained(
         &self,
         fall: &Fall,
         names: &Names<'_>,
@@ -221,31 +181,36 @@ impl Fate {
 }
 
 impl MotionCheck for BodyFalls {
+    fn bounds(&self) -> [String; 2] {
+        let Self(fall) = self;
+        let falls = match fall.side {
+            Some(side) => format!("it falls over the {} side", side.name()),
+            None => "it falls".to_owned(),
+        };
+        let stays = format!(
+            "it stays ({} if it topples, {} if it moves)",
+            with_unit(fall.toppled, ""),
+            with_unit(fall.moved, "")
+        );
+        [falls, stays]
+    }
+
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
         let Self(fall) = self;
         let fate = Fate::of(facts.trace, fall.body);
         let score = fate.score(fall);
         let (message, tick, next_step) =
-            fate.told(fall, &facts.names, |tick| facts.motion.periods.time_s(tick));
+            fate.explained(fall, &facts.names, |tick| facts.motion.periods.time_s(tick));
         let name = facts.names.body(fall.body);
         let side = fall.side.map_or_else(String::new, |side| {
             format!(" over the {} side", side.name())
         });
         let quantity = format!("how far `{name}` got towards falling{side}");
-        let mut finding = Finding::share(score, quantity).advise(next_step);
-        if finding.is_lost() {
+        let finding = Finding::share(score, quantity).advise(next_step);
+        finding.shown_at(facts, || {
             let tick = tick.map_or(facts.last_tick(), |tick| tick as usize);
-            finding = finding.with(Evidence {
-                value: Some(score),
-                limit: Some(1.0),
-                ..facts.evidence(message, "bodies".to_owned(), tick)
-            });
-        }
-        finding
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+            (message, "bodies".to_owned(), tick)
+        })
     }
 }
 
@@ -288,23 +253,23 @@ mod tests {
     }
 
     #[test]
-    fn what_did_happen_is_told_with_its_times() {
+    fn what_did_happen_is_explained_with_its_times() {
         let run = crate::record::sample::task_run();
         let names = run.names();
-        let told = |fate: Fate| fate.told(&FAR, &names, |tick| tick as f64 / 1000.0);
-        let (message, tick, _) = told(fate(true, true, None));
+        let explained = |fate: Fate| fate.explained(&FAR, &names, |tick| tick as f64 / 1000.0);
+        let (message, tick, _) = explained(fate(true, true, None));
         // the sample has no scene, so its bodies have no names
         assert_eq!(
             message,
             "`?` moved at 3.21 s and toppled at 3.3 s, but did not fall"
         );
         assert_eq!(tick, Some(3300));
-        let (message, ..) = told(fate(true, true, Some(Some(SeenSide::Near))));
+        let (message, ..) = explained(fate(true, true, Some(Some(SeenSide::Near))));
         assert_eq!(
             message,
             "`?` fell over the near side at 3.5 s; it was to fall over the far side"
         );
-        let (message, tick, _) = told(fate(false, false, None));
+        let (message, tick, _) = explained(fate(false, false, None));
         assert!(message.ends_with("the arm never touched it"), "{message}");
         assert_eq!(tick, None);
     }

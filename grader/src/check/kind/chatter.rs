@@ -4,23 +4,8 @@
 //! the joint's greatest effort in the run, where it has no limit). The side from which it goes first is no reversal. The count is
 //! divided by the length of the run. An effort that swings at `f` turns round `2 f` times a second.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
 use crate::check::alternation;
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::joint_effort::applied;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::seconds;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// An effort comes back by more than this share of its limit to have turned round.
 const HYSTERESIS: f64 = 0.01;
@@ -30,8 +15,7 @@ const HYSTERESIS: f64 = 0.01;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// The joint; the one with the most reversals where it is left out.
-    #[schemars(with = "Option<String>")]
-    joint: Option<Spanned<String>>,
+    joint: Option<At<String>>,
     /// Reversals in a second that earn all points \[Hz\].
     full_hz: f64,
     /// Reversals in a second that earn none \[Hz\].
@@ -40,50 +24,46 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "chatter";
-    type Check = Chatter;
+    type Check = InBand<Chatter>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<Chatter, LabError> {
-        Ok(Chatter {
-            joint: reading.maybe_joint(self.joint.as_ref())?,
-            band: reading.report.band(self.full_hz, self.zero_hz, at)?,
-        })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        reading.in_band([self.full_hz, self.zero_hz], "Hz", Chatter(joint))
     }
 }
 
-/// The check as read.
+/// Of the joint of this index in `q`; of the worst one where there is none.
 #[derive(Debug)]
-pub(crate) struct Chatter {
-    /// Index in `q`; the worst of all joints where there is none.
-    joint: Option<usize>,
-    band: Band,
-}
+pub(crate) struct Chatter(Option<usize>);
 
-impl CheckKind for Chatter {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "Hz"))
-    }
-}
-
-impl MotionCheck for Chatter {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for Chatter {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let run_s = facts.time_s(facts.applied_ticks());
-        let (worst, value) = facts.worst_joint(self.joint, |joint| {
-            reversals_of(facts, joint).map_or(f64::NAN, |ticks| ticks.len() as f64 / run_s)
+        let (worst, _) = facts.worst_joint(self.0, |joint| {
+            reversals_of(facts, joint).map_or(f64::NAN, |ticks| ticks.len() as f64)
         });
         let name = facts.joint_name(worst);
-        let ticks = reversals_of(facts, worst).unwrap_or_default();
+        let ticks = reversals_of(facts, worst);
+        let so_far = match &ticks {
+            Some(ticks) => count_so_far(ticks, facts.trace.len(), run_s),
+            None => vec![f64::NAN; facts.trace.len()],
+        };
+        let ticks = ticks.unwrap_or_default();
         let first = ticks.first().copied().unwrap_or(0);
         let quantity = format!("reversals of the effort of joint `{name}` per second");
         let title =
             format!("reversals of the effort of joint `{name}` so far, per second of the run");
-        let finding = Finding::against(self.band, value, "Hz", quantity)
-            .advise("Lower the gains that see noise, derivatives first, or filter what they see.");
+        let curve = facts.curve(title, "Hz", so_far, band);
+        let finding = Finding::of_curve(band, Statistic::SoFar, "Hz", quantity, curve);
         let explained = match finding.is_lost() {
-            true => alternation::told(facts, worst, first),
+            true => alternation::explained(facts, worst, first),
             false => None,
         };
         let (why, help) = explained.unzip();
-        let finding = finding.shown_at(facts, || {
+        let help = help.unwrap_or_else(|| {
+            "Lower the gains that see noise, derivatives first, or filter what they see.".to_owned()
+        });
+        finding.advise(help).shown_at(facts, || {
             let mut message = format!(
                 "the effort of joint `{name}` turns round {} times in {}, first at {}",
                 ticks.len(),
@@ -94,23 +74,13 @@ impl MotionCheck for Chatter {
                 message = format!("{message}; {why}");
             }
             (message, format!("effort[{worst}]"), first)
-        });
-        let finding = match help {
-            Some(help) => finding.advise(help),
-            None => finding,
-        };
-        let so_far = count_so_far(&ticks, facts.trace.len(), run_s);
-        finding.drawn(facts.curve(title, "Hz", so_far, self.band))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::SoFar
+        })
     }
 }
 
 /// The ticks at which a joint's effort turns round; none where it is no number somewhere.
 fn reversals_of(facts: &MotionFacts<'_>, joint: usize) -> Option<Vec<usize>> {
-    let efforts = applied(facts, joint);
+    let efforts = facts.applied_efforts(joint);
     if !efforts.iter().all(|effort| effort.is_finite()) {
         return None;
     }
@@ -125,16 +95,8 @@ fn reversals_of(facts: &MotionFacts<'_>, joint: usize) -> Option<Vec<usize>> {
 
 /// The count of `reversals` up to every tick, that included, over the length of the run \[Hz\].
 fn count_so_far(reversals: &[usize], ticks: usize, run_s: f64) -> Vec<f64> {
-    let mut so_far = vec![0.0; ticks];
-    for tick in reversals {
-        so_far[*tick] = 1.0;
-    }
-    let mut count = 0.0;
-    for value in &mut so_far {
-        count += *value;
-        *value = count / run_s;
-    }
-    so_far
+    let count = |tick: usize| reversals.partition_point(|reversal| *reversal <= tick);
+    (0..ticks).map(|tick| count(tick) as f64 / run_s).collect()
 }
 
 /// The ticks at which the effort has come back from an extreme by more than `hysteresis`.

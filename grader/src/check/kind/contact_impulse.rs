@@ -3,73 +3,26 @@
 //! Measured is the sum of the normal impulses of all contacts of the two, `Σ ∫ F dt`. Two that never met have 0: an arm that stays
 //! where it is touches nothing, so let this check need another.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
-use kinemark_sim::text::{Problem, suggest};
 use kinemark_sim::watch::ContactSpan;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use toml::Spanned;
 
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::graded::Curve;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 use crate::task::scene::LabScene;
 use crate::task::watched::TouchingParty;
 
-/// Two that cannot press on each other, or a name of neither.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-enum NoContact {
-    #[error("no contact of `{first}` and `{second}` can be: {why}")]
-    Never {
-        first: String,
-        second: String,
-        why: &'static str,
-    },
-    #[error("scene `{scene}` has no ground")]
-    NoGround { scene: String },
-    #[error("`{name}` is neither a link of robot `{robot}` nor a body of scene `{scene}`")]
-    Unknown {
-        name: String,
-        robot: String,
-        scene: String,
-        known: Vec<String>,
-    },
-}
-
-impl Problem for NoContact {
-    fn code(&self) -> &'static str {
-        match self {
-            Self::Never { .. } => "lab::contact_impulse",
-            Self::NoGround { .. } | Self::Unknown { .. } => "lab::unknown_party",
-        }
-    }
-
-    fn label(&self) -> String {
-        match self {
-            Self::Never { .. } => "this one with the other",
-            Self::NoGround { .. } => "not in this scene",
-            Self::Unknown { .. } => "nothing that could touch",
-        }
-        .to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some(match self {
-            Self::Never { .. } => "name the arm and a body, or a free body and another".to_owned(),
-            Self::NoGround { .. } => "give the scene a `ground` in [environment]".to_owned(),
-            Self::Unknown { name, known, .. } => {
-                suggest(name, "links and bodies", known.iter().map(String::as_str))
-            }
-        })
+problems! {
+    /// Two that cannot press on each other, or a name of neither.
+    enum PartyProblem {
+        NeverPress { first: String, second: String, why: &'static str }:
+            "lab::contact_impulse", "no contact of `{first}` and `{second}` can be: {why}", "this one with the other",
+            "name the arm and a body, or a free body and another";
+        NoGround { scene: String }:
+            "lab::unknown_party", "scene `{scene}` has no ground", "not in this scene",
+            "give the scene a `ground` in [environment]";
+        Unknown { name: String, robot: String, scene: String, known: Vec<String> }:
+            "lab::unknown_party", "`{name}` is neither a link of robot `{robot}` nor a body of scene `{scene}`",
+            "nothing that could touch", near(name, "links and bodies", known);
     }
 }
 
@@ -78,8 +31,7 @@ impl Problem for NoContact {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// The two: `arm` (any link of the robot), a link, a body of the scene, or `ground`.
-    #[schemars(with = "[String; 2]")]
-    between: [Spanned<String>; 2],
+    between: [At<String>; 2],
     /// Impulse that earns all points \[N s\].
     full_n_s: f64,
     /// Impulse that earns none \[N s\].
@@ -88,42 +40,34 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "contact-impulse";
-    type Check = ContactImpulse;
+    type Check = InBand<ContactImpulse>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<ContactImpulse, LabError> {
-        let scene = reading.scene(Self::NAME, at.clone())?;
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let scene = reading.scene(Self::NAME)?;
         let [first, second] = &self.between;
         let between = [
             party(reading, scene, first)?,
             party(reading, scene, second)?,
         ];
         if let Some(why) = never_press(between, scene) {
-            let problem = NoContact::Never {
+            let problem = PartyProblem::NeverPress {
                 first: first.get_ref().clone(),
                 second: second.get_ref().clone(),
                 why,
             };
-            return reading.report.refuse(second.span(), problem);
+            return reading.refuse_at(second, problem);
         }
-        Ok(ContactImpulse {
-            between,
-            band: reading.report.band(self.full_n_s, self.zero_n_s, at)?,
-        })
+        reading.in_band(
+            [self.full_n_s, self.zero_n_s],
+            "N s",
+            ContactImpulse(between),
+        )
     }
 }
 
-/// The check as read.
+/// The impulse between these two.
 #[derive(Debug)]
-pub(crate) struct ContactImpulse {
-    between: [TouchingParty; 2],
-    band: Band,
-}
-
-impl CheckKind for ContactImpulse {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "N s"))
-    }
-}
+pub(crate) struct ContactImpulse([TouchingParty; 2]);
 
 /// Why two never press on each other, if they do not.
 fn never_press(between: [TouchingParty; 2], scene: &LabScene) -> Option<&'static str> {
@@ -149,12 +93,11 @@ fn never_press(between: [TouchingParty; 2], scene: &LabScene) -> Option<&'static
 
 /// `arm`, `ground`, a link of the robot, or a body of the scene.
 fn party(
-    reading: &InTask<'_>,
+    reading: &MotionReading<'_>,
     scene: &LabScene,
     name: &Spanned<String>,
 ) -> Result<TouchingParty, LabError> {
     let wanted = name.get_ref().as_str();
-    let refuse = |problem| reading.report.refuse(name.span(), problem);
     let links = reading.robot.links().iter().map(|link| link.name.as_str());
     let bodies = scene.scene.bodies.iter().map(|body| body.name.as_str());
     if wanted == "arm" {
@@ -165,7 +108,7 @@ fn party(
             return Ok(TouchingParty::Ground);
         }
         let scene = scene.name.clone();
-        return refuse(NoContact::NoGround { scene });
+        return reading.refuse_at(name, PartyProblem::NoGround { scene });
     }
     if let Some(index) = links.clone().position(|link| link == wanted) {
         return Ok(TouchingParty::Link(index));
@@ -174,12 +117,13 @@ fn party(
         return Ok(TouchingParty::Body(index));
     }
     let known = ["arm", "ground"].into_iter().chain(links).chain(bodies);
-    refuse(NoContact::Unknown {
+    let problem = PartyProblem::Unknown {
         name: wanted.to_owned(),
         robot: reading.robot.name().to_owned(),
         scene: scene.name.clone(),
         known: known.map(str::to_owned).collect(),
-    })
+    };
+    reading.refuse_at(name, problem)
 }
 
 /// All contacts of two, together.
@@ -215,27 +159,29 @@ fn touches(contacts: &[ContactSpan], between: [TouchingParty; 2]) -> Option<Touc
     all
 }
 
-impl MotionCheck for ContactImpulse {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let found = touches(&facts.trace.contacts, self.between);
+impl RunMeasure for ContactImpulse {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let found = touches(&facts.trace.contacts, self.0);
         let value = found.map_or(0.0, |touches| touches.impulse_n_s);
-        let [a, b] = self.between.map(|party| party.told(&facts.names));
+        let [a, b] = self.0.map(|party| party.in_sentence(&facts.names));
         let quantity = format!("impulse between {a} and {b}");
-        let mut finding = Finding::against(self.band, value, "N s", quantity);
+        let mut curve = facts.curve(
+            "impulse so far, each contact's at its peak",
+            "N s",
+            self.so_far(facts),
+            band,
+        );
+        let mut finding = Finding::against(band, value, "N s", quantity);
         if let Some(touches) = found {
+            let first = touches.first.first_tick as usize;
+            curve.marks = vec![(facts.time_s(first), "first touch".to_owned())];
             finding = finding.shown_at(facts, || {
-                let message = message(facts, &touches);
-                let first = touches.first.first_tick as usize;
-                (message, "contacts".to_owned(), first)
+                (message(facts, &touches), "contacts".to_owned(), first)
             });
         }
         finding
             .advise(format!("Leave more room between {a} and {b} on the way."))
-            .drawn(self.curve(facts))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+            .drawn(curve)
     }
 }
 
@@ -256,27 +202,18 @@ fn message(facts: &MotionFacts<'_>, touches: &Touches<'_>) -> String {
 
 impl ContactImpulse {
     /// The impulse so far, each contact's added where its force is at its peak: what went before and after is not in a trace.
-    fn curve(&self, facts: &MotionFacts<'_>) -> Curve {
+    fn so_far(&self, facts: &MotionFacts<'_>) -> Vec<f64> {
         let ticks = facts.trace.len();
         let mut values = vec![0.0; ticks];
+        let [one, other] = self.0;
         let contacts = facts.trace.contacts.iter();
-        let [one, other] = self.between;
         for span in contacts.filter(|span| one.meets(other, span.parties)) {
             let from = (span.peak_tick as usize).min(ticks);
             for value in &mut values[from..] {
                 *value += span.impulse_n_s;
             }
         }
-        let found = touches(&facts.trace.contacts, self.between);
-        let marks = found.map(|touches| {
-            let at = facts.motion.periods.time_s(touches.first.first_tick);
-            (at, "first touch".to_owned())
-        });
-        let title = "impulse so far, each contact's at its peak";
-        Curve {
-            marks: marks.into_iter().collect(),
-            ..facts.curve(title, "N s", values, self.band)
-        }
+        values
     }
 }
 

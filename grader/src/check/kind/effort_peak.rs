@@ -2,30 +2,14 @@
 //!
 //! Efforts are those applied, after their limits. An arm that never moves needs little: let this check need another.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::joint_effort::{JointEffort, applied};
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// The joint; the one with the greatest effort where it is left out.
-    #[schemars(with = "Option<String>")]
-    joint: Option<Spanned<String>>,
+    joint: Option<At<String>>,
     /// Effort that earns all points \[N m, or N of a prismatic joint\].
     full_n_m: f64,
     /// Effort that earns none.
@@ -34,67 +18,40 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "effort-peak";
-    type Check = EffortPeak;
+    type Check = InBand<EffortPeak>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<EffortPeak, LabError> {
-        Ok(EffortPeak(JointEffort {
-            joint: reading.maybe_joint(self.joint.as_ref())?,
-            band: reading.report.band(self.full_n_m, self.zero_n_m, at)?,
-        }))
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let unit = reading.units(joint).effort();
+        reading.in_band([self.full_n_m, self.zero_n_m], unit, EffortPeak(joint))
     }
 }
 
-/// The check as read.
+/// Of the joint of this index in `q`; of the worst one where there is none.
 #[derive(Debug)]
-pub(crate) struct EffortPeak(JointEffort);
+pub(crate) struct EffortPeak(Option<usize>);
 
-impl CheckKind for EffortPeak {
-    fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
-        Some(self.0.band(robot))
-    }
-}
-
-impl MotionCheck for EffortPeak {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let JointEffort { joint, band } = self.0;
-        let size = |tick: usize, joint: usize| facts.trace.effort.at(tick)[joint].abs();
-        let peak_tick = |joint: usize| {
-            let ticks = 0..facts.applied_ticks();
-            // of equal ones the first
-            ticks.max_by(|a, b| size(*a, joint).total_cmp(&size(*b, joint)).then(b.cmp(a)))
-        };
-        let peak = |joint: usize| peak_tick(joint).map_or(0.0, |tick| size(tick, joint));
-        let (worst, value) = facts.worst_joint(joint, peak);
-        let tick = peak_tick(worst).unwrap_or(0);
+impl RunMeasure for EffortPeak {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let sizes = |joint: usize| facts.applied_efforts(joint).into_iter().map(f64::abs);
+        let peak = |joint: usize| greatest(sizes(joint)).unwrap_or_default();
+        let (worst, _) = facts.worst_joint(self.0, |joint| peak(joint).1);
+        let (tick, _) = peak(worst);
         let (name, unit) = (facts.joint_name(worst), facts.units(worst).effort());
-        let sizes = applied(facts, worst).into_iter().map(f64::abs).collect();
-        let mut curve = facts.curve(
-            format!("size of the effort of joint `{name}`"),
-            unit,
-            sizes,
-            band,
-        );
+        let title = format!("size of the effort of joint `{name}`");
+        let mut curve = facts.curve(title, unit, sizes(worst).collect(), band);
         curve.marks = vec![(facts.time_s(tick), "greatest".to_owned())];
-        Finding::against(
-            band,
-            value,
-            unit,
-            format!("greatest effort of joint `{name}`"),
-        )
-        .shown_at(facts, || {
-            let message = format!(
-                "the effort of joint `{name}` is {} {unit} at {}, its greatest",
-                trimmed(facts.trace.effort.at(tick)[worst], 3),
-                seconds(facts.time_s(tick)),
-            );
-            (message, format!("effort[{worst}]"), tick)
-        })
-        .advise("Ask for the step less suddenly, or lower the gains.")
-        .drawn(curve)
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Greatest
+        let quantity = format!("greatest effort of joint `{name}`");
+        Finding::of_curve(band, Statistic::Greatest, unit, quantity, curve)
+            .shown_at(facts, || {
+                let message = format!(
+                    "the effort of joint `{name}` is {} {unit} at {}, its greatest",
+                    trimmed(facts.trace.effort.at(tick)[worst], 3),
+                    seconds(facts.time_s(tick)),
+                );
+                (message, format!("effort[{worst}]"), tick)
+            })
+            .advise("Ask for the step less suddenly, or lower the gains.")
     }
 }
 

@@ -2,30 +2,14 @@
 //!
 //! Efforts are those applied, after their limits. An arm that never moves needs little: let this check need another.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::joint_effort::{JointEffort, applied};
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::trimmed;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// The joint; the one with the greatest root mean square where it is left out.
-    #[schemars(with = "Option<String>")]
-    joint: Option<Spanned<String>>,
+    joint: Option<At<String>>,
     /// Effort that earns all points \[N m, or N of a prismatic joint\].
     full_n_m: f64,
     /// Effort that earns none.
@@ -34,37 +18,28 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "effort-rms";
-    type Check = EffortRms;
+    type Check = InBand<EffortRms>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<EffortRms, LabError> {
-        Ok(EffortRms(JointEffort {
-            joint: reading.maybe_joint(self.joint.as_ref())?,
-            band: reading.report.band(self.full_n_m, self.zero_n_m, at)?,
-        }))
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let unit = reading.units(joint).effort();
+        reading.in_band([self.full_n_m, self.zero_n_m], unit, EffortRms(joint))
     }
 }
 
-/// The check as read.
+/// Of the joint of this index in `q`; of the worst one where there is none.
 #[derive(Debug)]
-pub(crate) struct EffortRms(JointEffort);
+pub(crate) struct EffortRms(Option<usize>);
 
-impl CheckKind for EffortRms {
-    fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
-        Some(self.0.band(robot))
-    }
-}
-
-impl MotionCheck for EffortRms {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let JointEffort { joint, band } = self.0;
-        let of_joint = |joint: usize| so_far(&applied(facts, joint));
-        let (worst, value) = facts.worst_joint(joint, |joint| {
-            of_joint(joint).last().copied().unwrap_or(0.0)
-        });
+impl RunMeasure for EffortRms {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let so_far = |joint: usize| so_far(&facts.applied_efforts(joint));
+        let of_run = |joint: usize| Statistic::SoFar.of(&so_far(joint));
+        let (worst, value) = facts.worst_joint(self.0, of_run);
         let (name, unit) = (facts.joint_name(worst), facts.units(worst).effort());
         let quantity = format!("root mean square effort of joint `{name}`");
-        let title = format!("{quantity} so far");
-        Finding::against(band, value, unit, quantity)
+        let curve = facts.curve(format!("{quantity} so far"), unit, so_far(worst), band);
+        Finding::of_curve(band, Statistic::SoFar, unit, quantity, curve)
             .shown_at(facts, || {
                 let message = format!(
                     "the effort of joint `{name}` has a root mean square of {} {unit} over the run",
@@ -73,11 +48,6 @@ impl MotionCheck for EffortRms {
                 (message, format!("effort[{worst}]"), facts.applied_ticks())
             })
             .advise("Accelerate less, and do not let efforts work against each other.")
-            .drawn(facts.curve(title, unit, of_joint(worst), band))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::SoFar
     }
 }
 

@@ -3,20 +3,7 @@
 //! `Σ |τ[k] (q[k+1] - q[k])|` over ticks and joints: the effort is held from tick to tick, so each term is the work over the step.
 //! Work against a motor counts as much as work of it: brakes get hot, too.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::trimmed;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -30,45 +17,35 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "energy";
-    type Check = Energy;
+    type Check = InBand<Energy>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<Energy, LabError> {
-        let band = reading.report.band(self.full_j, self.zero_j, at)?;
-        Ok(Energy { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_j, self.zero_j], "J", Energy)
     }
 }
 
-/// The check as read.
+/// The work of all motors.
 #[derive(Debug)]
-pub(crate) struct Energy {
-    band: Band,
-}
+pub(crate) struct Energy;
 
-impl CheckKind for Energy {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "J"))
-    }
-}
-
-impl MotionCheck for Energy {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for Energy {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let trace = facts.trace;
         let mut of_joints = vec![0.0; facts.robot.n()];
         let mut sum = 0.0;
-        let mut values = Vec::with_capacity(trace.len());
-        for tick in 0..trace.len() {
-            values.push(sum);
-            if tick + 1 < trace.len() {
-                let ways = trace.q.at(tick + 1).iter().zip(trace.q.at(tick));
-                let efforts = trace.effort.at(tick).iter().zip(&mut of_joints);
-                for ((effort, of_joint), (to, from)) in efforts.zip(ways) {
-                    let work = (effort * (to - from)).abs();
-                    *of_joint += work;
-                    sum += work;
-                }
+        let mut so_far = vec![0.0];
+        for tick in 0..facts.applied_ticks() {
+            let moves = trace.q.at(tick + 1).iter().zip(trace.q.at(tick));
+            let efforts = trace.effort.at(tick).iter().zip(&mut of_joints);
+            for ((effort, of_joint), (to, from)) in efforts.zip(moves) {
+                let work = (effort * (to - from)).abs();
+                *of_joint += work;
+                sum += work;
             }
+            so_far.push(sum);
         }
-        Finding::against(self.band, sum, "J", "work of the motors")
+        let curve = facts.curve("work of the motors so far", "J", so_far, band);
+        Finding::of_curve(band, Statistic::SoFar, "J", "work of the motors", curve)
             .shown_at(facts, || {
                 let (worst, of_worst) = facts.worst_joint(None, |joint| of_joints[joint]);
                 let message = format!(
@@ -80,11 +57,6 @@ impl MotionCheck for Energy {
                 (message, format!("effort[{worst}]"), facts.last_tick())
             })
             .advise("Take a shorter way, or a slower one that needs less braking.")
-            .drawn(facts.curve("work of the motors so far", "J", values, self.band))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::SoFar
     }
 }
 

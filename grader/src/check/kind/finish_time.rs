@@ -1,19 +1,6 @@
 //! finish-time: when the last dwell was over \[s\]; never, where some goal earned nothing.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::{MotionTable, lacks_goals};
-use crate::record::quantity::seconds;
-use crate::task::model::{Band, MotionTask};
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -27,48 +14,36 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "finish-time";
-    type Check = FinishTime;
+    type Check = InBand<FinishTime>;
 
     fn lacks(task: &MotionTask) -> Option<&'static str> {
         lacks_goals(task)
     }
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<FinishTime, LabError> {
-        let band = reading.report.band(self.full_s, self.zero_s, at)?;
-        Ok(FinishTime { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_s, self.zero_s], "s", FinishTime)
     }
 }
 
-/// The check as read.
+/// The end of the last dwell.
 #[derive(Debug)]
-pub(crate) struct FinishTime {
-    band: Band,
-}
+pub(crate) struct FinishTime;
 
-impl CheckKind for FinishTime {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "s"))
-    }
-}
-
-impl MotionCheck for FinishTime {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let missed = facts
-            .stays
-            .iter()
-            .position(|stay| facts.pose_band.score(stay.settled_m) <= 0.0);
-        let last = facts.stays.last().filter(|_| missed.is_none());
-        let finish = last.map(|stay| (stay.last, facts.time_s(stay.last)));
-        let value = finish.map_or(f64::INFINITY, |(_, time_s)| time_s);
-        let mut finding = Finding::against(self.band, value, "s", "end of the last dwell");
-        if let Some((tick, time_s)) = finish {
+impl RunMeasure for FinishTime {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let missed = |dwell: &Dwell| facts.pose_band.score(dwell.settled_m) <= 0.0;
+        let missed = facts.dwells.iter().position(missed);
+        let last = facts.dwells.last().filter(|_| missed.is_none());
+        let value = last.map_or(f64::INFINITY, |dwell| facts.time_s(dwell.last));
+        let mut finding = Finding::against(band, value, "s", "end of the last dwell");
+        if let Some(dwell) = last {
             finding = finding.shown_at(facts, || {
                 let message = format!(
                     "the last dwell is over at {}, {} earns everything",
-                    seconds(time_s),
-                    seconds(self.band.full)
+                    seconds(value),
+                    seconds(band.full)
                 );
-                (message, "tcp".to_owned(), tick)
+                (message, "tcp".to_owned(), dwell.last)
             });
         }
         if let Some(goal) = missed {
@@ -79,9 +54,5 @@ impl MotionCheck for FinishTime {
             finding = finding.with(facts.evidence(message, "tcp".to_owned(), facts.last_tick()));
         }
         finding.advise("Start the next move as soon as the dwell is over.")
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
     }
 }

@@ -4,23 +4,9 @@
 //! for whole turns, scores nothing. Two branches are the same if every revolute joint agrees to 0.02 rad, apart from whole turns,
 //! and every prismatic joint to 1 mm.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use super::ik_reach;
-use crate::attempt::answers::{Answered, CaseError, CaseFacts};
+use super::ik_reach::of_every_target;
 use crate::attempt::measure::count_distinct;
-use crate::check::cases::{CaseScore, Summary};
-use crate::check::contract::{CheckKind, FunctionCheck};
-use crate::check::finding::Finding;
-use crate::check::reading::FunctionReading;
-use crate::check::registry::FunctionTable;
-use crate::record::quantity::metres;
-use crate::task::model::{Band, Function};
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -34,92 +20,65 @@ pub(crate) struct Table {
 
 impl FunctionTable for Table {
     const NAME: &'static str = "ik-branches";
-    const TASK: &'static str = ik_reach::TASK;
-    type Check = IkBranches;
+    const FUNCTION: Option<&'static str> = Some("inverse_kinematics");
+    type Check = InBand<IkBranches>;
 
-    fn fits(function: &Function) -> bool {
-        *function == Function::InverseKinematics
-    }
-
-    fn read(
-        &self,
-        at: Range<usize>,
-        reading: &FunctionReading<'_>,
-    ) -> Result<IkBranches, LabError> {
-        let band = reading.report.band(self.full_m, self.zero_m, at)?;
-        Ok(IkBranches { band })
+    fn read(&self, reading: &FunctionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_m, self.zero_m], "m", IkBranches)
     }
 }
 
-/// The check as read.
+/// The distance of the worst branch from its target, where none is missing.
 #[derive(Debug)]
-pub(crate) struct IkBranches {
-    band: Band,
-}
+pub(crate) struct IkBranches;
 
-impl CheckKind for IkBranches {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "m"))
-    }
-
-    fn bounds(&self, _: &Robot, _: &[&str]) -> [String; 2] {
-        ik_reach::bounds_of_each(self.band)
-    }
-}
-
-impl FunctionCheck for IkBranches {
-    fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
-        let summary = Summary {
-            function,
-            quantity: "targets with every branch".to_owned(),
-            band: self.band,
-            unit: "m",
-        };
-        summary
-            .mean_score(cases, |facts| self.score(facts))
+impl AnswerMeasure for IkBranches {
+    fn judge(&self, cases: &Cases<'_>) -> Finding {
+        cases
+            .mean_score("targets with every branch", |facts| {
+                score(facts, cases.band)
+            })
             .advise("The arm can bend either way: return both, `[[q1, q2], [q1, q2]]`.")
     }
 
-    fn answer_band(&self) -> Option<Band> {
+    fn is_of_single_answers(&self) -> bool {
         // an answer with one good branch of two is good
-        None
+        false
+    }
+
+    fn bounds(&self, full: String, zero: String) -> [String; 2] {
+        of_every_target(full, zero)
     }
 }
 
-impl IkBranches {
-    /// The score of a case with two or more branches.
-    fn score(&self, facts: &CaseFacts<'_>) -> Option<CaseScore> {
-        let CaseError::Reach {
-            branches_m,
-            expected,
-        } = &facts.error
-        else {
-            return None;
-        };
-        if *expected < 2 {
-            return None;
-        }
-        let distinct = match &facts.answer {
-            Answered::Branches(branches) => count_distinct(&facts.robot, branches),
-            Answered::Position(_)
-            | Answered::Matrix(_)
-            | Answered::Entries(_)
-            | Answered::Invalid(_)
-            | Answered::Stopped => 0,
-        };
-        let complete = distinct >= *expected as usize;
-        let worst_m = match branches_m.last() {
-            Some(worst_m) if complete => *worst_m,
-            _ => f64::INFINITY,
-        };
-        Some(CaseScore::of(worst_m, self.band, || {
-            let name = facts.told();
-            if complete {
-                let off = metres(worst_m);
-                format!("{name}: one of the branches ends {off} from the target")
-            } else {
-                format!("{name}: {distinct} of {expected} branches")
-            }
-        }))
+/// The score of a case with two or more branches.
+fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
+    let CaseError::Reach {
+        branches_m,
+        expected,
+    } = &facts.error
+    else {
+        return None;
+    };
+    if *expected < 2 {
+        return None;
     }
+    let distinct = match &facts.answer {
+        Answered::Branches(branches) => count_distinct(&facts.robot, branches),
+        _ => 0,
+    };
+    let complete = distinct >= *expected as usize;
+    let worst_m = match branches_m.last() {
+        Some(worst_m) if complete => *worst_m,
+        _ => f64::INFINITY,
+    };
+    Some(CaseScore::of(worst_m, band, || {
+        let name = facts.label();
+        if complete {
+            let off = metres(worst_m);
+            format!("{name}: one of the branches ends {off} from the target")
+        } else {
+            format!("{name}: {distinct} of {expected} branches")
+        }
+    }))
 }

@@ -3,32 +3,7 @@
 //! Each reachable case is scored by the band; the check's score is their mean. Whole turns and the order of branches make no
 //! difference.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::attempt::answers::{Answered, CaseError, CaseFacts};
-use crate::check::cases::{CaseScore, Summary, without_answer};
-use crate::check::contract::{CheckKind, FunctionCheck};
-use crate::check::finding::Finding;
-use crate::check::reading::FunctionReading;
-use crate::check::registry::FunctionTable;
-use crate::record::quantity::{metres, with_unit};
-use crate::task::model::{Band, Function};
-use crate::task::problem::LabError;
-
-/// What every check of inverse kinematics needs.
-pub(super) const TASK: &str = "a function task of `inverse_kinematics`";
-
-/// What the brief says of a band that every target is held against.
-pub(super) fn bounds_of_each(band: Band) -> [String; 2] {
-    [
-        format!("every target within {}", with_unit(band.full, "m")),
-        format!("every target {} off", with_unit(band.zero, "m")),
-    ]
-}
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -42,64 +17,48 @@ pub(crate) struct Table {
 
 impl FunctionTable for Table {
     const NAME: &'static str = "ik-reach";
-    const TASK: &'static str = TASK;
-    type Check = IkReach;
+    const FUNCTION: Option<&'static str> = Some("inverse_kinematics");
+    type Check = InBand<IkReach>;
 
-    fn fits(function: &Function) -> bool {
-        *function == Function::InverseKinematics
-    }
-
-    fn read(&self, at: Range<usize>, reading: &FunctionReading<'_>) -> Result<IkReach, LabError> {
-        let band = reading.report.band(self.full_m, self.zero_m, at)?;
-        Ok(IkReach { band })
+    fn read(&self, reading: &FunctionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_m, self.zero_m], "m", IkReach)
     }
 }
 
-/// The check as read.
+/// The distance of the best branch from its target.
 #[derive(Debug)]
-pub(crate) struct IkReach {
-    band: Band,
-}
+pub(crate) struct IkReach;
 
-impl CheckKind for IkReach {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "m"))
-    }
-
-    fn bounds(&self, _: &Robot, _: &[&str]) -> [String; 2] {
-        bounds_of_each(self.band)
-    }
-}
-
-impl FunctionCheck for IkReach {
-    fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
-        let summary = Summary {
-            function,
-            quantity: "targets reached".to_owned(),
-            band: self.band,
-            unit: "m",
-        };
+impl AnswerMeasure for IkReach {
+    fn judge(&self, cases: &Cases<'_>) -> Finding {
         let score = |facts: &CaseFacts<'_>| {
             let CaseError::Reach { branches_m, .. } = &facts.error else {
                 return None;
             };
             let nearest_m = branches_m.first().copied().unwrap_or(f64::INFINITY);
-            Some(CaseScore::of(nearest_m, self.band, || {
-                message(facts, nearest_m)
-            }))
+            let message = || message(facts, nearest_m);
+            Some(CaseScore::of(nearest_m, cases.band, message))
         };
-        summary.mean_score(cases, score).advise(
+        cases.mean_score("targets reached", score).advise(
             "Put your angles through your own forward kinematics: it must give the target back.",
         )
     }
 
-    fn answer_band(&self) -> Option<Band> {
-        Some(self.band)
+    fn bounds(&self, full: String, zero: String) -> [String; 2] {
+        of_every_target(full, zero)
     }
 }
 
+/// What the brief says of a band in which every target is judged.
+pub(super) fn of_every_target(full: String, zero: String) -> [String; 2] {
+    [
+        format!("every target within {full}"),
+        format!("every target {zero} off"),
+    ]
+}
+
 fn message(facts: &CaseFacts<'_>, nearest_m: f64) -> String {
-    let name = facts.told();
+    let name = facts.label();
     match &facts.answer {
         Answered::Branches(branches) if branches.is_empty() => {
             format!("{name}: said to be out of reach, but it is not")

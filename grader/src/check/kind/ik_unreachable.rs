@@ -1,20 +1,6 @@
 //! ik-unreachable: the share of the targets out of reach that are answered with an empty list, `[]`.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use super::ik_reach;
-use crate::attempt::answers::{CaseError, CaseFacts};
-use crate::check::cases::{CaseScore, Summary, without_answer};
-use crate::check::contract::{CheckKind, FunctionCheck};
-use crate::check::finding::Finding;
-use crate::check::reading::FunctionReading;
-use crate::check::registry::FunctionTable;
-use crate::task::model::{Band, Function};
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// No keys: write `{}`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -23,14 +9,10 @@ pub(crate) struct Table {}
 
 impl FunctionTable for Table {
     const NAME: &'static str = "ik-unreachable";
-    const TASK: &'static str = ik_reach::TASK;
+    const FUNCTION: Option<&'static str> = Some("inverse_kinematics");
     type Check = IkUnreachable;
 
-    fn fits(function: &Function) -> bool {
-        *function == Function::InverseKinematics
-    }
-
-    fn read(&self, _: Range<usize>, _: &FunctionReading<'_>) -> Result<IkUnreachable, LabError> {
+    fn read(&self, _: &FunctionReading<'_>) -> Result<Self::Check, LabError> {
         Ok(IkUnreachable)
     }
 }
@@ -39,24 +21,21 @@ impl FunctionTable for Table {
 #[derive(Debug)]
 pub(crate) struct IkUnreachable;
 
-impl CheckKind for IkUnreachable {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        None
-    }
-}
-
 impl FunctionCheck for IkUnreachable {
+    fn bounds(&self) -> [String; 2] {
+        ["every one".to_owned(), "none".to_owned()]
+    }
+
     fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
-        let summary = Summary {
+        let (band, unit) = (Band::default(), "");
+        let cases = Cases {
             function,
-            quantity: "targets out of reach that are told so".to_owned(),
-            band: Band {
-                full: 0.0,
-                zero: 0.0,
-            },
-            unit: "",
+            cases,
+            band,
+            unit,
         };
-        let mut finding = summary.mean_score(cases, score).advise(
+        let quantity = "targets out of reach that are recognised as such";
+        let mut finding = cases.mean_score(quantity, score).advise(
             "Compare the target's distance from the shoulder with the lengths of the links, and return `[]` where it is too far or too near.",
         );
         for piece in &mut finding.evidence {
@@ -76,7 +55,7 @@ fn score(facts: &CaseFacts<'_>) -> Option<CaseScore> {
     };
     let message = || {
         without_answer(facts).unwrap_or_else(|| {
-            let name = facts.told();
+            let name = facts.label();
             format!("{name}: angles for a target no arm of these lengths reaches")
         })
     };

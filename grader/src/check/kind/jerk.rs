@@ -3,20 +3,7 @@
 //! The TCP's position is taken at every call of `control`, a period `T` apart; the jerk of four positions in a row is
 //! `|p[k+3] - 3 p[k+2] + 3 p[k+1] - p[k]| / T³`. A run of fewer than four calls has none.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::{Finding, curve};
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -30,60 +17,39 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "jerk";
-    type Check = Jerk;
+    type Check = InBand<Jerk>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<Jerk, LabError> {
-        let band = reading.report.band(self.full_m_s3, self.zero_m_s3, at)?;
-        Ok(Jerk { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_m_s3, self.zero_m_s3], "m/s³", Jerk)
     }
 }
 
-/// The check as read.
+/// The jerk of the TCP.
 #[derive(Debug)]
-pub(crate) struct Jerk {
-    band: Band,
-}
+pub(crate) struct Jerk;
 
-impl CheckKind for Jerk {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "m/s³"))
-    }
-}
-
-impl MotionCheck for Jerk {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for Jerk {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let stride = facts.motion.periods.ticks_per_control.get() as usize;
         let jerks = jerks_m_s3(facts, stride);
-        let squares: f64 = jerks.iter().map(|jerk| jerk * jerk).sum();
-        let value = (squares / jerks.len().max(1) as f64).sqrt();
+        let (worst, of_worst) = greatest(jerks.iter().copied()).unwrap_or((0, f64::NAN));
         // the middle of the four
         let tick_of = |k: usize| (k * stride + 3 * stride / 2).min(facts.last_tick());
-        let worst = (0..jerks.len())
-            .max_by(|a, b| jerks[*a].total_cmp(&jerks[*b]).then(b.cmp(a)))
-            .unwrap_or(0);
         let t_s = (0..jerks.len()).map(|k| facts.time_s(tick_of(k))).collect();
-        Finding::against(self.band, value, "m/s³", "root mean square jerk of the TCP")
+        let quantity = "root mean square jerk of the TCP";
+        let value = Statistic::RootMeanSquare.of(&jerks);
+        let curve = curve("jerk of the TCP", "m/s³", t_s, jerks, Some(band));
+        Finding::of_curve(band, Statistic::RootMeanSquare, "m/s³", quantity, curve)
             .shown_at(facts, || {
                 let message = format!(
                     "the TCP's jerk has a root mean square of {} m/s³, and is {} m/s³ around {}",
                     trimmed(value, 2),
-                    trimmed(jerks.get(worst).copied().unwrap_or(f64::NAN), 2),
+                    trimmed(of_worst, 2),
                     seconds(facts.time_s(tick_of(worst))),
                 );
                 (message, "tcp".to_owned(), tick_of(worst))
             })
             .advise("Let the acceleration come and go smoothly, such as along a quintic.")
-            .drawn(curve(
-                "jerk of the TCP",
-                "m/s³",
-                t_s,
-                jerks,
-                Some(self.band),
-            ))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Mean
     }
 }
 

@@ -1,22 +1,7 @@
 //! joint-limits: how far a joint leaves its position limits \[rad or m\]. Inside the limits the value is negative: the margin that is
 //! left.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::joint_units::JointUnits;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -30,28 +15,20 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "joint-limits";
-    type Check = JointLimits;
+    type Check = InBand<JointLimits>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<JointLimits, LabError> {
-        let band = reading.report.band(self.full_rad, self.zero_rad, at)?;
-        Ok(JointLimits { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let unit = reading.units(None).position();
+        reading.in_band([self.full_rad, self.zero_rad], unit, JointLimits)
     }
 }
 
-/// The check as read.
+/// The distance beyond the limits of any joint.
 #[derive(Debug)]
-pub(crate) struct JointLimits {
-    band: Band,
-}
+pub(crate) struct JointLimits;
 
-impl CheckKind for JointLimits {
-    fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, JointUnits::of_all(robot).position()))
-    }
-}
-
-impl MotionCheck for JointLimits {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for JointLimits {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let trace = facts.trace;
         let mut worst = (f64::NEG_INFINITY, 0, 0); // value, tick, joint
         let mut breach: Option<(usize, usize)> = None;
@@ -63,7 +40,7 @@ impl MotionCheck for JointLimits {
                 if beyond > worst.0 {
                     worst = (beyond, tick, index);
                 }
-                if beyond > self.band.full && breach.is_none_or(|(first, _)| tick < first) {
+                if beyond > band.full && breach.is_none_or(|(first, _)| tick < first) {
                     breach = Some((tick, index));
                 }
             }
@@ -71,7 +48,7 @@ impl MotionCheck for JointLimits {
         let (value, tick, joint) = worst;
         let unit = facts.units(joint).position();
         let quantity = "way beyond a joint's limits (negative inside)";
-        let mut finding = Finding::against(self.band, value, unit, quantity);
+        let mut finding = Finding::against(band, value, unit, quantity);
         if let (Some((first, first_joint)), true) = (breach, finding.is_lost()) {
             let message = format!(
                 "joint `{}` leaves its limits at {}; joint `{}` is {} {unit} beyond at its worst, at {}",
@@ -83,7 +60,7 @@ impl MotionCheck for JointLimits {
             );
             finding = finding.with(Evidence {
                 value: Some(trace.q.at(first)[first_joint]),
-                limit: Some(self.band.full),
+                limit: Some(band.full),
                 unit: facts.units(first_joint).position().to_owned(),
                 ..facts.evidence(message, format!("q[{first_joint}]"), first)
             });
@@ -94,9 +71,5 @@ impl MotionCheck for JointLimits {
                 "Take angles between the limits: `wrap_pi` brings an angle into (-pi, pi]."
             }
         })
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
     }
 }

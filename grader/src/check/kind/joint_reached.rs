@@ -2,61 +2,40 @@
 //!
 //! Measured is the greatest distance from the position over the last `hold_s` \[rad or m\].
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
-use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::joint_units::JointUnits;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// The joint.
-    #[schemars(with = "String")]
-    joint: Spanned<String>,
+    joint: At<String>,
     /// Where it should stand \[rad, or m of a prismatic joint\].
     position_rad: f64,
     /// The part at the end of the run that counts \[s\]; a multiple of the physics step.
-    #[schemars(with = "f64")]
-    hold_s: NumberAt,
+    hold_s: At<f64>,
     /// Distance that earns all points.
-    #[schemars(with = "f64")]
-    full_rad: NumberAt,
+    full_rad: f64,
     /// Distance that earns none.
     zero_rad: f64,
 }
 
 impl MotionTable for Table {
     const NAME: &'static str = "joint-reached";
-    type Check = JointReached;
+    type Check = InBand<JointReached>;
 
-    fn read(&self, _: Range<usize>, reading: &InTask<'_>) -> Result<JointReached, LabError> {
-        let full = &self.full_rad;
-        Ok(JointReached {
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let measure = JointReached {
             joint: reading.joint(&self.joint)?,
             position: self.position_rad,
             hold_ticks: reading.ticks(&self.hold_s, "`hold_s`")? as usize,
-            band: reading
-                .report
-                .band(*full.get_ref(), self.zero_rad, full.span())?,
-        })
+        };
+        let unit = reading.units(Some(measure.joint)).position();
+        reading.in_band([self.full_rad, self.zero_rad], unit, measure)
     }
 }
 
-/// The check as read.
+/// The distance of a joint from a position.
 #[derive(Debug)]
 pub(crate) struct JointReached {
     /// Index in `q`.
@@ -65,17 +44,10 @@ pub(crate) struct JointReached {
     position: f64,
     /// Ticks at the end in which it must stand there.
     hold_ticks: usize,
-    band: Band,
 }
 
-impl CheckKind for JointReached {
-    fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, JointUnits::of(robot, self.joint).position()))
-    }
-}
-
-impl MotionCheck for JointReached {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for JointReached {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let joint = self.joint;
         let (name, unit) = (facts.joint_name(joint), facts.units(joint).position());
         let position = trimmed(self.position, 4);
@@ -87,10 +59,9 @@ impl MotionCheck for JointReached {
             .unwrap_or(last);
         let value = error_at(worst);
         let quantity = format!("distance of joint `{name}` from {position} {unit}");
-        let mut finding = Finding::against(self.band, value, unit, quantity);
+        let mut finding = Finding::against(band, value, unit, quantity);
         if finding.is_lost() {
-            let counts_from = (first, worst);
-            let message = self.message(facts, value, counts_from);
+            let message = self.message(facts, value, (first, worst));
             finding = finding.with(Evidence {
                 value: Some(facts.trace.q.at(worst)[joint]),
                 limit: Some(self.position),
@@ -100,17 +71,13 @@ impl MotionCheck for JointReached {
         }
         let title = format!("distance of joint `{name}` from its target");
         let values = (0..facts.trace.len()).map(error_at).collect();
-        let mut curve = facts.curve(title, unit, values, self.band);
+        let mut curve = facts.curve(title, unit, values, band);
         curve.marks = vec![(facts.time_s(first), "judged from here".to_owned())];
         finding
             .advise(format!(
                 "Return {position} for joint `{name}` from `control`, at every call."
             ))
             .drawn(curve)
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
     }
 }
 

@@ -1,20 +1,6 @@
 //! joint-speed: the greatest speed of any joint over the run \[rad/s or m/s\]. A speed that is no number earns nothing.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::record::quantity::{seconds, trimmed};
-use crate::task::joint_units::JointUnits;
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -28,71 +14,47 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "joint-speed";
-    type Check = JointSpeed;
+    type Check = InBand<JointSpeed>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<JointSpeed, LabError> {
-        let band = reading.report.band(self.full_rad_s, self.zero_rad_s, at)?;
-        Ok(JointSpeed { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let unit = reading.units(None).speed();
+        reading.in_band([self.full_rad_s, self.zero_rad_s], unit, JointSpeed)
     }
 }
 
-/// The check as read.
+/// The speed of the fastest joint.
 #[derive(Debug)]
-pub(crate) struct JointSpeed {
-    band: Band,
-}
+pub(crate) struct JointSpeed;
 
-impl CheckKind for JointSpeed {
-    fn band(&self, robot: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, JointUnits::of_all(robot).speed()))
-    }
-}
-
-impl MotionCheck for JointSpeed {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let mut worst = (0.0_f64, 0, 0); // value, tick, joint
-        let mut fastest = Vec::with_capacity(facts.trace.len());
-        for tick in 0..facts.trace.len() {
-            let mut here = 0.0_f64;
-            for (joint, speed) in facts.trace.qd.at(tick).iter().enumerate() {
-                let speed = if speed.is_nan() {
-                    f64::INFINITY
-                } else {
-                    speed.abs()
-                };
-                here = here.max(speed);
-                if speed > worst.0 {
-                    worst = (speed, tick, joint);
-                }
-            }
-            fastest.push(here);
-        }
-        let first_above = fastest.iter().position(|speed| *speed > self.band.full);
-        let (value, tick, joint) = worst;
+impl RunMeasure for JointSpeed {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let speeds = |tick: usize| facts.trace.qd.at(tick).iter().map(|speed| speed.abs());
+        let fastest = |tick: usize| greatest(speeds(tick)).unwrap_or_default();
+        let values: Vec<f64> = (0..facts.trace.len()).map(|tick| fastest(tick).1).collect();
+        let (tick, value) = greatest(values.iter().copied()).unwrap_or_default();
+        let first_above = values.iter().position(|speed| *speed > band.full);
+        let (joint, _) = fastest(tick);
         let unit = facts.units(joint).speed();
         let moves = match facts.units(joint) {
             JointUnits::Sliding => "slides",
             JointUnits::Turning | JointUnits::Mixed => "turns",
         };
         let unit_of_all = JointUnits::of_all(facts.robot).speed();
-        Finding::against(self.band, value, unit, "greatest speed of a joint")
+        let curve = facts.curve("speed of the fastest joint", unit_of_all, values, band);
+        let quantity = "greatest speed of a joint";
+        Finding::of_curve(band, Statistic::Greatest, unit, quantity, curve)
             .shown_at(facts, || {
                 let message = format!(
                     "joint `{}` {moves} at {} {unit} at {}; {} {unit} are first passed at {}",
                     facts.joint_name(joint),
                     trimmed(value, 3),
                     seconds(facts.time_s(tick)),
-                    trimmed(self.band.full, 3),
+                    trimmed(band.full, 3),
                     seconds(facts.time_s(first_above.unwrap_or(tick))),
                 );
                 (message, format!("qd[{joint}]"), tick)
             })
             .advise("Scale all joint velocities down together where the largest is too high: the direction of the hand stays.")
-            .drawn(facts.curve("speed of the fastest joint", unit_of_all, fastest, self.band))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Greatest
     }
 }
 

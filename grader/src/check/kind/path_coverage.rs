@@ -3,47 +3,17 @@
 //! Measured is, of the lengths that count of all segments together, what progress gains at positions within `within_m`: see
 //! [How a path is followed](#how-a-path-is-followed). More is better.
 
-use std::ops::Range;
+use crate::check::path_following::followed;
+use crate::check::prelude::*;
+use crate::check::segments::segment_name;
+use crate::task::watched::PathToFollow;
 
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::{Finding, measure};
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
-use crate::check::road;
-use crate::record::grade::Evidence;
-use crate::record::quantity::{list, metres, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
-use crate::task::watched::{PathToFollow, Shares};
-
-/// Shares in the wrong order.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error(
-    "a coverage needs 0 <= zero <= full <= 1 and `full` above 0, got full = {full} and zero = {zero}"
-)]
-struct NotInOrder {
-    full: f64,
-    zero: f64,
-}
-
-impl Problem for NotInOrder {
-    fn code(&self) -> &'static str {
-        "lab::band"
-    }
-
-    fn label(&self) -> String {
-        "this band".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some("such as `full = 0.98, zero = 0.5`".to_owned())
+problems! {
+    /// Shares in the wrong order.
+    enum ShareProblem {
+        NotInOrder { full: f64, zero: f64 }:
+            "lab::band", "a coverage needs 0 <= zero <= full <= 1 and `full` above 0, got full = {full} and zero = {zero}",
+            "this band", "such as `full = 0.98, zero = 0.5`";
     }
 }
 
@@ -52,11 +22,9 @@ impl Problem for NotInOrder {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// A path of `[tasks.motion.paths]`.
-    #[schemars(with = "String")]
-    path: Spanned<String>,
+    path: At<String>,
     /// How near to the path the TCP passes \[m\].
-    #[schemars(with = "f64")]
-    within_m: NumberAt,
+    within_m: At<f64>,
     /// Share that earns all points.
     full: f64,
     /// Share that earns none; at or below `full`.
@@ -67,11 +35,11 @@ impl MotionTable for Table {
     const NAME: &'static str = "path-coverage";
     type Check = PathCoverage;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<PathCoverage, LabError> {
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let (full, zero) = (self.full, self.zero);
         // here more is better, unlike in other bands
         if !(0.0 <= zero && zero <= full && full <= 1.0 && full > 0.0) {
-            return reading.report.refuse(at, NotInOrder { full, zero });
+            return reading.refuse(ShareProblem::NotInOrder { full, zero });
         }
         Ok(PathCoverage {
             path: reading.path(&self.path)?,
@@ -89,49 +57,43 @@ pub(crate) struct PathCoverage {
     shares: Shares,
 }
 
-impl CheckKind for PathCoverage {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        None
-    }
-
-    fn bounds(&self, _: &Robot, _: &[&str]) -> [String; 2] {
+impl MotionCheck for PathCoverage {
+    fn bounds(&self) -> [String; 2] {
         [
             format!("from {}", with_unit(self.shares.full, "")),
             format!("up to {}", with_unit(self.shares.zero, "")),
         ]
     }
-}
 
-impl MotionCheck for PathCoverage {
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let (path, within) = (&self.path, metres(self.within_m));
-        let driven = road::driven(&facts.p_tcp_m(), path).unwrap_or_default();
-        let length_m: f64 = driven.iter().map(|segment| segment.length_m).sum();
-        let passed_m = driven.iter().map(|segment| segment.passed_m(self.within_m));
-        let passed_m: f64 = passed_m.sum();
-        // round-off of a sum of thousands of steps
-        let share = if passed_m >= length_m * (1.0 - 1e-9) {
+        let within = metres(self.within_m);
+        let followed = followed(&facts.p_tcp_m(), &self.path).unwrap_or_default();
+        let length_m: f64 = followed.iter().map(|segment| segment.length_m).sum();
+        let passed = followed
+            .iter()
+            .map(|segment| segment.passed_m(self.within_m));
+        let passed_m: f64 = passed.sum();
+        // without a path there is no share; what a sum of thousands of steps is off by rounding is none
+        let value = if followed.is_empty() {
+            f64::NAN
+        } else if passed_m >= length_m * (1.0 - 1e-9) {
             1.0
         } else {
             passed_m / length_m
         };
-        // without a path there is no share
-        let value = if driven.is_empty() { f64::NAN } else { share };
         let score = self.shares.score(value);
         let mut evidence = Vec::new();
-        for (i, segment) in driven.iter().enumerate() {
+        for (i, segment) in followed.iter().enumerate() {
             let share = segment.passed_m(self.within_m) / segment.length_m;
             if score >= 1.0 || share >= 1.0 - 1e-9 {
                 continue;
             }
-            let [from, to] = [i, i + 1].map(|k| list(path.points_m[k].as_slice()));
             let message = format!(
-                "of segment {} of the path `{}`, from {from} to {to}, {} is passed within {within}",
-                i + 1,
-                path.name,
+                "of {}, {} is passed within {within}",
+                segment_name(&self.path, i),
                 with_unit(share, ""),
             );
-            let left = segment.places.last().map_or(0, |place| place.tick);
+            let left = segment.samples.last().map_or(0, |sample| sample.tick);
             evidence.push(Evidence {
                 value: Some(share),
                 limit: Some(self.shares.full),
@@ -147,8 +109,48 @@ impl MotionCheck for PathCoverage {
             .because(evidence)
             .advise("Follow the path from its first point to its last.")
     }
+}
 
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+/// A band of shares: more is better.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Shares {
+    /// The share that earns all points.
+    full: f64,
+    /// The share that earns none; at or below `full`.
+    zero: f64,
+}
+
+impl Shares {
+    /// The share of points that `value` earns, in `[0, 1]`; NaN earns nothing.
+    fn score(&self, value: f64) -> f64 {
+        if value >= self.full {
+            1.0
+        } else if value > self.zero {
+            (value - self.zero) / (self.full - self.zero)
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_rise_linearly_and_nan_earns_nothing() {
+        let shares = Shares {
+            full: 1.0,
+            zero: 0.5,
+        };
+        for (value, score) in [(1.0, 1.0), (0.75, 0.5), (0.5, 0.0), (0.0, 0.0)] {
+            assert_eq!(shares.score(value), score);
+        }
+        assert_eq!(shares.score(f64::NAN), 0.0);
+        let threshold = Shares {
+            full: 0.5,
+            zero: 0.5,
+        };
+        assert_eq!((threshold.score(0.5), threshold.score(0.49)), (1.0, 0.0));
     }
 }

@@ -8,26 +8,12 @@
 //! that progress left out; it counts as an error of 1, as if the TCP stood there. A step weighs by the distance it covered or should
 //! have covered, whichever is longer: so a rest costs what the distance it could have covered in that time would.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
 
-use super::path_deviation::which;
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::{Finding, curve};
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
-use crate::check::road::{self, Driven};
-use crate::record::grade::Evidence;
-use crate::record::graded::{Curve, StepBackdrop};
-use crate::record::quantity::{list, metres, seconds, trimmed, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::path_following::{FollowedSegment, followed};
+use crate::check::prelude::*;
+use crate::check::segments::{Segments, segment_name};
+use crate::record::graded::StepBackdrop;
 use crate::task::watched::PathToFollow;
 
 /// The keys.
@@ -35,14 +21,11 @@ use crate::task::watched::PathToFollow;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// A path of `[tasks.motion.paths]`.
-    #[schemars(with = "String")]
-    path: Spanned<String>,
+    path: At<String>,
     /// The one segment that counts, from 1; the worst of all where it is left out.
-    #[schemars(with = "Option<u64>")]
-    segment: Option<Spanned<u64>>,
+    segment: Option<At<u64>>,
     /// The speed that is asked for \[m/s\].
-    #[schemars(with = "f64")]
-    speed_m_s: NumberAt,
+    speed_m_s: At<f64>,
     /// Relative error that earns all points.
     full: f64,
     /// Relative error that earns none.
@@ -51,36 +34,26 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "path-speed";
-    type Check = PathSpeed;
+    type Check = InBand<PathSpeed>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<PathSpeed, LabError> {
-        let path = reading.path(&self.path)?;
-        Ok(PathSpeed {
-            only: reading.segment(self.segment.as_ref(), &path)?,
-            path,
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let measure = PathSpeed {
+            segments: Segments::read(reading, &self.path, self.segment.as_ref())?,
             speed_m_s: reading.report.positive(&self.speed_m_s, "`speed_m_s`")?,
-            band: reading.report.band(self.full, self.zero, at)?,
-        })
+        };
+        reading.in_band([self.full, self.zero], "", measure)
     }
 }
 
-/// The check as read.
+/// The error of the speed along the path, in the worst of these segments.
 #[derive(Debug)]
 pub(crate) struct PathSpeed {
-    path: PathToFollow,
-    /// The one segment that counts, from 0; the worst of all where there is none.
-    only: Option<usize>,
+    segments: Segments,
+    /// The speed that is asked for.
     speed_m_s: f64,
-    band: Band,
 }
 
-impl CheckKind for PathSpeed {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, ""))
-    }
-}
-
-/// How fast one segment was driven.
+/// How fast one segment was followed.
 #[derive(Debug, Clone, PartialEq)]
 struct Pace {
     /// Root mean square error, as a fraction of the wanted speed.
@@ -95,39 +68,40 @@ impl Pace {
     fn of(
         p_tcp_m: &[Vector3<f64>],
         [from, to]: [Vector3<f64>; 2],
-        driven: &Driven,
+        followed: &FollowedSegment,
         speed_m_s: f64,
         step_s: f64,
     ) -> Self {
         let along = (to - from).normalize();
-        let (mut sum, mut weights) = (driven.left_out_m, driven.left_out_m);
+        let (mut sum, mut weights) = (followed.left_out_m, followed.left_out_m);
         let mut speeds = Vec::new();
         // at the first tick the segment is only begun
-        for place in driven.places.iter().skip(1).filter(|place| place.counts) {
-            let step = p_tcp_m[place.tick] - p_tcp_m[place.tick - 1];
+        for sample in followed
+            .samples
+            .iter()
+            .skip(1)
+            .filter(|sample| sample.counts)
+        {
+            let step = p_tcp_m[sample.tick] - p_tcp_m[sample.tick - 1];
             let speed = step.dot(&along) / step_s;
             let error = speed / speed_m_s - 1.0;
             let weight = step.norm().max(speed_m_s * step_s);
             sum += weight * error * error;
             weights += weight;
-            speeds.push((place.tick, speed));
+            speeds.push((sample.tick, speed));
         }
         Self {
             rms: (sum / weights).sqrt(),
             speeds,
-            left_out_m: driven.left_out_m,
+            left_out_m: followed.left_out_m,
         }
     }
 
     /// The tick and speed furthest from the wanted one.
     fn furthest(&self, speed_m_s: f64) -> Option<(usize, f64)> {
         let off = |(_, speed): &(usize, f64)| (speed - speed_m_s).abs();
-        let furthest = self.speeds.iter();
-        // of equal ones the first
-        furthest
-            .rev()
-            .max_by(|a, b| off(a).total_cmp(&off(b)))
-            .copied()
+        let (index, _) = greatest(self.speeds.iter().map(off))?;
+        Some(self.speeds[index])
     }
 
     /// The mean over the time spent \[m/s\].
@@ -138,38 +112,29 @@ impl Pace {
 }
 
 fn paces(p_tcp_m: &[Vector3<f64>], path: &PathToFollow, speed_m_s: f64, step_s: f64) -> Vec<Pace> {
-    let driven = road::driven(p_tcp_m, path).unwrap_or_default();
+    let followed = followed(p_tcp_m, path).unwrap_or_default();
     let ends = path.points_m.windows(2);
-    ends.zip(&driven)
-        .map(|(ends, driven)| Pace::of(p_tcp_m, [ends[0], ends[1]], driven, speed_m_s, step_s))
+    ends.zip(&followed)
+        .map(|(ends, followed)| Pace::of(p_tcp_m, [ends[0], ends[1]], followed, speed_m_s, step_s))
         .collect()
 }
 
-impl MotionCheck for PathSpeed {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let speed_m_s = self.speed_m_s;
-        let paces = paces(&facts.p_tcp_m(), &self.path, speed_m_s, facts.trace.step_s);
-        let counts = |i: usize| self.only.is_none_or(|only| only == i);
-        let counted: Vec<(usize, &Pace)> = paces
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| counts(*i))
-            .collect();
-        let worst = counted.iter().map(|(_, pace)| pace.rms);
-        // of the sizes, so that one that is no number is the worst
-        let worst = worst.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let value = worst.unwrap_or(f64::INFINITY);
-        let mut lost = counted.clone();
-        lost.retain(|(_, pace)| self.band.score(pace.rms) < 1.0);
-        lost.sort_by(|a, b| b.1.rms.total_cmp(&a.1.rms));
-        let evidence = lost.iter().take(3).map(|(i, pace)| Evidence {
+impl RunMeasure for PathSpeed {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let (segments, speed_m_s) = (&self.segments, self.speed_m_s);
+        let p_tcp_m = facts.p_tcp_m();
+        let paces = paces(&p_tcp_m, &segments.path, speed_m_s, facts.trace.step_s);
+        let rms = |pace: &Pace| pace.rms;
+        let lost = segments.lost(&paces, rms, band);
+        let evidence = lost.iter().map(|(i, pace)| Evidence {
             value: pace.rms.is_finite().then_some(pace.rms),
-            limit: Some(self.band.full),
-            ..told(facts, &self.path, *i, pace, speed_m_s)
+            limit: Some(band.full),
+            ..self.evidence(facts, *i, pace)
         });
         let slowest = lost.first().and_then(|(_, pace)| pace.mean_m_s());
-        let quantity = format!("error of the speed along the path, {}", which(self.only));
-        Finding::against(self.band, value, "", quantity)
+        let value = segments.worst(&paces, rms);
+        let quantity = format!("error of the speed along the path, {}", segments.which());
+        Finding::against(band, value, "", quantity)
             .because(evidence.collect())
             .advise(match slowest {
                 Some(mean) if mean < speed_m_s => {
@@ -179,34 +144,54 @@ impl MotionCheck for PathSpeed {
                     "Move the place asked for along the path by the wanted speed times the control period, at every call."
                 }
             })
-            .drawn(self.curve(facts, &counted))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+            .drawn(self.curve(facts, &paces, band))
     }
 }
 
 impl PathSpeed {
+    /// How fast segment `i` was followed.
+    fn evidence(&self, facts: &MotionFacts<'_>, i: usize, pace: &Pace) -> Evidence {
+        let mut message = format!(
+            "{}: the speed along it is {} off {} m/s (root mean square)",
+            segment_name(&self.segments.path, i),
+            with_unit(pace.rms, ""),
+            trimmed(self.speed_m_s, 4),
+        );
+        let mut tick = facts.last_tick();
+        if let (Some(mean), Some((at, furthest))) = (pace.mean_m_s(), pace.furthest(self.speed_m_s))
+        {
+            tick = at;
+            message += &format!(
+                "; its mean is {} m/s, the furthest from it {} m/s at {}",
+                trimmed(mean, 4),
+                trimmed(furthest, 4),
+                seconds(facts.time_s(at)),
+            );
+        }
+        if pace.left_out_m > 1e-3 {
+            message += &format!("; {} are never passed", metres(pace.left_out_m));
+        }
+        facts.evidence(message, "tcp".to_owned(), tick)
+    }
+
     /// The speed along the segments that count, with a gap between two of them.
-    fn curve(&self, facts: &MotionFacts<'_>, counted: &[(usize, &Pace)]) -> Curve {
+    fn curve(&self, facts: &MotionFacts<'_>, paces: &[Pace], band: Band) -> Curve {
         let mut t_s = Vec::new();
         let mut values = Vec::new();
         let mut marks = Vec::new();
-        for (i, pace) in counted {
+        let all = paces.iter().enumerate();
+        for (i, pace) in all.filter(|(i, _)| self.segments.counts(*i)) {
             if let Some((first, _)) = pace.speeds.first() {
                 marks.push((facts.time_s(*first), format!("segment {}", i + 1)));
                 t_s.push(facts.time_s(*first));
                 values.push(f64::NAN);
             }
-            for (tick, speed) in &pace.speeds {
-                t_s.push(facts.time_s(*tick));
-                values.push(*speed);
-            }
+            t_s.extend(pace.speeds.iter().map(|(tick, _)| facts.time_s(*tick)));
+            values.extend(pace.speeds.iter().map(|(_, speed)| speed));
         }
         Curve {
             marks,
-            step: Some(backdrop(self.speed_m_s, self.band)),
+            step: Some(backdrop(self.speed_m_s, band)),
             ..curve("speed along the path", "m/s", t_s, values, None)
         }
     }
@@ -216,7 +201,7 @@ impl PathSpeed {
 fn backdrop(speed_m_s: f64, band: Band) -> StepBackdrop {
     let percent = |share: f64| with_unit(100.0 * share, "%");
     let off_m_s = band.full * speed_m_s;
-    let told = format!(
+    let words = format!(
         "full points up to {} off (root mean square), none from {}",
         percent(band.full),
         percent(band.zero)
@@ -224,39 +209,8 @@ fn backdrop(speed_m_s: f64, band: Band) -> StepBackdrop {
     StepBackdrop {
         prediction: None,
         target: Some(speed_m_s),
-        band: Some((speed_m_s - off_m_s, speed_m_s + off_m_s, told)),
+        band: Some((speed_m_s - off_m_s, speed_m_s + off_m_s, words)),
     }
-}
-
-fn told(
-    facts: &MotionFacts<'_>,
-    path: &PathToFollow,
-    i: usize,
-    pace: &Pace,
-    speed_m_s: f64,
-) -> Evidence {
-    let [from, to] = [i, i + 1].map(|k| list(path.points_m[k].as_slice()));
-    let mut message = format!(
-        "segment {} of the path `{}`, from {from} to {to}: the speed along it is {} off {} m/s (root mean square)",
-        i + 1,
-        path.name,
-        with_unit(pace.rms, ""),
-        trimmed(speed_m_s, 4),
-    );
-    let mut tick = facts.trace.len().saturating_sub(1);
-    if let (Some(mean), Some((at, furthest))) = (pace.mean_m_s(), pace.furthest(speed_m_s)) {
-        tick = at;
-        message += &format!(
-            "; its mean is {} m/s, the furthest from it {} m/s at {}",
-            trimmed(mean, 4),
-            trimmed(furthest, 4),
-            seconds(facts.time_s(at)),
-        );
-    }
-    if pace.left_out_m > 1e-3 {
-        message += &format!("; {} are never passed", metres(pace.left_out_m));
-    }
-    facts.evidence(message, "tcp".to_owned(), tick)
 }
 
 #[cfg(test)]
@@ -279,19 +233,19 @@ mod tests {
     /// Along the x axis with the speeds of `parts`, each for as long a way.
     fn drive(parts: &[(f64, f64)]) -> Vec<Vector3<f64>> {
         let mut x = 0.0;
-        let mut road = vec![Vector3::zeros()];
+        let mut track = vec![Vector3::zeros()];
         for (way_m, speed_m_s) in parts {
             let steps = (way_m / (speed_m_s * STEP_S)).abs().round() as usize;
             for _ in 0..steps {
                 x += speed_m_s * STEP_S;
-                road.push(Vector3::new(x, 0.0, 0.0));
+                track.push(Vector3::new(x, 0.0, 0.0));
             }
         }
-        road
+        track
     }
 
-    fn rms(road: &[Vector3<f64>], points: &[[f64; 2]], speed_m_s: f64) -> Vec<f64> {
-        let paces = paces(road, &path(points), speed_m_s, STEP_S);
+    fn rms(track: &[Vector3<f64>], points: &[[f64; 2]], speed_m_s: f64) -> Vec<f64> {
+        let paces = paces(track, &path(points), speed_m_s, STEP_S);
         paces.iter().map(|pace| pace.rms).collect()
     }
 
@@ -314,41 +268,41 @@ mod tests {
 
     #[test]
     fn haste_near_the_ends_does_not_count() {
-        let road = drive(&[(0.04, 1.0), (0.92, 0.25), (0.04, 2.0)]);
-        close(rms(&road, &LINE, 0.25)[0], 0.0, 1e-9);
+        let track = drive(&[(0.04, 1.0), (0.92, 0.25), (0.04, 2.0)]);
+        close(rms(&track, &LINE, 0.25)[0], 0.0, 1e-9);
     }
 
     #[test]
     fn half_of_the_way_at_twice_the_speed_is_half_of_the_squares() {
-        let road = drive(&[(0.5, 0.25), (0.5, 0.5)]);
+        let track = drive(&[(0.5, 0.25), (0.5, 0.5)]);
         // 0.45 m without error and 0.45 m with 1: steps of a quarter of a millimetre
-        close(rms(&road, &LINE, 0.25)[0], 0.5_f64.sqrt(), 1e-3);
+        close(rms(&track, &LINE, 0.25)[0], 0.5_f64.sqrt(), 1e-3);
     }
 
     #[test]
     fn a_rest_costs_the_way_it_could_have_made() {
-        let mut road = drive(&[(0.5, 0.25)]);
-        let here = road[road.len() - 1];
+        let mut track = drive(&[(0.5, 0.25)]);
+        let here = track[track.len() - 1];
         // 1.2 s at 0.25 m/s are 0.3 m
-        road.extend(vec![here; 1200]);
-        road.extend(drive(&[(0.5, 0.25)]).iter().skip(1).map(|p| here + p));
-        close(rms(&road, &LINE, 0.25)[0], (0.3_f64 / 1.2).sqrt(), 1e-3);
+        track.extend(vec![here; 1200]);
+        track.extend(drive(&[(0.5, 0.25)]).iter().skip(1).map(|p| here + p));
+        close(rms(&track, &LINE, 0.25)[0], (0.3_f64 / 1.2).sqrt(), 1e-3);
     }
 
     #[test]
     fn what_is_never_passed_counts_as_standing() {
         // two thirds of the 0.9 m that count are driven
-        let road = drive(&[(0.65, 0.25)]);
-        close(rms(&road, &LINE, 0.25)[0], (1.0_f64 / 3.0).sqrt(), 1e-3);
+        let track = drive(&[(0.65, 0.25)]);
+        close(rms(&track, &LINE, 0.25)[0], (1.0_f64 / 3.0).sqrt(), 1e-3);
         close(rms(&[Vector3::zeros(); 100], &LINE, 0.25)[0], 1.0, 1e-12);
     }
 
     #[test]
     fn going_back_is_worse_than_standing() {
-        let road = drive(&[(0.6, 0.25), (0.2, -0.25), (0.6, 0.25)]);
+        let track = drive(&[(0.6, 0.25), (0.2, -0.25), (0.6, 0.25)]);
         // 0.2 m with an error of -2, of 1.3 m
         close(
-            rms(&road, &LINE, 0.25)[0],
+            rms(&track, &LINE, 0.25)[0],
             (4.0_f64 * 0.2 / 1.3).sqrt(),
             2e-3,
         );
@@ -356,20 +310,20 @@ mod tests {
 
     #[test]
     fn each_segment_has_its_own_pace() {
-        let mut road = drive(&[(1.0, 0.25)]);
-        road.extend((1..=2000).map(|k| Vector3::new(1.0, 0.0005 * f64::from(k), 0.0)));
+        let mut track = drive(&[(1.0, 0.25)]);
+        track.extend((1..=2000).map(|k| Vector3::new(1.0, 0.0005 * f64::from(k), 0.0)));
         let corner = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
-        let found = rms(&road, &corner, 0.25);
+        let found = rms(&track, &corner, 0.25);
         close(found[0], 0.0, 1e-9);
         close(found[1], 1.0, 1e-9);
-        let paces = paces(&road, &path(&corner), 0.25, STEP_S);
+        let paces = paces(&track, &path(&corner), 0.25, STEP_S);
         close(paces[1].mean_m_s().unwrap(), 0.5, 1e-9);
     }
 
     #[test]
     fn a_place_that_is_no_number_has_no_pace() {
-        let mut road = drive(&[(1.0, 0.25)]);
-        road[100].x = f64::NAN;
-        assert_eq!(rms(&road, &LINE, 0.25), Vec::<f64>::new());
+        let mut track = drive(&[(1.0, 0.25)]);
+        track[100].x = f64::NAN;
+        assert_eq!(rms(&track, &LINE, 0.25), Vec::<f64>::new());
     }
 }

@@ -3,22 +3,7 @@
 //! Measured at each goal is the greatest distance during the best dwell \[m\]; the score is the mean of the goals' scores. Reported
 //! is how near the arm settles before it leaves.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::{Finding, measure};
-use crate::check::reading::InTask;
-use crate::check::registry::{MotionTable, lacks_goals};
-use crate::record::grade::Evidence;
-use crate::record::graded::Curve;
-use crate::record::quantity::{list, metres, seconds};
-use crate::task::model::{Band, MotionTask};
-use crate::task::problem::LabError;
+use crate::check::prelude::*;
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -32,124 +17,92 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "pose-reached";
-    type Check = PoseReached;
+    type Check = InBand<PoseReached>;
 
     fn lacks(task: &MotionTask) -> Option<&'static str> {
         lacks_goals(task)
     }
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<PoseReached, LabError> {
-        let band = reading.report.band(self.full_m, self.zero_m, at)?;
-        Ok(PoseReached { band })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        reading.in_band([self.full_m, self.zero_m], "m", PoseReached)
     }
 }
 
-/// The check as read.
+/// The distance from each goal during its dwell.
 #[derive(Debug)]
-pub(crate) struct PoseReached {
-    band: Band,
-}
+pub(crate) struct PoseReached;
 
-impl CheckKind for PoseReached {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "m"))
-    }
-}
-
-impl MotionCheck for PoseReached {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for PoseReached {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let goals = 0..facts.motion.goals.len();
         let settled_m = |goal: usize| {
-            let stay = facts.stays.get(goal);
-            stay.map_or(f64::INFINITY, |stay| stay.settled_m)
+            let dwell = facts.dwells.get(goal);
+            dwell.map_or(f64::INFINITY, |dwell| dwell.settled_m)
         };
-        let scores = goals.clone().map(|goal| self.band.score(settled_m(goal)));
-        let score = scores.sum::<f64>() / goals.len() as f64;
-        let lost = goals
-            .clone()
-            .filter(|goal| self.band.score(settled_m(*goal)) < 1.0);
-        let mut evidence: Vec<Evidence> = lost.map(|goal| self.evidence(facts, goal)).collect();
-        evidence.sort_by(|a, b| {
-            let value = |e: &Evidence| e.value.unwrap_or(f64::INFINITY);
-            value(b).total_cmp(&value(a))
-        });
+        let score_of = |goal: usize| band.score(settled_m(goal));
+        let score = goals.clone().map(score_of).sum::<f64>() / goals.len() as f64;
+        let mut lost: Vec<usize> = goals.clone().filter(|goal| score_of(*goal) < 1.0).collect();
+        lost.sort_by(|a, b| settled_m(*b).total_cmp(&settled_m(*a)));
+        let evidence = lost.into_iter().map(|goal| evidence(facts, goal, band));
         let worst_m = goals.map(settled_m).fold(0.0, f64::max);
-        let measure = measure(
-            "greatest distance from a goal while it is held",
-            worst_m,
-            "m",
-            [self.band.full, self.band.zero],
-        );
+        let quantity = "greatest distance from a goal while it is held";
+        let measure = measure(quantity, worst_m, "m", [band.full, band.zero]);
         Finding::scored(score, measure)
-            .because(evidence)
+            .because(evidence.collect())
             .advise("Compare the joint angles you command with those your inverse kinematics gives for the goal, and hold them until the dwell is over.")
-            .drawn(self.curve(facts))
+            .drawn(next_goal_curve(facts, band))
     }
 
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
-    }
-
-    fn dwell_band(&self) -> Option<Band> {
-        Some(self.band)
+    fn judges_dwells(&self) -> bool {
+        true
     }
 }
 
-impl PoseReached {
-    /// Why the goal with this index loses points.
-    fn evidence(&self, facts: &MotionFacts<'_>, index: usize) -> Evidence {
-        let (number, goal) = (index + 1, &facts.motion.goals[index]);
-        let position = list(goal.position_m.as_slice());
-        let Some(stay) = facts.stays.get(index) else {
-            let message = format!("the run ended before goal {number} at {position} was held");
-            return facts.evidence(message, "tcp".to_owned(), facts.last_tick());
-        };
-        let p = facts.trace.tcp_position(stay.settled_last);
-        let away = p - goal.position_m;
-        let message = format!(
-            "goal {number} at {position}: in its best {} (to {}) the TCP is up to {} away, at {} in the end (off by {} along x, y, z)",
-            seconds(facts.motion.periods.time_s(goal.dwell_ticks)),
-            seconds(facts.time_s(stay.settled_last)),
-            metres(stay.settled_m),
-            list(p.as_slice()),
-            list(away.as_slice()),
-        );
-        Evidence {
-            value: Some(stay.settled_m),
-            limit: Some(self.band.full),
-            unit: "m".to_owned(),
-            ..facts.evidence(message, "tcp".to_owned(), stay.settled_last)
-        }
+/// Why the goal with this index loses points.
+fn evidence(facts: &MotionFacts<'_>, index: usize, band: Band) -> Evidence {
+    let (number, goal) = (index + 1, &facts.motion.goals[index]);
+    let position = list(goal.position_m.as_slice());
+    let Some(dwell) = facts.dwells.get(index) else {
+        let message = format!("the run ended before goal {number} at {position} was held");
+        return facts.evidence(message, "tcp".to_owned(), facts.last_tick());
+    };
+    let p = facts.trace.tcp_position(dwell.settled_last);
+    let away = p - goal.position_m;
+    let message = format!(
+        "goal {number} at {position}: in its best {} (to {}) the TCP is up to {} away, at {} in the end (off by {} along x, y, z)",
+        seconds(facts.motion.periods.time_s(goal.dwell_ticks)),
+        seconds(facts.time_s(dwell.settled_last)),
+        metres(dwell.settled_m),
+        list(p.as_slice()),
+        list(away.as_slice()),
+    );
+    Evidence {
+        value: Some(dwell.settled_m),
+        limit: Some(band.full),
+        unit: "m".to_owned(),
+        ..facts.evidence(message, "tcp".to_owned(), dwell.settled_last)
     }
+}
 
-    /// Distance from the goal that is next: the first until its dwell ends, then the second, and so on.
-    fn curve(&self, facts: &MotionFacts<'_>) -> Curve {
-        let goals = &facts.motion.goals;
-        let mut current = 0;
-        let mut values = Vec::with_capacity(facts.trace.len());
-        for tick in 0..facts.trace.len() {
-            while current + 1 < goals.len()
-                && facts
-                    .stays
-                    .get(current)
-                    .is_some_and(|stay| stay.last < tick)
-            {
-                current += 1;
-            }
-            values.push((facts.trace.tcp_position(tick) - goals[current].position_m).norm());
-        }
-        let marks = facts.stays.iter().enumerate().map(|(i, stay)| {
-            let at = facts.time_s(stay.last);
-            let number = i + 1;
-            let words = match self.band.score(stay.settled_m) > 0.0 {
-                true => format!("goal {number} held"),
-                false => format!("best stay near goal {number} ends"),
-            };
-            (at, words)
-        });
-        Curve {
-            marks: marks.collect(),
-            ..facts.curve("distance from the next goal", "m", values, self.band)
-        }
+/// Distance from the goal that is next: the first until its dwell ends, then the second, and so on.
+fn next_goal_curve(facts: &MotionFacts<'_>, band: Band) -> Curve {
+    let goals = &facts.motion.goals;
+    let distance_m = |tick: usize| {
+        let done = facts.dwells.iter().take_while(|dwell| dwell.last < tick);
+        let next = done.count().min(goals.len() - 1);
+        (facts.trace.tcp_position(tick) - goals[next].position_m).norm()
+    };
+    let values = (0..facts.trace.len()).map(distance_m).collect();
+    let marks = facts.dwells.iter().enumerate().map(|(i, dwell)| {
+        let number = i + 1;
+        let words = match band.score(dwell.settled_m) > 0.0 {
+            true => format!("goal {number} held"),
+            false => format!("best stay near goal {number} ends"),
+        };
+        (facts.time_s(dwell.last), words)
+    });
+    Curve {
+        marks: marks.collect(),
+        ..facts.curve("distance from the next goal", "m", values, band)
     }
 }

@@ -3,45 +3,16 @@
 //! The shares are of the way from the start to the final value. Each is passed where the signal first reaches it, on the straight
 //! line between two ticks.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
+use crate::check::prelude::*;
 use crate::check::step_keys::{StepResponse, step_table};
-use crate::check::step_response::{Loss, Measured, Response, SETTLED};
-use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, trimmed, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::step_response::{Response, SETTLED};
 
-/// Shares that do not go up.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("a rise goes up: `from` must be below `to`, got {from} and {to}")]
-struct NoRise {
-    from: f64,
-    to: f64,
-}
-
-impl Problem for NoRise {
-    fn code(&self) -> &'static str {
-        "lab::step"
-    }
-
-    fn label(&self) -> String {
-        "this share of the step".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some("left out they are 0.1 and 0.9".to_owned())
+problems! {
+    /// Shares that do not go up.
+    enum ShareProblem {
+        NoRise { from: f64, to: f64 }:
+            "lab::step", "a rise goes up: `from` must be below `to`, got {from} and {to}", "this share of the step",
+            "left out they are 0.1 and 0.9";
     }
 }
 
@@ -49,11 +20,9 @@ step_table! {
     /// The time at the end of the run whose mean is the final value \[s\]; 0.2 where it is left out.
     final_s = 0.2;
     /// The lower share of the step, above 0; 0.1 where it is left out.
-    #[schemars(with = "Option<f64>")]
-    from: Option<NumberAt>,
+    from: Option<At<f64>>,
     /// The upper share of the step, below 1; 0.9 where it is left out.
-    #[schemars(with = "Option<f64>")]
-    to: Option<NumberAt>,
+    to: Option<At<f64>>,
     /// Time that earns all points \[s\].
     full_s: f64,
     /// Time that earns none \[s\].
@@ -62,37 +31,32 @@ step_table! {
 
 impl MotionTable for Table {
     const NAME: &'static str = "rise-time";
-    type Check = RiseTime;
+    type Check = InBand<RiseTime>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<RiseTime, LabError> {
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let from = reading.share_of_step(self.from.as_ref(), "`from`", 0.1)?;
         let to = reading.share_of_step(self.to.as_ref(), "`to`", 0.9)?;
         if from >= to {
-            let typed = self.from.as_ref().or(self.to.as_ref());
-            let at = typed.map_or(at, Spanned::span);
-            return reading.report.refuse(at, NoRise { from, to });
+            let problem = ShareProblem::NoRise { from, to };
+            return match self.from.as_ref().or(self.to.as_ref()) {
+                Some(typed) => reading.refuse_at(typed, problem),
+                None => reading.refuse(problem),
+            };
         }
-        Ok(RiseTime {
-            response: reading.step_response(&self.keys(), at.clone())?,
+        let measure = RiseTime {
+            response: reading.step_response(&self.keys())?,
             shares: [from, to],
-            band: reading.report.band(self.full_s, self.zero_s, at)?,
-        })
+        };
+        reading.in_band([self.full_s, self.zero_s], "s", measure)
     }
 }
 
-/// The check as read.
+/// The time from one share of a step to another.
 #[derive(Debug)]
 pub(crate) struct RiseTime {
     response: StepResponse,
     /// Where the time begins and ends, in `(0, 1)` and rising.
     shares: [f64; 2],
-    band: Band,
-}
-
-impl CheckKind for RiseTime {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "s"))
-    }
 }
 
 /// When the signal first reaches a share of the way from `start` to `end`, in ticks.
@@ -112,76 +76,49 @@ fn passes(values: &[f64], start: f64, end: f64, shares: [f64; 2]) -> Option<[f64
     Some([from?, to?])
 }
 
-impl MotionCheck for RiseTime {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for RiseTime {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let response = Response::new(facts, &self.response);
         let fault = response.fault(SETTLED * response.step().abs());
         let passed = match fault {
             Some(_) => None,
             None => passes(&response.values, response.start, response.end, self.shares),
         };
-        let [from_s, to_s] = passed.map_or([f64::NAN; 2], |ticks| {
-            ticks.map(|ticks| response.time_s(ticks))
-        });
-        let value = if passed.is_some() {
-            to_s - from_s
-        } else {
-            f64::INFINITY
+        let times_s = passed.map(|ticks| ticks.map(|ticks| response.time_s(ticks)));
+        let value = times_s.map_or(f64::INFINITY, |[from_s, to_s]| to_s - from_s);
+        let [from_s, to_s] = times_s.unwrap_or([f64::NAN; 2]);
+        let [from, to] = self.shares.map(|share| with_unit(share, ""));
+        let marks = match times_s {
+            Some(_) => vec![
+                (from_s, format!("{from} of the step")),
+                (to_s, format!("{to} of the step")),
+            ],
+            None => Vec::new(),
         };
-        let told = self.shares.map(|share| with_unit(share, ""));
-        let mut marks = Vec::new();
-        if passed.is_some() {
-            marks.push((from_s, format!("{} of the step", told[0])));
-            marks.push((to_s, format!("{} of the step", told[1])));
-        }
-        let short = || {
+        let what = response.what();
+        let quantity = format!(
+            "time of {what} from {from} to {to} of its step of {}",
+            response.with_unit(response.step())
+        );
+        let finding =
+            Finding::against(band, value, "s", quantity).drawn(response.curve(marks, None));
+        Response::finding(finding, fault, || {
             let mut message = format!(
-                "{} takes {} from {} to {} of its step, from {} to {}",
-                response.what(),
+                "{what} takes {} from {from} to {to} of its step, from {} to {}",
                 seconds(value),
-                told[0],
-                told[1],
                 seconds(from_s),
                 seconds(to_s),
             );
-            if let Some(predicted) = response.predicted() {
-                let end = response.predicted_end(&predicted);
-                if let Some([from, to]) = passes(&predicted, response.start, end, self.shares) {
-                    message += &format!(
-                        "; the linear loop takes {}",
-                        seconds(response.time_s(to - from))
-                    );
-                }
+            if let Some((predicted, end)) = response.predicted()
+                && let Some([from, to]) = passes(&predicted, response.start, end, self.shares)
+            {
+                let linear = seconds(response.time_s(to - from));
+                message += &format!("; the linear loop takes {linear}");
             }
-            let tick = passed.map_or(0.0, |ticks| ticks[1]).max(0.0) as usize;
-            Loss {
-                evidence: Evidence {
-                    value: value.is_finite().then_some(value),
-                    limit: Some(self.band.full),
-                    unit: "s".to_owned(),
-                    ..response.evidence(message, tick.min(response.values.len() - 1))
-                },
-                next_step: "Make it faster: more proportional gain, or less damping.".to_owned(),
-            }
-        };
-        let measured = Measured {
-            quantity: format!(
-                "time of {} from {} to {} of its step of {} {}",
-                response.what(),
-                told[0],
-                told[1],
-                trimmed(response.step(), 4),
-                self.response.unit()
-            ),
-            value,
-            unit: "s",
-            band: self.band,
-        };
-        Response::finding(measured, fault, short, response.curve(marks, None))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+            let last = passed.map_or(0.0, |ticks| ticks[1]);
+            let next_step = "Make it faster: more proportional gain, or less damping.";
+            response.late(message, (value, last), band, next_step)
+        })
     }
 }
 

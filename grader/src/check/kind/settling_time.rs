@@ -3,31 +3,15 @@
 //! It is the last time at which the signal is further from its final value than `within` times the step, on the straight line
 //! between two ticks. A joint that is so far off in the final part has not settled.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
+use crate::check::prelude::*;
 use crate::check::step_keys::{StepResponse, step_table};
-use crate::check::step_response::{Loss, Measured, Response};
-use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::step_response::Response;
 
 step_table! {
     /// The time at the end of the run whose mean is the final value \[s\]; 0.2 where it is left out.
     final_s = 0.2;
     /// How near, as a share of the step; 0.02 where it is left out.
-    #[schemars(with = "Option<f64>")]
-    within: Option<NumberAt>,
+    within: Option<At<f64>>,
     /// Time that earns all points \[s\].
     full_s: f64,
     /// Time that earns none \[s\].
@@ -36,31 +20,22 @@ step_table! {
 
 impl MotionTable for Table {
     const NAME: &'static str = "settling-time";
-    type Check = SettlingTime;
+    type Check = InBand<SettlingTime>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<SettlingTime, LabError> {
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let within = reading.share_of_step(self.within.as_ref(), "`within`", 0.02)?;
-        Ok(SettlingTime {
-            response: reading.step_response(&self.keys(), at.clone())?,
-            within,
-            band: reading.report.band(self.full_s, self.zero_s, at)?,
-        })
+        let response = reading.step_response(&self.keys())?;
+        let measure = SettlingTime { response, within };
+        reading.in_band([self.full_s, self.zero_s], "s", measure)
     }
 }
 
-/// The check as read.
+/// The time until a joint stays near its final value.
 #[derive(Debug)]
 pub(crate) struct SettlingTime {
     response: StepResponse,
     /// How near, as a share of the step.
     within: f64,
-    band: Band,
-}
-
-impl CheckKind for SettlingTime {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "s"))
-    }
 }
 
 /// When the signal is last further than `tolerance` from `end`, in ticks; 0 where it never is.
@@ -83,8 +58,8 @@ fn last_off(values: &[f64], end: f64, tolerance: f64) -> f64 {
     last as f64 + (values[last] - edge) / (values[last] - next)
 }
 
-impl MotionCheck for SettlingTime {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for SettlingTime {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let response = Response::new(facts, &self.response);
         let tolerance = self.within * response.step().abs();
         let fault = response.fault(tolerance);
@@ -93,55 +68,28 @@ impl MotionCheck for SettlingTime {
             Some(_) => f64::INFINITY,
             None => response.time_s(ticks),
         };
+        let mark = value.is_finite().then(|| (value, "settled".to_owned()));
         let share = with_unit(self.within, "");
-        let short = || {
-            let mut message = format!(
-                "{} stays within {share} of its step from {} on",
-                response.what(),
-                seconds(value),
-            );
-            if let Some(predicted) = response.predicted() {
-                let end = response.predicted_end(&predicted);
+        let words = format!("within {share} of the final value");
+        let edges = (response.end - tolerance, response.end + tolerance, words);
+        let edges = response.end.is_finite().then_some(edges);
+        let what = response.what();
+        let quantity = format!("time until {what} stays within {share} of its step");
+        let curve = response.curve(mark.into_iter().collect(), edges);
+        let finding = Finding::against(band, value, "s", quantity).drawn(curve);
+        Response::finding(finding, fault, || {
+            let from = seconds(value);
+            let mut message = format!("{what} stays within {share} of its step from {from} on");
+            if let Some((predicted, end)) = response.predicted() {
                 let tolerance = self.within * (end - response.start).abs();
                 let predicted_s = response.time_s(last_off(&predicted, end, tolerance));
                 if predicted_s.is_finite() {
                     message += &format!("; the linear loop does from {}", seconds(predicted_s));
                 }
             }
-            Loss {
-                evidence: Evidence {
-                    value: value.is_finite().then_some(value),
-                    limit: Some(self.band.full),
-                    unit: "s".to_owned(),
-                    ..response.evidence(message, ticks.max(0.0) as usize)
-                },
-                next_step:
-                    "Look at the curve: if it swings, add damping; if it creeps, add proportional gain."
-                        .to_owned(),
-            }
-        };
-        let marks = if value.is_finite() {
-            vec![(value, "settled".to_owned())]
-        } else {
-            Vec::new()
-        };
-        let told = format!("within {share} of the final value");
-        let edges = (response.end - tolerance, response.end + tolerance, told);
-        let drawn = response.end.is_finite().then_some(edges);
-        let measured = Measured {
-            quantity: format!(
-                "time until {} stays within {share} of its step",
-                response.what()
-            ),
-            value,
-            unit: "s",
-            band: self.band,
-        };
-        Response::finding(measured, fault, short, response.curve(marks, drawn))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+            let next_step = "Look at the curve: if it swings, add damping; if it creeps, add proportional gain.";
+            response.late(message, (value, ticks), band, next_step)
+        })
     }
 }
 

@@ -1,23 +1,8 @@
 //! step-overshoot: how far a joint goes past its final value, as a fraction of its step.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::{InTask, NumberAt};
-use crate::check::registry::MotionTable;
+use crate::check::prelude::*;
 use crate::check::step_keys::{StepResponse, step_table};
-use crate::check::step_response::{Loss, Measured, Response, SETTLED};
-use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, with_unit};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
+use crate::check::step_response::{Loss, Response, SETTLED};
 
 step_table! {
     /// The time at the end of the run whose mean is the final value \[s\]; 0.2 where it is left out.
@@ -30,56 +15,51 @@ step_table! {
 
 impl MotionTable for Table {
     const NAME: &'static str = "step-overshoot";
-    type Check = StepOvershoot;
+    type Check = InBand<StepOvershoot>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<StepOvershoot, LabError> {
-        Ok(StepOvershoot {
-            response: reading.step_response(&self.keys(), at.clone())?,
-            band: reading.report.band(self.full, self.zero, at)?,
-        })
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let response = reading.step_response(&self.keys())?;
+        reading.in_band([self.full, self.zero], "", StepOvershoot(response))
     }
 }
 
-/// The check as read.
+/// How far a joint goes past its final value.
 #[derive(Debug)]
-pub(crate) struct StepOvershoot {
-    response: StepResponse,
-    band: Band,
-}
-
-impl CheckKind for StepOvershoot {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, ""))
-    }
-}
+pub(crate) struct StepOvershoot(StepResponse);
 
 /// The greatest share of the way from `start` to `end` beyond all of it, and its tick; none of it is 0, and NaN stays.
 fn beyond(values: &[f64], start: f64, end: f64) -> (f64, usize) {
-    let gone = |tick: usize| (values[tick] - start) / (end - start);
-    let peak = (0..values.len())
-        .max_by(|a, b| gone(*a).total_cmp(&gone(*b)).then(b.cmp(a)))
-        .unwrap_or(0);
-    let over = gone(peak) - 1.0;
+    let gone = values.iter().map(|value| (value - start) / (end - start));
+    let (peak, most) = greatest(gone).unwrap_or((0, f64::NAN));
+    let over = most - 1.0;
     (if over < 0.0 { 0.0 } else { over }, peak)
 }
 
-impl MotionCheck for StepOvershoot {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let response = Response::new(facts, &self.response);
+impl RunMeasure for StepOvershoot {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let response = Response::new(facts, &self.0);
         let fault = response.fault(SETTLED * response.step().abs());
         let (over, peak) = beyond(&response.values, response.start, response.end);
         let value = if fault.is_some() { f64::INFINITY } else { over };
-        let short = || {
+        let is_past = value > 0.0 && value.is_finite();
+        let mark = is_past.then(|| (facts.time_s(peak), "furthest".to_owned()));
+        let edge = response.start + (1.0 + band.full) * response.step();
+        let words = format!("{} past the final value", with_unit(band.full, ""));
+        let edges = (response.end.min(edge), response.end.max(edge), words);
+        let edges = (response.end.is_finite() && band.full > 0.0).then_some(edges);
+        let curve = response.curve(mark.into_iter().collect(), edges);
+        let what = response.what();
+        let finding =
+            Finding::against(band, value, "", format!("overshoot of {what}")).drawn(curve);
+        Response::finding(finding, fault, || {
             let mut message = format!(
-                "{} goes to {} at {}, {} of its step past the final value of {}",
-                response.what(),
-                response.told(response.values[peak]),
+                "{what} goes to {} at {}, {} of its step past the final value of {}",
+                response.with_unit(response.values[peak]),
                 seconds(facts.time_s(peak)),
                 with_unit(value, ""),
-                response.told(response.end),
+                response.with_unit(response.end),
             );
-            if let Some(predicted) = response.predicted() {
-                let end = response.predicted_end(&predicted);
+            if let Some((predicted, end)) = response.predicted() {
                 let (over, _) = beyond(&predicted, response.start, end);
                 message += &format!("; the linear loop goes {} past", with_unit(over, ""));
             }
@@ -90,27 +70,7 @@ impl MotionCheck for StepOvershoot {
                 },
                 next_step: "Add damping, or ask for the step less suddenly.".to_owned(),
             }
-        };
-        let marks = if value > 0.0 && value.is_finite() {
-            vec![(facts.time_s(peak), "furthest".to_owned())]
-        } else {
-            Vec::new()
-        };
-        let edge = response.start + (1.0 + self.band.full) * response.step();
-        let told = format!("{} past the final value", with_unit(self.band.full, ""));
-        let edges = (response.end.min(edge), response.end.max(edge), told);
-        let drawn = (response.end.is_finite() && self.band.full > 0.0).then_some(edges);
-        let measured = Measured {
-            quantity: format!("overshoot of {}", response.what()),
-            value,
-            unit: "",
-            band: self.band,
-        };
-        Response::finding(measured, fault, short, response.curve(marks, drawn))
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+        })
     }
 }
 

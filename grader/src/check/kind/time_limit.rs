@@ -3,26 +3,12 @@
 //! A body has fallen at the tick of its first fall, over whatever side. A path is over when the TCP has come within `trim` of each of
 //! its points, in order, and then of the last: the earliest such tick. For goals, use `finish-time`.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem;
 use kinemark_sim::watch::event::{Event, EventKind};
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use toml::Spanned;
 
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::MotionTable;
-use crate::check::road;
-use crate::record::quantity::{list, metres, seconds};
-use crate::task::model::Band;
-use crate::task::problem::LabError;
-use crate::task::watched::{PathToFollow, Until};
+use crate::check::path_following::passages;
+use crate::check::prelude::*;
+use crate::task::watched::PathToFollow;
 
 /// What ends the time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -32,25 +18,12 @@ enum UntilName {
     Path,
 }
 
-/// A time limit that waits for nothing, or for two things.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("this time limit needs `{wanted}` and nothing else to wait for")]
-struct NotOneEnd {
-    wanted: &'static str,
-    example: &'static str,
-}
-
-impl Problem for NotOneEnd {
-    fn code(&self) -> &'static str {
-        "lab::time_limit"
-    }
-
-    fn label(&self) -> String {
-        "this check".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        Some(format!("write `{}`", self.example))
+problems! {
+    /// A time limit that waits for nothing, or for two things.
+    enum EndProblem {
+        NotOneEnd { wanted: &'static str, example: &'static str }:
+            "lab::time_limit", "this time limit needs `{wanted}` and nothing else to wait for", "this check",
+            format!("write `{example}`");
     }
 }
 
@@ -61,11 +34,9 @@ pub(crate) struct Table {
     /// What ends the time: `fall` (of `body`) or `path` (the end of `path`).
     until: UntilName,
     /// A dynamic body of the scene.
-    #[schemars(with = "Option<String>")]
-    body: Option<Spanned<String>>,
+    body: Option<At<String>>,
     /// A path of `[tasks.motion.paths]`.
-    #[schemars(with = "Option<String>")]
-    path: Option<Spanned<String>>,
+    path: Option<At<String>>,
     /// Time that earns all points \[s\].
     full_s: f64,
     /// Time that earns none \[s\].
@@ -74,43 +45,37 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "time-limit";
-    type Check = TimeLimit;
+    type Check = InBand<TimeLimit>;
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<TimeLimit, LabError> {
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let until = match (self.until, &self.body, &self.path) {
             (UntilName::Fall, Some(body), None) => {
-                let scene = reading.scene(Self::NAME, at.clone())?;
-                Until::Fall(reading.free_body(scene, body)?)
+                TimeLimit::Fall(reading.free_body(reading.scene(Self::NAME)?, body)?)
             }
-            (UntilName::Path, None, Some(path)) => Until::Path(reading.path(path)?),
+            (UntilName::Path, None, Some(path)) => TimeLimit::Path(reading.path(path)?),
             (until, body, path) => {
                 let (wanted, other, example) = match until {
                     UntilName::Fall => ("body", path, "until = \"fall\", body = \"can\""),
                     UntilName::Path => ("path", body, "until = \"path\", path = \"line\""),
                 };
-                let given = other.as_ref().map_or(at, Spanned::span);
-                let problem = NotOneEnd { wanted, example };
-                return reading.report.refuse(given, problem);
+                let problem = EndProblem::NotOneEnd { wanted, example };
+                return match other {
+                    Some(other) => reading.refuse_at(other, problem),
+                    None => reading.refuse(problem),
+                };
             }
         };
-        Ok(TimeLimit {
-            until,
-            band: reading.report.band(self.full_s, self.zero_s, at)?,
-        })
+        reading.in_band([self.full_s, self.zero_s], "s", until)
     }
 }
 
-/// The check as read.
+/// What ends the time.
 #[derive(Debug)]
-pub(crate) struct TimeLimit {
-    until: Until,
-    band: Band,
-}
-
-impl CheckKind for TimeLimit {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "s"))
-    }
+pub(crate) enum TimeLimit {
+    /// The body of this index in the scene falls.
+    Fall(usize),
+    /// The TCP is at the last point of a path.
+    Path(PathToFollow),
 }
 
 /// The tick of the first fall of a body.
@@ -136,23 +101,17 @@ enum Over {
 }
 
 fn over(p_tcp_m: &[Vector3<f64>], path: &PathToFollow) -> Over {
-    let Some(corners) = road::corners_of(p_tcp_m, path) else {
+    let passages = passages(p_tcp_m, path).unwrap_or_default();
+    let Some(last) = passages.last() else {
         return Over::Nowhere;
     };
-    let all = corners.iter().enumerate();
-    // of equal ones the first
-    let missed = all
-        .rev()
-        .max_by(|a, b| a.1.gap_m.total_cmp(&b.1.gap_m))
-        .filter(|(_, corner)| corner.gap_m > 0.0);
-    match (missed, corners.last()) {
-        (Some((point, corner)), _) => Over::Missed {
+    match greatest(passages.iter().map(|passage| passage.gap_m)) {
+        Some((point, gap_m)) if gap_m > 0.0 => Over::Missed {
             point,
-            off_m: corner.gap_m + path.trim_m,
-            tick: corner.tick,
+            off_m: gap_m + path.trim_m,
+            tick: passages[point].tick,
         },
-        (None, Some(last)) => Over::At(last.tick),
-        (None, None) => Over::Nowhere,
+        _ => Over::At(last.tick),
     }
 }
 
@@ -207,36 +166,30 @@ fn end_of_path(facts: &MotionFacts<'_>, path: &PathToFollow) -> End {
     }
 }
 
-impl MotionCheck for TimeLimit {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        let End {
-            what,
-            signal,
-            done,
-            next_step,
-        } = match &self.until {
-            Until::Fall(body) => end_of_fall(facts, *body),
-            Until::Path(path) => end_of_path(facts, path),
+impl RunMeasure for TimeLimit {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
+        let end = match self {
+            Self::Fall(body) => end_of_fall(facts, *body),
+            Self::Path(path) => end_of_path(facts, path),
         };
-        let tick = done.as_ref().ok().copied();
-        let value = tick.map_or(f64::INFINITY, |tick| facts.time_s(tick));
+        let End { what, signal, .. } = end;
+        let value = match &end.done {
+            Ok(tick) => facts.time_s(*tick),
+            Err(_) => f64::INFINITY,
+        };
         let quantity = format!("time until {what}");
-        let finding = Finding::against(self.band, value, "s", quantity).advise(next_step);
-        match done {
+        let finding = Finding::against(band, value, "s", quantity).advise(end.next_step);
+        match end.done {
             Ok(tick) => finding.shown_at(facts, || {
                 let message = format!(
                     "{what} at {}, up to {} earns everything",
                     seconds(value),
-                    seconds(self.band.full)
+                    seconds(band.full)
                 );
                 (message, signal, tick)
             }),
             Err((never, tick)) => finding.with(facts.evidence(never, signal, tick)),
         }
-    }
-
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
     }
 }
 
@@ -274,13 +227,13 @@ mod tests {
     }
 
     /// Through `points` in 100 steps each.
-    fn road(points: &[[f64; 2]]) -> Vec<Vector3<f64>> {
+    fn through(points: &[[f64; 2]]) -> Vec<Vector3<f64>> {
         let ends = path(points).points_m;
-        let mut road = vec![ends[0]];
+        let mut track = vec![ends[0]];
         for ends in ends.windows(2) {
-            road.extend((1..=100).map(|k| ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 100.0)));
+            track.extend((1..=100).map(|k| ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 100.0)));
         }
-        road
+        track
     }
 
     const CORNER: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
@@ -288,19 +241,19 @@ mod tests {
     #[test]
     fn a_path_is_over_within_trim_of_its_last_point() {
         // steps of 10 mm: the 95th of the second segment is 50 mm from its end, give or take round-off
-        let Over::At(tick) = over(&road(&CORNER), &path(&CORNER)) else {
+        let Over::At(tick) = over(&through(&CORNER), &path(&CORNER)) else {
             panic!("not over");
         };
         assert!((195..=196).contains(&tick), "{tick}");
         // what comes after does not count
-        let mut longer = road(&CORNER);
-        longer.extend(road(&[[1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
+        let mut longer = through(&CORNER);
+        longer.extend(through(&[[1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
         assert_eq!(over(&longer, &path(&CORNER)), Over::At(tick));
     }
 
     #[test]
     fn who_cuts_a_corner_or_stands_never_ends() {
-        let found = over(&road(&[[0.0, 0.0], [1.0, 1.0]]), &path(&CORNER));
+        let found = over(&through(&[[0.0, 0.0], [1.0, 1.0]]), &path(&CORNER));
         let Over::Missed { point, off_m, .. } = found else {
             panic!("{found:?}");
         };

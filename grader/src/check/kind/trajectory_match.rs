@@ -6,23 +6,11 @@
 //! that fits best. Joint motion is never compared: other branches are as good. A variant has numbers of its own and no path; where
 //! its reference dwells is at the goals.
 
-use std::ops::Range;
-
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem;
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::Deserialize;
 
-use crate::check::contract::{CheckKind, FirstLoss, MotionCheck};
-use crate::check::facts::MotionFacts;
-use crate::check::finding::Finding;
-use crate::check::reading::InTask;
-use crate::check::registry::{MotionTable, lacks_goals};
+use crate::check::prelude::*;
 use crate::record::graded::TcpPath;
-use crate::record::quantity::{metres, seconds};
-use crate::task::model::{Band, MotionGoal, MotionTask};
-use crate::task::problem::LabError;
+use crate::task::model::MotionGoal;
 
 /// The part of a run that is compared with the reference's path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -34,35 +22,17 @@ pub(crate) enum Span {
     Run,
 }
 
-/// Why there is nothing to compare with.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-enum Mismatch {
-    #[error("`reference-path.json` has no path for task `{task}`")]
-    NoPath { task: String },
-    #[error("`max_shift_s` has no meaning over `dwells`, which are found wherever they are")]
-    ShiftOfDwells,
-    #[error("`max_shift_s` must be 0 to 60 s, got {shift_s}")]
-    Shift { shift_s: f64 },
-}
-
-impl Problem for Mismatch {
-    fn code(&self) -> &'static str {
-        "lab::trajectory_match"
-    }
-
-    fn label(&self) -> String {
-        "this check".to_owned()
-    }
-
-    fn help(&self) -> Option<String> {
-        let help = match self {
-            Self::NoPath { .. } => {
-                "put the reference solution's TCP path there: see docs/lab-format.md"
-            }
-            Self::ShiftOfDwells => "remove it",
-            Self::Shift { .. } => "change it",
-        };
-        Some(help.to_owned())
+problems! {
+    /// Why there is nothing to compare with.
+    enum MatchProblem {
+        NoPath { task: String }:
+            "lab::trajectory_match", "`reference-path.json` has no path for task `{task}`", "this check",
+            "put the reference solution's TCP path there: see docs/lab-format.md";
+        ShiftOfDwells:
+            "lab::trajectory_match", "`max_shift_s` has no meaning over `dwells`, which are found wherever they are", "this check",
+            "remove it";
+        Shift { shift_s: f64 }:
+            "lab::trajectory_match", "`max_shift_s` must be 0 to 60 s, got {shift_s}", "this check", "change it";
     }
 }
 
@@ -82,54 +52,41 @@ pub(crate) struct Table {
 
 impl MotionTable for Table {
     const NAME: &'static str = "trajectory-match";
-    type Check = TrajectoryMatch;
+    type Check = InBand<TrajectoryMatch>;
 
     fn lacks(task: &MotionTask) -> Option<&'static str> {
         lacks_goals(task)
     }
 
-    fn read(&self, at: Range<usize>, reading: &InTask<'_>) -> Result<TrajectoryMatch, LabError> {
-        let refuse = |problem| reading.report.refuse(at.clone(), problem);
+    fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         if !reading.has_reference_path {
             let task = reading.task.to_owned();
-            return refuse(Mismatch::NoPath { task });
+            return reading.refuse(MatchProblem::NoPath { task });
         }
         let max_shift_s = match (self.over, self.max_shift_s) {
-            (Span::Dwells, Some(_)) => return refuse(Mismatch::ShiftOfDwells),
+            (Span::Dwells, Some(_)) => return reading.refuse(MatchProblem::ShiftOfDwells),
             (_, None) => 0.0,
             (Span::Run, Some(shift_s)) if (0.0..=60.0).contains(&shift_s) => shift_s,
-            (Span::Run, Some(shift_s)) => return refuse(Mismatch::Shift { shift_s }),
+            (Span::Run, Some(shift_s)) => return reading.refuse(MatchProblem::Shift { shift_s }),
         };
-        let step_s = reading.motion.periods.step_s;
-        Ok(TrajectoryMatch {
+        let measure = TrajectoryMatch {
             span: self.over,
-            max_shift_ticks: (max_shift_s / step_s).round() as u64,
-            band: reading.report.band(self.full_m, self.zero_m, at)?,
-        })
+            max_shift_ticks: (max_shift_s / reading.motion.periods.step_s).round() as u64,
+        };
+        reading.in_band([self.full_m, self.zero_m], "m", measure)
     }
 }
 
-/// The check as read.
+/// The distance from the reference's path.
 #[derive(Debug)]
 pub(crate) struct TrajectoryMatch {
     span: Span,
     /// Greatest time shift, in ticks.
     max_shift_ticks: u64,
-    band: Band,
 }
 
-impl CheckKind for TrajectoryMatch {
-    fn band(&self, _: &Robot) -> Option<(Band, &'static str)> {
-        Some((self.band, "m"))
-    }
-
-    fn follows_one_path(&self) -> bool {
-        self.span == Span::Run
-    }
-}
-
-impl MotionCheck for TrajectoryMatch {
-    fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
+impl RunMeasure for TrajectoryMatch {
+    fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let matched = match (self.span, facts.reference) {
             (Span::Dwells, Some(reference)) => dwells(facts, reference),
             (Span::Dwells, None) => dwells_at_goals(facts),
@@ -139,8 +96,7 @@ impl MotionCheck for TrajectoryMatch {
         };
         let rms_m = matched.as_ref().map(|matched| matched.rms_m);
         let value = rms_m.unwrap_or(f64::INFINITY);
-        let quantity = "distance from the reference's path";
-        let mut finding = Finding::against(self.band, value, "m", quantity);
+        let mut finding = Finding::against(band, value, "m", "distance from the reference's path");
         if let Some(matched) = matched {
             finding = finding.shown_at(facts, || {
                 let message = format!(
@@ -156,8 +112,8 @@ impl MotionCheck for TrajectoryMatch {
         finding.advise("Look at the path plot: the dashed line is the reference's.")
     }
 
-    fn first_loss(&self) -> FirstLoss {
-        FirstLoss::Evidence
+    fn follows_one_path(&self) -> bool {
+        self.span == Span::Run
     }
 }
 
@@ -190,51 +146,44 @@ fn point(path: &TcpPath, index: usize) -> Vector3<f64> {
     Vector3::from(path.points_m[index])
 }
 
-/// Compares the stays; the worst goal counts.
+/// Compares the dwells; the worst goal counts.
 fn dwells(facts: &MotionFacts<'_>, reference: &TcpPath) -> Option<Matched> {
     let per_point = ticks_per_point(facts, reference);
     let windows = reference_dwells(reference, &facts.motion.goals, per_point)?;
-    let mut worst: Option<Matched> = None;
-    for (i, (stay, (first, last))) in facts.stays.iter().zip(windows).enumerate() {
-        let points = last - first;
-        let distances = (0..=points).filter_map(|k| {
-            let tick = stay.first + k * per_point;
-            (tick <= stay.last).then(|| {
-                let gap = facts.trace.tcp_position(tick) - point(reference, first + k);
+    let pairs = facts.dwells.iter().zip(windows).enumerate();
+    worst(pairs.map(|(i, (dwell, (first, last)))| {
+        let ticks = (first..=last).map(|k| (k, dwell.first + (k - first) * per_point));
+        let distances = ticks
+            .filter(|(_, tick)| *tick <= dwell.last)
+            .map(|(k, tick)| {
+                let gap = facts.trace.tcp_position(tick) - point(reference, k);
                 (tick, gap.norm())
-            })
-        });
-        let matched = summary(distances, at_goal(i))?;
-        worst = Some(worse(worst, matched));
-    }
-    worst
+            });
+        summary(distances, at_goal(i))
+    }))
 }
 
-/// Compares the stays with standing at the goals; the worst goal counts.
+/// Compares the dwells with standing at the goals; the worst goal counts.
 fn dwells_at_goals(facts: &MotionFacts<'_>) -> Option<Matched> {
-    let goals = facts.motion.goals.iter();
-    let mut worst: Option<Matched> = None;
-    for (i, (stay, goal)) in facts.stays.iter().zip(goals).enumerate() {
-        let distances = (stay.first..=stay.last).map(|tick| {
+    let pairs = facts.dwells.iter().zip(&facts.motion.goals).enumerate();
+    worst(pairs.map(|(i, (dwell, goal))| {
+        let distances = (dwell.first..=dwell.last).map(|tick| {
             let gap = facts.trace.tcp_position(tick) - goal.position_m;
             (tick, gap.norm())
         });
-        let matched = summary(distances, at_goal(i))?;
-        worst = Some(worse(worst, matched));
-    }
-    worst
+        summary(distances, at_goal(i))
+    }))
+}
+
+/// The worst of all, of equal ones the first; none where one is missing.
+fn worst(all: impl Iterator<Item = Option<Matched>>) -> Option<Matched> {
+    let mut all: Vec<Matched> = all.collect::<Option<_>>()?;
+    let (worst, _) = greatest(all.iter().map(|matched| matched.rms_m))?;
+    Some(all.swap_remove(worst))
 }
 
 fn at_goal(index: usize) -> String {
     format!(" during the dwell at goal {}", index + 1)
-}
-
-/// The worse of the two; of equal ones the first.
-fn worse(known: Option<Matched>, found: Matched) -> Matched {
-    match known {
-        Some(known) if known.rms_m >= found.rms_m => known,
-        _ => found,
-    }
 }
 
 /// Where the reference dwells: for each goal in order, the earliest window that stays nearest to it.

@@ -9,7 +9,7 @@ pub use self::whole_run::{Compared, whole_run};
 
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
 use crate::attempt::measure::{relative_error, same_branch};
-use crate::check::stay::{Stay, best_stays};
+use crate::check::{Dwell, best_dwells};
 use crate::lab::staff::Mutant;
 use crate::record::grade::Diagnosis;
 use crate::task::jacobian;
@@ -164,7 +164,7 @@ pub fn motion_task<'m>(
     clear(candidates)
 }
 
-/// Where a run stood stillest in its stay nearest to each goal, however far that is, and for as long as it remained there.
+/// Where a run stood stillest in its dwell nearest to each goal, however far that is, and for as long as it remained there.
 fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
     // where nothing scores, nearer is better
     let anywhere = Band {
@@ -173,11 +173,11 @@ fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
     };
     let there_m = 0.02; // a step response swings through this at the end of its settling
     let beat = 20; // ticks over which stillness is judged
-    let stays = best_stays(trace, &motion.goals, anywhere);
-    let place = |stay: &Stay| {
-        let around = trace.tcp_position(stay.last);
-        let visit = (stay.first..trace.len()).take_while(|&tick| {
-            tick <= stay.last || (trace.tcp_position(tick) - around).norm() < there_m
+    let dwells = best_dwells(trace, &motion.goals, anywhere);
+    let place = |dwell: &Dwell| {
+        let around = trace.tcp_position(dwell.last);
+        let visit = (dwell.first..trace.len()).take_while(|&tick| {
+            tick <= dwell.last || (trace.tcp_position(tick) - around).norm() < there_m
         });
         let moved = |tick: usize| {
             let later = (tick + beat).min(trace.len() - 1);
@@ -187,7 +187,7 @@ fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
         let stillest = visit
             .filter(|&tick| tick + beat < trace.len())
             .min_by(|&a, &b| moved(a).total_cmp(&moved(b)));
-        trace.tcp_position(stillest.unwrap_or(stay.last))
+        trace.tcp_position(stillest.unwrap_or(dwell.last))
     };
-    stays.iter().map(place).collect()
+    dwells.iter().map(place).collect()
 }

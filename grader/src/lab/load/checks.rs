@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Reader;
-use crate::check::reading::{FunctionReading, MotionReading};
+use crate::check::reading::InMotion;
 use crate::check::registry::{self, CheckTable};
 use crate::check::{Check, FunctionCheck, MotionCheck};
 use crate::task::model::{FunctionTask, MotionTask};
@@ -15,11 +15,7 @@ impl Reader<'_> {
         tables: &[Spanned<CheckTable>],
         function: &FunctionTask,
     ) -> Result<Vec<Check<dyn FunctionCheck>>, LabError> {
-        let reading = FunctionReading {
-            report: self.report,
-            function,
-        };
-        registry::function_checks(tables, &reading)
+        registry::function_checks(tables, self.report, function)
     }
 
     pub(super) fn motion_checks(
@@ -28,13 +24,14 @@ impl Reader<'_> {
         motion: &MotionTask,
         task: &str,
     ) -> Result<Vec<Check<dyn MotionCheck>>, LabError> {
-        let reading = MotionReading {
-            report: self.report,
+        let of = InMotion {
             robot: self.robot,
             task,
             motion,
             has_reference_path: self.reference_paths.iter().any(|(name, _)| name == task),
+            check: "",
+            earlier: &[],
         };
-        registry::motion_checks(tables, &reading)
+        registry::motion_checks(tables, self.report, of)
     }
 }

@@ -5,6 +5,8 @@ use kinemark_sim::text::nearest;
 use toml::Spanned;
 
 use super::Reader;
+use super::functions::FunctionProblem;
+use super::grants::GrantProblem;
 use crate::lab::file::{CaseTable, ExpectedTable, FunctionTable};
 use crate::submission::rhai::refused_name;
 use crate::task::model::{Case, Function, Given};
@@ -16,29 +18,23 @@ impl Reader<'_> {
         let typed = name.get_ref();
         match refused_name(typed) {
             None => Ok(Function::Free(typed.clone())),
-            Some(why) => self.report.err(
-                name.span(),
-                "lab::call",
-                format!("`{typed}` cannot be the name of a function: {why}"),
-                "this name",
-                Some(
-                    "`forward_kinematics`, `inverse_kinematics`, `jacobian`, or a name of your own in lower-case letters, digits and `_`"
-                        .to_owned(),
-                ),
-            ),
+            Some(why) => {
+                let problem = FunctionProblem::BadName {
+                    name: typed.clone(),
+                    why: why.to_owned(),
+                };
+                self.report.refuse_at(name, problem)
+            }
         }
     }
 
     /// The cases of a free function: all of them give and expect entries of the same names.
     pub(super) fn free_cases(&self, table: &FunctionTable) -> Result<Vec<Case>, LabError> {
         if let Some(grant) = table.grants.first() {
-            return self.report.err(
-                grant.span(),
-                "lab::grants",
-                format!("`{}` is given no robot to ask", table.call.get_ref()),
-                "a grant of nothing",
-                Some("remove `grants` here".to_owned()),
-            );
+            let function = table.call.get_ref().clone();
+            return self
+                .report
+                .refuse_at(grant, GrantProblem::NoRobot { function });
         }
         let mut cases: Vec<Case> = Vec::new();
         for spanned in &table.cases {
@@ -46,19 +42,13 @@ impl Reader<'_> {
             if let Some(first) = cases.first()
                 && shape(first) != shape(&case)
             {
-                return self.report.err(
-                    spanned.span(),
-                    "lab::case_input",
-                    format!(
-                        "case `{}` gives {}, case `{}` gives {}",
-                        case.name,
-                        in_words(&case),
-                        first.name,
-                        in_words(first)
-                    ),
-                    "unlike the first case",
-                    Some("give and expect the same names in every case".to_owned()),
-                );
+                let problem = FunctionProblem::OtherNames {
+                    gives: in_words(&case),
+                    case: case.name,
+                    first: first.name.clone(),
+                    first_gives: in_words(first),
+                };
+                return self.report.refuse_at(spanned, problem);
             }
             cases.push(case);
         }
@@ -79,25 +69,16 @@ impl Reader<'_> {
         let (Some(given), Some(expected), false) = (&table.given, &table.expected, foreign) else {
             let known = ["forward_kinematics", "inverse_kinematics", "jacobian"];
             if let (true, Some(near)) = (foreign, nearest(function.get_ref(), known.into_iter())) {
-                return self.report.err(
-                    function.span(),
-                    "lab::call",
-                    format!(
-                        "`{}` is a function of the lab's own, and case `{name}` is one of `{near}`",
-                        function.get_ref()
-                    ),
-                    "this name",
-                    Some(format!("did you mean `{near}`?")),
-                );
+                let problem = FunctionProblem::NearName {
+                    name: function.get_ref().clone(),
+                    case: name,
+                    near: near.to_owned(),
+                };
+                return self.report.refuse_at(function, problem);
             }
-            let function = function.get_ref();
-            return self.report.err(
-                spanned.span(),
-                "lab::case_input",
-                format!("case `{name}` of `{function}` is given by `given` and `expected`"),
-                "this case",
-                Some("write `given = { kp = 100.0 }, expected = { damping_ratio = 2.2 }`, or one number for `expected`".to_owned()),
-            );
+            let (case, function) = (name, function.get_ref().clone());
+            let problem = FunctionProblem::FreeInput { case, function };
+            return self.report.refuse_at(spanned, problem);
         };
         let expected = match expected {
             ExpectedTable::One(number) => vec![(String::new(), Dimension::Number(*number))],
@@ -107,13 +88,8 @@ impl Reader<'_> {
                 .collect(),
         };
         if expected.is_empty() {
-            return self.report.err(
-                spanned.span(),
-                "lab::case_input",
-                format!("case `{name}` expects nothing"),
-                "this case",
-                Some("name in `expected` what the function is to return".to_owned()),
-            );
+            let problem = FunctionProblem::NothingExpected { case: name };
+            return self.report.refuse_at(spanned, problem);
         }
         Ok(Case {
             name,

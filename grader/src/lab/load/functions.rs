@@ -1,12 +1,45 @@
 //! Function tasks: the function that is called, its rows, and its visible cases.
 
-use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{CaseTable, FunctionTable};
 use crate::task::model::{Case, Function, FunctionTask, Given, Rows};
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, near, problems};
+
+problems! {
+    /// What is wrong with a function task, or a visible case of one.
+    pub(super) enum FunctionProblem {
+        BadName { name: String, why: String }:
+            "lab::call", "`{name}` cannot be the name of a function: {why}", "this name",
+            "`forward_kinematics`, `inverse_kinematics`, `jacobian`, or a name of your own in lower-case letters, digits and `_`";
+        NearName { name: String, case: String, near: String }:
+            "lab::call", "`{name}` is a function of the lab's own, and case `{case}` is one of `{near}`", "this name",
+            format!("did you mean `{near}`?");
+        RowsOfWhat { function: String }:
+            "lab::rows", "`{function}` has no `rows`", "rows of what?", "`rows` are those of `jacobian`: remove them here";
+        Rows { known: String }:
+            "lab::rows", "`rows` names some of {known}, each once and in this order", "not such rows",
+            "write `rows = [\"x\", \"y\"]` for motion in a plane";
+        NoCases { function: String }:
+            "lab::no_cases", "`{function}` has no visible cases", "this function",
+            "add [[tasks.function.cases]]: students practise on them";
+        Dimensions { case: String, error: String, known: Vec<String> }:
+            "lab::case_dimensions", "case `{case}`: {error}", "this case", near("", "dimensions", known);
+        Input { case: String, function: String, wanted: &'static str }:
+            "lab::case_input", "case `{case}` of `{function}` is given by {wanted}", "this case",
+            format!("give {wanted} and nothing else");
+        FreeInput { case: String, function: String }:
+            "lab::case_input", "case `{case}` of `{function}` is given by `given` and `expected`", "this case",
+            "write `given = { kp = 100.0 }, expected = { damping_ratio = 2.2 }`, or one number for `expected`";
+        NothingExpected { case: String }:
+            "lab::case_input", "case `{case}` expects nothing", "this case",
+            "name in `expected` what the function is to return";
+        OtherNames { case: String, gives: String, first: String, first_gives: String }:
+            "lab::case_input", "case `{case}` gives {gives}, case `{first}` gives {first_gives}", "unlike the first case",
+            "give and expect the same names in every case";
+    }
+}
 
 impl Reader<'_> {
     pub(super) fn function(&self, table: &FunctionTable) -> Result<FunctionTask, LabError> {
@@ -17,22 +50,14 @@ impl Reader<'_> {
             _ => self.free_function(&table.call)?,
         };
         if let (Some(rows), false) = (&table.rows, matches!(function, Function::Jacobian(_))) {
-            return self.report.err(
-                rows.span(),
-                "lab::rows",
-                format!("`{}` has no `rows`", function.name()),
-                "rows of what?",
-                Some("`rows` are those of `jacobian`: remove them here".to_owned()),
-            );
+            let function = function.name().to_owned();
+            let problem = FunctionProblem::RowsOfWhat { function };
+            return self.report.refuse_at(rows, problem);
         }
         if table.cases.is_empty() {
-            return self.report.err(
-                table.call.span(),
-                "lab::no_cases",
-                format!("`{}` has no visible cases", function.name()),
-                "this function",
-                Some("add [[tasks.function.cases]]: students practise on them".to_owned()),
-            );
+            let function = function.name().to_owned();
+            let problem = FunctionProblem::NoCases { function };
+            return self.report.refuse_at(&table.call, problem);
         }
         let cases: Result<Vec<Case>, LabError> = match &function {
             Function::Free(_) => self.free_cases(table),
@@ -55,16 +80,11 @@ impl Reader<'_> {
         };
         match Rows::named(typed.get_ref().iter().map(String::as_str)) {
             Some(rows) => Ok(rows),
-            None => self.report.err(
-                typed.span(),
-                "lab::rows",
-                format!(
-                    "`rows` names some of {}, each once and in this order",
-                    Rows::NAMES.join(", ")
-                ),
-                "not such rows",
-                Some("write `rows = [\"x\", \"y\"]` for motion in a plane".to_owned()),
-            ),
+            None => {
+                let known = Rows::NAMES.join(", ");
+                self.report
+                    .refuse_at(typed, FunctionProblem::Rows { known })
+            }
         }
     }
 
@@ -77,17 +97,13 @@ impl Reader<'_> {
             .map(|(name, value)| (name.clone(), value.clone()))
             .collect();
         if let Err(error) = self.robot_file.build(&dimensions) {
-            return self.report.err(
-                table.span(),
-                "lab::case_dimensions",
-                format!("case `{name}`: {error}"),
-                "this case",
-                Some(suggest(
-                    "",
-                    "dimensions",
-                    self.robot_file.dimensions().names(),
-                )),
-            );
+            let known = self.robot_file.dimensions().names().map(str::to_owned);
+            let problem = FunctionProblem::Dimensions {
+                case: name,
+                error: error.to_string(),
+                known: known.collect(),
+            };
+            return self.report.refuse_at(table, problem);
         }
         let own = case.given.is_none() && case.expected.is_none();
         let given = match (function, &case.q_rad, case.position_m) {
@@ -107,16 +123,12 @@ impl Reader<'_> {
                     Function::InverseKinematics => "`position_m`",
                     Function::Free(_) => "`given`",
                 };
-                return self.report.err(
-                    table.span(),
-                    "lab::case_input",
-                    format!(
-                        "case `{name}` of `{}` is given by {wanted}",
-                        function.name()
-                    ),
-                    "this case",
-                    Some(format!("give {wanted} and nothing else")),
-                );
+                let problem = FunctionProblem::Input {
+                    case: name,
+                    function: function.name().to_owned(),
+                    wanted,
+                };
+                return self.report.refuse_at(table, problem);
             }
         };
         Ok(Case {

@@ -1,12 +1,29 @@
 //! What a task grants: functions of `robot`, each once, none that is what the task asks for.
 
-use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::Reader;
 use crate::task::grant::Grant;
 use crate::task::model::Function;
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, near, problems};
+
+problems! {
+    /// What a task cannot grant.
+    pub(super) enum GrantProblem {
+        Unknown { name: String }:
+            "lab::grants", "there is no `robot.{name}` to grant", "not a function of `robot`",
+            near(name, "functions", Grant::ALL.map(Grant::name));
+        Twice { name: String }:
+            "lab::grants", "`{name}` is granted twice", "the second one", "remove one of them";
+        Asked { name: String }:
+            "lab::grants", "`robot.{name}` is what this task asks for", "gives the answer away", "remove it";
+        ClosedLoops { name: String, robot: String }:
+            "lab::grants", "`robot.{name}` cannot be granted: robot `{robot}` has closed loops",
+            "only `fk` can, for a robot with loops", "remove it";
+        NoRobot { function: String }:
+            "lab::grants", "`{function}` is given no robot to ask", "a grant of nothing", "remove `grants` here";
+    }
+}
 
 impl Reader<'_> {
     /// The functions granted, in the order of [`Grant::ALL`]; `asked` is what a function task asks for.
@@ -17,24 +34,13 @@ impl Reader<'_> {
     ) -> Result<Vec<Grant>, LabError> {
         let mut grants = Vec::new();
         for at in typed {
-            let name = at.get_ref().as_str();
-            let refuse = |message: String, label: &str, help: String| {
-                self.report
-                    .err(at.span(), "lab::grants", message, label, Some(help))
-            };
-            let Some(grant) = Grant::ALL.into_iter().find(|grant| grant.name() == name) else {
-                return refuse(
-                    format!("there is no `robot.{name}` to grant"),
-                    "not a function of `robot`",
-                    suggest(name, "functions", Grant::ALL.into_iter().map(Grant::name)),
-                );
+            let name = at.get_ref().clone();
+            let found = Grant::ALL.into_iter().find(|grant| grant.name() == name);
+            let Some(grant) = found else {
+                return self.report.refuse_at(at, GrantProblem::Unknown { name });
             };
             if grants.contains(&grant) {
-                return refuse(
-                    format!("`{name}` is granted twice"),
-                    "the second one",
-                    "remove one of them".to_owned(),
-                );
+                return self.report.refuse_at(at, GrantProblem::Twice { name });
             }
             let given_away = matches!(
                 (grant, asked),
@@ -42,22 +48,13 @@ impl Reader<'_> {
                     | (Grant::Jacobian, Some(Function::Jacobian(_)))
             );
             if given_away {
-                return refuse(
-                    format!("`robot.{name}` is what this task asks for"),
-                    "gives the answer away",
-                    "remove it".to_owned(),
-                );
+                return self.report.refuse_at(at, GrantProblem::Asked { name });
             }
             // the model's equations do not know what a loop binds together
             if grant != Grant::Fk && !self.robot.dependent().is_empty() {
-                return refuse(
-                    format!(
-                        "`robot.{name}` cannot be granted: robot `{}` has closed loops",
-                        self.robot.name()
-                    ),
-                    "only `fk` can, for a robot with loops",
-                    "remove it".to_owned(),
-                );
+                let robot = self.robot.name().to_owned();
+                let problem = GrantProblem::ClosedLoops { name, robot };
+                return self.report.refuse_at(at, problem);
             }
             grants.push(grant);
         }

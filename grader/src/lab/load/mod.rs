@@ -26,12 +26,56 @@ use super::variant::{self, Variant};
 use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
-use crate::task::problem::{LabError, LoadError};
+use crate::task::problem::{LabError, LoadError, near, problems};
+use crate::task::reporter::Reporter;
 use crate::task::robot::{LabRobot, robot_names};
 use crate::task::scene::{LabScene, scene_names};
 
-pub(super) use crate::task::reporter::Reporter;
 pub(super) use reading::{refuse_not_finite, tables};
+
+problems! {
+    /// What is wrong with a lab file as a whole, whatever its tasks are.
+    enum LabFileProblem {
+        NotOfFolder { name: String, folder: String }:
+            "lab::name", "the lab in folder `{folder}` calls itself `{name}`", "differs from its folder",
+            format!("write `name = \"{folder}\"`, or rename the folder");
+        UnknownRobot { name: String, known: Vec<String> }:
+            "lab::unknown_robot", "no robot file `robots/{name}.toml`", "not a robot of this place",
+            near(name, "robots", known);
+        UnknownFrame { robot: String, frame: String, known: Vec<String> }:
+            "lab::unknown_frame", "robot `{robot}` has no frame `{frame}`", "not a frame of this robot",
+            near(frame, "frames", known);
+        OnePath { check: String }:
+            "lab::variants", "check `{check}` compares with one path, and every variant has its own", "varies the path",
+            "judge the task by goals or a path of its own instead";
+        Dimension { name: String, error: String, known: Vec<String> }:
+            "lab::dimensions", "{error}", "this dimension", near(name, "dimensions", known);
+        Dimensions { error: String }:
+            "lab::dimensions", "with these dimensions: {error}", "here they begin";
+        UnknownScene { name: String, known: Vec<String> }:
+            "lab::unknown_scene", "no scene file `scenes/{name}.toml`", "not a scene of this place",
+            near(name, "scenes", known);
+        SceneDimension { name: String, error: String, known: Vec<String> }:
+            "lab::dimensions", "{error}", if name.is_empty() { "this scene" } else { "not a dimension of this scene" },
+            near(name, "dimensions", known);
+        Namesake { body: String, robot: String }:
+            "lab::scene_names", "`{body}` is a body of this scene and a link or frame of robot `{robot}`", "two things of one name",
+            "give the body of the scene another name";
+        Budget { highest: u64, value: u64 }:
+            "lab::budget", "a budget is 1 to {highest} operations, got {value}", "out of range";
+        NoTasks:
+            "lab::no_tasks", "a lab needs at least one task", "no [[tasks]]", "add a [[tasks]] table";
+        TaskKind { task: String }:
+            "lab::task_kind", "task `{task}` must have either `function` or `motion`", "this task",
+            "add one table: [tasks.function] or [tasks.motion]";
+        NoChecks { task: String }:
+            "lab::no_checks", "task `{task}` has no checks, so nothing in it earns a point", "this task",
+            "add a [[tasks.checks]] table";
+        JointCount { what: &'static str, count: String, expected: usize, robot: String, joints: Vec<String> }:
+            "lab::joint_count", "`{what}` has {count} for {expected} joints", "one number per joint that moves",
+            format!("joints of `{robot}`: {}", joints.join(", "));
+    }
+}
 
 /// Names of the labs in `files`: folders that hold a `lab.toml`.
 pub fn lab_names(files: &dyn Files) -> Vec<String> {
@@ -134,13 +178,8 @@ fn is_of_folder(report: Reporter<'_>, lab: &LabTable, folder: &str) -> Result<()
     if name == folder {
         return Ok(());
     }
-    report.err(
-        lab.name.span(),
-        "lab::name",
-        format!("the lab in folder `{folder}` calls itself `{name}`"),
-        "differs from its folder",
-        Some(format!("write `name = \"{folder}\"`, or rename the folder")),
-    )
+    let (name, folder) = (name.clone(), folder.to_owned());
+    report.refuse_at(&lab.name, LabFileProblem::NotOfFolder { name, folder })
 }
 
 /// The robot that the lab names.
@@ -153,15 +192,8 @@ fn lab_robot(
     if let Some(robot) = LabRobot::load(files, name)? {
         return Ok(robot);
     }
-    let known = robot_names(files);
-    let known = known.iter().map(String::as_str);
-    Ok(report.err(
-        lab.robot.span(),
-        "lab::unknown_robot",
-        format!("no robot file `robots/{name}.toml`"),
-        "not a robot of this place",
-        Some(suggest(name, "robots", known)),
-    )?)
+    let (name, known) = (name.clone(), robot_names(files));
+    Ok(report.refuse_at(&lab.robot, LabFileProblem::UnknownRobot { name, known })?)
 }
 
 /// The frame in which students work: the one that the lab names, or the first link.
@@ -173,28 +205,25 @@ fn frame(report: Reporter<'_>, lab: &LabTable, robot: &Robot) -> Result<String, 
     if robot.frame(name).is_some() {
         return Ok(name.clone());
     }
-    let known = robot.frames().iter().map(|frame| frame.name.as_str());
-    report.err(
-        typed.span(),
-        "lab::unknown_frame",
-        format!("robot `{}` has no frame `{name}`", robot.name()),
-        "not a frame of this robot",
-        Some(suggest(name, "frames", known)),
-    )
+    let known = robot.frames().iter().map(|frame| frame.name.clone());
+    let problem = LabFileProblem::UnknownFrame {
+        robot: robot.name().to_owned(),
+        frame: name.clone(),
+        known: known.collect(),
+    };
+    report.refuse_at(typed, problem)
 }
 
 /// Refuses variants of a lab that compares with one path.
 fn varies_no_path(report: Reporter<'_>, lab: &LabTable, tasks: &[Task]) -> Result<(), LabError> {
-    let (Some(at), Some(check)) = (lab.variants.keys().next(), one_path(tasks)) else {
+    let (Some(at), Some(check)) = (
+        lab.variants.keys().next(),
+        tasks.iter().find_map(Task::one_path),
+    ) else {
         return Ok(());
     };
-    report.err(
-        at.span(),
-        "lab::variants",
-        format!("check `{check}` compares with one path, and every variant has its own"),
-        "varies the path",
-        Some("judge the task by goals or a path of its own instead".to_owned()),
-    )
+    let check = check.to_owned();
+    report.refuse_at(at, LabFileProblem::OnePath { check })
 }
 
 /// The robot file with the dimensions that the lab changes.
@@ -206,42 +235,25 @@ fn of_dimensions(
     let mut robot_file = robot_file;
     for (name, value) in &lab.dimensions {
         let changed = [(name.get_ref().clone(), value.get_ref().clone())];
-        let known = suggest(
-            name.get_ref(),
-            "dimensions",
-            robot_file.dimensions().names(),
-        );
+        let known = robot_file.dimensions().names().map(str::to_owned).collect();
         // one by one, so that the place is that of the one that is wrong
         robot_file = match robot_file.with_dimensions(&changed) {
             Ok(changed) => changed,
             Err(error) => {
-                return report.err(
-                    name.span(),
-                    "lab::dimensions",
-                    error.to_string(),
-                    "this dimension",
-                    Some(known),
-                );
+                let problem = LabFileProblem::Dimension {
+                    name: name.get_ref().clone(),
+                    error: error.to_string(),
+                    known,
+                };
+                return report.refuse_at(name, problem);
             }
         };
     }
     if let (Some(name), Err(error)) = (lab.dimensions.keys().next(), robot_file.build(&[])) {
-        return report.err(
-            name.span(),
-            "lab::dimensions",
-            format!("with these dimensions: {error}"),
-            "here they begin",
-            None,
-        );
+        let error = error.to_string();
+        return report.refuse_at(name, LabFileProblem::Dimensions { error });
     }
     Ok(robot_file)
-}
-
-/// The first check that compares the whole run with `reference-path.json`.
-fn one_path(tasks: &[Task]) -> Option<&str> {
-    let mut checks = tasks.iter().flat_map(Task::checks);
-    let found = checks.find(|check| check.kind.follows_one_path())?;
-    Some(found.name)
 }
 
 /// Loads the scenes that motion tasks name, each once.
@@ -256,20 +268,14 @@ fn scenes(
     for at in motions.filter_map(|motion| motion.get_ref().scene.as_ref()) {
         let table = at.get_ref();
         let name = table.name.as_str();
-        let name_at = || table.name_at.clone().unwrap_or(at.span());
         let dimensions: Vec<_> = table.dimensions.clone().into_iter().collect();
         if scenes.iter().any(|scene| scene.is(name, &dimensions)) {
             continue;
         }
         let Some(scene) = LabScene::load(files, name)? else {
-            let known = scene_names(files);
-            return Ok(report.err(
-                name_at(),
-                "lab::unknown_scene",
-                format!("no scene file `scenes/{name}.toml`"),
-                "not a scene of this place",
-                Some(suggest(name, "scenes", known.iter().map(String::as_str))),
-            )?);
+            let at = table.name_at.clone().unwrap_or(at.span());
+            let (name, known) = (name.to_owned(), scene_names(files));
+            return Ok(report.refuse(at, LabFileProblem::UnknownScene { name, known })?);
         };
         let known: Vec<String> = scene.file.dimensions().names().map(str::to_owned).collect();
         let scene = match scene.with_dimensions(dimensions) {
@@ -278,34 +284,17 @@ fn scenes(
                 let is_known = |name: &String| known.contains(name);
                 let typed = table.dimensions_at.iter().find(|(name, _)| !is_known(name));
                 let (typed, place) = typed.map_or(("", at.span()), |(name, at)| (name, at.clone()));
-                return Ok(report.err(
-                    place,
-                    "lab::dimensions",
-                    error.to_string(),
-                    if typed.is_empty() {
-                        "this scene"
-                    } else {
-                        "not a dimension of this scene"
-                    },
-                    Some(suggest(
-                        typed,
-                        "dimensions",
-                        known.iter().map(String::as_str),
-                    )),
-                )?);
+                let problem = LabFileProblem::SceneDimension {
+                    name: typed.to_owned(),
+                    error: error.to_string(),
+                    known,
+                };
+                return Ok(report.refuse(place, problem)?);
             }
         };
         if let Some(body) = scene.namesake(robot) {
-            return Ok(report.err(
-                at.span(),
-                "lab::scene_names",
-                format!(
-                    "`{body}` is a body of this scene and a link or frame of robot `{}`",
-                    robot.name()
-                ),
-                "two things of one name",
-                Some("give the body of the scene another name".to_owned()),
-            )?);
+            let (body, robot) = (body.to_owned(), robot.name().to_owned());
+            return Ok(report.refuse_at(at, LabFileProblem::Namesake { body, robot })?);
         }
         scenes.push(Arc::new(scene));
     }
@@ -369,19 +358,13 @@ impl Reader<'_> {
             if let Some(value) = typed {
                 // above this, one call could keep a class waiting
                 let highest = 1_000_000_000;
-                if !(1..=highest).contains(value.get_ref()) {
-                    return self.report.err(
-                        value.span(),
-                        "lab::budget",
-                        format!(
-                            "a budget is 1 to {highest} operations, got {}",
-                            value.get_ref()
-                        ),
-                        "out of range",
-                        None,
-                    );
+                let typed = value;
+                let value = *typed.get_ref();
+                if !(1..=highest).contains(&value) {
+                    let problem = LabFileProblem::Budget { highest, value };
+                    return self.report.refuse_at(typed, problem);
                 }
-                *slot = *value.get_ref();
+                *slot = value;
             }
         }
         Ok(budgets)
@@ -389,13 +372,7 @@ impl Reader<'_> {
 
     fn tasks(&self, lab: &LabTable) -> Result<Vec<Task>, LabError> {
         if lab.tasks.is_empty() {
-            return self.report.err(
-                lab.name.span(),
-                "lab::no_tasks",
-                "a lab needs at least one task".to_owned(),
-                "no [[tasks]]",
-                Some("add a [[tasks]] table".to_owned()),
-            );
+            return self.report.refuse_at(&lab.name, LabFileProblem::NoTasks);
         }
         self.report
             .unique("task", lab.tasks.iter().map(|task| &task.name))?;
@@ -418,13 +395,9 @@ impl Reader<'_> {
                 TaskWork::Motion(Box::new(motion), checks)
             }
             _ => {
-                return self.report.err(
-                    table.name.span(),
-                    "lab::task_kind",
-                    format!("task `{name}` must have either `function` or `motion`"),
-                    "this task",
-                    Some("add one table: [tasks.function] or [tasks.motion]".to_owned()),
-                );
+                let task = name.clone();
+                let problem = LabFileProblem::TaskKind { task };
+                return self.report.refuse_at(&table.name, problem);
             }
         };
         Ok(Task {
@@ -436,15 +409,10 @@ impl Reader<'_> {
 
     /// A task has checks, each with a name of its own.
     fn has_checks(&self, table: &TaskTable) -> Result<(), LabError> {
-        let name = table.name.get_ref();
         if table.checks.is_empty() {
-            return self.report.err(
-                table.name.span(),
-                "lab::no_checks",
-                format!("task `{name}` has no checks, so nothing in it earns a point"),
-                "this task",
-                Some("add a [[tasks.checks]] table".to_owned()),
-            );
+            let task = table.name.get_ref().clone();
+            let problem = LabFileProblem::NoChecks { task };
+            return self.report.refuse_at(&table.name, problem);
         }
         self.report.unique(
             "check",
@@ -456,26 +424,19 @@ impl Reader<'_> {
         self.report.positive(number, what)
     }
 
-    fn counted<T>(&self, list: &Spanned<Vec<T>>, what: &str) -> Result<(), LabError> {
+    fn counted<T>(&self, list: &Spanned<Vec<T>>, what: &'static str) -> Result<(), LabError> {
         let (expected, found) = (self.robot.n(), list.get_ref().len());
         if expected == found {
             return Ok(());
         }
-        let joints: Vec<&str> = self
-            .robot
-            .moving_joints()
-            .map(|joint| joint.name.as_str())
-            .collect();
-        self.report.err(
-            list.span(),
-            "lab::joint_count",
-            format!("`{what}` has {} for {expected} joints", numbers(found)),
-            "one number per joint that moves",
-            Some(format!(
-                "joints of `{}`: {}",
-                self.robot.name(),
-                joints.join(", ")
-            )),
-        )
+        let joints = self.robot.moving_joints().map(|joint| joint.name.clone());
+        let problem = LabFileProblem::JointCount {
+            what,
+            count: numbers(found),
+            expected,
+            robot: self.robot.name().to_owned(),
+            joints: joints.collect(),
+        };
+        self.report.refuse_at(list, problem)
     }
 }

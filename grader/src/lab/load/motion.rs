@@ -10,6 +10,7 @@ use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::model::sensor::{Sensor, replaced};
 use kinemark_sim::sensing::Sensors;
 use kinemark_sim::step::hybrid::HybridStep;
+use kinemark_sim::text::Problem;
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
@@ -18,7 +19,7 @@ use super::{Reader, numbers};
 use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::record::quantity::trimmed;
 use crate::task::model::{MotionGoal, MotionTask};
-use crate::task::problem::{LabError, LabProblem};
+use crate::task::problem::{LabError, problems};
 use crate::task::scene::LabScene;
 use crate::task::value::Value;
 
@@ -26,6 +27,43 @@ use crate::task::value::Value;
 const MOST_GAP_M: f64 = 1e-3;
 /// Physics steps of a task: a quarter of an hour at 1 ms. More would not fit in the memory of a grade.
 const MOST_TICKS: u64 = 900_000;
+
+problems! {
+    /// What is wrong with a motion task.
+    enum MotionProblem {
+        Periods { error: String }:
+            "lab::periods", "{error}", "does not divide", "each period is a whole number of the one before";
+        NotWholeSteps { what: &'static str, time_s: f64, step_s: f64 }:
+            "lab::periods", "{what} of {time_s} s is not a whole number of physics steps of {step_s} s", "does not divide",
+            format!("write a multiple of {step_s} s");
+        TooLong { what: &'static str, time_s: f64, step_s: f64 }:
+            "lab::periods", "{what} of {time_s} s has more than {MOST_TICKS} physics steps of {step_s} s", "too long",
+            format!("write {} s at most: a run is kept whole in memory", trimmed(MOST_TICKS as f64 * step_s, 3));
+        GoalsAndTarget:
+            "lab::target", "a task with goals has no target: `observation.target` holds the goals' positions", "never given",
+            "leave out `target` or `goals`";
+        Dwells { dwells_s: f64, run_s: f64 }:
+            "lab::periods", "the dwells take {dwells_s} s of a run of {run_s} s", "shorter than its dwells";
+        Scene { error: String }:
+            "lab::scene", "{error}", "this scene with this robot";
+        Sensor { error: String }:
+            "lab::sensor", "{error}", "in this task";
+        OpenLoop { robot: String, gap_m: f64, help: String }:
+            "lab::start", "a loop of robot `{robot}` stands open by {gap_m:.4} m at this start",
+            "not a place where the robot can be", help;
+        NoInertia { robot: String, link: String, joint: String }:
+            "lab::no_inertia", "robot `{robot}` cannot be simulated: link `{link}` has no inertia that its joint `{joint}` could move",
+            "has a link without inertia",
+            format!("give link `{link}` an `inertia`, or joint `{joint}` an `armature`, in the robot file: motion tasks need masses");
+        JointCount { what: &'static str, count: String, n: usize }:
+            "lab::joint_count", "`{what}` has {count} for {n} joints", "this servo",
+            "give one number for all joints, or one per joint";
+        Gains { error: ServoError }:
+            "lab::out_of_range", "{error}", "this servo";
+        Servo { error: ServoError }:
+            "lab::servo", "{error}", "this servo";
+    }
+}
 
 impl Reader<'_> {
     pub(super) fn motion(&self, table: &Spanned<MotionTable>) -> Result<MotionTask, LabError> {
@@ -76,49 +114,35 @@ impl Reader<'_> {
         Periods::new(step_s, servo_s, control_s).or_else(|error| {
             let typed = [&motion.control_period_ms, &motion.servo_period_ms];
             let at = typed.into_iter().flatten().next();
-            self.report.err(
-                at.map_or(table.span(), Spanned::span),
-                "lab::periods",
-                error.to_string(),
-                "does not divide",
-                Some("each period is a whole number of the one before".to_owned()),
-            )
+            let at = at.map_or(table.span(), Spanned::span);
+            let error = error.to_string();
+            self.report.refuse(at, MotionProblem::Periods { error })
         })
     }
 
-    /// `seconds`, typed `at`, in physics steps.
+    /// `time_s`, typed `at`, in physics steps.
     fn whole_ticks(
         &self,
         periods: &Periods,
-        seconds: f64,
+        time_s: f64,
         at: &NumberAt,
-        what: &str,
+        what: &'static str,
     ) -> Result<u64, LabError> {
         let step_s = periods.step_s;
-        match whole_ratio(seconds, step_s) {
-            Some(ticks) if ticks <= MOST_TICKS => Ok(ticks),
-            None if seconds / step_s <= MOST_TICKS as f64 => self.report.err(
-                at.span(),
-                "lab::periods",
-                format!(
-                    "{what} of {seconds} s is not a whole number of physics steps of {step_s} s"
-                ),
-                "does not divide",
-                Some(format!("write a multiple of {step_s} s")),
-            ),
-            _ => self.report.err(
-                at.span(),
-                "lab::periods",
-                format!(
-                    "{what} of {seconds} s has more than {MOST_TICKS} physics steps of {step_s} s"
-                ),
-                "too long",
-                Some(format!(
-                    "write {} s at most: a run is kept whole in memory",
-                    trimmed(MOST_TICKS as f64 * step_s, 3)
-                )),
-            ),
-        }
+        let problem = match whole_ratio(time_s, step_s) {
+            Some(ticks) if ticks <= MOST_TICKS => return Ok(ticks),
+            None if time_s / step_s <= MOST_TICKS as f64 => MotionProblem::NotWholeSteps {
+                what,
+                time_s,
+                step_s,
+            },
+            _ => MotionProblem::TooLong {
+                what,
+                time_s,
+                step_s,
+            },
+        };
+        self.report.refuse_at(at, problem)
     }
 
     /// The goals, whose dwells fit into the run; a task with goals has no target.
@@ -130,14 +154,8 @@ impl Reader<'_> {
         duration_s: f64,
     ) -> Result<Vec<MotionGoal>, LabError> {
         if let (Some(target), false) = (&motion.target, motion.goals.is_empty()) {
-            return self.report.err(
-                target.span(),
-                "lab::target",
-                "a task with goals has no target: `observation.target` holds the goals' positions"
-                    .to_owned(),
-                "never given",
-                Some("leave out `target` or `goals`".to_owned()),
-            );
+            let problem = MotionProblem::GoalsAndTarget;
+            return self.report.refuse_at(target, problem);
         }
         let mut goals = Vec::new();
         for goal in &motion.goals {
@@ -149,16 +167,11 @@ impl Reader<'_> {
         }
         let dwells: u64 = goals.iter().map(|goal| goal.dwell_ticks).sum();
         if dwells > ticks {
-            return self.report.err(
-                motion.duration_s.span(),
-                "lab::periods",
-                format!(
-                    "the dwells take {} s of a run of {duration_s} s",
-                    periods.time_s(dwells)
-                ),
-                "shorter than its dwells",
-                None,
-            );
+            let problem = MotionProblem::Dwells {
+                dwells_s: periods.time_s(dwells),
+                run_s: duration_s,
+            };
+            return self.report.refuse_at(&motion.duration_s, problem);
         }
         Ok(goals)
     }
@@ -192,13 +205,10 @@ impl Reader<'_> {
         let gravity_m_s2 = scene.scene.environment.gravity_m_s2;
         match HybridStep::new(self.robot, &scene.scene, gravity_m_s2, periods.step_s) {
             Ok(_) => Ok((Some(Arc::clone(scene)), gravity_m_s2)),
-            Err(error) => self.report.err(
-                named.span(),
-                "lab::scene",
-                error.to_string(),
-                "this scene with this robot",
-                None,
-            ),
+            Err(error) => {
+                let error = error.to_string();
+                self.report.refuse_at(named, MotionProblem::Scene { error })
+            }
         }
     }
 
@@ -210,18 +220,16 @@ impl Reader<'_> {
     ) -> Result<Vec<Sensor>, LabError> {
         let typed = &table.get_ref().sensors;
         let changes = resolve_all(typed, self.report.source, "lab", self.robot)
-            .map_err(|error| error.map(LabProblem::of))?;
+            .map_err(|error| error.map(|problem| Box::new(problem) as Box<dyn Problem>))?;
         let sensors = replaced(self.robot.sensors(), changes);
         match Sensors::new(self.robot, sensors.clone(), periods.step_s) {
             Ok(_) => Ok(sensors),
             // the sensor at fault may be the robot's own, so the task is what does not fit
-            Err(error) => self.report.err(
-                table.span(),
-                "lab::sensor",
-                error.to_string(),
-                "in this task",
-                None,
-            ),
+            Err(error) => {
+                let error = error.to_string();
+                self.report
+                    .refuse_at(table, MotionProblem::Sensor { error })
+            }
         }
     }
 
@@ -234,35 +242,25 @@ impl Reader<'_> {
         }
         let independent: Vec<f64> = robot.independent().iter().map(|&i| q[i]).collect();
         let names: Vec<&str> = robot.moving_joints().map(|j| j.name.as_str()).collect();
-        let told = |which: &[usize]| {
-            which
-                .iter()
-                .map(|&i| names[i])
-                .collect::<Vec<_>>()
-                .join(", ")
+        let named = |which: &[usize]| {
+            let names: Vec<&str> = which.iter().map(|&i| names[i]).collect();
+            names.join(", ")
         };
         let help = match closed_positions(robot, &independent) {
             Ok(closed) => {
                 let closed: Vec<String> = closed.iter().map(|q| trimmed(*q, 6)).collect();
                 format!(
                     "{} follow from {}: the loops are closed at [{}]; left out, the robot starts at its home",
-                    told(robot.dependent()),
-                    told(robot.independent()),
+                    named(robot.dependent()),
+                    named(robot.independent()),
                     closed.join(", ")
                 )
             }
             Err(error) => format!("{error}: {}", error.help()),
         };
-        self.report.err(
-            start.span(),
-            "lab::start",
-            format!(
-                "a loop of robot `{}` stands open by {gap_m:.4} m at this start",
-                robot.name()
-            ),
-            "not a place where the robot can be",
-            Some(help),
-        )
+        let robot = robot.name().to_owned();
+        let problem = MotionProblem::OpenLoop { robot, gap_m, help };
+        self.report.refuse_at(start, problem)
     }
 
     /// Refuses a robot with a joint that moves neither mass nor armature: no effort on it has a finite answer.
@@ -281,19 +279,13 @@ impl Reader<'_> {
             return Ok(());
         };
         let known = robot.joints().iter().find(|known| known.name == joint);
-        let link = known.map_or("", |known| robot.links()[known.child].name.as_str());
-        self.report.err(
-            self.robot_at.clone(),
-            "lab::no_inertia",
-            format!(
-                "robot `{}` cannot be simulated: link `{link}` has no inertia that its joint `{joint}` could move",
-                robot.name()
-            ),
-            "has a link without inertia",
-            Some(format!(
-                "give link `{link}` an `inertia`, or joint `{joint}` an `armature`, in the robot file: motion tasks need masses"
-            )),
-        )
+        let link = known.map(|known| robot.links()[known.child].name.clone());
+        let problem = MotionProblem::NoInertia {
+            robot: robot.name().to_owned(),
+            link: link.unwrap_or_default(),
+            joint,
+        };
+        self.report.refuse(self.robot_at.clone(), problem)
     }
 
     fn servo(
@@ -303,19 +295,15 @@ impl Reader<'_> {
         at: Range<usize>,
     ) -> Result<ServoSettings, LabError> {
         let n = self.robot.n();
-        let spread = |typed: &Option<PerJoint>, what: &str, absent: f64| {
+        let spread = |typed: &Option<PerJoint>, what: &'static str, absent: f64| {
             let values = match typed {
                 None => vec![absent; n],
                 Some(PerJoint::All(value)) => vec![*value; n],
                 Some(PerJoint::Each(values)) if values.len() == n => values.clone(),
                 Some(PerJoint::Each(values)) => {
-                    return self.report.err(
-                        at.clone(),
-                        "lab::joint_count",
-                        format!("`{what}` has {} for {n} joints", numbers(values.len())),
-                        "this servo",
-                        Some("give one number for all joints, or one per joint".to_owned()),
-                    );
+                    let count = numbers(values.len());
+                    let problem = MotionProblem::JointCount { what, count, n };
+                    return self.report.refuse(at.clone(), problem);
                 }
             };
             Ok(values)
@@ -360,12 +348,15 @@ impl Reader<'_> {
             table.gravity_compensation,
         )
         .or_else(|error| {
-            let code = match error {
-                ServoError::Gain { .. } | ServoError::Limit { .. } => "lab::out_of_range",
-                ServoError::Count { .. } | ServoError::VelocityOfVelocity => "lab::servo",
+            let problem = match error {
+                ServoError::Gain { .. } | ServoError::Limit { .. } => {
+                    MotionProblem::Gains { error }
+                }
+                ServoError::Count { .. } | ServoError::VelocityOfVelocity => {
+                    MotionProblem::Servo { error }
+                }
             };
-            self.report
-                .err(at, code, error.to_string(), "this servo", None)
+            self.report.refuse(at, problem)
         })
     }
 }

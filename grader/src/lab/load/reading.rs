@@ -7,8 +7,20 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::lab::parameters::refused;
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, problems};
 use crate::task::reporter::Reporter;
+
+problems! {
+    /// What is wrong with a text of a lab before its tables are looked at.
+    enum TextProblem {
+        NotFinite:
+            "lab::not_finite", "a lab's numbers are finite", "not a finite number", "leave a limit out to have none";
+        Json { refusal: String, help: String }:
+            "lab::reference_path", "{refusal}", "here", help;
+        Format { found: i64 }:
+            "lab::unknown_format", "format {found} is not known", "this version reads format 1", "write `format = 1`";
+    }
+}
 
 /// Reads TOML into its tables.
 pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
@@ -20,13 +32,7 @@ pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, 
 pub(in crate::lab) fn refuse_not_finite(source: &Source) -> Result<(), LabError> {
     match not_finite(source.text()) {
         None => Ok(()),
-        Some(at) => Reporter { source }.err(
-            at,
-            "lab::not_finite",
-            "a lab's numbers are finite".to_owned(),
-            "not a finite number",
-            Some("leave a limit out to have none".to_owned()),
-        ),
+        Some(at) => Reporter { source }.refuse(at, TextProblem::NotFinite),
     }
 }
 
@@ -73,25 +79,15 @@ impl Reporter<'_> {
             "an object of tasks, each { \"period_s\": 0.02, \"points_m\": [[x, y, z], ...] }"
                 .to_owned()
         };
-        self.err(
-            at..(at + 1).min(text.len()),
-            "lab::reference_path",
-            message.replace("unknown field", "unknown key"),
-            "here",
-            Some(help),
-        )
+        let refusal = message.replace("unknown field", "unknown key");
+        let at = at..(at + 1).min(text.len());
+        self.refuse(at, TextProblem::Json { refusal, help })
     }
 
     pub(in crate::lab) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
         match *format.get_ref() {
             1 => Ok(()),
-            found => self.err(
-                format.span(),
-                "lab::unknown_format",
-                format!("format {found} is not known"),
-                "this version reads format 1",
-                Some("write `format = 1`".to_owned()),
-            ),
+            found => self.refuse_at(format, TextProblem::Format { found }),
         }
     }
 }

@@ -4,37 +4,32 @@ use toml::Spanned;
 
 use super::Reader;
 use crate::submission::controller::Budgets;
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, problems};
 use crate::task::value::Value;
+
+problems! {
+    /// What a target cannot hold.
+    enum TargetProblem {
+        Date:
+            "lab::target", "a target holds numbers, texts, true and false, lists and tables of them", "a date or a time in it",
+            "write a date as a text, in quotes";
+        TooLong { most: u64, values: u64 }:
+            "lab::target", "a target holds at most {most} values, this one {values}", "too long",
+            "give submissions the few numbers that the rest follows from";
+    }
+}
 
 impl Reader<'_> {
     pub(super) fn target(&self, typed: &Spanned<toml::Value>) -> Result<Value, LabError> {
-        let refuse = |message: String, label: &str, help: &str| {
-            self.report.err(
-                typed.span(),
-                "lab::target",
-                message,
-                label,
-                Some(help.to_owned()),
-            )
-        };
         let mut values = 0;
         let Some(value) = value(typed.get_ref(), &mut values) else {
-            return refuse(
-                "a target holds numbers, texts, true and false, lists and tables of them"
-                    .to_owned(),
-                "a date or a time in it",
-                "write a date as a text, in quotes",
-            );
+            return self.report.refuse_at(typed, TargetProblem::Date);
         };
         // more would be over the budgets of whoever copies it
         let most = Budgets::default().list_size;
         if values > most {
-            return refuse(
-                format!("a target holds at most {most} values, this one {values}"),
-                "too long",
-                "give submissions the few numbers that the rest follows from",
-            );
+            let problem = TargetProblem::TooLong { most, values };
+            return self.report.refuse_at(typed, problem);
         }
         Ok(value)
     }

@@ -4,13 +4,13 @@ use kinemark_sim::text::Dimension;
 use toml::Spanned;
 
 use super::{all_rising, known_task, named, rising};
+use crate::lab::Lab;
+use crate::lab::TaskWork;
 use crate::lab::draw::{Draw, Drawn};
 use crate::lab::file::{DrawTable, Ranges};
-use crate::lab::load::Reporter;
-use crate::lab::model::Lab;
-use crate::lab::model::TaskWork;
 use crate::task::model::{Function, FunctionTask, Given};
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, problems};
+use crate::task::reporter::Reporter;
 
 /// A `[[draws]]` table as a draw that fits its lab.
 pub(super) fn checked(
@@ -45,30 +45,49 @@ struct DrawReader<'a> {
     table: &'a DrawTable,
 }
 
-const CODE: &str = "staff::draw";
+problems! {
+    /// What is wrong with a draw.
+    enum DrawProblem {
+        NoFunctionTask { task: String }:
+            "staff::draw", "task `{task}` is no function task", "this draw", "hidden cases are drawn for function tasks";
+        Count { count: u32 }:
+            "staff::draw", "a draw has 1 to 1000 cases, got {count}", "this draw", "change `count`";
+        JointCount { found: usize, joints: usize }:
+            "staff::draw", "`q_rad` has {found} ranges for {joints} joints", "this draw",
+            "give one [low, high] per joint that moves";
+        NotByGiven { function: String }:
+            "staff::draw", "a draw for `{function}` is of `given`", "this draw",
+            "a function of the lab's own is drawn by `given`, and nothing else is";
+        ByGiven { function: String }:
+            "staff::draw", "a draw for `{function}` has no `given`", "this draw",
+            "a function of the lab's own is drawn by `given`, and nothing else is";
+        NoBranches:
+            "staff::draw", "a draw of positions must say how many `branches` reach them", "this draw",
+            "write `branches = 0` for positions out of reach";
+        NotOneQuantity:
+            "staff::draw", "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`", "this draw", "give one of the two";
+        OtherNames { drawn: String, given: String }:
+            "staff::draw", "this draw gives {drawn}, the visible cases give {given}", "this draw", "give the same names";
+        Dimensions { error: String }:
+            "staff::draw", "{error}", "this draw", "change the ranges of `dimensions`";
+    }
+}
 
 impl<'a> DrawReader<'a> {
-    fn refuse<T>(&self, message: String, help: &str) -> Result<T, LabError> {
-        let help = Some(help.to_owned());
-        let at = self.spanned.span();
-        self.report.err(at, CODE, message, "this draw", help)
+    fn refuse<T>(&self, problem: DrawProblem) -> Result<T, LabError> {
+        self.report.refuse_at(self.spanned, problem)
     }
 
     /// The function task it is for; its count is within what a task may have.
     fn task(&self) -> Result<&'a FunctionTask, LabError> {
         let TaskWork::Function(task, _) = known_task(self.report, self.lab, &self.table.task)?
         else {
-            return self.refuse(
-                format!("task `{}` is no function task", self.table.task.get_ref()),
-                "hidden cases are drawn for function tasks",
-            );
+            let task = self.table.task.get_ref().clone();
+            return self.refuse(DrawProblem::NoFunctionTask { task });
         };
         let count = self.table.count;
         if count == 0 || count > 1000 {
-            return self.refuse(
-                format!("a draw has 1 to 1000 cases, got {count}"),
-                "change `count`",
-            );
+            return self.refuse(DrawProblem::Count { count });
         }
         Ok(task)
     }
@@ -76,16 +95,16 @@ impl<'a> DrawReader<'a> {
     /// Refuses a class without a name, and a range that goes down.
     fn ranges_rise(&self) -> Result<(), LabError> {
         let (report, table) = (self.report, self.table);
-        named(report, CODE, &table.class)?;
-        all_rising(report, CODE, &table.dimensions)?;
+        named(report, &table.class)?;
+        all_rising(report, &table.dimensions)?;
         if let Some(given) = &table.given {
-            all_rising(report, CODE, given)?;
+            all_rising(report, given)?;
         }
         if let Some(at) = &table.position_m {
-            rising(report, CODE, at.span(), "position_m", at.get_ref())?;
+            rising(report, "position_m", at, at.get_ref())?;
         }
         if let Some(at) = &table.q_rad {
-            rising(report, CODE, at.span(), "q_rad", at.get_ref())?;
+            rising(report, "q_rad", at, at.get_ref())?;
         }
         Ok(())
     }
@@ -97,10 +116,8 @@ impl<'a> DrawReader<'a> {
             return Ok(None);
         };
         if ranges.len() != joints {
-            return self.refuse(
-                format!("`q_rad` has {} ranges for {joints} joints", ranges.len()),
-                "give one [low, high] per joint that moves",
-            );
+            let found = ranges.len();
+            return self.refuse(DrawProblem::JointCount { found, joints });
         }
         Ok(Some(ranges.clone()))
     }
@@ -114,14 +131,11 @@ impl<'a> DrawReader<'a> {
         let table = self.table;
         let free = matches!(task.function, Function::Free(_));
         if free != table.given.is_some() || (free && !table.dimensions.is_empty()) {
-            return self.refuse(
-                format!(
-                    "a draw for `{}` {} `given`",
-                    task.function.name(),
-                    if free { "is of" } else { "has no" }
-                ),
-                "a function of the lab's own is drawn by `given`, and nothing else is",
-            );
+            let function = task.function.name().to_owned();
+            return self.refuse(match free {
+                true => DrawProblem::NotByGiven { function },
+                false => DrawProblem::ByGiven { function },
+            });
         }
         let position_m = table.position_m.as_ref().map(|at| *at.get_ref());
         match (&task.function, q_ranges, position_m) {
@@ -132,15 +146,9 @@ impl<'a> DrawReader<'a> {
             }
             (Function::InverseKinematics, None, Some(position)) => match table.branches {
                 Some(branches) => Ok(Drawn::Position(position, branches)),
-                None => self.refuse(
-                    "a draw of positions must say how many `branches` reach them".to_owned(),
-                    "write `branches = 0` for positions out of reach",
-                ),
+                None => self.refuse(DrawProblem::NoBranches),
             },
-            _ => self.refuse(
-                "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`".to_owned(),
-                "give one of the two",
-            ),
+            _ => self.refuse(DrawProblem::NotOneQuantity),
         }
     }
 
@@ -158,14 +166,8 @@ impl<'a> DrawReader<'a> {
             _ => Vec::new(),
         };
         if drawn != of_cases {
-            return self.refuse(
-                format!(
-                    "this draw gives {}, the visible cases give {}",
-                    drawn.join(", "),
-                    of_cases.join(", ")
-                ),
-                "give the same names",
-            );
+            let (drawn, given) = (drawn.join(", "), of_cases.join(", "));
+            return self.refuse(DrawProblem::OtherNames { drawn, given });
         }
         Ok(Drawn::Values(ranges))
     }
@@ -183,7 +185,8 @@ impl<'a> DrawReader<'a> {
                 .map(|(name, ranges)| (name.clone(), ranges.end(end)))
                 .collect();
             if let Err(error) = self.lab.robot_file.build(&changed) {
-                return self.refuse(error.to_string(), "change the ranges of `dimensions`");
+                let error = error.to_string();
+                return self.refuse(DrawProblem::Dimensions { error });
             }
         }
         Ok(dimensions)

@@ -1,16 +1,38 @@
 //! Hidden runs of motion tasks: a lab of its own each, with drawn numbers.
 
 use kinemark_sim::text::Dimension;
-use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::{HiddenRun, all_rising, known_task, named};
+use crate::lab::Lab;
 use crate::lab::draw::parameters;
 use crate::lab::file::{HiddenRunsTable, Ranges, RangesTable};
-use crate::lab::load::Reporter;
-use crate::lab::model::Lab;
-use crate::lab::model::TaskWork;
-use crate::task::problem::LabError;
+use crate::lab::{Task, TaskWork};
+use crate::task::problem::{LabError, near, problems};
+use crate::task::reporter::Reporter;
+
+problems! {
+    /// What is wrong with hidden runs.
+    enum RunsProblem {
+        Numbers { error: String }:
+            "staff::runs", "{error}", "these runs", "change the ranges of `parameters`";
+        NoMotionTask { task: String }:
+            "staff::runs", "task `{task}` is no motion task", "these runs", "hidden cases of function tasks are [[draws]]";
+        Count { count: u32 }:
+            "staff::runs", "there are 1 to {MOST_RUNS} hidden runs of a class, got {count}", "these runs", "change `count`";
+        OnePath { check: String }:
+            "staff::runs", "check `{check}` compares with one path, and every run has its own", "these runs",
+            "judge the task by goals or a path of its own instead";
+        SameNumbers:
+            "staff::runs", "a hidden run without other numbers is the visible run again", "nothing is drawn",
+            "give parameters, such as { can_y = [0.95, 1.05] }";
+        UnknownParameter { lab: String, name: String, known: Vec<String> }:
+            "staff::runs", "lab `{lab}` has no parameter `{name}`", "these runs", near(name, "parameters", known);
+        Shape { name: String }:
+            "staff::runs", "the ranges of `{name}` do not fit its shape", "these runs",
+            "give [low, high] for one number, and a list of such ranges for a list";
+    }
+}
 
 /// The runs of one `[[runs]]` table, each a lab of its own.
 pub(super) fn hidden_runs(
@@ -24,13 +46,8 @@ pub(super) fn hidden_runs(
     let ranges = fitting_ranges(report, lab, spanned)?;
     let with = |parameters: Vec<(String, Dimension)>| {
         lab.with_parameters(&parameters).or_else(|error| {
-            report.err(
-                spanned.span(),
-                "staff::runs",
-                error.to_string(),
-                "these runs",
-                Some("change the ranges of `parameters`".to_owned()),
-            )
+            let error = error.to_string();
+            report.refuse_at(spanned, RunsProblem::Numbers { error })
         })
     };
     // what can be loaded at both ends can be loaded between: expressions are monotone in practice
@@ -60,38 +77,21 @@ fn is_of_goals(
     spanned: &Spanned<HiddenRunsTable>,
 ) -> Result<(), LabError> {
     let table = spanned.get_ref();
-    let refuse = |message: String, help: &str| {
-        let help = Some(help.to_owned());
-        report.err(spanned.span(), "staff::runs", message, "these runs", help)
-    };
     let TaskWork::Motion(..) = known_task(report, lab, &table.task)? else {
-        return refuse(
-            format!("task `{}` is no motion task", table.task.get_ref()),
-            "hidden cases of function tasks are [[draws]]",
-        );
+        let task = table.task.get_ref().clone();
+        return report.refuse_at(spanned, RunsProblem::NoMotionTask { task });
     };
     if table.count == 0 || table.count > MOST_RUNS {
-        return refuse(
-            format!(
-                "there are 1 to {MOST_RUNS} hidden runs of a class, got {}",
-                table.count
-            ),
-            "change `count`",
-        );
+        let count = table.count;
+        return report.refuse_at(spanned, RunsProblem::Count { count });
     }
     let task = lab
         .tasks
         .iter()
         .find(|task| task.name == *table.task.get_ref());
-    let mut checks = task.into_iter().flat_map(|task| task.checks());
-    if let Some(check) = checks.find(|check| check.kind.follows_one_path()) {
-        return refuse(
-            format!(
-                "check `{}` compares with one path, and every run has its own",
-                check.name
-            ),
-            "judge the task by goals or a path of its own instead",
-        );
+    if let Some(check) = task.and_then(Task::one_path) {
+        let check = check.to_owned();
+        return report.refuse_at(spanned, RunsProblem::OnePath { check });
     }
     Ok(())
 }
@@ -103,39 +103,29 @@ fn fitting_ranges<'t>(
     spanned: &'t Spanned<HiddenRunsTable>,
 ) -> Result<&'t RangesTable, LabError> {
     let table = spanned.get_ref();
-    let refuse = |message: String, help: &str| {
-        let help = Some(help.to_owned());
-        report.err(spanned.span(), "staff::runs", message, "these runs", help)
-    };
-    named(report, "staff::runs", &table.class)?;
+    named(report, &table.class)?;
     let ranges = table.parameters.get_ref();
     if ranges.is_empty() {
-        return report.err(
-            table.parameters.span(),
-            "staff::runs",
-            "a hidden run without other numbers is the visible run again".to_owned(),
-            "nothing is drawn",
-            Some("give parameters, such as { can_y = [0.95, 1.05] }".to_owned()),
-        );
+        return report.refuse_at(&table.parameters, RunsProblem::SameNumbers);
     }
-    all_rising(report, "staff::runs", ranges)?;
+    all_rising(report, ranges)?;
     for (name, ranges) in ranges {
         let fits = match (lab.parameters.get(name), ranges.get_ref()) {
             (Some(Dimension::Number(_)), Ranges::One(_)) => true,
             (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
             (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
             (None, _) => {
-                return refuse(
-                    format!("lab `{}` has no parameter `{name}`", lab.name),
-                    &suggest(name, "parameters", lab.parameters.names()),
-                );
+                let problem = RunsProblem::UnknownParameter {
+                    lab: lab.name.clone(),
+                    name: name.clone(),
+                    known: lab.parameters.names().map(str::to_owned).collect(),
+                };
+                return report.refuse_at(spanned, problem);
             }
         };
         if !fits {
-            return refuse(
-                format!("the ranges of `{name}` do not fit its shape"),
-                "give [low, high] for one number, and a list of such ranges for a list",
-            );
+            let name = name.clone();
+            return report.refuse_at(spanned, RunsProblem::Shape { name });
         }
     }
     Ok(ranges)

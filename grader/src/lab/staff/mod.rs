@@ -5,18 +5,38 @@ mod hidden_runs;
 
 use std::ops::Range;
 
-use kinemark_sim::text::{Source, suggest};
+use kinemark_sim::text::Source;
 use toml::Spanned;
 
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
-use super::load::{Reporter, tables};
+use super::load::tables;
 use super::model::Lab;
-use crate::lab::model::TaskWork;
+use crate::lab::TaskWork;
 use crate::task::files::{Files, read_source};
 use crate::task::model::Case;
-use crate::task::problem::{LabError, LoadError};
+use crate::task::problem::{LabError, LoadError, near, problems};
+use crate::task::reporter::Reporter;
 use draws::checked;
 use hidden_runs::hidden_runs;
+
+problems! {
+    /// What is wrong with the staff's files, whatever they hide.
+    enum HiddenProblem {
+        NoMutant { path: String }:
+            "staff::no_mutant", "there is no file `{path}`", "this mutant", "a mutant's name is its file's name without `.rhai`";
+        EmptySalt:
+            "staff::salt", "the salt is empty: anyone could compute the hidden numbers", "no secret",
+            "write a text that nobody guesses";
+        EmptyClass:
+            "staff::class", "the class is empty, and it is all that students see of it", "no words",
+            "say in a few words what is different, such as \"unequal links\"";
+        Falling { name: String, low: f64, high: f64 }:
+            "staff::range", "a range of `{name}` goes from {low} down to {high}", "the wrong way round",
+            format!("write [{high}, {low}]: a range is [low, high]");
+        UnknownTask { lab: String, task: String, known: Vec<String> }:
+            "staff::unknown_task", "lab `{lab}` has no task `{task}`", "not a task of this lab", near(task, "tasks", known);
+    }
+}
 
 /// The staff's part of a lab. Loading it runs none of its code: [`crate::audit::staff_code`] tries that.
 #[derive(Debug, Clone)]
@@ -237,13 +257,8 @@ fn mutant(
     let name = table.name.get_ref().clone();
     let path = format!("{}/mutants/{name}.rhai", lab.name);
     let Some(source) = own(files, &path)? else {
-        return Ok(report.err(
-            table.name.span(),
-            "staff::no_mutant",
-            format!("there is no file `{}/{path}`", files.name()),
-            "this mutant",
-            Some("a mutant's name is its file's name without `.rhai`".to_owned()),
-        )?);
+        let path = format!("{}/{path}", files.name());
+        return Ok(report.refuse_at(&table.name, HiddenProblem::NoMutant { path })?);
     };
     digest.add(&source);
     Ok(Mutant {
@@ -263,59 +278,39 @@ fn own(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
 /// The salt of a `hidden.toml`, which is not empty.
 fn own_salt<'t>(report: Reporter<'_>, table: &'t HiddenTable) -> Result<&'t str, LabError> {
     if table.salt.get_ref().trim().is_empty() {
-        return report.err(
-            table.salt.span(),
-            "staff::salt",
-            "the salt is empty: anyone could compute the hidden numbers".to_owned(),
-            "no secret",
-            Some("write a text that nobody guesses".to_owned()),
-        );
+        return report.refuse_at(&table.salt, HiddenProblem::EmptySalt);
     }
     Ok(table.salt.get_ref())
 }
 
-/// Refuses a class without a name: it is all that students are told.
-fn named(
-    report: Reporter<'_>,
-    code: &'static str,
-    class: &Spanned<String>,
-) -> Result<(), LabError> {
+/// Refuses a class without a name: it is all that students see of it.
+fn named(report: Reporter<'_>, class: &Spanned<String>) -> Result<(), LabError> {
     if !class.get_ref().trim().is_empty() {
         return Ok(());
     }
-    let message = "the class is empty, and it is all that students are told".to_owned();
-    let help = Some("say in a few words what is different, such as \"unequal links\"".to_owned());
-    report.err(class.span(), code, message, "no words", help)
+    report.refuse_at(class, HiddenProblem::EmptyClass)
 }
 
-/// Refuses a range whose low end is above its high one.
-fn rising(
+/// Refuses a range of `name`, typed `at`, whose low end is above its high one.
+fn rising<T>(
     report: Reporter<'_>,
-    code: &'static str,
-    at: std::ops::Range<usize>,
     name: &str,
+    at: &Spanned<T>,
     ranges: &[[f64; 2]],
 ) -> Result<(), LabError> {
     match ranges.iter().find(|[low, high]| low > high) {
         None => Ok(()),
-        Some([low, high]) => report.err(
-            at,
-            code,
-            format!("a range of `{name}` goes from {low} down to {high}"),
-            "the wrong way round",
-            Some(format!("write [{high}, {low}]: a range is [low, high]")),
-        ),
+        Some(&[low, high]) => {
+            let name = name.to_owned();
+            report.refuse_at(at, HiddenProblem::Falling { name, low, high })
+        }
     }
 }
 
 /// [`rising`] for ranges by name.
-fn all_rising(
-    report: Reporter<'_>,
-    code: &'static str,
-    table: &RangesTable,
-) -> Result<(), LabError> {
+fn all_rising(report: Reporter<'_>, table: &RangesTable) -> Result<(), LabError> {
     let mut all = table.iter();
-    all.try_for_each(|(name, at)| rising(report, code, at.span(), name, at.get_ref().all()))
+    all.try_for_each(|(name, at)| rising(report, name, at, at.get_ref().all()))
 }
 
 fn known_task<'l>(
@@ -325,16 +320,13 @@ fn known_task<'l>(
 ) -> Result<&'l TaskWork, LabError> {
     match lab.tasks.iter().find(|t| t.name == *task.get_ref()) {
         Some(found) => Ok(&found.work),
-        None => report.err(
-            task.span(),
-            "staff::unknown_task",
-            format!("lab `{}` has no task `{}`", lab.name, task.get_ref()),
-            "not a task of this lab",
-            Some(suggest(
-                task.get_ref(),
-                "tasks",
-                lab.tasks.iter().map(|task| task.name.as_str()),
-            )),
-        ),
+        None => {
+            let problem = HiddenProblem::UnknownTask {
+                lab: lab.name.clone(),
+                task: task.get_ref().clone(),
+                known: lab.tasks.iter().map(|task| task.name.clone()).collect(),
+            };
+            report.refuse_at(task, problem)
+        }
     }
 }

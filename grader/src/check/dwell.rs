@@ -1,4 +1,4 @@
-//! Stays: where in a run the TCP kept to each goal, in order, for as long as it had to.
+//! Dwells: where in a run the TCP kept to each goal, in order, for as long as it had to.
 //!
 //! All choices of one window per goal, each after the one before, are compared; the one that earns most is taken, and of ones that
 //! earn the same to a hundredth the earliest. So neither a pass through a goal on the way, nor a late return to it, can cost a point.
@@ -11,7 +11,7 @@ use crate::task::model::{Band, MotionGoal};
 
 /// A window of a run at a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stay {
+pub struct Dwell {
     /// Its first tick.
     pub first: usize,
     /// Its last tick.
@@ -25,19 +25,19 @@ pub struct Stay {
     pub settled_last: usize,
 }
 
-/// The best stays, one per goal in order; empty where the run is too short for all dwells.
-pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> {
+/// The best dwells, one per goal in order; empty where the run is too short for all dwells.
+pub fn best_dwells(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Dwell> {
     let ticks = trace.len();
     // best worth with the goals so far, their windows ending at or before a tick; and where the last one ends
     let mut before = vec![Worth::NOTHING; ticks];
     let mut choices: Vec<Vec<Option<usize>>> = Vec::new();
     let mut worsts: Vec<Vec<f64>> = Vec::new();
     for goal in goals {
-        let dwell = goal.dwell_ticks as usize;
+        let length = goal.dwell_ticks as usize;
         let distances: Vec<f64> = (0..ticks)
             .map(|tick| (trace.tcp_position(tick) - goal.position_m).norm())
             .collect();
-        let worst = sliding_maximum(&distances, dwell + 1);
+        let worst = sliding_maximum(&distances, length + 1);
         let mut best = vec![Worth::IMPOSSIBLE; ticks];
         let mut choice = vec![None; ticks];
         for last in 0..ticks {
@@ -45,10 +45,10 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
                 best[last] = best[last - 1];
                 choice[last] = choice[last - 1];
             }
-            if last < dwell {
+            if last < length {
                 continue;
             }
-            let worth = before[last - dwell].and(band, worst[last]);
+            let worth = before[last - length].and(band, worst[last]);
             if worth.is_better_than(best[last]) {
                 best[last] = worth;
                 choice[last] = Some(last);
@@ -58,17 +58,17 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
         choices.push(choice);
         worsts.push(worst);
     }
-    let mut stays = Vec::new();
+    let mut dwells = Vec::new();
     let mut limit = ticks.checked_sub(1);
     for (i, goal) in goals.iter().enumerate().rev() {
         let Some(last) = limit.and_then(|limit| choices[i][limit]) else {
             return Vec::new();
         };
         let first = last - goal.dwell_ticks as usize;
-        // what comes after the next goal's stay has begun is no part of this one
+        // what comes after the next goal's dwell has begun is no part of this one
         let until = limit.unwrap_or(last);
         let (later, settled_m) = settled(&worsts[i][last..=until], band);
-        stays.push(Stay {
+        dwells.push(Dwell {
             first,
             last,
             worst_m: worsts[i][last],
@@ -77,8 +77,8 @@ pub fn best_stays(trace: &Trace, goals: &[MotionGoal], band: Band) -> Vec<Stay> 
         });
         limit = Some(first);
     }
-    stays.reverse();
-    stays
+    dwells.reverse();
+    dwells
 }
 
 /// The first of the least distances, with its index, for as long as windows are no worse than the first, or full.

@@ -1,0 +1,206 @@
+//! Why a joint comes to rest beside its target: a command beside it, an error that still shrinks, or an effort that only an error
+//! gives, such as against gravity.
+
+use kinemark_sim::control::Mode;
+use kinemark_sim::control::linear_step::Fed;
+use kinemark_sim::dynamics::gravity_effort;
+
+use super::step_response::Response;
+use crate::record::quantity::trimmed;
+
+/// Efforts below this are no reason for an error \[N m or N\].
+const LEAST_EFFORT: f64 = 1e-6;
+/// Gravity is the reason where the motor gives what it takes, but for this share.
+const SAME_EFFORT: f64 = 0.1;
+/// An error that shrinks by more than this share while it is judged is not at rest.
+const STILL_NEARING: f64 = 0.1;
+
+/// Why the joint of `response` rests beside `target`, where that can be said.
+pub(super) fn reason(response: &Response<'_>, target: f64) -> Option<Reason> {
+    Rest::of(response, target)?.reason()
+}
+
+/// A number with three digits that count, however small.
+pub(super) fn number(value: f64) -> String {
+    let size = value.abs();
+    let decimals = if size >= 100.0 {
+        1
+    } else if size >= 0.01 {
+        3
+    } else {
+        6
+    };
+    trimmed(value, decimals)
+}
+
+/// Why a joint rests beside its target, and what helps.
+pub(super) struct Reason {
+    pub(super) words: String,
+    pub(super) help: String,
+}
+
+impl Reason {
+    fn new(words: impl Into<String>, help: impl Into<String>) -> Option<Self> {
+        Some(Self {
+            words: words.into(),
+            help: help.into(),
+        })
+    }
+}
+
+/// How a joint rests beside its target.
+struct Rest<'a> {
+    response: &'a Response<'a>,
+    target: f64,
+    /// From the final value to the target.
+    error: f64,
+    /// The last tick of the run.
+    last: usize,
+    /// Mean effort of the joint over the final part \[N m or N\].
+    given: f64,
+    /// Whether the lab's servo closes the loop over the signal.
+    is_servo: bool,
+}
+
+impl<'a> Rest<'a> {
+    fn of(response: &'a Response<'a>, target: f64) -> Option<Self> {
+        let (facts, asked) = (response.facts, response.asked);
+        let mut rest = Self {
+            response,
+            target,
+            error: target - response.end,
+            last: facts.trace.len().checked_sub(1)?,
+            given: 0.0,
+            is_servo: matches!(
+                (facts.motion.servo.mode, asked.of),
+                (Mode::Position, Fed::Position) | (Mode::Velocity, Fed::Velocity)
+            ),
+        };
+        rest.given = rest.mean(|tick| facts.trace.effort.at(tick)[asked.joint]);
+        Some(rest)
+    }
+
+    /// The mean over the final part; the efforts of the last row are never applied.
+    fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let ticks = self.response.final_tick..self.last;
+        let count = ticks.len().max(1) as f64;
+        ticks.map(value).sum::<f64>() / count
+    }
+
+    fn reason(&self) -> Option<Reason> {
+        self.command_is_beside()
+            .or_else(|| self.is_still_nearing())
+            .or_else(|| match self.response.asked.of {
+                Fed::Position => self.gravity(),
+                Fed::Velocity => self.drag(),
+            })
+    }
+
+    /// `control` asks the servo for something else.
+    fn command_is_beside(&self) -> Option<Reason> {
+        let response = self.response;
+        let joint = response.asked.joint;
+        let commanded = self.mean(|tick| response.facts.trace.command.at(tick)[joint]);
+        let beside = (commanded - self.target).abs();
+        if !(self.is_servo && beside > 0.5 * self.error.abs()) {
+            return None;
+        }
+        Reason::new(
+            format!("`control` asks for {} there", response.with_unit(commanded)),
+            format!(
+                "Return {} for joint `{}`.",
+                response.with_unit(self.target),
+                response.name()
+            ),
+        )
+    }
+
+    /// The error still shrinks.
+    fn is_still_nearing(&self) -> Option<Reason> {
+        let response = self.response;
+        let ends = [response.final_tick, self.last].map(|tick| response.values[tick]);
+        let [then, now] = ends.map(|value| (value - self.target).abs());
+        let nears = then - now > STILL_NEARING * self.error.abs();
+        if !nears {
+            return None;
+        }
+        let [from, to] = ends.map(|value| response.with_unit(value));
+        Reason::new(
+            format!("it is still on its way, from {from} to {to} in this time"),
+            "What takes the error away works, and is too slow: a stronger integral, or less for it to do.",
+        )
+    }
+
+    /// A joint that has to be held against gravity.
+    fn gravity(&self) -> Option<Reason> {
+        let (facts, asked) = (self.response.facts, self.response.asked);
+        let (motion, force) = (facts.motion, asked.units.effort());
+        // what holds a robot with loops is shared among its joints
+        if motion.servo.gravity_compensation || !facts.robot.loops().is_empty() {
+            return None;
+        }
+        let q = facts.robot.positions(facts.trace.q.at(self.last)).ok()?;
+        let gravity = gravity_effort(facts.robot, &motion.gravity_m_s2, &q).as_slice()[asked.joint];
+        let limit = motion.servo.gains[asked.joint].effort_limit;
+        if self.given.abs() >= 0.99 * limit {
+            return Reason::new(
+                format!("the motor is at its limit of {} {force}", number(limit)),
+                "Ask for less: the motor must have some effort left to correct with.",
+            );
+        }
+        // another torque at work, such as a push of the other joints, would make gravity a wrong reason
+        if gravity.abs() < LEAST_EFFORT
+            || (self.given - gravity).abs() > SAME_EFFORT * gravity.abs()
+        {
+            return None;
+        }
+        let reason = format!("gravity takes {} {force} there", number(gravity.abs()));
+        self.proportional(gravity, reason)
+    }
+
+    /// A velocity that has to be kept up.
+    fn drag(&self) -> Option<Reason> {
+        let (given, force) = (self.given, self.response.asked.units.effort());
+        if given.abs() < LEAST_EFFORT {
+            return None;
+        }
+        let reason = format!("keeping it takes {} {force}", number(given.abs()));
+        self.proportional(given, reason)
+    }
+
+    /// The error at which a proportional gain gives `effort`, which is needed for `reason`.
+    fn proportional(&self, effort: f64, reason: String) -> Option<Reason> {
+        let asked = self.response.asked;
+        let (unit, force) = (asked.unit(), asked.units.effort());
+        let kp = self.response.facts.motion.servo.gains[asked.joint].kp;
+        let (given, error) = (self.given, self.error);
+        if self.is_servo && kp > 0.0 {
+            let needed = number((effort / kp).abs());
+            Reason::new(
+                format!(
+                    "{reason}, and kp = {} needs {needed} {unit} of error to supply it",
+                    number(kp)
+                ),
+                "More proportional gain makes the error smaller; integral action, or adding that effort yourself, takes it away.",
+            )
+        } else if given * error < 0.0 && error.abs() > 1e-9 {
+            // no feedback of the error alone gives that
+            Reason::new(
+                format!("{reason}, and the motor gives it on the far side of the target"),
+                "Check sign and size of what you add to the feedback: it holds the joint beside its target.",
+            )
+        } else if error.abs() > 1e-9 {
+            Reason::new(
+                format!(
+                    "{reason}; the motor gives {} {force} with {} {unit} of error: as a proportional gain of {} would",
+                    number(given.abs()),
+                    number(error.abs()),
+                    number((given / error).abs())
+                ),
+                "Add integral action, or add that effort to what you return.",
+            )
+        } else {
+            Reason::new(reason, "Add integral action.")
+        }
+    }
+}
