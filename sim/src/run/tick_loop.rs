@@ -1,7 +1,7 @@
 //! The tick loop: observe, control, servo, step. Time is counted, never measured.
 //!
 //! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
-//! world moves on to the next tick. [`Run`] goes tick by tick and can be copied in the middle; [`run`] goes to the end.
+//! world moves on to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end.
 
 use nalgebra::Vector3;
 
@@ -141,12 +141,8 @@ pub struct Run<'a> {
     state: State,
 }
 
-/// A run as it stood between two ticks: robot, scene, servos. It goes on from there with the same bits.
-#[derive(Debug, Clone)]
-pub struct RunSnapshot(State);
-
 /// All that the ticks to come depend on, save the controller's memory.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 struct State {
     /// The tick that comes next.
     tick: u64,
@@ -315,16 +311,6 @@ impl<'a> Run<'a> {
             tick: tick + 1,
             what,
         }))
-    }
-
-    /// The run as it stands. The controller's memory and what was recorded are kept by whoever has them.
-    pub fn snapshot(&self) -> RunSnapshot {
-        RunSnapshot(self.state.clone())
-    }
-
-    /// Goes back, or on, to `snapshot`, which must be of a run of the same setup.
-    pub fn restore(&mut self, snapshot: &RunSnapshot) {
-        self.state = snapshot.0.clone();
     }
 }
 
