@@ -1,8 +1,7 @@
 //! How frames move, against independent numbers and against difference quotients of where they are.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::format::urdf;
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{ReadOptions, read_robot};
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::analytic::{Angles, analytic_jacobian};
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass, centre_of_mass_jacobian};
@@ -32,8 +31,8 @@ pub(crate) fn model(name: &str) -> Robot {
         name.to_owned(),
         std::fs::read_to_string(&path).expect(&path),
     );
-    let options = UrdfOptions { ignore_mimic: true };
-    urdf::robot(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
+    let options = ReadOptions { ignore_mimic: true };
+    read_robot(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
 }
 
 /// Values of a golden file, which have its own order of joints, in the robot's order.

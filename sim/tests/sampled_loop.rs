@@ -4,8 +4,7 @@ use kinemark_sim::control::{
     Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, sampled_loop,
 };
 use kinemark_sim::dynamics::{GRAVITY_M_S2, gravity_effort, mass_matrix};
-use kinemark_sim::format::urdf;
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{ReadOptions, read_robot};
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::closure::closed_positions;
 use kinemark_sim::model::robot::Robot;
@@ -300,9 +299,9 @@ fn ur5() -> Robot {
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(&path).expect(&path);
-    let options = UrdfOptions { ignore_mimic: true };
+    let options = ReadOptions { ignore_mimic: true };
     let no_mesh = &mut |_: &str| Err("none".to_owned());
-    urdf::robot(Source::new("ur5.urdf", text), &options, no_mesh).expect("a robot")
+    read_robot(Source::new("ur5.urdf", text), &options, no_mesh).expect("a robot")
 }
 
 /// Two equal fingers on a slider, one after the other by a mimic joint.

@@ -15,8 +15,8 @@ use crate::engine::EngineError;
 use crate::kinematics::FramePoses;
 use crate::model::robot::{Frame, Robot};
 use crate::model::scene::Scene;
-use crate::model::sensor::Sensor;
-use crate::sensing::{Seen, SensorError, Sensors};
+use crate::model::sensor::{Seen, Sensor};
+use crate::sensing::{SensorError, Sensors};
 use crate::spatial::Pose;
 use crate::step::hybrid::HybridStep;
 use crate::ticks::Periods;
@@ -328,7 +328,7 @@ impl State {
         }
         self.qd_before.copy_from_slice(&self.qd);
         let scene = self.stepper.scene();
-        self.sensors.sample(&Seen {
+        let seen = Seen {
             tick: self.tick,
             robot: setup.robot,
             q: &self.q,
@@ -337,8 +337,8 @@ impl State {
             qdd: &self.qdd,
             gravity_m_s2: &setup.gravity_m_s2,
             contacts: scene.map_or(&[], |scene| &scene.report().contacts),
-            scene,
-        });
+        };
+        self.sensors.sample(&seen, scene);
     }
 
     /// Asks `control` for the command of the control period that begins, which reaches the servos as the disturbance lets it.
