@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use kinemark_sim::format::{ReadOptions, read_robot};
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::kinematics::inverse::{Goal, IkSettings, IkSolver, Target};
 use kinemark_sim::kinematics::joint_samples::JointSamples;
@@ -21,7 +21,7 @@ fn model(name: &str) -> Robot {
     let text = std::fs::read_to_string(path).expect("a model");
     let options = ReadOptions { ignore_mimic: true };
     let source = Source::new(name.to_owned(), text);
-    read_robot(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
+    (detect(&source).read)(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
 }
 
 /// Positions all over the joint ranges, limits included.

@@ -5,7 +5,7 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::format::{ReadOptions, read_robot};
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::joint_space::{JointEfforts, JointPositions};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::model::robot::{Link, Robot};
@@ -14,6 +14,7 @@ use kinemark_sim::text::Source;
 use nalgebra::{Matrix6xX, Vector3};
 use serde_json::Value;
 
+use crate::arms::read_robot;
 use crate::golden_rrbot::{golden, numbers};
 
 /// Poses and Jacobians, as stated for the files: their numbers are rounded to 12 digits.

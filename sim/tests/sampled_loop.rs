@@ -4,7 +4,7 @@ use kinemark_sim::control::{
     Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, sampled_loop,
 };
 use kinemark_sim::dynamics::{GRAVITY_M_S2, gravity_effort, mass_matrix};
-use kinemark_sim::format::{ReadOptions, read_robot};
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::closure::closed_positions;
 use kinemark_sim::model::robot::Robot;
@@ -12,6 +12,7 @@ use kinemark_sim::step::smooth::SmoothStep;
 use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 
+use crate::arms::read_robot;
 use crate::arms::{lab_robot, robot, rrbot};
 use crate::golden_rrbot::{golden, numbers};
 

@@ -2,8 +2,9 @@
 
 use std::cell::RefCell;
 
+use crate::arms::read_robot;
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::format::RobotError;
-use kinemark_sim::format::{ReadOptions, read_robot};
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::model::robot::{JointKind, Robot};

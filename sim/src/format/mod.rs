@@ -25,9 +25,7 @@ robot_formats! {
 }
 
 pub use mesh_location::MeshLocation;
-pub use robot_format::{
-    Likeness, NameMesh, ReadFile, ReadOptions, RobotFormat, detect, read_robot,
-};
+pub use robot_format::{Likeness, NameMesh, ReadFile, ReadOptions, RobotFormat, detect};
 pub use robot_problem::{RobotError, RobotProblem};
 pub use robot_toml::RobotFile;
 pub use scene_toml::{SceneError, SceneFile, SceneProblem};

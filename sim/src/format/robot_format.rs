@@ -65,18 +65,6 @@ pub fn detect(source: &Source) -> &'static RobotFormat {
     best
 }
 
-/// Reads the robot of a description in any format; `read` gets the files that it names.
-///
-/// # Errors
-/// Whatever makes the text no robot, with its place.
-pub fn read_robot(
-    source: Source,
-    options: &ReadOptions,
-    read: &mut ReadFile<'_>,
-) -> Result<Robot, RobotError> {
-    (detect(&source).read)(source, options, read)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

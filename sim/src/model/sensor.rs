@@ -16,6 +16,8 @@ use super::robot::{Body, Frame, JointKind, Robot};
 pub struct Sensor {
     /// Its name.
     pub name: String,
+    /// The word of the robot file for its kind.
+    pub type_name: &'static str,
     /// What it measures.
     pub kind: Arc<dyn SensorKind>,
     /// Standard deviation of the normal noise on every channel, in the channel's unit; 0 for none.
@@ -60,11 +62,10 @@ impl Measured {
 
 /// What a sensor of some kind measures, on one robot.
 pub trait SensorKind: fmt::Debug + Send + Sync {
-    /// The word of the robot file.
-    fn name(&self) -> &'static str;
-
     /// What it reads.
-    fn measured(&self) -> Measured;
+    fn measured(&self) -> Measured {
+        Measured::Number
+    }
 
     /// Its own keys in a robot file, a line each; `robot` is the one that it was read for.
     fn keys(&self, robot: &Robot) -> String;

@@ -119,7 +119,10 @@ impl Values<'_> {
         what: &str,
         values: &[f64],
     ) -> Result<(), PartError> {
-        match values.iter().find(|value| !(value.abs() <= MOST)) {
+        match values
+            .iter()
+            .find(|value| value.abs() > MOST || value.is_nan())
+        {
             None => Ok(()),
             Some(value) => {
                 let expected = match *value < 0.0 {

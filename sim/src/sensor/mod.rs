@@ -1,6 +1,7 @@
 //! The kinds of sensors, one file each, and the tables of sensors in a robot file or wherever else sensors are described.
 
 mod kind;
+mod of_joint;
 mod registry;
 mod sensor_problem;
 mod sensor_reader;
@@ -58,7 +59,7 @@ mod tests {
                 let [sensor] = first.sensors() else {
                     panic!("one sensor in {table}");
                 };
-                assert_eq!(sensor.kind.name(), kind.name);
+                assert_eq!(sensor.type_name, kind.name);
                 let written = first.to_toml(&mut str::to_owned);
                 let again = RobotFile::parse(Source::new("robot.toml", written));
                 let again = again.and_then(|file| file.build(&[])).unwrap();

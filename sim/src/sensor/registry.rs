@@ -28,11 +28,14 @@ pub(super) trait KindTable: DeserializeOwned {
     fn read(&self, reading: &SensorReading<'_>) -> Result<Self::Kind, PartError>;
 }
 
+/// Reads the own keys of a kind.
+type ReadKind = fn(&SensorReading<'_>) -> Result<Arc<dyn SensorKind>, PartError>;
+
 /// An entry of the list of kinds.
 pub(super) struct Kind {
     pub(super) name: &'static str,
     pub(super) is_noisy: bool,
-    pub(super) read: fn(&OwnKeys<'_>, &SensorReading<'_>) -> Result<Arc<dyn SensorKind>, PartError>,
+    pub(super) read: ReadKind,
     #[cfg(test)]
     pub(super) example: &'static str,
 }
@@ -42,54 +45,10 @@ impl Kind {
         Self {
             name: T::NAME,
             is_noisy: T::IS_NOISY,
-            read: |keys, reading| Ok(Arc::new(keys.read::<T>(reading)?.read(reading)?)),
+            read: |reading| Ok(Arc::new(reading.own::<T>()?.read(reading)?)),
             #[cfg(test)]
             example: T::EXAMPLE,
         }
-    }
-}
-
-/// The keys of a table that only its kind has.
-pub(super) struct OwnKeys<'a> {
-    pub(super) table: &'a TypedTable,
-    /// The keys that are read already.
-    pub(super) others: &'a [&'static str],
-}
-
-impl OwnKeys<'_> {
-    fn read<T: KindTable>(&self, reading: &SensorReading<'_>) -> Result<T, PartError> {
-        let own = self.table.read(|key| !self.others.contains(&key));
-        own.map_err(|error| self.refused(T::NAME, &error, reading))
-    }
-
-    /// What the TOML reader refused, in the words of sensors.
-    fn refused(
-        &self,
-        kind: &str,
-        error: &toml::de::Error,
-        reading: &SensorReading<'_>,
-    ) -> PartError {
-        let (problem, at) = PartProblem::of_toml(error, reading.values.source.text());
-        let mut quoted = error.message().split('`').skip(1).step_by(2);
-        let key = quoted.next().unwrap_or_default();
-        let (at, problem) = if error.message().starts_with("unknown field") {
-            // `name` and `type` are there already
-            let known: Vec<&str> = quoted.chain(self.others[2..].iter().copied()).collect();
-            let problem = PartProblem::Sensor {
-                message: format!("a sensor of type `{kind}` has no `{key}`"),
-                help: suggest(key, "it may have", known.iter().copied()),
-            };
-            (at, problem)
-        } else if error.message().starts_with("missing field") {
-            let problem = PartProblem::Sensor {
-                message: format!("sensor `{}` has no `{key}`", reading.name),
-                help: format!("a sensor of type `{kind}` needs `{key}`"),
-            };
-            (reading.type_at.clone(), problem)
-        } else {
-            (at, problem)
-        };
-        reading.values.located(at, problem)
     }
 }
 
@@ -101,9 +60,40 @@ pub(super) struct SensorReading<'a> {
     pub(super) name: &'a str,
     /// Where its type stands.
     pub(super) type_at: Range<usize>,
+    pub(super) table: &'a TypedTable,
+    /// The keys of the table that are read already.
+    pub(super) others: &'a [&'static str],
 }
 
 impl SensorReading<'_> {
+    /// The keys that only the kind has.
+    fn own<T: KindTable>(&self) -> Result<T, PartError> {
+        let own = self.table.read(|key| !self.others.contains(&key));
+        own.map_err(|error| self.refused(T::NAME, &error))
+    }
+
+    /// What the TOML reader refused, in the words of sensors.
+    fn refused(&self, kind: &str, error: &toml::de::Error) -> PartError {
+        let mut quoted = error.message().split('`').skip(1).step_by(2);
+        let key = quoted.next().unwrap_or_default();
+        let (mut problem, mut at) = PartProblem::of_toml(error, self.values.source.text());
+        if error.message().starts_with("unknown field") {
+            // `name` and `type` are there already
+            let known = quoted.chain(self.others[2..].iter().copied());
+            problem = PartProblem::Sensor {
+                message: format!("a sensor of type `{kind}` has no `{key}`"),
+                help: suggest(key, "it may have", known),
+            };
+        } else if error.message().starts_with("missing field") {
+            at = self.type_at.clone();
+            problem = PartProblem::Sensor {
+                message: format!("sensor `{}` has no `{key}`", self.name),
+                help: format!("a sensor of type `{kind}` needs `{key}`"),
+            };
+        }
+        self.values.located(at, problem)
+    }
+
     /// Refuses a sensor that cannot be there.
     pub(super) fn refuse<T>(
         &self,

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::kind::KINDS;
-use super::registry::{OwnKeys, SensorReading};
+use super::registry::SensorReading;
 use super::sensor_problem::SensorProblem;
 use crate::model::robot::Robot;
 use crate::model::sensor::Sensor;
@@ -114,18 +114,19 @@ fn sensor(
         let help = Some(suggest(type_name, "types", names));
         return values.err(common.kind.span(), PartProblem::Toml { message, help });
     };
-    let reading = SensorReading {
-        robot,
-        values,
-        name: common.name.get_ref(),
-        type_at: common.kind.span(),
-    };
     let others = if kind.is_noisy {
         COMMON.len()
     } else {
         NOISELESS
     };
-    let others = &COMMON[..others];
+    let reading = SensorReading {
+        robot,
+        values,
+        name: common.name.get_ref(),
+        type_at: common.kind.span(),
+        table,
+        others: &COMMON[..others],
+    };
     let number = |number: &Option<NumberAt>, what| {
         let number = number.as_ref();
         number.map_or(Ok(0.0), |n| values.bounded(n, what, Allowed::NotNegative))
@@ -133,7 +134,8 @@ fn sensor(
     let rate_hz = common.rate_hz.as_ref();
     let rate_hz = rate_hz.map(|rate| values.bounded(rate, "rate_hz", Allowed::Positive));
     let sensor = Sensor {
-        kind: (kind.read)(&OwnKeys { table, others }, &reading)?,
+        type_name: kind.name,
+        kind: (kind.read)(&reading)?,
         noise: number(&common.noise, "noise")?,
         quantisation: number(&common.quantisation, "quantisation")?,
         delay_s: number(&common.delay_s, "delay_s")?,

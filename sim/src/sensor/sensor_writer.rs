@@ -9,12 +9,11 @@ use crate::random::seed_of_name;
 
 /// Writes the table of `sensor` of `robot` to the end of `out`.
 pub(crate) fn sensor_table(sensor: &Sensor, robot: &Robot, out: &mut String) {
-    let (name, kind) = (quoted(&sensor.name), &sensor.kind);
+    let (name, kind) = (quoted(&sensor.name), sensor.type_name);
+    let keys = sensor.kind.keys(robot);
     let _ = write!(
         out,
-        "\n[[sensors]]\nname = {name}\ntype = \"{}\"\n{}",
-        kind.name(),
-        kind.keys(robot)
+        "\n[[sensors]]\nname = {name}\ntype = \"{kind}\"\n{keys}"
     );
     for (key, value) in [
         ("noise", sensor.noise),

@@ -5,7 +5,7 @@ mod eval_errors;
 mod eval_requests;
 mod texts;
 
-use kinemark_sim::format::{ReadOptions, read_robot};
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Source;
 use kinemark_toolbox::eval::{Subject, answer_line};
@@ -14,7 +14,8 @@ use serde_json::{Value, json};
 /// A robot without meshes.
 fn robot_of(text: &str) -> Robot {
     let no_mesh = &mut |name: &str| Err(format!("there is no mesh `{name}` here"));
-    read_robot(Source::new("robot", text), &ReadOptions::default(), no_mesh)
+    let source = Source::new("robot", text);
+    (detect(&source).read)(source, &ReadOptions::default(), no_mesh)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -71,7 +71,7 @@ impl Messages<'_> {
                         .collect()
                 }
             };
-            parts.into_iter().map(|name| (name, sensor.kind.name()))
+            parts.into_iter().map(|name| (name, sensor.type_name))
         });
         let (spoken, kinds): (Vec<String>, Vec<&str>) = channels.unzip();
         let names = fields(spoken.iter().map(String::as_str));

@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use crate::model::contact::Party;
 use crate::model::robot::Robot;
-use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings};
+use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings};
 use crate::part::part_problem::PartError;
 use crate::part::toml_text::quoted;
 use crate::sensor::registry::{KindTable, SensorReading};
@@ -36,14 +36,6 @@ pub(super) struct Contact {
 }
 
 impl SensorKind for Contact {
-    fn name(&self) -> &'static str {
-        Table::NAME
-    }
-
-    fn measured(&self) -> Measured {
-        Measured::Number
-    }
-
     fn keys(&self, robot: &Robot) -> String {
         format!("link = {}\n", quoted(&robot.links()[self.link].name))
     }

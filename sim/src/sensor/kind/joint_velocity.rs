@@ -1,58 +1,18 @@
 //! joint-velocity: velocity of a joint, rad/s or m/s.
 
-use serde::Deserialize;
-use toml::Spanned;
+use crate::model::robot::Body;
+use crate::model::sensor::Seen;
+use crate::sensor::of_joint::{JointNumber, JointTable};
 
-use crate::model::robot::Robot;
-use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings, moved_by};
-use crate::part::part_problem::PartError;
-use crate::part::toml_text::quoted;
-use crate::sensor::registry::{KindTable, SensorReading};
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Table {
-    joint: Spanned<String>,
-}
-
-impl KindTable for Table {
-    const NAME: &'static str = "joint-velocity";
-    #[cfg(test)]
-    const EXAMPLE: &'static str = "joint = 'elbow'";
-    type Kind = JointVelocity;
-
-    fn read(&self, reading: &SensorReading<'_>) -> Result<JointVelocity, PartError> {
-        let (joint, _) = reading.moving_joint(&self.joint)?;
-        Ok(JointVelocity { joint })
-    }
-}
+pub(super) type Table = JointTable<Velocity>;
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct JointVelocity {
-    /// Index among all joints.
-    joint: usize,
-}
+pub(super) struct Velocity;
 
-impl SensorKind for JointVelocity {
-    fn name(&self) -> &'static str {
-        Table::NAME
-    }
+impl JointNumber for Velocity {
+    const NAME: &'static str = "joint-velocity";
 
-    fn measured(&self) -> Measured {
-        Measured::Number
-    }
-
-    fn keys(&self, robot: &Robot) -> String {
-        format!("joint = {}\n", quoted(&robot.joints()[self.joint].name))
-    }
-
-    fn gauge(&self, _: &Robot, _: f64) -> Box<dyn Gauge> {
-        Box::new(*self)
-    }
-}
-
-impl Gauge for JointVelocity {
-    fn read(&mut self, seen: &Seen<'_>, _: &dyn Surroundings, values: &mut [f64]) {
-        values[0] = moved_by(seen.robot, self.joint).map_or(0.0, |body| body.rate(seen.qd));
+    fn of(body: &Body, seen: &Seen<'_>) -> f64 {
+        body.rate(seen.qd)
     }
 }

@@ -101,10 +101,6 @@ impl LimitSwitch {
 }
 
 impl SensorKind for LimitSwitch {
-    fn name(&self) -> &'static str {
-        Table::NAME
-    }
-
     fn measured(&self) -> Measured {
         Measured::Switch
     }

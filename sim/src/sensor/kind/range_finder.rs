@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::model::robot::Robot;
-use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings};
+use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings};
 use crate::part::part_problem::PartError;
 use crate::part::part_tables::{NumberAt, TripleAt};
 use crate::part::toml_text::{quoted, triple};
@@ -52,14 +52,6 @@ pub(super) struct RangeFinder {
 }
 
 impl SensorKind for RangeFinder {
-    fn name(&self) -> &'static str {
-        Table::NAME
-    }
-
-    fn measured(&self) -> Measured {
-        Measured::Number
-    }
-
     fn keys(&self, robot: &Robot) -> String {
         let frame = quoted(&robot.frames()[self.frame].name);
         let (axis, range_m) = (triple(&self.axis), self.range_m);

@@ -64,10 +64,6 @@ pub(super) struct Wrench {
 }
 
 impl SensorKind for Wrench {
-    fn name(&self) -> &'static str {
-        Table::NAME
-    }
-
     fn measured(&self) -> Measured {
         Measured::Parts(&["fx", "fy", "fz", "mx", "my", "mz"])
     }
