@@ -102,7 +102,7 @@ fetch_python() {
 step_format() {
   cargo fmt --all -- --check
   # declared by a macro, which cargo fmt does not look into
-  rustfmt --edition 2024 --check grader/src/check/kind/*.rs
+  rustfmt --edition 2024 --check grader/src/check/kind/*.rs sim/src/sensor/kind/*.rs sim/src/format/*/mod.rs
   cargo fmt --manifest-path tests/fuzz/Cargo.toml -- --check
 }
 

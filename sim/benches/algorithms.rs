@@ -8,8 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_sim::dynamics::crba::Crba;
 use kinemark_sim::dynamics::rnea::Rnea;
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2};
-use kinemark_sim::format::urdf;
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::model::robot::Robot;
@@ -25,11 +24,10 @@ fn robot(name: &str) -> Robot {
     );
     let text = std::fs::read_to_string(&path).expect(&path);
     // every joint counts, as for the peer
-    let options = UrdfOptions { ignore_mimic: true };
-    urdf::robot(Source::new(path, text), &options, &mut |_| {
-        Err("no meshes here".to_owned())
-    })
-    .expect("a robot")
+    let options = ReadOptions { ignore_mimic: true };
+    let source = Source::new(path, text);
+    (detect(&source).read)(source, &options, &mut |_| Err("no meshes here".to_owned()))
+        .expect("a robot")
 }
 
 /// Numbers in [-1, 1), the same in every run.

@@ -3,8 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use kinemark_sim::format::urdf;
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::kinematics::chain::Chain;
 use kinemark_sim::kinematics::inverse::{Goal, IkSettings, IkSolver, Target};
 use kinemark_sim::kinematics::joint_samples::JointSamples;
@@ -20,9 +19,9 @@ fn model(name: &str) -> Robot {
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(path).expect("a model");
-    let options = UrdfOptions { ignore_mimic: true };
+    let options = ReadOptions { ignore_mimic: true };
     let source = Source::new(name.to_owned(), text);
-    urdf::robot(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
+    (detect(&source).read)(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
 }
 
 /// Positions all over the joint ranges, limits included.

@@ -12,7 +12,9 @@
 //! | [`trajectory`] | time in; position, velocity, acceleration out |
 //! | [`model`] | the values: robot, scene, sensor, mesh, air, contact |
 //! | [`kinematics`] | where frames are and how they move |
-//! | [`mod@format`] | from text to the model: robot and scene files, URDF, strings of joints, meshes |
+//! | [`part`] | what descriptions have in common: numbers over dimensions, origins, shapes, masses, mesh files |
+//! | [`sensor`] | one file a kind of sensor: its table, reading, writing, and what it measures |
+//! | [`mod@format`] | from text to the model: one folder a format of robots; scenes, strings of joints |
 //! | [`dynamics`] | RNEA, CRBA, ABA, energy, drag and friction |
 //! | [`control`] | joint servos: command in, effort out; when they are stable |
 //! | [`engine`] | contact, and the only place that knows how it is computed |
@@ -46,10 +48,12 @@ pub mod format;
 pub mod joint_space;
 pub mod kinematics;
 pub mod model;
+pub mod part;
 pub mod random;
 pub mod run;
 pub mod scene_check;
 pub mod sensing;
+pub mod sensor;
 pub mod spatial;
 pub mod step;
 pub mod text;

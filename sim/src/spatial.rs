@@ -189,18 +189,6 @@ impl Symmetric3 {
         }
     }
 
-    /// The upper triangle of a matrix that is symmetric but for rounding.
-    pub fn from_matrix(m: &Matrix3<f64>) -> Self {
-        Self {
-            xx: m.m11,
-            yy: m.m22,
-            zz: m.m33,
-            xy: m.m12,
-            xz: m.m13,
-            yz: m.m23,
-        }
-    }
-
     /// The full matrix.
     pub fn to_matrix(self) -> Matrix3<f64> {
         Matrix3::new(

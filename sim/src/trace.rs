@@ -265,7 +265,10 @@ impl<'a> TraceRecorder<'a> {
         let bodies = setup.scene.map_or(&[][..], |scene| &scene.bodies);
         let moving = bodies.iter().enumerate();
         let moving = moving.filter(|(_, body)| !matches!(body.kind, BodyKind::Fixed));
-        let width = setup.sensors.iter().map(|sensor| sensor.kind.channels());
+        let width = setup
+            .sensors
+            .iter()
+            .map(|sensor| sensor.kind.measured().channels());
         let width = width.sum();
         let moving_bodies: Vec<usize> = moving.map(|(index, _)| index).collect();
         Self {

@@ -1,9 +1,18 @@
 //! Robots that the tests share: the course's arm, and trees drawn from a seed.
 
-use kinemark_sim::format::RobotFile;
+use kinemark_sim::format::{ReadFile, ReadOptions, RobotError, RobotFile, detect};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::random::SplitMix64;
 use kinemark_sim::text::Source;
+
+/// Reads the robot of a description in any format.
+pub(crate) fn read_robot(
+    source: Source,
+    options: &ReadOptions,
+    read: &mut ReadFile<'_>,
+) -> Result<Robot, RobotError> {
+    (detect(&source).read)(source, options, read)
+}
 
 /// Reads a robot from text.
 pub(crate) fn robot(text: &str) -> Robot {

@@ -15,7 +15,7 @@ use kinemark_sim::step::smooth::SmoothStep;
 use nalgebra::Vector3;
 
 use crate::arms::{robot, rrbot};
-use crate::contact_run::{self, DT, eventful, pull, put_state, weight};
+use crate::contact_run::{self, DT, pull, weight};
 use crate::contact_scenes::{
     GRAVITY, STILL, at, boxed, can, part, reach, scene, shelf, shelf_and_can,
 };
@@ -618,34 +618,6 @@ fn a_driven_body_goes_its_way_and_takes_others_along() {
         "{}",
         x(1)
     );
-}
-
-#[test]
-fn a_snapshot_continues_with_the_same_bits() {
-    // taken in free motion, in contact with the can, and after it
-    for at_step in [50, 230, 900] {
-        let mut straight = blake3::Hasher::new();
-        let mut saved = None;
-        eventful(&rrbot(), |i, hybrid, q, qd| {
-            put_state(&mut straight, hybrid, q, qd);
-            if i == at_step {
-                saved = Some((hybrid.snapshot(), *q, *qd, straight.clone()));
-            }
-        });
-        let (snapshot, saved_q, saved_qd, mut resumed) = saved.expect("taken");
-        eventful(&rrbot(), |i, hybrid, q, qd| {
-            if i == at_step {
-                hybrid.restore(&snapshot);
-                (*q, *qd) = (saved_q, saved_qd);
-            } else if i > at_step {
-                put_state(&mut resumed, hybrid, q, qd);
-            } else {
-                // something else has happened meanwhile
-                q[0] += 1e-6;
-            }
-        });
-        assert_eq!(resumed.finalize(), straight.finalize(), "at {at_step}");
-    }
 }
 
 #[test]

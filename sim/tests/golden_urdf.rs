@@ -5,7 +5,7 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, bias_effort, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::format::urdf::{UrdfOptions, robot};
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::joint_space::{JointEfforts, JointPositions};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::model::robot::{Link, Robot};
@@ -14,6 +14,7 @@ use kinemark_sim::text::Source;
 use nalgebra::{Matrix6xX, Vector3};
 use serde_json::Value;
 
+use crate::arms::read_robot;
 use crate::golden_rrbot::{golden, numbers};
 
 /// Poses and Jacobians, as stated for the files: their numbers are rounded to 12 digits.
@@ -25,9 +26,9 @@ const ACCELERATION: f64 = 1e-8;
 
 fn read(text: String, ignore_mimic: bool) -> Robot {
     let no_mesh = &mut |_: &str| Err("none".to_owned());
-    robot(
+    read_robot(
         Source::new("golden.urdf", text),
-        &UrdfOptions { ignore_mimic },
+        &ReadOptions { ignore_mimic },
         no_mesh,
     )
     .unwrap_or_else(|error| panic!("{:?}: {error}", error.line_and_column()))

@@ -112,7 +112,7 @@ fn a_ray_reads_the_distance_to_what_is_in_front() {
     }
     // without a scene it sees the robot alone
     let mut alone = sensors(&robot);
-    alone.sample(&still(&robot, &[3.0, 0.0], &[0.0; 2]));
+    alone.sample(&still(&robot, &[3.0, 0.0], &[0.0; 2]), None);
     let values = alone.values();
     assert_eq!(values[..2], [2.0, 6.0]);
     assert!((values[2] - 2.05).abs() < 1e-14);

@@ -10,7 +10,7 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::{BodyKind, Scene, Wind};
 use kinemark_sim::run;
 use kinemark_sim::run::BlowUp;
-use kinemark_sim::run::{End, Observation, Run, Setup};
+use kinemark_sim::run::{End, Observation, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
 use kinemark_sim::watch::event::{Event, EventKind, SeenSide};
@@ -172,40 +172,6 @@ fn without_contact_a_run_in_a_scene_is_smooth_motion_to_the_last_bit() {
         );
     }
     assert!(bits[0] == bits[1] && bits[1] == bits[2]);
-}
-
-#[test]
-fn a_snapshot_of_a_run_goes_on_with_the_same_bits() {
-    let (robot, scene) = (rrbot(), shelf_and_can());
-    let mut setup = setup(&robot, Some(&scene), [1000.0, 30.0], 2500);
-    setup.start_q = reach(1.25, 0.75).to_vec();
-    // between two control periods, just before the can is touched, while it is pushed, while it falls
-    for at in [333, 820, 1105, 1777] {
-        let mut run = Run::new(setup.clone()).expect("a run");
-        let mut recorder = TraceRecorder::new(&setup);
-        while run.tick() < at {
-            let end = run
-                .advance(&mut sweep(0.75, 1.4), &mut recorder)
-                .expect("a step");
-            assert_eq!(end, None);
-        }
-        let (saved, recorded) = (run.snapshot(), recorder.clone());
-        let to_end = |run: &mut Run<'_>, mut recorder: TraceRecorder<'_>| {
-            while run
-                .advance(&mut sweep(0.75, 1.4), &mut recorder)
-                .expect("a step")
-                .is_none()
-            {}
-            recorder.finish().digest().all
-        };
-        let straight = to_end(&mut run, recorder);
-        let mut other = Run::new(setup.clone()).expect("a run");
-        other.restore(&saved);
-        assert_eq!(to_end(&mut other, recorded.clone()), straight);
-        // and the one that went to its end goes back
-        run.restore(&saved);
-        assert_eq!(to_end(&mut run, recorded), straight);
-    }
 }
 
 #[test]

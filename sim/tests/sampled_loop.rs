@@ -4,8 +4,7 @@ use kinemark_sim::control::{
     Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, sampled_loop,
 };
 use kinemark_sim::dynamics::{GRAVITY_M_S2, gravity_effort, mass_matrix};
-use kinemark_sim::format::urdf;
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::closure::closed_positions;
 use kinemark_sim::model::robot::Robot;
@@ -13,6 +12,7 @@ use kinemark_sim::step::smooth::SmoothStep;
 use kinemark_sim::text::Source;
 use nalgebra::Vector3;
 
+use crate::arms::read_robot;
 use crate::arms::{lab_robot, robot, rrbot};
 use crate::golden_rrbot::{golden, numbers};
 
@@ -300,9 +300,9 @@ fn ur5() -> Robot {
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(&path).expect(&path);
-    let options = UrdfOptions { ignore_mimic: true };
+    let options = ReadOptions { ignore_mimic: true };
     let no_mesh = &mut |_: &str| Err("none".to_owned());
-    urdf::robot(Source::new("ur5.urdf", text), &options, no_mesh).expect("a robot")
+    read_robot(Source::new("ur5.urdf", text), &options, no_mesh).expect("a robot")
 }
 
 /// Two equal fingers on a slider, one after the other by a mimic joint.

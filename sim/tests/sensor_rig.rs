@@ -3,7 +3,8 @@
 use kinemark_sim::model::contact::ContactFact;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::Scene;
-use kinemark_sim::sensing::{Seen, Sensors};
+use kinemark_sim::model::sensor::Seen;
+use kinemark_sim::sensing::Sensors;
 use kinemark_sim::step::hybrid::HybridStep;
 
 use crate::arms::robot;
@@ -36,7 +37,6 @@ pub(crate) fn still<'a>(robot: &'a Robot, q: &'a [f64], zeros: &'a [f64]) -> See
         qdd: zeros,
         gravity_m_s2: &GRAVITY,
         contacts: &[],
-        scene: None,
     }
 }
 
@@ -75,7 +75,7 @@ impl Rig {
     }
 
     pub(crate) fn sample(&mut self) {
-        self.sensors.sample(&Seen {
+        let seen = Seen {
             tick: self.tick,
             robot: &self.robot,
             q: &self.q,
@@ -84,8 +84,8 @@ impl Rig {
             qdd: &self.qdd,
             gravity_m_s2: &GRAVITY,
             contacts: &self.contacts,
-            scene: Some(&self.step),
-        });
+        };
+        self.sensors.sample(&seen, Some(&self.step));
     }
 
     /// One step under `effort`, less what the switches open, and the sample after it.

@@ -1,7 +1,8 @@
 //! Sensors of joints, limit switches, and what devices do to values.
 
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::sensing::{Seen, SensorError, Sensors};
+use kinemark_sim::model::sensor::Seen;
+use kinemark_sim::sensing::{SensorError, Sensors};
 
 use crate::arms::robot;
 use crate::contact_scenes::scene;
@@ -60,11 +61,14 @@ fn joint_sensors_read_their_own_joint_also_one_that_mimics() {
     );
     let mut sensors = sensors(&robot);
     assert_eq!((sensors.width(), sensors.is_empty()), (5, false));
-    sensors.sample(&Seen {
-        qd: &[0.5],
-        effort: &[4.0],
-        ..still(&robot, &[0.25], &[0.0])
-    });
+    sensors.sample(
+        &Seen {
+            qd: &[0.5],
+            effort: &[4.0],
+            ..still(&robot, &[0.25], &[0.0])
+        },
+        None,
+    );
     // the second finger: -2 * 0.25 + 0.1, and -2 * 0.5
     assert_eq!(sensors.values(), [0.25, 0.5, 4.0, -0.4, -1.0]);
     assert_eq!(sensors.reading(3), [-0.4]);
@@ -75,7 +79,7 @@ fn a_switch_opens_the_motor_to_its_side_and_leaves_the_other() {
     let opened = |table: &str, q: f64, effort: f64| {
         let robot = fingers(table);
         let mut sensors = sensors(&robot);
-        sensors.sample(&still(&robot, &[q], &[0.0]));
+        sensors.sample(&still(&robot, &[q], &[0.0]), None);
         let mut effort = [effort];
         sensors.open_motors(&mut effort);
         (sensors.reading(0)[0], effort[0])
@@ -138,10 +142,13 @@ fn a_copy_goes_on_with_the_same_bits() {
         [[sensors]]\nname = 'b'\ntype = 'wrench'\njoint = 'slide'\nnoise = 0.1\ndelay_s = 0.002\n";
     let robot = fingers(table);
     let seen = |tick: u64, q: &[f64; 1], sensors: &mut Sensors| {
-        sensors.sample(&Seen {
-            tick,
-            ..still(&robot, q, &[0.0])
-        });
+        sensors.sample(
+            &Seen {
+                tick,
+                ..still(&robot, q, &[0.0])
+            },
+            None,
+        );
         sensors
             .values()
             .iter()
@@ -149,14 +156,10 @@ fn a_copy_goes_on_with_the_same_bits() {
             .collect::<Vec<_>>()
     };
     let q = |tick: u64| [tick as f64 * 1e-3];
-    let mut first = sensors(&robot);
-    for tick in 0..50 {
-        seen(tick, &q(tick), &mut first);
-    }
-    let mut copy = first.clone();
-    for tick in 50..150 {
+    let (mut first, mut second) = (sensors(&robot), sensors(&robot));
+    for tick in 0..150 {
         let one = seen(tick, &q(tick), &mut first);
-        assert_eq!(one, seen(tick, &q(tick), &mut copy), "{tick}");
+        assert_eq!(one, seen(tick, &q(tick), &mut second), "{tick}");
     }
 }
 
@@ -173,10 +176,13 @@ fn the_noise_of_a_sensor_is_its_own() {
         let mut sensors = sensors(&robot);
         (0..40)
             .map(|tick| {
-                sensors.sample(&Seen {
-                    tick,
-                    ..still(&robot, &[0.0], &[0.0])
-                });
+                sensors.sample(
+                    &Seen {
+                        tick,
+                        ..still(&robot, &[0.0], &[0.0])
+                    },
+                    None,
+                );
                 (sensors.reading(0)[0], sensors.reading(1)[0])
             })
             .unzip::<f64, f64, Vec<f64>, Vec<f64>>()

@@ -2,8 +2,9 @@
 
 use std::cell::RefCell;
 
+use crate::arms::read_robot;
+use kinemark_sim::format::ReadOptions;
 use kinemark_sim::format::RobotError;
-use kinemark_sim::format::urdf::{UrdfOptions, robot};
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::model::robot::{JointKind, Robot};
@@ -13,9 +14,9 @@ use nalgebra::Vector3;
 
 pub(crate) fn read(text: &str) -> Result<Robot, RobotError> {
     let no_mesh = &mut |_: &str| Err("no meshes in this test".to_owned());
-    robot(
+    read_robot(
         Source::new("robot.urdf", text),
-        &UrdfOptions::default(),
+        &ReadOptions::default(),
         no_mesh,
     )
 }
@@ -193,7 +194,7 @@ pub(crate) fn gripper() -> String {
 fn a_mimic_joint_follows_or_stands_alone() {
     let robot_of = |ignore_mimic| {
         let source = Source::new("g.urdf", gripper());
-        robot(source, &UrdfOptions { ignore_mimic }, &mut |_: &str| {
+        read_robot(source, &ReadOptions { ignore_mimic }, &mut |_: &str| {
             Err(String::new())
         })
         .expect("a gripper")
@@ -221,9 +222,9 @@ fn a_mesh_that_is_there_is_a_shape_at_each_of_its_scales() {
     let scales: String = (1..=10)
         .map(|i| mesh(&format!(" scale=\"{i} 1 -1\"")))
         .collect();
-    let robot = robot(
+    let robot = read_robot(
         Source::new("r.urdf", link(&(mesh("") + &scales))),
-        &UrdfOptions::default(),
+        &ReadOptions::default(),
         &mut |_: &str| Ok(tetrahedron.as_bytes().to_vec()),
     )
     .expect("a robot");
@@ -259,9 +260,9 @@ fn missing_meshes_are_named_and_asked_for_once() {
     let ball = "<collision><geometry><sphere radius=\"1\"/></geometry></collision>";
     let visual = "<visual><geometry><mesh filename=\"unused.stl\"/></geometry></visual>";
     let asked = RefCell::new(Vec::new());
-    let robot = robot(
+    let robot = read_robot(
         Source::new("r.urdf", link(&(inside + ball + visual))),
-        &UrdfOptions::default(),
+        &ReadOptions::default(),
         &mut |file: &str| {
             asked.borrow_mut().push(file.to_owned());
             match file {

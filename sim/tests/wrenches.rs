@@ -2,8 +2,8 @@
 
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::model::scene::Wind;
-use kinemark_sim::model::sensor::{Sensor, SensorKind};
-use kinemark_sim::sensing::{Seen, Sensors};
+use kinemark_sim::model::sensor::Seen;
+use kinemark_sim::sensing::Sensors;
 use nalgebra::Vector3;
 
 use crate::arms::{Numbers, random_tree, robot};
@@ -104,11 +104,10 @@ fn a_wrench_at_rest_is_weight_and_moment() {
     );
     let mut sensors = sensors(&robot);
     // stretched out forwards: x of both links points down, z forwards
-    sensors.sample(&still(
-        &robot,
-        &[std::f64::consts::FRAC_PI_2, 0.0],
-        &[0.0; 2],
-    ));
+    sensors.sample(
+        &still(&robot, &[std::f64::consts::FRAC_PI_2, 0.0], &[0.0; 2]),
+        None,
+    );
     let half = 0.5 * 9.81;
     // y: the forearm's centre is 0.025 m beside the elbow's parent joint
     let by_hand = [
@@ -171,7 +170,7 @@ fn a_fixed_joint_feels_weight_and_centrifugal_force() {
         }
     };
     // r x F = (0, 0.2, 0) x (0, 0, m g)
-    sensors.sample(&still(&robot, &[0.7], &[0.0]));
+    sensors.sample(&still(&robot, &[0.7], &[0.0]), None);
     let weight = 2.0 * 9.81;
     check(&sensors, [0.0, 0.0, weight, 0.2 * weight, 0.0, 0.0]);
     // the centre is at (0.5 - 0.2, 0) of the table: y of the tool points inwards, and so does the force m w² r
@@ -179,7 +178,7 @@ fn a_fixed_joint_feels_weight_and_centrifugal_force() {
         qd: &[3.0],
         ..still(&robot, &[0.7], &[0.0])
     };
-    sensors.sample(&spinning);
+    sensors.sample(&spinning, None);
     let inwards = 2.0 * 9.0 * 0.3;
     check(&sensors, [0.0, inwards, weight, 0.2 * weight, 0.0, 0.0]);
 }
@@ -194,21 +193,18 @@ fn in_smooth_motion_a_wrench_along_the_axis_is_the_effort_less_damping() {
             let moving: Vec<usize> = (0..tree.joints().len())
                 .filter(|joint| tree.joints()[*joint].axis != Vector3::zeros())
                 .collect();
-            let specs = moving.iter().map(|joint| Sensor {
-                name: format!("w{joint}"),
-                kind: SensorKind::Wrench { joint: *joint },
-                noise: 0.0,
-                quantisation: 0.0,
-                delay_s: 0.0,
-                rate_hz: None,
-                seed: 0,
-            });
-            let gauges = Sensors::new(&tree, specs.collect(), dt_s).expect("sensors");
+            let gauges: String = moving
+                .iter()
+                .map(|joint| {
+                    let name = &tree.joints()[*joint].name;
+                    format!("[[sensors]]\nname = '{name}'\ntype = 'wrench'\njoint = '{name}'\n")
+                })
+                .collect();
+            let tree = robot(&(tree.to_toml(&mut str::to_owned) + "\n" + &gauges));
             let mut empty = scene(Vec::new());
             empty.environment.ground = None;
             let start = Numbers::new(seed).vector(tree.n(), 1.0);
             let mut rig = Rig::new(tree, &empty, &start, dt_s);
-            rig.sensors = gauges;
             let steps = (0.2 / dt_s).round() as usize;
             for _ in 0..steps {
                 let effort: Vec<f64> = rig.q.iter().map(|q| 2.0 - 3.0 * q).collect();

@@ -184,11 +184,11 @@ impl Crate {
     fn declared_by_macro(&mut self, input: TokenStream, folder: &Path, here: &mut Vec<String>) {
         for token in input {
             if let TokenTree::Ident(name) = token {
-                let path = folder.join(format!("{name}.rs"));
-                if path.is_file() {
+                let inside = folder.join(name.to_string());
+                let paths = [folder.join(format!("{name}.rs")), inside.join("mod.rs")];
+                if let Some(path) = paths.iter().find(|path| path.is_file()) {
                     here.push(name.to_string());
-                    let inside = folder.join(name.to_string());
-                    self.items(&parsed(&path).items, &path, &inside, here);
+                    self.items(&parsed(path).items, path, &inside, here);
                     here.pop();
                 }
             }

@@ -6,14 +6,9 @@ use std::path::{Path, PathBuf};
 
 use kinemark_grader::task::robot::LabRobot;
 use kinemark_grader::task::robot::robot_names;
-use kinemark_sim::format::RobotError;
-use kinemark_sim::format::urdf::UrdfOptions;
-use kinemark_sim::format::urdf::mesh_location::{MeshLocation, mesh_location};
+use kinemark_sim::format::{MeshLocation, ReadOptions, RobotError, detect, joint_string};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::suggest;
-use kinemark_toolbox::robot_source::{
-    MeshReader, RobotFormat, is_meant_as_joint_string, robot, robot_of_joint_string,
-};
 
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
 use crate::failure::{BROKEN, Failure, USAGE};
@@ -88,7 +83,7 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         let meshes = meshes.collect();
         return Ok(Loaded { robot, meshes });
     }
-    if args.links.is_some() || args.base.is_some() || is_meant_as_joint_string(&name) {
+    if args.links.is_some() || args.base.is_some() || joint_string::looks_like_one(&name) {
         return of_joint_string(&name, args);
     }
     let known = robot_names(files.as_ref());
@@ -115,7 +110,7 @@ fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
             &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
         ));
     };
-    let robot = robot_of_joint_string(text, args.base.unwrap_or(0.0), links)
+    let robot = joint_string::robot(text, args.base.unwrap_or(0.0), links)
         // it was typed, so it is a matter of usage
         .map_err(|error| Failure::diagnostic(USAGE, error))?;
     let meshes = BTreeMap::new();
@@ -160,23 +155,25 @@ fn from_file(path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
     let shown = path.display();
     refuse_xacro(path)?;
     let source = disk::read(path, "a robot file", MOST_BYTES)?;
-    let format = RobotFormat::of(&path.to_string_lossy(), source.text());
+    let format = detect(&source);
     refuse_joint_string_options(args, &format!("`{shown}` is a file"))?;
-    match format {
-        RobotFormat::Toml => refuse_urdf_options(args, &format!("`{shown}` is a robot file"))?,
-        RobotFormat::Urdf => refuse_missing_packages(&args.packages)?,
+    if format.is_of_ros {
+        refuse_missing_packages(&args.packages)?;
+    } else {
+        refuse_urdf_options(args, &format!("`{shown}` is {}", format.name))?;
     }
-    let options = UrdfOptions {
+    let options = ReadOptions {
         ignore_mimic: args.ignore_mimic,
     };
-    let mut meshes = MeshFiles {
-        format,
-        folder: folder_of(path),
-        packages: &args.packages,
-        found: BTreeMap::new(),
+    let folder = folder_of(path);
+    let mut meshes = BTreeMap::new();
+    let mut read = |name: &str| {
+        let candidates = mesh_candidates((format.mesh_location)(name), &folder, &args.packages)?;
+        let (path, bytes) = first_of(&candidates)?;
+        meshes.insert(name.to_owned(), path);
+        Ok(bytes)
     };
-    let robot = robot(source, format, &options, &mut meshes).map_err(broken)?;
-    let meshes = meshes.found;
+    let robot = (format.read)(source, &options, &mut read).map_err(broken)?;
     Ok(Loaded { robot, meshes })
 }
 
@@ -211,28 +208,6 @@ fn refuse_missing_packages(packages: &[(String, PathBuf)]) -> Result<(), Failure
     ))
 }
 
-/// Meshes that are files near a robot's description.
-struct MeshFiles<'a> {
-    format: RobotFormat,
-    /// The folder of the description.
-    folder: PathBuf,
-    packages: &'a [(String, PathBuf)],
-    /// Files by the names that the description has for them.
-    found: BTreeMap<String, PathBuf>,
-}
-
-impl MeshReader for MeshFiles<'_> {
-    fn read_mesh(&mut self, name: &str) -> Result<Vec<u8>, String> {
-        let candidates = match self.format {
-            RobotFormat::Toml => vec![self.folder.join(name)],
-            RobotFormat::Urdf => mesh_candidates(name, &self.folder, self.packages)?,
-        };
-        let (path, bytes) = first_of(&candidates)?;
-        self.found.insert(name.to_owned(), path);
-        Ok(bytes)
-    }
-}
-
 /// The folder a file lies in; `.` for a bare name.
 fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
@@ -241,13 +216,13 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-/// Where the mesh that a URDF in `folder` calls `name` may lie, the best first.
+/// Where the mesh may lie that a description in `folder` says to be at `location`, the best first.
 fn mesh_candidates(
-    name: &str,
+    location: MeshLocation<'_>,
     folder: &Path,
     packages: &[(String, PathBuf)],
 ) -> Result<Vec<PathBuf>, String> {
-    let (package, inside) = match mesh_location(name) {
+    let (package, inside) = match location {
         MeshLocation::Absolute(path) | MeshLocation::Relative(path) => {
             return Ok(vec![folder.join(path)]);
         }
@@ -300,6 +275,8 @@ fn first_of(paths: &[PathBuf]) -> Result<(PathBuf, Vec<u8>), String> {
 
 #[cfg(test)]
 mod tests {
+    use kinemark_sim::text::Source;
+
     use super::*;
 
     #[test]
@@ -310,8 +287,10 @@ mod tests {
         std::fs::create_dir_all(package.join("meshes")).unwrap();
         std::fs::create_dir_all(&urdf).unwrap();
         std::fs::write(package.join("meshes/hand.stl"), "x").unwrap();
+        let format = detect(&Source::new("arm.urdf", ""));
         let find = |name: &str, packages: &[(String, PathBuf)]| {
-            first_of(&mesh_candidates(name, &urdf, packages)?).map(|(path, _)| path)
+            let location = (format.mesh_location)(name);
+            first_of(&mesh_candidates(location, &urdf, packages)?).map(|(path, _)| path)
         };
         let inside = "package://arm_description/meshes/hand.stl";
         // by the folder around the URDF

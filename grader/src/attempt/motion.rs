@@ -2,7 +2,7 @@
 
 use kinemark_sim::diagnosis::likely_cause;
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::model::sensor::{Sensor, SensorKind};
+use kinemark_sim::model::sensor::{Measured, Sensor};
 use kinemark_sim::run;
 use kinemark_sim::run::{Disturbance, End, Run, Setup};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
@@ -29,10 +29,10 @@ pub fn facts_of(robot: &Robot, motion: &MotionTask) -> RobotFacts {
 pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
     let facts = |sensor: &Sensor| SensorFacts {
         name: sensor.name.clone(),
-        reads: match (&sensor.kind, sensor.kind.channels()) {
-            (SensorKind::LimitSwitch(_), _) => Reads::Truth,
-            (_, 1) => Reads::Number,
-            (_, channels) => Reads::Vector(channels),
+        reads: match sensor.kind.measured() {
+            Measured::Switch => Reads::Truth,
+            Measured::Number => Reads::Number,
+            Measured::Parts(names) => Reads::Vector(names.len()),
         },
     };
     motion.sensors.iter().map(facts).collect()

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use kinemark_sim::format::SensorTable;
+use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
 

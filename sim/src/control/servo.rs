@@ -247,11 +247,6 @@ impl Servo {
         })
     }
 
-    /// The settings.
-    pub fn settings(&self) -> &ServoSettings {
-        &self.settings
-    }
-
     /// Takes one sample and writes the effort to hold until the next, zero for joints without a drive; all slices have shape `(n)`. Allocates nothing, but for the
     /// gravity compensation of a robot with loops, whose dependent joints carry nothing.
     pub fn sample(

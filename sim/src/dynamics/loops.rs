@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 use super::aba::SingularMassMatrix;
 use super::crba::Crba;
 use super::rnea::{Rnea, inverse_dynamics};
-use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
+use crate::joint_space::{JointAccelerations, JointPositions, JointVelocities};
 use crate::kinematics::closure::{
     Closure, LoopError, closed_accelerations, closed_positions, closed_velocities,
     independent_motions,
@@ -291,15 +291,4 @@ pub fn driven_mass_matrix(robot: &Robot, q: &JointPositions) -> Result<DMatrix<f
     let k = columns.len();
     let moved: Vec<DVector<f64>> = columns.iter().map(|column| &mass * column).collect();
     Ok(DMatrix::from_fn(k, k, |i, j| columns[i].dot(&moved[j])))
-}
-
-impl DrivenMotion {
-    /// The efforts over the whole of `q`, zero at dependent joints, shape `(n)`.
-    pub fn all_efforts(&self, robot: &Robot) -> JointEfforts {
-        let mut all = JointEfforts::zeros(robot.n());
-        for (&i, effort) in robot.independent().iter().zip(&self.effort) {
-            all.as_mut_slice()[i] = *effort;
-        }
-        all
-    }
 }

@@ -26,7 +26,6 @@ const PASSES: usize = 200;
 const SETTLED_M_S: f64 = 1e-12;
 
 /// The restitutions of one world, and how everything moved before its step.
-#[derive(Clone)]
 pub(super) struct Bounce {
     of_links: Vec<f64>,
     of_bodies: Vec<f64>,

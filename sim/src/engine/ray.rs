@@ -88,10 +88,8 @@ impl Ray {
 }
 
 /// The shapes of a robot's links, as rays meet them.
-#[derive(Clone)]
 pub(crate) struct LinkShapes(Vec<LinkShape>);
 
-#[derive(Clone)]
 struct LinkShape {
     link: usize,
     body: Option<usize>,

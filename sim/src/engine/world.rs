@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d_f64::geometry::{ColliderBuilder, ColliderHandle, NarrowPhase, SharedShape};
 use rapier3d_f64::math::Vector;
-use rapier3d_f64::pipeline::{PhysicsPipeline, PhysicsWorld};
+use rapier3d_f64::pipeline::PhysicsWorld;
 
 use super::arm::{Arm, insert_base};
 use super::bounce::{ArmAfter, Bounce};
@@ -62,40 +62,6 @@ pub(crate) struct World {
     bounced_qd: Option<Vec<f64>>,
     dt_s: f64,
     tick: u64,
-}
-
-impl Clone for World {
-    /// All that the next step depends on; the engine's scratch room is made anew.
-    fn clone(&self) -> Self {
-        let physics = &self.physics;
-        Self {
-            physics: PhysicsWorld {
-                gravity: physics.gravity,
-                integration_parameters: physics.integration_parameters,
-                islands: physics.islands.clone(),
-                broad_phase: physics.broad_phase.clone(),
-                narrow_phase: physics.narrow_phase.clone(),
-                bodies: physics.bodies.clone(),
-                colliders: physics.colliders.clone(),
-                impulse_joints: physics.impulse_joints.clone(),
-                multibody_joints: physics.multibody_joints.clone(),
-                physics_pipeline: PhysicsPipeline::new(),
-                ..PhysicsWorld::default()
-            },
-            arm: self.arm.clone(),
-            bodies: self.bodies.clone(),
-            free: self.free.clone(),
-            driven: self.driven.clone(),
-            blown: self.blown.clone(),
-            obstacles: self.obstacles.clone(),
-            ground: self.ground,
-            air: self.air.clone(),
-            bounce: self.bounce.clone(),
-            bounced_qd: self.bounced_qd.clone(),
-            dt_s: self.dt_s,
-            tick: self.tick,
-        }
-    }
 }
 
 impl World {

@@ -19,11 +19,6 @@ use crate::text::{Dimensions, Source};
 /// A drawn link is this part of the longest link thick.
 const DRAWN_RADIUS: f64 = 0.03;
 
-/// Whether `text` is written like a configuration string: pairs of `R`, `T` or `P` with `x`, `y` or `z`.
-pub fn is_config_string(text: &str) -> bool {
-    joints(&Source::new("", text)).is_ok()
-}
-
 /// Whether `text` starts like a configuration string, so that what is wrong with it is worth telling.
 pub fn looks_like_one(text: &str) -> bool {
     let mut letters = text.chars();
@@ -38,7 +33,7 @@ pub fn looks_like_one(text: &str) -> bool {
 /// `link1` and on.
 ///
 /// # Errors
-/// [`RobotProblem::ConfigString`] at the letter or the link that does not fit.
+/// A problem at the letter or the link that does not fit.
 pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError> {
     let source = Source::new("configuration string", text);
     let joints = joints(&source)?;
@@ -111,8 +106,12 @@ fn refuse<T>(
     message: String,
     help: &str,
 ) -> Result<T, RobotError> {
-    let help = help.to_owned();
-    let problem = RobotProblem::ConfigString { message, help };
+    let problem = RobotProblem::Own {
+        code: "robot::config_string",
+        message,
+        label: "here".to_owned(),
+        help: Some(help.to_owned()),
+    };
     Err(RobotError::new(problem, source, at))
 }
 
@@ -222,10 +221,15 @@ mod tests {
             ("RzRyRzX", 7),
             ("RzÄy", 3),
         ] {
-            assert!(!is_config_string(text), "{text}");
             let error = robot(text, 0.0, "").expect_err(text);
             assert_eq!(error.line_and_column(), (1, column), "{text}: {error}");
         }
+    }
+
+    #[test]
+    fn what_starts_with_a_joint_is_meant_as_one() {
+        assert!(looks_like_one("RzRyRz") && looks_like_one("Tx?"));
+        assert!(!looks_like_one("rrbot") && !looks_like_one("R"));
     }
 
     #[test]

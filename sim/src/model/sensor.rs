@@ -1,16 +1,25 @@
-//! The sensor as the simulator gets it: what it measures, and what its device does to the value.
+//! The sensor as the simulator gets it: what its kind measures, and what its device does to the values.
+//!
+//! What a kind is stands in [`crate::sensor`], one file each; here is what a run asks of any of them.
+
+use std::fmt;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::robot::{Body, JointKind, Robot};
+use super::air::AirNow;
+use super::contact::ContactFact;
+use super::robot::{Body, Frame, JointKind, Robot};
 
-/// A sensor of a robot; its indices are those of the robot it was resolved against.
-#[derive(Debug, Clone, PartialEq)]
+/// A sensor of a robot; the indices of its kind are those of the robot it was read for.
+#[derive(Debug, Clone)]
 pub struct Sensor {
     /// Its name.
     pub name: String,
+    /// The word of the robot file for its kind.
+    pub type_name: &'static str,
     /// What it measures.
-    pub kind: SensorKind,
+    pub kind: Arc<dyn SensorKind>,
     /// Standard deviation of the normal noise on every channel, in the channel's unit; 0 for none.
     pub noise: f64,
     /// Values are rounded to whole multiples of this, halves away from zero; 0 for none.
@@ -23,115 +32,98 @@ pub struct Sensor {
     pub seed: u64,
 }
 
-/// What a sensor measures.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SensorKind {
-    /// Position of a joint \[rad or m\].
-    JointPosition {
-        /// Its index among [`crate::model::robot::Robot::joints`].
-        joint: usize,
-    },
-    /// Velocity of a joint \[rad/s or m/s\].
-    JointVelocity {
-        /// Its index among [`crate::model::robot::Robot::joints`].
-        joint: usize,
-    },
-    /// Effort of a joint's motor in the last step \[N m or N\].
-    JointEffort {
-        /// Its index among [`crate::model::robot::Robot::joints`].
-        joint: usize,
-    },
-    /// 1 while a joint stands at a place or beyond it, else 0.
-    LimitSwitch(LimitSwitch),
-    /// Distance along a ray \[m\].
-    RangeFinder(RangeFinder),
-    /// Sum of the normal forces on a link, their mean over the last step \[N\].
-    Contact {
-        /// Its index among [`crate::model::robot::Robot::links`].
-        link: usize,
-    },
-    /// Force and moment of the parent on the child through a joint, `[force; moment]` in the child's frame about its
-    /// origin, their mean over the last step \[N, N m\].
-    Wrench {
-        /// Its index among [`crate::model::robot::Robot::joints`].
-        joint: usize,
-    },
-}
-
-impl SensorKind {
-    /// The word of the robot file.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::JointPosition { .. } => "joint-position",
-            Self::JointVelocity { .. } => "joint-velocity",
-            Self::JointEffort { .. } => "joint-effort",
-            Self::LimitSwitch(_) => "limit-switch",
-            Self::RangeFinder(_) => "range-finder",
-            Self::Contact { .. } => "contact",
-            Self::Wrench { .. } => "wrench",
-        }
-    }
-
-    /// How many numbers it reads: 6 for a wrench, else 1.
-    pub fn channels(&self) -> usize {
-        match self {
-            Self::Wrench { .. } => 6,
-            _ => 1,
-        }
+impl PartialEq for Sensor {
+    /// Whether both are the same for programmers, who see every field to the last bit.
+    fn eq(&self, other: &Self) -> bool {
+        format!("{self:?}") == format!("{other:?}")
     }
 }
 
-/// The side to which a switch is pressed.
+/// What a sensor reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Towards lesser positions.
-    Lower,
-    /// Towards greater positions.
-    Upper,
+pub enum Measured {
+    /// Whether something is so: 1 or 0.
+    Switch,
+    /// One number.
+    Number,
+    /// Several numbers, each with its name.
+    Parts(&'static [&'static str]),
 }
 
-impl Side {
-    /// The word of the robot file.
-    pub fn name(self) -> &'static str {
+impl Measured {
+    /// How many numbers it is.
+    pub fn channels(self) -> usize {
         match self {
-            Self::Lower => "lower",
-            Self::Upper => "upper",
+            Self::Switch | Self::Number => 1,
+            Self::Parts(names) => names.len(),
         }
     }
 }
 
-/// A switch at a place of a joint.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LimitSwitch {
-    /// Index of the joint among [`Robot::joints`].
-    pub joint: usize,
-    /// Where it starts to be pressed \[rad or m\].
-    pub at: f64,
-    /// To which side it goes on being pressed.
-    pub side: Side,
-    /// Whether it opens the motor's circuit: pressed, it leaves no effort towards its side.
-    pub opens_motor: bool,
-}
-
-impl LimitSwitch {
-    /// Whether a joint at `position` \[rad or m\] presses it; never for NaN.
-    pub fn is_pressed(&self, position: f64) -> bool {
-        match self.side {
-            Side::Lower => position <= self.at,
-            Side::Upper => position >= self.at,
-        }
+/// What a sensor of some kind measures, on one robot.
+pub trait SensorKind: fmt::Debug + Send + Sync {
+    /// What it reads.
+    fn measured(&self) -> Measured {
+        Measured::Number
     }
+
+    /// Its own keys in a robot file, a line each; `robot` is the one that it was read for.
+    fn keys(&self, robot: &Robot) -> String;
+
+    /// Whether it looks along rays, for which the shapes of the robot have to be prepared.
+    fn looks(&self) -> bool {
+        false
+    }
+
+    /// What reads it in a run of `robot` with steps of `step_s`.
+    fn gauge(&self, robot: &Robot, step_s: f64) -> Box<dyn Gauge>;
 }
 
-/// A ray fixed to a frame of the robot. It sees bodies, ground and all links but those fixed together with its own.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RangeFinder {
-    /// Index of the frame among [`Robot::frames`]; the ray starts at its origin.
-    pub frame: usize,
-    /// Direction of the ray in the frame, a unit vector.
-    pub axis: Vector3<f64>,
-    /// How far it sees, and what it reads when it sees nothing \[m\].
-    pub range_m: f64,
+/// One sensor at work, before its device.
+pub trait Gauge: Send {
+    /// Takes note of every tick, in order, whether or not a value is taken.
+    fn watch(&mut self, _seen: &Seen<'_>) {}
+
+    /// Leaves the true values in `values`, one for each channel.
+    fn read(&mut self, seen: &Seen<'_>, around: &dyn Surroundings, values: &mut [f64]);
+
+    /// Puts `values`, which have their noise and are quantised by now, back into the range that the sensor can tell.
+    fn bound(&self, _values: &mut [f64]) {}
+
+    /// Takes from `effort`, shape `(n)`, what the sensor's circuit keeps from the motors.
+    fn open_motor(&self, _effort: &mut [f64]) {}
+}
+
+/// What there is to measure of the robot at one tick. Vectors have shape `(n)`.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The tick.
+    pub tick: u64,
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Joint positions \[rad or m\].
+    pub q: &'a [f64],
+    /// Joint velocities \[rad/s or m/s\].
+    pub qd: &'a [f64],
+    /// Efforts applied in the last step; zeros before the first \[N m or N\].
+    pub effort: &'a [f64],
+    /// Mean accelerations over the last step: the change of `qd` in it by its length; zeros before the first \[rad/s²
+    /// or m/s²\].
+    pub qdd: &'a [f64],
+    /// Gravity in the world \[m/s²\].
+    pub gravity_m_s2: &'a Vector3<f64>,
+    /// Who pressed on whom in the last step.
+    pub contacts: &'a [ContactFact],
+}
+
+/// What there is to measure around the robot at one tick.
+pub trait Surroundings {
+    /// How far it is from the origin of `frame` along `axis`, a unit vector in it, to the first surface \[m\]; nothing beyond
+    /// `range_m`. The links that are fixed together with the frame are not seen.
+    fn distance_m(&self, frame: &Frame, axis: &Vector3<f64>, range_m: f64) -> Option<f64>;
+
+    /// The air of the last step; none before the first, or without air.
+    fn air(&self) -> Option<&AirNow>;
 }
 
 /// The sensors `given`, with each of `changes` in the place of the one of its name, or at the end where there is none.
@@ -151,29 +143,4 @@ pub(crate) fn moved_by(robot: &Robot, joint: usize) -> Option<&Body> {
     let joint = &robot.joints()[joint];
     let body = robot.links()[joint.child].attachment.body?;
     (joint.kind != JointKind::Fixed).then(|| &robot.bodies()[body])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::seed_of_name;
-
-    fn encoder(name: &str, joint: usize) -> Sensor {
-        Sensor {
-            name: name.to_owned(),
-            kind: SensorKind::JointPosition { joint },
-            noise: 0.0,
-            quantisation: 0.0,
-            delay_s: 0.0,
-            rate_hz: None,
-            seed: seed_of_name(name),
-        }
-    }
-
-    #[test]
-    fn a_change_takes_the_place_of_its_name_or_the_end() {
-        let given = [encoder("a", 0), encoder("b", 1)];
-        let sensors = replaced(&given, [encoder("c", 2), encoder("a", 3)]);
-        assert_eq!(sensors, [encoder("a", 3), encoder("b", 1), encoder("c", 2)]);
-    }
 }

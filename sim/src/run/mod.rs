@@ -7,4 +7,4 @@ mod tick_loop;
 
 pub use disturbance::Disturbance;
 pub use divergence::{BlowUp, RUNAWAY_SPEED_M_S};
-pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, RunSnapshot, Setup, run};
+pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, Setup, run};

@@ -6,7 +6,7 @@ use crate::model::robot::Robot;
 use crate::step::hybrid::{HybridStep, StepError};
 use crate::step::smooth::SmoothStep;
 
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) enum Stepper {
     Free(Box<SmoothStep>),
     InScene(Box<HybridStep>),

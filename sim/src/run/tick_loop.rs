@@ -1,7 +1,7 @@
 //! The tick loop: observe, control, servo, step. Time is counted, never measured.
 //!
 //! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
-//! world moves on to the next tick. [`Run`] goes tick by tick and can be copied in the middle; [`run`] goes to the end.
+//! world moves on to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end.
 
 use nalgebra::Vector3;
 
@@ -15,8 +15,8 @@ use crate::engine::EngineError;
 use crate::kinematics::FramePoses;
 use crate::model::robot::{Frame, Robot};
 use crate::model::scene::Scene;
-use crate::model::sensor::Sensor;
-use crate::sensing::{Seen, SensorError, Sensors};
+use crate::model::sensor::{Seen, Sensor};
+use crate::sensing::{SensorError, Sensors};
 use crate::spatial::Pose;
 use crate::step::hybrid::HybridStep;
 use crate::ticks::Periods;
@@ -141,12 +141,8 @@ pub struct Run<'a> {
     state: State,
 }
 
-/// A run as it stood between two ticks: robot, scene, servos. It goes on from there with the same bits.
-#[derive(Debug, Clone)]
-pub struct RunSnapshot(State);
-
 /// All that the ticks to come depend on, save the controller's memory.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 struct State {
     /// The tick that comes next.
     tick: u64,
@@ -316,16 +312,6 @@ impl<'a> Run<'a> {
             what,
         }))
     }
-
-    /// The run as it stands. The controller's memory and what was recorded are kept by whoever has them.
-    pub fn snapshot(&self) -> RunSnapshot {
-        RunSnapshot(self.state.clone())
-    }
-
-    /// Goes back, or on, to `snapshot`, which must be of a run of the same setup.
-    pub fn restore(&mut self, snapshot: &RunSnapshot) {
-        self.state = snapshot.0.clone();
-    }
 }
 
 impl State {
@@ -342,7 +328,7 @@ impl State {
         }
         self.qd_before.copy_from_slice(&self.qd);
         let scene = self.stepper.scene();
-        self.sensors.sample(&Seen {
+        let seen = Seen {
             tick: self.tick,
             robot: setup.robot,
             q: &self.q,
@@ -351,8 +337,8 @@ impl State {
             qdd: &self.qdd,
             gravity_m_s2: &setup.gravity_m_s2,
             contacts: scene.map_or(&[], |scene| &scene.report().contacts),
-            scene,
-        });
+        };
+        self.sensors.sample(&seen, scene);
     }
 
     /// Asks `control` for the command of the control period that begins, which reaches the servos as the disturbance lets it.

@@ -15,8 +15,8 @@ use crate::ticks::whole_ratio;
 /// Most physics steps a value may travel, 10 s at a step of 1 ms: it bounds the values under way.
 const MOST_DELAY_STEPS: u64 = 10_000;
 
-/// The device of one sensor in one run; a copy goes on with the same noise and the same values under way.
-#[derive(Debug, Clone)]
+/// The device of one sensor in one run.
+#[derive(Debug)]
 pub(super) struct Device {
     noise: f64,
     quantisation: f64,
@@ -126,17 +126,12 @@ fn delay(sensor: &str, delay_s: f64, step_s: f64) -> Result<u64, SensorError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::sensor::SensorKind;
+    use crate::sensor::example;
 
     fn sensor() -> Sensor {
         Sensor {
-            name: "s".to_owned(),
-            kind: SensorKind::Contact { link: 0 },
-            noise: 0.0,
-            quantisation: 0.0,
-            delay_s: 0.0,
-            rate_hz: None,
             seed: 7,
+            ..example("contact")
         }
     }
 
@@ -255,28 +250,28 @@ mod tests {
                 delay_s: 0.0042,
                 ..sensor()
             }),
-            "sensor `s`: a delay of 0.0042 s is not a whole number of physics steps of 0.001 s; the nearest is 0.004 s"
+            "sensor `example`: a delay of 0.0042 s is not a whole number of physics steps of 0.001 s; the nearest is 0.004 s"
         );
         assert_eq!(
             new(Sensor {
                 rate_hz: Some(300.0),
                 ..sensor()
             }),
-            "sensor `s`: at 300 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 333.3333333333333 Hz"
+            "sensor `example`: at 300 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 333.3333333333333 Hz"
         );
         assert_eq!(
             new(Sensor {
                 rate_hz: Some(5000.0),
                 ..sensor()
             }),
-            "sensor `s`: at 5000 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 1000 Hz"
+            "sensor `example`: at 5000 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 1000 Hz"
         );
         assert_eq!(
             new(Sensor {
                 delay_s: 1e6,
                 ..sensor()
             }),
-            "sensor `s`: a delay of 1000000 s is too long; at this physics step it is at most 10 s"
+            "sensor `example`: a delay of 1000000 s is too long; at this physics step it is at most 10 s"
         );
     }
 }

@@ -60,7 +60,6 @@ pub struct StepReport {
 }
 
 /// Steps one robot in one scene.
-#[derive(Clone)]
 pub struct HybridStep {
     smooth: SmoothStep,
     stops: Stops,
@@ -82,10 +81,6 @@ pub struct HybridStep {
     drag: Vec<f64>,
     report: StepReport,
 }
-
-/// All that the steps to come depend on, save the robot's `(q, qd)`.
-#[derive(Clone)]
-pub struct Snapshot(Box<HybridStep>);
 
 impl HybridStep {
     /// A step of `dt_s` for `robot` in `scene` under `gravity_m_s2` (world), with the scene's bodies where they start.
@@ -305,16 +300,6 @@ impl HybridStep {
     /// Shows `ray` the bodies of the scene and the ground.
     pub(crate) fn show(&self, ray: &mut Ray) {
         self.world.meet(ray);
-    }
-
-    /// All that the steps to come depend on, save the robot's `(q, qd)`: they continue from it with the same bits.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot(Box::new(self.clone()))
-    }
-
-    /// Goes back, or on, to `snapshot`, which must be of the same robot and scene.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
-        *self = (*snapshot.0).clone();
     }
 }
 

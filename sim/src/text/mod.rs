@@ -6,9 +6,11 @@ mod marked_numbers;
 mod source;
 mod suggest;
 mod toml_refusal;
+mod typed_table;
 
 pub use dimensions::{Dimension, Dimensions};
 pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};
 pub use source::{Located, Problem, Source};
 pub use suggest::{nearest, suggest};
 pub use toml_refusal::TomlRefusal;
+pub use typed_table::TypedTable;

@@ -5,7 +5,6 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`robot_source`] | a robot from its text: which format it is, and how it is read |
 //! | [`robot_show`] | a robot as text for people and as JSON |
 //! | [`robot_convert`] | any robot as a robot file |
 //! | [`eval`] | requests and answers: kinematics, dynamics, trajectories, simulation |
@@ -18,6 +17,5 @@ mod joint_names;
 pub mod number;
 pub mod robot_convert;
 pub mod robot_show;
-pub mod robot_source;
 pub mod scene_check;
 pub mod styled_text;

@@ -5,26 +5,17 @@ mod eval_errors;
 mod eval_requests;
 mod texts;
 
-use kinemark_sim::format::urdf::UrdfOptions;
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Source;
 use kinemark_toolbox::eval::{Subject, answer_line};
-use kinemark_toolbox::robot_source::{MeshReader, RobotFormat, robot};
 use serde_json::{Value, json};
 
 /// A robot without meshes.
-struct NoMeshes;
-
-impl MeshReader for NoMeshes {
-    fn read_mesh(&mut self, name: &str) -> Result<Vec<u8>, String> {
-        Err(format!("there is no mesh `{name}` here"))
-    }
-}
-
 fn robot_of(text: &str) -> Robot {
-    let options = UrdfOptions::default();
-    let format = RobotFormat::of("robot", text);
-    robot(Source::new("robot", text), format, &options, &mut NoMeshes)
+    let no_mesh = &mut |name: &str| Err(format!("there is no mesh `{name}` here"));
+    let source = Source::new("robot", text);
+    (detect(&source).read)(source, &ReadOptions::default(), no_mesh)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -1,10 +1,10 @@
 //! Robots and scenes as text and as JSON.
 
-use kinemark_sim::format::SceneFile;
+use kinemark_sim::format::{NameMesh, SceneFile};
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Source;
-use kinemark_toolbox::robot_convert::robot_file;
+use kinemark_toolbox::robot_convert::converted;
 use kinemark_toolbox::robot_show::{robot_record, robot_text};
-use kinemark_toolbox::robot_source::{is_meant_as_joint_string, robot_of_joint_string};
 use kinemark_toolbox::scene_check::{ArmInScene, SceneToCheck, scene_record, scene_text};
 use kinemark_toolbox::styled_text::Emphasis;
 
@@ -29,21 +29,13 @@ fn a_robot_is_a_table_and_facts() {
 
 #[test]
 fn a_robot_file_reads_back_as_the_same_robot() {
-    let converted = robot_file(&uarm(), |_| None);
+    let write = |robot: &Robot, mesh: &mut NameMesh<'_>| robot.to_toml(mesh);
+    let converted = converted(&uarm(), write, |_| None);
     assert_eq!(converted.warnings, Vec::<String>::new());
     assert_eq!(
-        robot_record(&robot_of(&converted.toml)),
+        robot_record(&robot_of(&converted.text)),
         robot_record(&uarm())
     );
-}
-
-#[test]
-fn a_joint_string_is_a_robot() {
-    assert!(is_meant_as_joint_string("RzRyRz") && !is_meant_as_joint_string("rrbot"));
-    let robot = robot_of_joint_string("RzRy", 2.0, "0,0,1; 1,0,0")
-        .unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(robot.n(), 2);
-    assert!(robot_of_joint_string("RzRy", 2.0, "0,0,1").is_err());
 }
 
 /// A box that begins in the ground.

@@ -2,8 +2,7 @@
 #![no_main]
 
 use kinemark_fuzz::{exercise, explain};
-use kinemark_sim::format::urdf::mesh_location::mesh_location;
-use kinemark_sim::format::urdf::{UrdfOptions, robot};
+use kinemark_sim::format::{ReadOptions, detect};
 use kinemark_sim::text::Source;
 use libfuzzer_sys::fuzz_target;
 
@@ -11,16 +10,17 @@ use libfuzzer_sys::fuzz_target;
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 fuzz_target!(|text: &str| {
+    let format = detect(&Source::new("fuzz.urdf", ""));
     for ignore_mimic in [false, true] {
-        let options = UrdfOptions { ignore_mimic };
+        let options = ReadOptions { ignore_mimic };
         let mut read_mesh = |file: &str| {
-            mesh_location(file);
+            (format.mesh_location)(file);
             match file.ends_with("obj") {
                 true => Ok(TRIANGLE.to_vec()),
                 false => Err("none here".to_owned()),
             }
         };
-        match robot(Source::new("fuzz.urdf", text), &options, &mut read_mesh) {
+        match (format.read)(Source::new("fuzz.urdf", text), &options, &mut read_mesh) {
             Ok(robot) => exercise(&robot),
             Err(error) => explain(&error),
         }

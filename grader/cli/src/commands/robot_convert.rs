@@ -4,7 +4,9 @@ use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_toolbox::robot_convert::{Converted, robot_file};
+use kinemark_sim::format::detect;
+use kinemark_sim::text::Source;
+use kinemark_toolbox::robot_convert::{Converted, converted};
 
 use crate::disk::plain;
 use crate::failure::Failure;
@@ -30,7 +32,7 @@ pub(crate) struct Args {
     pub(crate) force: bool,
 }
 
-/// Writes the robot file.
+/// Writes the description.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let folder = match &args.out {
         None => Path::new("."),
@@ -43,8 +45,20 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             }
         }
     };
+    // by its name alone: there is no text yet
+    let name = args
+        .out
+        .as_ref()
+        .map_or_else(String::new, |out| out.to_string_lossy().into_owned());
+    let format = detect(&Source::new(name, ""));
+    let Some(write) = format.write else {
+        return Err(Failure::usage(
+            format!("robots cannot be written as {}", format.name),
+            "name a file that ends in .toml",
+        ));
+    };
     let loaded = robot_source::load(&args.robot)?;
-    let Converted { toml, warnings } = robot_file(&loaded.robot, |name| {
+    let Converted { text, warnings } = converted(&loaded.robot, write, |name| {
         let path = loaded.meshes.get(name)?;
         Some(seen_from(folder, path))
     });
@@ -53,8 +67,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let _ = writeln!(anstream::stderr(), "warning: {warning}");
     }
     match &args.out {
-        None => output::print(&toml)?,
-        Some(out) => output::write_file(out, toml.as_bytes()).map_err(|error| {
+        None => output::print(&text)?,
+        Some(out) => output::write_file(out, text.as_bytes()).map_err(|error| {
             Failure::fault(
                 format!("`{}` cannot be written: {}", out.display(), plain(&error)),
                 "choose another path with --out",

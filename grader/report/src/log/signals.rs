@@ -1,5 +1,7 @@
 //! Numbers over time, each under a name of its own: of joints, of sensors, and how far the TCP is from its goal.
 
+use kinemark_sim::model::sensor::Measured;
+
 use super::mcap::LogError;
 use super::message::Flat;
 use super::messages::{Messages, SIGNAL_RATE_HZ};
@@ -60,15 +62,16 @@ impl Messages<'_> {
             return Ok(());
         }
         let channels = run.sensors.iter().flat_map(|sensor| {
-            let wrench = ["fx", "fy", "fz", "mx", "my", "mz"];
-            let parts = match sensor.kind.channels() {
-                1 => vec![sensor.name.clone()],
-                // a wrench is the only sensor of more than one number
-                _ => wrench
-                    .map(|part| format!("{} {part}", sensor.name))
-                    .to_vec(),
+            let parts = match sensor.kind.measured() {
+                Measured::Switch | Measured::Number => vec![sensor.name.clone()],
+                Measured::Parts(names) => {
+                    let names = names.iter();
+                    names
+                        .map(|part| format!("{} {part}", sensor.name))
+                        .collect()
+                }
             };
-            parts.into_iter().map(|name| (name, sensor.kind.name()))
+            parts.into_iter().map(|name| (name, sensor.type_name))
         });
         let (spoken, kinds): (Vec<String>, Vec<&str>) = channels.unzip();
         let names = fields(spoken.iter().map(String::as_str));

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
 use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
-use kinemark_sim::format::resolve_all;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::model::sensor::{Sensor, replaced};
 use kinemark_sim::sensing::Sensors;
+use kinemark_sim::sensor::read_all;
 use kinemark_sim::step::hybrid::HybridStep;
 use kinemark_sim::text::Problem;
 use kinemark_sim::ticks::{Periods, whole_ratio};
@@ -219,7 +219,7 @@ impl Reader<'_> {
         periods: &Periods,
     ) -> Result<Vec<Sensor>, LabError> {
         let typed = &table.get_ref().sensors;
-        let changes = resolve_all(typed, self.report.source, "lab", self.robot)
+        let changes = read_all(typed, self.report.source, "lab", self.robot)
             .map_err(|error| error.map(|problem| Box::new(problem) as Box<dyn Problem>))?;
         let sensors = replaced(self.robot.sensors(), changes);
         match Sensors::new(self.robot, sensors.clone(), periods.step_s) {

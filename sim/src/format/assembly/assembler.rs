@@ -7,14 +7,12 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::description::{Description, JointPart};
-use crate::format::part::part_problem::PartProblem;
-use crate::format::robot_problem::{RobotError, RobotProblem};
-use crate::format::robot_toml::robot_tables::KIND;
+use crate::format::robot_problem::{KIND, RobotError, RobotProblem};
 use crate::kinematics::closure;
 use crate::model::inertia::Inertia;
 use crate::model::robot::{Attachment, Body, Frame, Joint, JointKind, Link, Loop, Mimic, Robot};
+use crate::part::part_problem::PartProblem;
 use crate::spatial::{Pose, Symmetric3, pose};
-use crate::text::suggest;
 
 /// A robot with loops has at most this many of them: each makes a dense system larger.
 const MOST_LOOPS: usize = 50;
@@ -84,12 +82,7 @@ impl Assembler<'_> {
         match known.get(name.get_ref().as_str()) {
             Some(&index) => Ok(index),
             None => {
-                let (given, plural) = (name.get_ref().clone(), format!("{what}s"));
-                let help = suggest(&given, &plural, known.keys().copied());
-                let problem = match what {
-                    "link" => RobotProblem::UnknownLink { name: given, help },
-                    _ => RobotProblem::UnknownJoint { name: given, help },
-                };
+                let problem = PartProblem::unknown(what, name.get_ref(), known.keys().copied());
                 self.err(name.span(), problem)
             }
         }

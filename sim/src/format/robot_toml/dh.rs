@@ -6,15 +6,17 @@
 //!
 //! Source: Siciliano et al., *Robotics* (2009), eq. 2.52; Craig, *Introduction to Robotics* (3rd ed.), eq. 3.6.
 
+use std::ops::Range;
+
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::robot_reader::{Resolver, kind};
 use super::robot_tables::{DhConvention, DhRowTable, DhTable};
 use crate::format::assembly::description::{Description, FramePart, JointPart, LinkPart};
-use crate::format::part::values::Allowed;
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::model::robot::{JointKind, Limits};
+use crate::part::values::Allowed;
 use crate::spatial::{Pose, pose, rotation_from_rpy_deg};
 
 impl Resolver<'_> {
@@ -25,12 +27,10 @@ impl Resolver<'_> {
         description: &mut Description,
     ) -> Result<(), RobotError> {
         if table.rows.is_empty() {
-            return self.err(
+            return self.refuse_dh(
                 table.convention.span(),
-                RobotProblem::Dh {
-                    message: "the DH table has no rows".to_owned(),
-                    help: "add a [[dh.rows]] table for each joint".to_owned(),
-                },
+                "the DH table has no rows".to_owned(),
+                "add a [[dh.rows]] table for each joint",
             );
         }
         let names: Vec<Spanned<String>> = table
@@ -71,16 +71,23 @@ impl Resolver<'_> {
                 link_from_frame: self.values.origin(table.tool.as_ref())?,
             });
         } else if table.tool.is_some() {
-            return self.err(
+            return self.refuse_dh(
                 table.convention.span(),
-                RobotProblem::Dh {
-                    message: "the tool centre point is said twice: as `tool` and as a frame `tcp`"
-                        .to_owned(),
-                    help: "drop one of them".to_owned(),
-                },
+                "the tool centre point is said twice: as `tool` and as a frame `tcp`".to_owned(),
+                "drop one of them",
             );
         }
         Ok(())
+    }
+
+    fn refuse_dh<T>(&self, at: Range<usize>, message: String, help: &str) -> Result<T, RobotError> {
+        let problem = RobotProblem::Own {
+            code: "robot::dh",
+            message,
+            label: "this table".to_owned(),
+            help: Some(help.to_owned()),
+        };
+        self.err(at, problem)
     }
 
     fn row(
@@ -108,12 +115,10 @@ impl Resolver<'_> {
             self.values
                 .number_or(row.direction.as_ref(), "direction", Allowed::Any, 1.0)?;
         if ![1.0, -1.0].contains(&direction) {
-            return self.err(
+            return self.refuse_dh(
                 row.joint.span(),
-                RobotProblem::Dh {
-                    message: format!("the direction of joint `{joint}` is {direction}"),
-                    help: "write 1, or -1 where q counts against theta or d".to_owned(),
-                },
+                format!("the direction of joint `{joint}` is {direction}"),
+                "write 1, or -1 where q counts against theta or d",
             );
         }
         let kind = kind(*row.kind.get_ref());

@@ -6,19 +6,19 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::robot_tables::{
-    JointTable, JointType, KIND, LimitTable, LoopTable, LoopType, MimicTable, RobotFile,
+    JointTable, JointType, LimitTable, LoopTable, LoopType, MimicTable, RobotFile,
 };
 use crate::format::assembly::assembler::axes_with_z_along;
 use crate::format::assembly::description::{
     Description, FramePart, JointPart, LinkPart, LoopPart, MimicPart,
 };
-use crate::format::part::part_problem::PartProblem;
-use crate::format::part::part_tables::{NumberAt, ShapeTable};
-use crate::format::part::values::{Allowed, Values, changed_dimensions};
 use crate::format::robot_problem::{RobotError, RobotProblem};
-use crate::format::sensor_toml;
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Limits, LoopKind, Robot, Shape};
+use crate::part::part_problem::PartProblem;
+use crate::part::part_tables::{NumberAt, ShapeTable};
+use crate::part::values::{Allowed, Values};
+use crate::sensor::sensors_of;
 use crate::spatial::pose;
 use crate::text::Dimension;
 
@@ -28,30 +28,12 @@ impl RobotFile {
     /// # Errors
     /// Whatever makes the description no robot: see [`RobotProblem`].
     pub fn build(&self, changed: &[(String, Dimension)]) -> Result<Robot, RobotError> {
-        let dimensions = &self.tables.dimensions;
-        let dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
-        let resolver = Resolver {
-            file: self,
-            values: Values {
-                source: &self.source,
-                kind: KIND,
-                dimensions: &dimensions,
-                meshes: &self.meshes,
-            },
-        };
+        let dimensions = self.changed(changed)?;
+        let values = self.values(&dimensions);
+        let resolver = Resolver { file: self, values };
         let mut robot = resolver.description()?.assemble()?;
-        robot.sensors = sensor_toml::resolve_all(&self.tables.sensors, &self.source, KIND, &robot)?;
+        robot.sensors = sensors_of(&self.tables.sensors, values, &robot)?;
         Ok(robot)
-    }
-
-    /// This file with the dimensions `changed` for good: what is built from it has them, until they are changed again.
-    ///
-    /// # Errors
-    /// A dimension that the file does not have, or has in another shape.
-    pub fn with_dimensions(mut self, changed: &[(String, Dimension)]) -> Result<Self, RobotError> {
-        let dimensions = &self.tables.dimensions;
-        self.tables.dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
-        Ok(self)
     }
 }
 
@@ -66,7 +48,7 @@ impl Resolver<'_> {
         at: Range<usize>,
         problem: impl Into<RobotProblem>,
     ) -> Result<T, RobotError> {
-        Err(RobotError::new(problem.into(), &self.file.source, at))
+        self.file.err(at, problem)
     }
 
     pub(super) fn limits(
@@ -277,13 +259,6 @@ impl Resolver<'_> {
 
     fn description(&self) -> Result<Description, RobotError> {
         let tables = &self.file.tables;
-        if *tables.format.get_ref() != 1 {
-            let found = *tables.format.get_ref();
-            return self.err(
-                tables.format.span(),
-                PartProblem::UnknownFormat { kind: KIND, found },
-            );
-        }
         let frames = tables
             .frames
             .iter()

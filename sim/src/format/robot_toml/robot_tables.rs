@@ -4,74 +4,37 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::format::part::mesh_files::Meshes;
-use crate::format::part::part_problem::PartProblem;
-use crate::format::part::part_tables::{
+use crate::format::robot_problem::{KIND, RobotProblem};
+use crate::part::document::{Document, Tables};
+use crate::part::part_tables::{
     ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
 };
-use crate::format::robot_problem::RobotError;
-use crate::format::sensor_toml::SensorTable;
-use crate::text::{Dimensions, Source, TomlRefusal};
-
-/// What messages call this kind of file.
-pub(crate) const KIND: &str = "robot";
+use crate::sensor::SensorTable;
+use crate::text::Dimensions;
 
 /// A robot file: its text and its tables. [`RobotFile::build`](RobotFile::build) makes the robot.
-#[derive(Debug, Clone)]
-pub struct RobotFile {
-    pub(crate) source: Source,
-    pub(crate) tables: Tables,
-    pub(crate) meshes: Meshes,
-}
+pub type RobotFile = Document<RobotTables>;
 
-impl RobotFile {
-    /// Reads a robot file's text.
-    ///
-    /// # Errors
-    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key.
-    pub fn parse(source: Source) -> Result<Self, RobotError> {
-        match toml::from_str::<Tables>(source.text()) {
-            Ok(tables) => Ok(Self {
-                source,
-                tables,
-                meshes: Meshes::default(),
-            }),
-            Err(error) => {
-                let TomlRefusal { message, help, at } =
-                    TomlRefusal::from_error(&error, source.text());
-                let problem = PartProblem::Toml { message, help };
-                Err(RobotError::new(problem.into(), &source, at))
-            }
-        }
+impl Tables for RobotTables {
+    const KIND: &'static str = KIND;
+    type Problem = RobotProblem;
+
+    fn format(&self) -> &Spanned<i64> {
+        &self.format
     }
 
-    /// Reads the meshes that its shapes name, each once, by `read`: the bytes of a file, or why there are none.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or is no mesh.
-    pub fn with_meshes(
-        mut self,
-        read: impl FnMut(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Self, RobotError> {
-        let shapes = self.tables.links.iter().flat_map(|link| &link.shapes);
-        self.meshes = Meshes::read(&self.source, KIND, shapes, read)?;
-        Ok(self)
+    fn dimensions(&mut self) -> &mut Dimensions {
+        &mut self.dimensions
     }
 
-    /// The text it was read from.
-    pub fn source(&self) -> &Source {
-        &self.source
-    }
-
-    /// The dimensions as the file states them.
-    pub fn dimensions(&self) -> &Dimensions {
-        &self.tables.dimensions
+    fn shapes(&self) -> Box<dyn Iterator<Item = &Spanned<ShapeTable>> + '_> {
+        Box::new(self.links.iter().flat_map(|link| &link.shapes))
     }
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Tables {
+pub struct RobotTables {
     pub(crate) format: Spanned<i64>,
     pub(crate) name: Spanned<String>,
     #[serde(default)]

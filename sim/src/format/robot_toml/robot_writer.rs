@@ -6,6 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::model::inertia::{Inertia, Solid, unphysical};
 use crate::model::robot::{Joint, JointKind, Robot, Shape};
+use crate::part::toml_text::{quoted, triple};
+use crate::sensor::sensor_table;
 use crate::spatial::{Pose, rotation_from_rpy_deg};
 
 /// A rotation is written by angles if they give it back this exactly.
@@ -73,7 +75,7 @@ impl Robot {
             line(&mut out, "frame_on_second", &closing.link_from_end[1]);
         }
         for sensor in self.sensors() {
-            self.sensor_table(sensor, &mut out);
+            sensor_table(sensor, self, &mut out);
         }
         out
     }
@@ -127,15 +129,6 @@ impl Robot {
             let _ = writeln!(out, "limit = {{ {} }}", limits.join(", "));
         }
     }
-}
-
-/// A text with the quotes and escapes of TOML.
-pub(super) fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
-}
-
-pub(super) fn triple(v: &Vector3<f64>) -> String {
-    format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
 }
 
 /// One key with an origin, left out where it is the identity.

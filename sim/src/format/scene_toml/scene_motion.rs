@@ -8,9 +8,9 @@ use toml::Spanned;
 use super::scene_problem::{SceneError, SceneProblem};
 use super::scene_reader::Resolver;
 use super::scene_tables::{BodyTable, MotionTable, WaypointTable};
-use crate::format::part::part_tables::NumberAt;
-use crate::format::part::values::Allowed;
 use crate::model::prescribed_motion::{Motion, Waypoint};
+use crate::part::part_tables::NumberAt;
+use crate::part::values::Allowed;
 use crate::spatial::{Pose, Twist, pose, rotation_from_rpy_deg};
 
 impl Resolver<'_> {
@@ -30,7 +30,7 @@ impl Resolver<'_> {
         angular: &Option<[NumberAt; 3]>,
     ) -> Result<Twist, SceneError> {
         let read = |numbers: &Option<[NumberAt; 3]>, what| match numbers {
-            Some(numbers) => self.vector(numbers, what),
+            Some(numbers) => self.values.vector(numbers, what),
             None => Ok(Vector3::zeros()),
         };
         Ok(Twist {
@@ -90,11 +90,12 @@ impl Resolver<'_> {
         };
         for (time_s, table) in times_s.into_iter().zip(waypoints) {
             let (_, twist) = motion.at(time_s);
-            self.within(table.span(), "speed from here on", &twist.linear)?;
-            self.within(
+            self.values
+                .within(table.span(), "speed from here on", twist.linear.as_slice())?;
+            self.values.within(
                 table.span(),
                 "speed of turning from here on",
-                &twist.angular,
+                twist.angular.as_slice(),
             )?;
         }
         Ok(motion)
@@ -163,8 +164,29 @@ impl Resolver<'_> {
             time_s: self.values.number(t_s, "t_s", Allowed::NotNegative)?,
             world_from_body: pose(
                 rotation_from_rpy_deg(rpy_deg.into()),
-                self.vector(xyz_m, "xyz_m")?,
+                self.values.vector(xyz_m, "xyz_m")?,
             ),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::format::SceneFile;
+    use crate::text::Source;
+
+    #[test]
+    fn a_motion_without_waypoints_is_refused_at_its_place() {
+        let text = "format = 1\nname = 's'\n[[bodies]]\nname = 'belt'\ntype = 'kinematic'\n\
+            shapes = [{ sphere = { radius_m = 1 } }]\ncontact = { friction = 1 }\n\
+            motion = { waypoints = [] }\n";
+        let file = SceneFile::parse(Source::new("scene.toml", text)).unwrap();
+        let error = file.build(&[]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the motion of body `belt` needs at least two waypoints"
+        );
+        // the table of the motion
+        assert_eq!(error.line_and_column(), (8, 10));
     }
 }

@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a scene file.
 
-use crate::format::part::part_problem::{PartError, PartProblem};
+use crate::part::part_problem::{PartError, PartProblem};
 use crate::text::{Located, Problem};
 
 /// A problem in a scene file, with its place.

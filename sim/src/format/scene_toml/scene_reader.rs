@@ -1,29 +1,28 @@
 //! From the tables of a scene file to the scene: every number in its range, every body whole.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::scene_problem::{SceneError, SceneProblem};
-use super::scene_tables::{BodyTable, BodyType, EnvironmentTable, KIND, SceneFile, WindTable};
-use crate::format::part::part_problem::PartProblem;
-use crate::format::part::part_tables::{ContactTable, NumberAt, ShapeTable};
-use crate::format::part::values::{Allowed, Values, changed_dimensions};
+use super::scene_tables::{
+    BodyTable, BodyType, EnvironmentTable, SceneFile, SceneTables, WindTable,
+};
 use crate::model::air::Drag;
 use crate::model::gust::Gust;
 use crate::model::inertia::{Inertia, Solid, principal_moments};
 use crate::model::robot::{Contact, Shape};
 use crate::model::scene::{BodyKind, Environment, Scene, SceneBody, Wind};
+use crate::part::document::Tables as _;
+use crate::part::part_problem::PartProblem;
+use crate::part::part_tables::{ContactTable, ShapeTable};
+use crate::part::values::{Allowed, Values};
 use crate::spatial::Twist;
 use crate::text::Dimension;
 
 /// A scene has at most this many bodies: far more than a lab needs, and few enough that their contacts fit a step.
 const MOST_BODIES: usize = 1000;
-
-/// No number but times, masses and densities of bodies is beyond this, in SI units: far beyond any lab, and its powers stay finite.
-const MOST: f64 = 1e6;
 
 /// Density of dry air at 15 °C at sea level \[kg/m³\]; source: ISO 2533:1975.
 const AIR_DENSITY_KG_M3: f64 = 1.225;
@@ -39,28 +38,9 @@ impl SceneFile {
     /// # Errors
     /// Whatever makes the file no scene: see [`SceneProblem`].
     pub fn build(&self, changed: &[(String, Dimension)]) -> Result<Scene, SceneError> {
-        let dimensions = &self.tables.dimensions;
-        let dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
-        let resolver = Resolver {
-            file: self,
-            values: Values {
-                source: &self.source,
-                kind: KIND,
-                dimensions: &dimensions,
-                meshes: &self.meshes,
-            },
-        };
-        resolver.scene()
-    }
-
-    /// This file with the dimensions `changed` for good: what is built from it has them, until they are changed again.
-    ///
-    /// # Errors
-    /// A dimension that the file does not have, or has in another shape.
-    pub fn with_dimensions(mut self, changed: &[(String, Dimension)]) -> Result<Self, SceneError> {
-        let dimensions = &self.tables.dimensions;
-        self.tables.dimensions = changed_dimensions(&self.source, KIND, dimensions, changed)?;
-        Ok(self)
+        let dimensions = self.changed(changed)?;
+        let values = self.values(&dimensions);
+        Resolver { file: self, values }.scene()
     }
 }
 
@@ -75,26 +55,24 @@ impl Resolver<'_> {
         at: Range<usize>,
         problem: impl Into<SceneProblem>,
     ) -> Result<T, SceneError> {
-        Err(SceneError::new(problem.into(), &self.file.source, at))
+        self.file.err(at, problem)
     }
 
     fn scene(&self) -> Result<Scene, SceneError> {
         let tables = &self.file.tables;
-        if *tables.format.get_ref() != 1 {
-            let found = *tables.format.get_ref();
-            let problem = PartProblem::UnknownFormat { kind: KIND, found };
-            return self.err(tables.format.span(), problem);
-        }
         if tables.bodies.len() > MOST_BODIES {
             let problem = PartProblem::TooLarge {
-                kind: KIND,
+                kind: SceneTables::KIND,
                 parts: "bodies",
                 found: tables.bodies.len(),
                 most: MOST_BODIES,
             };
             return self.err(tables.name.span(), problem);
         }
-        self.check_names()?;
+        let names = tables.bodies.iter().map(|body| &body.name);
+        let help = "a name is not empty, and `world` and `ground` are taken";
+        self.values
+            .check_names("body", names, &["world", "ground"], help)?;
         Ok(Scene {
             name: tables.name.get_ref().clone(),
             environment: self.environment(&tables.environment)?,
@@ -106,26 +84,6 @@ impl Resolver<'_> {
         })
     }
 
-    fn check_names(&self) -> Result<(), SceneError> {
-        let mut seen = BTreeSet::new();
-        for table in &self.file.tables.bodies {
-            let name = table.name.get_ref();
-            if name.trim().is_empty() || name == "world" || name == "ground" {
-                let problem = PartProblem::BadName {
-                    what: "body",
-                    name: name.clone(),
-                    help: "a name is not empty, and `world` and `ground` are taken",
-                };
-                return self.err(table.name.span(), problem);
-            }
-            if !seen.insert(name) {
-                let (what, name) = ("body", name.clone());
-                return self.err(table.name.span(), PartProblem::Duplicate { what, name });
-            }
-        }
-        Ok(())
-    }
-
     fn environment(&self, table: &EnvironmentTable) -> Result<Environment, SceneError> {
         let EnvironmentTable {
             gravity_m_s2,
@@ -134,7 +92,7 @@ impl Resolver<'_> {
         } = table;
         Ok(Environment {
             gravity_m_s2: match gravity_m_s2 {
-                Some(gravity) => self.vector(gravity, "gravity_m_s2")?,
+                Some(gravity) => self.values.vector(gravity, "gravity_m_s2")?,
                 None => Environment::default().gravity_m_s2,
             },
             ground: ground
@@ -146,9 +104,14 @@ impl Resolver<'_> {
     }
 
     fn wind(&self, table: &WindTable) -> Result<Wind, SceneError> {
-        let velocity_m_s = self.vector(table.velocity_m_s.get_ref(), "velocity_m_s")?;
+        let velocity_m_s = self
+            .values
+            .vector(table.velocity_m_s.get_ref(), "velocity_m_s")?;
         let air_density_kg_m3 = match &table.air_density_kg_m3 {
-            Some(density) => self.bounded(density, "air_density_kg_m3", Allowed::Positive)?,
+            Some(density) => {
+                self.values
+                    .bounded(density, "air_density_kg_m3", Allowed::Positive)?
+            }
             None => AIR_DENSITY_KG_M3,
         };
         let gust = match &table.gust {
@@ -158,7 +121,7 @@ impl Resolver<'_> {
             }
             Some(gust) => {
                 let gust = gust.get_ref();
-                let number = |n, what, allowed| self.bounded(n, what, allowed);
+                let number = |n, what, allowed| self.values.bounded(n, what, allowed);
                 Some(Gust {
                     speed_m_s: number(&gust.speed_m_s, "speed_m_s", Allowed::NotNegative)?,
                     correlation_s: number(&gust.correlation_s, "correlation_s", Allowed::Positive)?,
@@ -189,7 +152,8 @@ impl Resolver<'_> {
         let origin = table.origin.as_ref();
         let start = self.values.origin(origin.map(Spanned::get_ref))?;
         if let Some(origin) = origin {
-            self.within(origin.span(), "xyz_m", &start.translation.vector)?;
+            self.values
+                .within(origin.span(), "xyz_m", start.translation.vector.as_slice())?;
         }
         let (kind, world_from_body, twist) = match (body_type, &table.motion) {
             (BodyType::Kinematic, Some(motion)) => {
@@ -251,8 +215,9 @@ impl Resolver<'_> {
                 Vector3::from(low).amax().max(Vector3::from(high).amax())
             }
         };
-        let reach = Vector3::new(size_m, shape.link_from_shape.translation.vector.amax(), 0.0);
-        self.within(table.span(), "size and origin of a shape", &reach)?;
+        let reach_m = [size_m, shape.link_from_shape.translation.vector.amax()];
+        self.values
+            .within(table.span(), "size and origin of a shape", &reach_m)?;
         let (Solid::Mesh(solid), Some(mesh)) = (&shape.solid, &table.get_ref().mesh) else {
             return Ok(shape);
         };
@@ -328,7 +293,8 @@ impl Resolver<'_> {
                 "give it thickness: each principal moment must be positive",
             );
         }
-        self.within(stated.span(), "com_m", &inertia.com_m)?;
+        self.values
+            .within(stated.span(), "com_m", inertia.com_m.as_slice())?;
         Ok(inertia)
     }
 
@@ -350,51 +316,15 @@ impl Resolver<'_> {
             (&table.area_m2, "area_m2", drag.area_m2),
             (&table.coefficient, "coefficient", drag.coefficient),
         ] {
-            self.within(at.span(), what, &Vector3::repeat(value))?;
+            self.values.within(at.span(), what, &[value])?;
         }
         Ok(Some(drag))
     }
 
     fn contact(&self, table: &ContactTable) -> Result<Contact, SceneError> {
         let contact = self.values.contact(table)?;
-        let friction = Vector3::repeat(contact.friction);
-        self.within(table.friction.span(), "friction", &friction)?;
+        let at = table.friction.span();
+        self.values.within(at, "friction", &[contact.friction])?;
         Ok(contact)
-    }
-
-    /// One number of a size that keeps every power of it finite.
-    fn bounded(&self, number: &NumberAt, what: &str, allowed: Allowed) -> Result<f64, SceneError> {
-        let value = self.values.number(number, what, allowed)?;
-        self.within(number.span(), what, &Vector3::repeat(value))?;
-        Ok(value)
-    }
-
-    /// Three numbers of a size that keeps every power of them finite.
-    pub(super) fn vector(
-        &self,
-        numbers: &[NumberAt; 3],
-        what: &str,
-    ) -> Result<Vector3<f64>, SceneError> {
-        let vector = self.values.triple(numbers, what)?;
-        let at = numbers[0].span().start..numbers[2].span().end;
-        self.within(at, what, &vector)?;
-        Ok(vector)
-    }
-
-    pub(super) fn within(
-        &self,
-        at: Range<usize>,
-        what: &str,
-        v: &Vector3<f64>,
-    ) -> Result<(), SceneError> {
-        if v.iter().all(|x| x.abs() <= MOST) {
-            return Ok(());
-        }
-        let problem = PartProblem::OutOfRange {
-            what: what.to_owned(),
-            expected: "at most 1e6 either way",
-            found: format!("{:?}", v.amax()),
-        };
-        self.err(at, problem)
     }
 }

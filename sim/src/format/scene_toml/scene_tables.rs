@@ -3,78 +3,43 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::scene_problem::{SceneError, SceneProblem};
-use crate::format::part::mesh_files::Meshes;
-use crate::format::part::part_problem::PartProblem;
-use crate::format::part::part_tables::{
+use super::scene_problem::SceneProblem;
+use crate::part::document::{Document, Tables};
+use crate::part::part_tables::{
     ContactTable, DragTable, InertiaTable, NumberAt, OriginTable, ShapeTable, TripleAt,
 };
-use crate::text::{Dimensions, Source, TomlRefusal};
-
-/// What messages call this kind of file.
-pub(crate) const KIND: &str = "scene";
+use crate::text::Dimensions;
 
 /// A scene file: its text and its tables. [`SceneFile::build`] makes the scene.
-#[derive(Debug, Clone)]
-pub struct SceneFile {
-    pub(crate) source: Source,
-    pub(crate) tables: Tables,
-    pub(crate) meshes: Meshes,
-}
+pub type SceneFile = Document<SceneTables>;
 
 impl SceneFile {
-    /// Reads a scene file's text.
-    ///
-    /// # Errors
-    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key.
-    pub fn parse(source: Source) -> Result<Self, SceneError> {
-        match toml::from_str::<Tables>(source.text()) {
-            Ok(tables) => Ok(Self {
-                source,
-                tables,
-                meshes: Meshes::default(),
-            }),
-            Err(error) => {
-                let TomlRefusal { message, help, at } =
-                    TomlRefusal::from_error(&error, source.text());
-                let problem = SceneProblem::Part(PartProblem::Toml { message, help });
-                Err(SceneError::new(problem, &source, at))
-            }
-        }
-    }
-
-    /// Reads the meshes that its shapes name, each once, by `read`: the bytes of a file, or why there are none.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or is no mesh.
-    pub fn with_meshes(
-        mut self,
-        read: impl FnMut(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Self, SceneError> {
-        let shapes = self.tables.bodies.iter().flat_map(|body| &body.shapes);
-        self.meshes = Meshes::read(&self.source, KIND, shapes, read)?;
-        Ok(self)
-    }
-
-    /// The text it was read from.
-    pub fn source(&self) -> &Source {
-        &self.source
-    }
-
     /// Where in the text the name of body `index` stands; none where there is no such body.
     pub fn place_of_body(&self, index: usize) -> Option<std::ops::Range<usize>> {
         self.tables.bodies.get(index).map(|body| body.name.span())
     }
+}
 
-    /// The dimensions as the file states them.
-    pub fn dimensions(&self) -> &Dimensions {
-        &self.tables.dimensions
+impl Tables for SceneTables {
+    const KIND: &'static str = "scene";
+    type Problem = SceneProblem;
+
+    fn format(&self) -> &Spanned<i64> {
+        &self.format
+    }
+
+    fn dimensions(&mut self) -> &mut Dimensions {
+        &mut self.dimensions
+    }
+
+    fn shapes(&self) -> Box<dyn Iterator<Item = &Spanned<ShapeTable>> + '_> {
+        Box::new(self.bodies.iter().flat_map(|body| &body.shapes))
     }
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Tables {
+pub struct SceneTables {
     pub(crate) format: Spanned<i64>,
     pub(crate) name: Spanned<String>,
     #[serde(default)]

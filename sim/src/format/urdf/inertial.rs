@@ -1,10 +1,12 @@
 //! Mass properties of a URDF link, in its own, possibly turned, inertial frame; and joints that move no mass.
 
-use super::reader::{Allowed, Node, Reader};
-use crate::format::part::part_problem::PartProblem;
+use super::origin::origin;
 use crate::format::robot_problem::RobotError;
+use crate::format::xml::reader::{Node, Reader};
 use crate::model::inertia::{Inertia, unphysical};
 use crate::model::robot::{JointKind, Robot};
+use crate::part::part_problem::PartProblem;
+use crate::part::values::Allowed;
 use crate::spatial::{Pose, Symmetric3};
 
 /// Reads `<inertial>`; a link without it has no mass.
@@ -17,7 +19,7 @@ pub(super) fn inertia(
         return Ok(Inertia::zero());
     };
     reader.check(inertial, owner, &[], &["origin", "mass", "inertia"]);
-    let link_from_inertial: Pose = reader.origin(inertial, owner)?;
+    let link_from_inertial: Pose = origin(reader, inertial, owner)?;
     let Some(mass) = reader.child(inertial, "mass", owner) else {
         return incomplete(
             reader,

@@ -3,13 +3,15 @@
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::reader::{Allowed, Node, Reader};
-use super::urdf_robot::UrdfOptions;
+use super::origin::origin;
 use crate::format::assembly::assembler::axes_with_z_along;
 use crate::format::assembly::description::{JointPart, LinkPart, MimicPart};
-use crate::format::part::part_problem::PartProblem;
+use crate::format::robot_format::ReadOptions;
 use crate::format::robot_problem::{RobotError, RobotProblem};
+use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::robot::JointKind;
+use crate::part::part_problem::PartProblem;
+use crate::part::values::Allowed;
 use crate::spatial::{Pose, direction};
 use crate::text::suggest;
 
@@ -73,7 +75,7 @@ pub(super) fn head<'a>(reader: &Reader<'_>, node: Node<'a>) -> Result<Head<'a>, 
         );
     };
     let link = |tag: &str| {
-        let mut children = super::reader::elements(node);
+        let mut children = elements(node);
         match children.find(|child| child.tag_name().name() == tag) {
             Some(child) => reader.required(child, "link", &owner),
             None => reader.refuse(
@@ -96,7 +98,7 @@ pub(super) fn head<'a>(reader: &Reader<'_>, node: Node<'a>) -> Result<Head<'a>, 
 /// Reads the rest of a joint. `is_base` says that it is the only joint of the root.
 pub(super) fn chain(
     reader: &mut Reader<'_>,
-    options: UrdfOptions,
+    options: ReadOptions,
     head: &Head<'_>,
     is_base: bool,
 ) -> Result<Chain, RobotError> {
@@ -107,7 +109,7 @@ pub(super) fn chain(
         head.name.clone(),
         head.parent.clone(),
         head.child.clone(),
-        reader.origin(node, &owner)?,
+        origin(reader, node, &owner)?,
     );
     let mimic = if options.ignore_mimic {
         None

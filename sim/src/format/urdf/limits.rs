@@ -1,8 +1,9 @@
 //! Limits of a URDF joint, and what to make of those that say it cannot move.
 
-use super::reader::{Allowed, Node, Reader};
 use crate::format::robot_problem::{RobotError, RobotProblem};
+use crate::format::xml::reader::{Node, Reader};
 use crate::model::robot::{JointKind, Limits};
+use crate::part::values::Allowed;
 
 /// Reads `<limit>` of a joint that moves.
 ///

@@ -3,19 +3,22 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::reader::{Allowed, Node, Reader, elements};
-use crate::format::part::part_problem::PartProblem;
+use super::origin::origin;
+use crate::format::robot_format::ReadFile;
 use crate::format::robot_problem::RobotError;
+use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::inertia::{MeshSolid, Solid};
 use crate::model::mesh::surface::Mesh;
 use crate::model::robot::Shape;
+use crate::part::part_problem::PartProblem;
+use crate::part::values::Allowed;
 
 /// A mesh file may be used at this many scales: each is a copy of its own.
 const MOST_SCALES: usize = 8;
 
 /// The mesh files asked for so far.
 pub(super) struct Meshes<'a> {
-    read: &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+    read: &'a mut ReadFile<'a>,
     files: BTreeMap<String, Result<Copies, String>>,
 }
 
@@ -27,7 +30,7 @@ struct Copies {
 }
 
 impl<'a> Meshes<'a> {
-    pub(super) fn new(read: &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>) -> Self {
+    pub(super) fn new(read: &'a mut ReadFile<'a>) -> Self {
         Self {
             read,
             files: BTreeMap::new(),
@@ -90,7 +93,7 @@ pub(super) fn shapes(
             &["name", "group"],
             &["origin", "geometry", "material", "verbose", "surface"],
         );
-        let link_from_shape = reader.origin(node, owner)?;
+        let link_from_shape = origin(reader, node, owner)?;
         let Some(geometry) = reader.child(node, "geometry", owner) else {
             let message = format!("{owner}: `<{from}>` without `<geometry>` is left out");
             reader.warn(Reader::tag(node), &message);

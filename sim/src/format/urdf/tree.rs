@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use super::joint::Head;
-use super::reader::{Node, Reader};
-use crate::format::part::part_problem::PartProblem;
 use crate::format::robot_problem::{RobotError, RobotProblem};
-use crate::text::suggest;
+use crate::format::xml::reader::{Node, Reader};
+use crate::part::part_problem::PartProblem;
 
 /// The index of the root among `links`. Cycles beside the tree are for `assemble` to find.
 pub(super) fn root(
@@ -30,9 +29,9 @@ pub(super) fn root(
     for (j, joint) in joints.iter().enumerate() {
         for at in [&joint.parent, &joint.child] {
             if !index.contains_key(at.get_ref().as_str()) {
-                let name = at.get_ref().clone();
-                let help = suggest(&name, "links", links.iter().map(|l| l.get_ref().as_str()));
-                return reader.err(at.span(), RobotProblem::UnknownLink { name, help });
+                let known = links.iter().map(|link| link.get_ref().as_str());
+                let problem = PartProblem::unknown("link", at.get_ref(), known);
+                return reader.err(at.span(), problem);
             }
         }
         if let Some(&child) = index.get(joint.child.get_ref().as_str())

@@ -3,36 +3,29 @@
 use toml::Spanned;
 
 use super::joint::Head;
-use super::reader::{Node, Reader};
 use super::shape::Meshes;
-use super::{document, inertial, joint, reader, shape, tree};
+use super::{document, inertial, joint, shape, tree};
 use crate::format::assembly::assembler::MOST_LINKS;
 use crate::format::assembly::description::{Description, JointPart, LinkPart};
-use crate::format::part::part_problem::PartProblem;
-use crate::format::robot_problem::RobotError;
-use crate::format::robot_toml::robot_tables::KIND;
+use crate::format::robot_format::{ReadFile, ReadOptions};
+use crate::format::robot_problem::{KIND, RobotError};
+use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::robot::Robot;
+use crate::part::part_problem::PartProblem;
 use crate::text::{Dimensions, Source, nearest};
-
-/// How a URDF is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct UrdfOptions {
-    /// Whether a mimic joint gets an entry of its own in `q`, as if it followed nothing.
-    pub ignore_mimic: bool,
-}
 
 /// Reads the robot of a URDF.
 ///
 /// `read_mesh` gets the `filename` of a mesh as written (`package://x/y.stl`, `file:///x.stl`, `y.stl`; see
-/// `mesh_location`) and returns the bytes of that file, or why it cannot. Each file is asked for once. What cannot be read is in
-/// [`Robot::warnings`], and its shape is left out.
+/// [`MeshLocation`](crate::format::MeshLocation)) and returns the bytes of that file, or why it cannot. Each file is
+/// requested once. A file that cannot be read is in [`Robot::warnings`], and its shape is left out.
 ///
 /// # Errors
 /// Whatever makes the text no robot, with its place: see [`RobotProblem`](crate::format::RobotProblem).
-pub fn robot(
+pub(super) fn robot(
     source: Source,
-    options: &UrdfOptions,
-    read_mesh: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+    options: &ReadOptions,
+    read_mesh: &mut ReadFile<'_>,
 ) -> Result<Robot, RobotError> {
     let mut robot = describe(&source, *options, read_mesh)?.assemble()?;
     inertial::warn_of_massless(&mut robot);
@@ -41,12 +34,12 @@ pub fn robot(
 
 fn describe(
     source: &Source,
-    options: UrdfOptions,
-    read_mesh: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+    options: ReadOptions,
+    read_mesh: &mut ReadFile<'_>,
 ) -> Result<Description, RobotError> {
     let document = document::parse(source)?;
     let root: Node<'_> = document.root_element();
-    let mut reader = Reader::new(source);
+    let mut reader = Reader::new(source, &document::DIALECT);
     let name = document::robot_name(&reader, root)?;
     let (links, joints) = parts(&mut reader, root);
     let links = links
@@ -113,7 +106,7 @@ fn describe(
 /// The links and the joints of a robot element, each in file order.
 fn parts<'a>(reader: &mut Reader<'_>, robot: Node<'a>) -> (Vec<Node<'a>>, Vec<Node<'a>>) {
     let (mut links, mut joints) = (Vec::new(), Vec::new());
-    for node in reader::elements(robot) {
+    for node in elements(robot) {
         match node.tag_name().name() {
             "link" => links.push(node),
             "joint" => joints.push(node),

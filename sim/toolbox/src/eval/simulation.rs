@@ -118,7 +118,10 @@ impl Operation for Simulate {
             }
             (None, given) => gravity(given),
         };
-        let channels = robot.sensors().iter().map(|sensor| sensor.kind.channels());
+        let channels = robot
+            .sensors()
+            .iter()
+            .map(|sensor| sensor.kind.measured().channels());
         let bodies = scene.map_or(0, |scene| scene.bodies.len());
         let numbers_per_row = 3 * robot.n() + 7 * bodies + channels.sum::<usize>() + 1;
         refuse_too_large(ticks, ticks / stride + 1, numbers_per_row)?;

@@ -168,7 +168,7 @@ fn readings(
     let mut start = 0;
     let mut readings = BTreeMap::new();
     for sensor in setup.robot.sensors() {
-        let channels = start..start + sensor.kind.channels();
+        let channels = start..start + sensor.kind.measured().channels();
         start = channels.end;
         let reading = |row: &Vec<f64>| match &row[channels.clone()] {
             [one] => finite_number(*one).map(Numbers::One),

@@ -21,7 +21,7 @@ pub fn robot_record(robot: &Robot) -> Value {
     let frames =
         frames.map(|frame| json!({ "name": frame.name, "link": robot.links()[frame.link].name }));
     let sensors = robot.sensors().iter();
-    let sensors = sensors.map(|sensor| json!({ "name": sensor.name, "type": sensor.kind.name() }));
+    let sensors = sensors.map(|sensor| json!({ "name": sensor.name, "type": sensor.type_name }));
     let moving = robot.moving_joints().map(|joint| joint.name.as_str());
     json!({
         "name": robot.name(),

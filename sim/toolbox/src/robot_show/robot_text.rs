@@ -118,7 +118,7 @@ impl Facts {
             );
         }
         for sensor in robot.sensors() {
-            let (name, kind) = (&sensor.name, sensor.kind.name());
+            let (name, kind) = (&sensor.name, sensor.type_name);
             self.line("sensor", &format!("{name} ({kind})"));
         }
     }

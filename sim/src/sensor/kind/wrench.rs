@@ -1,23 +1,86 @@
-//! The wrench through a joint, by Newton and Euler: what the joint carries needs a force and a moment for its motion;
-//! what contact and gravity do not give, the joint does.
+//! wrench: force and moment of the parent on the child through a joint, in the child's frame about its origin, N and N m; the
+//! mean over the last step.
 //!
-//! Everything is the mean over the last step. Accelerations are: the change of velocity over the step. The state they
-//! go with is that of the middle of the step, followed back from its end, so that the error is of second order in the
-//! step where motion is smooth. In contact it is of first order, as the motion itself is.
+//! By Newton and Euler: what the joint carries needs a force and a moment for its motion; what contact and gravity do not give, the
+//! joint does. Accelerations are the change of velocity over the step. The state they go with is that of the middle of the step,
+//! followed back from its end, so that the error is of second order in the step where motion is smooth. In contact it is of first
+//! order, as the motion itself is.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::Deserialize;
+use toml::Spanned;
 
-use super::sampling::Seen;
 use crate::kinematics::body_motion::{BodyMotions, Motion};
-use crate::model::air::{AirNow, Drag};
-use crate::model::contact::{ContactFact, Party};
+use crate::model::air::Drag;
+use crate::model::contact::Party;
 use crate::model::inertia::Inertia;
-use crate::model::robot::{Attachment, Robot, carried_by};
+use crate::model::robot::{Attachment, Loop, Robot, carried_by};
+use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings};
+use crate::part::part_problem::PartError;
+use crate::part::toml_text::quoted;
+use crate::sensor::registry::{KindTable, SensorReading};
 use crate::spatial::Symmetric3;
 
-/// What one joint carries.
-#[derive(Debug, Clone)]
-pub(super) struct Gauge {
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Table {
+    joint: Spanned<String>,
+}
+
+impl KindTable for Table {
+    const NAME: &'static str = "wrench";
+    #[cfg(test)]
+    const EXAMPLE: &'static str = "joint = 'elbow'";
+    type Kind = Wrench;
+
+    /// Through the joint passes all that its child's side is held by: no loop lies around it.
+    fn read(&self, reading: &SensorReading<'_>) -> Result<Wrench, PartError> {
+        let robot = reading.robot;
+        let (joint, described) = reading.joint(&self.joint)?;
+        let carried = carried_by(robot, joint);
+        let around = |closed: &&Loop| {
+            let [first, second] = closed.links;
+            carried[first] != carried[second]
+        };
+        let Some(closed) = robot.loops().iter().find(around) else {
+            return Ok(Wrench { joint });
+        };
+        let [first, second] = closed.links.map(|link| &robot.links()[link].name);
+        reading.refuse(
+            self.joint.span(),
+            format!(
+                "joint `{}` shares its wrench with the loop between `{first}` and `{second}`",
+                described.name
+            ),
+            "name a joint outside of every loop".to_owned(),
+        )
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct Wrench {
+    /// Index among all joints.
+    joint: usize,
+}
+
+impl SensorKind for Wrench {
+    fn measured(&self) -> Measured {
+        Measured::Parts(&["fx", "fy", "fz", "mx", "my", "mz"])
+    }
+
+    fn keys(&self, robot: &Robot) -> String {
+        format!("joint = {}\n", quoted(&robot.joints()[self.joint].name))
+    }
+
+    fn gauge(&self, robot: &Robot, step_s: f64) -> Box<dyn Gauge> {
+        Box::new(WrenchGauge::new(robot, self.joint, step_s))
+    }
+}
+
+/// A gauge in one joint, and what that carries.
+struct WrenchGauge {
+    step_s: f64,
+    motion: MeanMotion,
     /// Where the child's frame is.
     child: Attachment,
     /// Whether each link is carried.
@@ -27,7 +90,6 @@ pub(super) struct Gauge {
 }
 
 /// A carried link that the air drags on.
-#[derive(Debug, Clone)]
 struct Sail {
     body: Option<usize>,
     p_com_in_body: Vector3<f64>,
@@ -35,7 +97,6 @@ struct Sail {
 }
 
 /// All that is carried on one body, in the body's frame.
-#[derive(Debug, Clone)]
 struct Part {
     body: Option<usize>,
     mass_kg: f64,
@@ -43,9 +104,9 @@ struct Part {
     inertia: Symmetric3,
 }
 
-impl Gauge {
+impl WrenchGauge {
     /// A gauge in joint `joint` of all joints.
-    pub(super) fn new(robot: &Robot, joint: usize) -> Self {
+    fn new(robot: &Robot, joint: usize, step_s: f64) -> Self {
         let carried = carried_by(robot, joint);
         let mut sums: Vec<(Option<usize>, Inertia)> = Vec::new();
         let links = robot.links().iter().zip(&carried);
@@ -83,6 +144,8 @@ impl Gauge {
                 })
             });
         Self {
+            step_s,
+            motion: MeanMotion::new(robot),
             sails: sails.collect(),
             child: robot.links()[robot.joints()[joint].child]
                 .attachment
@@ -91,16 +154,12 @@ impl Gauge {
             carried,
         }
     }
+}
 
-    /// Force and moment of the parent on the child, `[force; moment]` in the child's frame about its origin \[N, N m\].
-    pub(super) fn wrench(
-        &self,
-        motion: &MeanMotion,
-        gravity_m_s2: &Vector3<f64>,
-        contacts: &[ContactFact],
-        air: Option<&AirNow>,
-        step_s: f64,
-    ) -> [f64; 6] {
+impl Gauge for WrenchGauge {
+    fn read(&mut self, seen: &Seen<'_>, around: &dyn Surroundings, values: &mut [f64]) {
+        self.motion.update(seen, self.step_s);
+        let (motion, step_s) = (&self.motion, self.step_s);
         let placed = motion.of(self.child.body).placed;
         let here = &self.child.body_from_here;
         let p_here = placed.position + placed.world_from_body * here.translation.vector;
@@ -110,7 +169,7 @@ impl Gauge {
             let Motion {
                 placed, w, dw, a, ..
             } = motion.of(part.body);
-            let a = a - gravity_m_s2;
+            let a = a - seen.gravity_m_s2;
             let h = placed.world_from_body * part.first_moment;
             let inertia = part.inertia.rotated(&placed.world_from_body);
             let f = a * part.mass_kg + dw.cross(&h) + w.cross(&w.cross(&h));
@@ -118,6 +177,7 @@ impl Gauge {
             force += f;
             moment += n + (placed.position - p_here).cross(&f);
         }
+        let air = around.air();
         for (sail, air) in self.sails.iter().filter_map(|sail| Some((sail, air?))) {
             let motion = motion.of(sail.body);
             let com = motion.at(&(motion.placed.world_from_body * sail.p_com_in_body));
@@ -125,7 +185,7 @@ impl Gauge {
             force -= pushed;
             moment -= (com.position - p_here).cross(&pushed);
         }
-        for fact in contacts {
+        for fact in seen.contacts {
             let [first, second] = fact
                 .parties
                 .map(|party| matches!(party, Party::Link(link) if self.carried[link]));
@@ -141,13 +201,13 @@ impl Gauge {
         }
         let force = world_from_here.tr_mul(&force);
         let moment = world_from_here.tr_mul(&moment);
-        [force.x, force.y, force.z, moment.x, moment.y, moment.z]
+        values[..3].copy_from_slice(force.as_slice());
+        values[3..].copy_from_slice(moment.as_slice());
     }
 }
 
 /// How every body moved in the middle of the last step, and its mean acceleration over it.
-#[derive(Debug, Clone)]
-pub(super) struct MeanMotion {
+struct MeanMotion {
     motions: BodyMotions,
     /// Angular acceleration, and acceleration of the origin, that the joints' accelerations cause.
     caused: Vec<(Vector3<f64>, Vector3<f64>)>,
@@ -156,7 +216,7 @@ pub(super) struct MeanMotion {
 }
 
 impl MeanMotion {
-    pub(super) fn new(robot: &Robot) -> Self {
+    fn new(robot: &Robot) -> Self {
         let nothing = (Vector3::zeros(), Vector3::zeros());
         Self {
             motions: BodyMotions::new(robot),
@@ -168,7 +228,7 @@ impl MeanMotion {
 
     /// Takes the motion of the step that ended in `seen`; before the first step there is none, and the state stands as
     /// it is, without acceleration.
-    pub(super) fn update(&mut self, seen: &Seen<'_>, step_s: f64) {
+    fn update(&mut self, seen: &Seen<'_>, step_s: f64) {
         let back_s = if seen.tick == 0 { 0.0 } else { 0.5 * step_s };
         for i in 0..self.q.len() {
             let (qd, qdd) = (seen.qd[i], seen.qdd[i]);

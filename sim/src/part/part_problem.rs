@@ -1,6 +1,8 @@
 //! Everything that can be wrong with a part of a robot or a scene, whichever file it stands in.
 
-use crate::text::Located;
+use std::ops::Range;
+
+use crate::text::{Located, TomlRefusal, suggest};
 
 /// A problem in a part, with its place.
 pub(crate) type PartError = Located<PartProblem>;
@@ -21,6 +23,14 @@ pub enum PartProblem {
         message: String,
         help: Option<String>,
     },
+    #[error("no {what} is called `{name}`")]
+    Unknown {
+        what: &'static str,
+        name: String,
+        help: String,
+    },
+    #[error("{message}")]
+    Sensor { message: String, help: String },
     #[error("{what} `{name}` is there twice")]
     Duplicate { what: &'static str, name: String },
     #[error("{what} name {name:?} cannot be used")]
@@ -86,11 +96,34 @@ macro_rules! codes {
 }
 
 impl PartProblem {
+    /// What the TOML reader refuses, and its place in `text`.
+    pub(crate) fn of_toml(error: &toml::de::Error, text: &str) -> (Self, Range<usize>) {
+        let TomlRefusal { message, help, at } = TomlRefusal::from_error(error, text);
+        (Self::Toml { message, help }, at)
+    }
+
+    /// A name that none of the joints, links or frames (`what`) has.
+    pub(crate) fn unknown<'n>(
+        what: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'n str>,
+    ) -> Self {
+        Self::Unknown {
+            what,
+            name: name.to_owned(),
+            help: suggest(name, &format!("{what}s"), known),
+        }
+    }
+
     pub(crate) fn codes(&self) -> Codes {
         match self {
             Self::Toml { .. } => codes!("toml"),
             Self::UnknownFormat { .. } => codes!("unknown_format"),
             Self::Expression { .. } => codes!("expression"),
+            Self::Unknown { what: "joint", .. } => codes!("unknown_joint"),
+            Self::Unknown { what: "link", .. } => codes!("unknown_link"),
+            Self::Unknown { .. } => codes!("unknown_frame"),
+            Self::Sensor { .. } => codes!("sensor"),
             Self::Duplicate { .. } => codes!("duplicate"),
             Self::BadName { .. } => codes!("bad_name"),
             Self::TooLarge { .. } => codes!("too_large"),
@@ -109,6 +142,8 @@ impl PartProblem {
             Self::Toml { .. } => "here".to_owned(),
             Self::UnknownFormat { .. } => "this version reads format 1".to_owned(),
             Self::Expression { .. } => "in this expression".to_owned(),
+            Self::Unknown { what, .. } => format!("not a {what} of this robot"),
+            Self::Sensor { .. } => "here".to_owned(),
             Self::Duplicate { .. } => "the second one".to_owned(),
             Self::BadName { .. } => "this name".to_owned(),
             Self::TooLarge { kind, .. } => format!("this {kind}"),
@@ -136,6 +171,8 @@ impl PartProblem {
                 Some("an axis has three numbers, in the child's frame, not all zero".to_owned())
             }
             Self::Inertia { help, .. }
+            | Self::Unknown { help, .. }
+            | Self::Sensor { help, .. }
             | Self::Origin { help, .. }
             | Self::UnknownDimension { help, .. } => Some(help.clone()),
             Self::OutOfRange { expected, .. } => Some(format!(

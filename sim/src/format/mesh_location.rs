@@ -1,18 +1,18 @@
-//! What the `filename` of a mesh means: a file of a package, a file by its full path, or one beside the URDF. No file is opened here.
+//! Where a mesh lies that a description names: in a package, at a full path, or beside the description. No file is opened here.
 
-/// Where a URDF says that a mesh lies.
+/// Where a description says that a mesh lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshLocation<'a> {
     /// `package://NAME/PATH` (or `model://`): `PATH` below the folder of the package `NAME`.
     Package {
         /// The package.
         name: &'a str,
-        /// The path below its folder; empty where the URDF gives none.
+        /// The path below its folder; empty where none is given.
         path: &'a str,
     },
     /// `file:///PATH`, or a path that starts with `/`.
     Absolute(&'a str),
-    /// A path from the folder of the URDF.
+    /// A path from the folder of the description.
     Relative(&'a str),
     /// Another scheme, such as `https`: nothing that can be read.
     Unsupported {
@@ -21,8 +21,8 @@ pub enum MeshLocation<'a> {
     },
 }
 
-/// Reads the `filename` of a mesh. Percent signs stand for themselves: ROS decodes none.
-pub fn mesh_location(filename: &str) -> MeshLocation<'_> {
+/// Reads the address of a mesh as ROS writes it. Percent signs stand for themselves: ROS decodes none.
+pub(super) fn mesh_location(filename: &str) -> MeshLocation<'_> {
     match filename.split_once("://") {
         Some(("package" | "model", rest)) => {
             let (name, path) = rest.split_once('/').unwrap_or((rest, ""));

@@ -1,18 +1,17 @@
-//! Elements and attributes of a URDF: what is there, what is missing, numbers, and warnings, each with its place.
+//! Elements and attributes of an XML document: what is there, what is missing, numbers, and warnings, each with its place.
 
 use std::ops::Range;
 
-use nalgebra::Vector3;
 use roxmltree::Attribute;
 use toml::Spanned;
 
-use crate::format::part::part_problem::PartProblem;
 use crate::format::robot_problem::{RobotError, RobotProblem};
-use crate::spatial::{Pose, pose, rotation_from_rpy};
+use crate::part::part_problem::PartProblem;
+use crate::part::values::Allowed;
 use crate::text::{Source, nearest};
 
 /// An element of the document.
-pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
+pub(in crate::format) type Node<'a> = roxmltree::Node<'a, 'a>;
 
 /// After this many warnings the rest are counted: a text of slips would cost its own square.
 const MOST_WARNINGS: usize = 100;
@@ -21,38 +20,62 @@ const LONGEST_WARNING: usize = 400;
 /// A name, a word or a path has at most this many bytes: messages repeat them.
 const LONGEST_TEXT: usize = 1000;
 
-/// What a number may be.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Allowed {
-    Any,
-    NotNegative,
+/// The words of one format for what is wrong with its documents.
+pub(in crate::format) struct Dialect {
+    /// The code of its problems, such as `robot::urdf`.
+    pub(in crate::format) code: &'static str,
+    /// What messages call a document, with its article.
+    pub(in crate::format) name: &'static str,
+    /// What its root element is, as a sentence.
+    pub(in crate::format) root: &'static str,
+    /// What is wrong with a document whose elements have this prefix, which nothing declares, if that says something.
+    pub(in crate::format) unbound: fn(&str) -> Option<RobotProblem>,
+}
+
+impl Dialect {
+    /// A problem that only documents of this format have.
+    pub(in crate::format) fn problem(
+        &self,
+        message: String,
+        label: &str,
+        help: Option<&str>,
+    ) -> RobotProblem {
+        RobotProblem::Own {
+            code: self.code,
+            message,
+            label: label.to_owned(),
+            help: help.map(str::to_owned),
+        }
+    }
 }
 
 /// Reads elements of one text and collects warnings.
-pub(super) struct Reader<'s> {
+pub(in crate::format) struct Reader<'s> {
     source: &'s Source,
+    dialect: &'static Dialect,
     warnings: Vec<String>,
     /// Warnings so far, those that were not kept too.
     given: usize,
 }
 
-/// The child elements that belong to URDF itself, without those of other namespaces than their parent's.
-pub(super) fn elements<'a>(node: Node<'a>) -> impl Iterator<Item = Node<'a>> {
+/// The child elements of the format itself, without those of other namespaces than their parent's.
+pub(in crate::format) fn elements<'a>(node: Node<'a>) -> impl Iterator<Item = Node<'a>> {
     node.children().filter(move |child| {
         child.is_element() && child.tag_name().namespace() == node.tag_name().namespace()
     })
 }
 
 impl<'s> Reader<'s> {
-    pub(super) fn new(source: &'s Source) -> Self {
+    pub(in crate::format) fn new(source: &'s Source, dialect: &'static Dialect) -> Self {
         Self {
             source,
+            dialect,
             warnings: Vec::new(),
             given: 0,
         }
     }
 
-    pub(super) fn err<T>(
+    pub(in crate::format) fn err<T>(
         &self,
         at: Range<usize>,
         problem: impl Into<RobotProblem>,
@@ -60,27 +83,19 @@ impl<'s> Reader<'s> {
         Err(RobotError::new(problem.into(), self.source, at))
     }
 
-    /// A problem that only URDFs have.
-    pub(super) fn refuse<T>(
+    /// A problem that only documents of this format have.
+    pub(in crate::format) fn refuse<T>(
         &self,
         at: Range<usize>,
         message: String,
         label: &str,
         help: &str,
     ) -> Result<T, RobotError> {
-        let (label, help) = (label.to_owned(), Some(help.to_owned()));
-        self.err(
-            at,
-            RobotProblem::Urdf {
-                message,
-                label,
-                help,
-            },
-        )
+        self.err(at, self.dialect.problem(message, label, Some(help)))
     }
 
     /// The bytes of `<name` where an element starts.
-    pub(super) fn tag(node: Node<'_>) -> Range<usize> {
+    pub(in crate::format) fn tag(node: Node<'_>) -> Range<usize> {
         let range = node.range();
         let end = range.start + 1 + node.tag_name().name().len();
         range.start..end.min(range.end)
@@ -94,7 +109,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Keeps a warning, once, with its line.
-    pub(super) fn warn(&mut self, at: Range<usize>, message: &str) {
+    pub(in crate::format) fn warn(&mut self, at: Range<usize>, message: &str) {
         if self.is_full() {
             return;
         }
@@ -107,7 +122,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    pub(super) fn into_warnings(mut self) -> Vec<String> {
+    pub(in crate::format) fn into_warnings(mut self) -> Vec<String> {
         if self.given > MOST_WARNINGS {
             let more = self.given - MOST_WARNINGS;
             self.warnings.push(format!("and {more} more warnings"));
@@ -116,7 +131,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Warns of attributes and elements that `node` of `owner` is not known to have.
-    pub(super) fn check(
+    pub(in crate::format) fn check(
         &mut self,
         node: Node<'_>,
         owner: &str,
@@ -151,7 +166,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The element `name` of `node`; warns where there are more.
-    pub(super) fn child<'a>(
+    pub(in crate::format) fn child<'a>(
         &mut self,
         node: Node<'a>,
         name: &str,
@@ -167,7 +182,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The text of an attribute that must be there.
-    pub(super) fn required(
+    pub(in crate::format) fn required(
         &self,
         node: Node<'_>,
         name: &str,
@@ -200,7 +215,7 @@ impl<'s> Reader<'s> {
     }
 
     /// One number, or `None` where the attribute is not there.
-    pub(super) fn number(
+    pub(in crate::format) fn number(
         &self,
         node: Node<'_>,
         name: &str,
@@ -211,10 +226,10 @@ impl<'s> Reader<'s> {
             return Ok(None);
         };
         let [value] = self.list(&attribute, owner)?;
-        if allowed == Allowed::NotNegative && value < 0.0 {
+        if let Some(expected) = allowed.instead_of(value) {
             let problem = PartProblem::OutOfRange {
                 what: format!("{} `{name}` of {owner}", node.tag_name().name()),
-                expected: "zero or more",
+                expected,
                 found: value.to_string(),
             };
             return self.err(attribute.range_value(), problem);
@@ -223,7 +238,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Three numbers, or `None` where the attribute is not there.
-    pub(super) fn triple(
+    pub(in crate::format) fn triple(
         &self,
         node: Node<'_>,
         name: &str,
@@ -288,24 +303,5 @@ impl<'s> Reader<'s> {
         }
         let start = at.start + (word.as_ptr() as usize - text.as_ptr() as usize);
         start..start + word.len()
-    }
-
-    /// The pose that the `<origin>` of `node` gives; the identity where there is none.
-    pub(super) fn origin(&mut self, node: Node<'_>, owner: &str) -> Result<Pose, RobotError> {
-        let Some(origin) = self.child(node, "origin", owner) else {
-            return Ok(Pose::identity());
-        };
-        if let Some(quaternion) = origin.attribute_node("quat_xyzw") {
-            return self.refuse(
-                quaternion.range(),
-                format!("`<origin>` of {owner} says its rotation as a quaternion"),
-                "not supported",
-                "write the rotation as rpy=\"roll pitch yaw\", in radians",
-            );
-        }
-        self.check(origin, owner, &["xyz", "rpy"], &[]);
-        let xyz = self.triple(origin, "xyz", owner)?.unwrap_or_default();
-        let rpy = self.triple(origin, "rpy", owner)?.unwrap_or_default();
-        Ok(pose(rotation_from_rpy(rpy), Vector3::from(xyz)))
     }
 }

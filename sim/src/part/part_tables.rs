@@ -44,7 +44,7 @@ pub(crate) type TripleAt = Spanned<[NumberAt; 3]>;
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ShapeTable {
+pub struct ShapeTable {
     #[serde(rename = "box")]
     pub(crate) cuboid: Option<BoxTable>,
     pub(crate) cylinder: Option<RoundTable>,

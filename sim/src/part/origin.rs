@@ -23,62 +23,33 @@ impl Values<'_> {
     }
 
     fn rotation(&self, table: &OriginTable) -> Result<Matrix3<f64>, PartError> {
-        match table {
-            OriginTable {
-                rpy_deg: Some(rpy),
-                axis: None,
-                angle_deg: None,
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(rotation_from_rpy_deg(
+        let OriginTable {
+            rpy_deg,
+            axis,
+            angle_deg,
+            x_axis,
+            y_axis,
+            ..
+        } = table;
+        match (rpy_deg, (axis, angle_deg), (x_axis, y_axis)) {
+            (None, (None, None), (None, None)) => Ok(Matrix3::identity()),
+            (Some(rpy), (None, None), (None, None)) => Ok(rotation_from_rpy_deg(
                 self.triple(rpy.get_ref(), "rpy_deg")?.into(),
             )),
-            OriginTable {
-                rpy_deg: None,
-                axis: Some(axis),
-                angle_deg: Some(angle),
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(rotation_about_axis_deg(
+            (None, (Some(axis), Some(angle)), (None, None)) => Ok(rotation_about_axis_deg(
                 self.unit(axis, "axis")?,
                 self.number(angle, "angle_deg", Allowed::Any)?,
             )),
-            OriginTable {
-                rpy_deg: None,
-                axis: None,
-                angle_deg: None,
-                x_axis: Some(x),
-                y_axis: Some(y),
-                ..
-            } => self.rotation_of_axes(x, y),
-            OriginTable {
-                rpy_deg: None,
-                axis: None,
-                angle_deg: None,
-                x_axis: None,
-                y_axis: None,
-                ..
-            } => Ok(Matrix3::identity()),
-            OriginTable {
-                rpy_deg,
-                axis,
-                angle_deg,
-                x_axis,
-                y_axis,
-                ..
-            } => {
-                let at = [
+            (None, (None, None), (Some(x), Some(y))) => self.rotation_of_axes(x, y),
+            _ => {
+                let triples = [axis, x_axis, y_axis].map(|axis| axis.as_ref().map(Spanned::span));
+                let others = [
                     rpy_deg.as_ref().map(Spanned::span),
-                    axis.as_ref().map(Spanned::span),
                     angle_deg.as_ref().map(Spanned::span),
-                    x_axis.as_ref().map(Spanned::span),
-                    y_axis.as_ref().map(Spanned::span),
                 ];
-                let at = at.into_iter().flatten().max_by_key(|at| at.start);
+                let given = triples.into_iter().chain(others).flatten();
                 self.clash(
-                    at.unwrap_or(0..0),
+                    given.max_by_key(|at| at.start).unwrap_or(0..0),
                     "this rotation is half said, or said twice",
                 )
             }

@@ -1,0 +1,187 @@
+//! limit-switch: 1 while a joint is at a position or beyond it, else 0; while it is pressed, the motor cannot push on.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::model::robot::Robot;
+use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings, moved_by};
+use crate::part::part_problem::PartError;
+use crate::part::part_tables::NumberAt;
+use crate::part::toml_text::quoted;
+use crate::part::values::Allowed;
+use crate::sensor::registry::{KindTable, SensorReading};
+
+/// How far from a joint's limit a switch at that limit is already pressed \[rad or m\]: contact may hold a joint a
+/// tenth of this away from its stop.
+const SWITCH_TRAVEL: f64 = 1e-6;
+
+/// The side to which a switch is pressed.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Side {
+    /// Towards lesser positions.
+    Lower,
+    /// Towards greater positions.
+    Upper,
+}
+
+impl Side {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+        }
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Table {
+    joint: Spanned<String>,
+    at: Option<NumberAt>,
+    side: Side,
+    opens_motor: Option<bool>,
+}
+
+impl KindTable for Table {
+    const NAME: &'static str = "limit-switch";
+    const IS_NOISY: bool = false;
+    #[cfg(test)]
+    const EXAMPLE: &'static str =
+        "joint = 'elbow'\nside = 'lower'\nat = -0.25\nopens_motor = false";
+    type Kind = LimitSwitch;
+
+    fn read(&self, reading: &SensorReading<'_>) -> Result<LimitSwitch, PartError> {
+        let (index, joint) = reading.moving_joint(&self.joint)?;
+        let limit = match self.side {
+            Side::Lower => joint.limits.lower.map(|limit| limit + SWITCH_TRAVEL),
+            Side::Upper => joint.limits.upper.map(|limit| limit - SWITCH_TRAVEL),
+        };
+        let at = match (&self.at, limit) {
+            (Some(number), _) => reading.values.number(number, "at", Allowed::Any)?,
+            (None, Some(limit)) => limit,
+            (None, None) => {
+                let (joint, side) = (&joint.name, self.side.name());
+                return reading.refuse(
+                    self.joint.span(),
+                    format!("joint `{joint}` has no {side} limit to put a switch at"),
+                    format!("say where with `at`, or give the joint a limit `{side}`"),
+                );
+            }
+        };
+        Ok(LimitSwitch {
+            joint: index,
+            at,
+            side: self.side,
+            opens_motor: self.opens_motor.unwrap_or(true),
+        })
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LimitSwitch {
+    /// Index among all joints.
+    joint: usize,
+    /// Where it starts to be pressed \[rad or m\].
+    at: f64,
+    /// To which side it goes on being pressed.
+    side: Side,
+    /// Whether it opens the motor's circuit: pressed, it leaves no effort towards its side.
+    opens_motor: bool,
+}
+
+impl LimitSwitch {
+    /// Whether a joint at `position` \[rad or m\] presses it; never for NaN.
+    fn is_pressed_at(&self, position: f64) -> bool {
+        match self.side {
+            Side::Lower => position <= self.at,
+            Side::Upper => position >= self.at,
+        }
+    }
+}
+
+impl SensorKind for LimitSwitch {
+    fn measured(&self) -> Measured {
+        Measured::Switch
+    }
+
+    fn keys(&self, robot: &Robot) -> String {
+        let joint = quoted(&robot.joints()[self.joint].name);
+        let (at, side) = (self.at, self.side.name());
+        let opens = if self.opens_motor {
+            ""
+        } else {
+            "opens_motor = false\n"
+        };
+        format!("joint = {joint}\nat = {at:?}\nside = \"{side}\"\n{opens}")
+    }
+
+    fn gauge(&self, robot: &Robot, _: f64) -> Box<dyn Gauge> {
+        let body = moved_by(robot, self.joint);
+        Box::new(Circuit {
+            switch: *self,
+            pressed: false,
+            motor: body.filter(|_| self.opens_motor).map(|body| {
+                let outwards = match self.side {
+                    Side::Lower => -body.gear,
+                    Side::Upper => body.gear,
+                };
+                (body.q_index, outwards)
+            }),
+        })
+    }
+}
+
+/// A switch at work. Noise, rate and delay do not matter to its circuit: what counts is the position at the last tick.
+struct Circuit {
+    switch: LimitSwitch,
+    pressed: bool,
+    /// The motor that it opens while it is pressed: its entry in `q`, and a number that is positive where positive efforts push
+    /// towards the switch. A mimic joint's motor is its master's.
+    motor: Option<(usize, f64)>,
+}
+
+impl Gauge for Circuit {
+    fn watch(&mut self, seen: &Seen<'_>) {
+        let body = moved_by(seen.robot, self.switch.joint);
+        self.pressed = body.is_some_and(|body| self.switch.is_pressed_at(body.position(seen.q)));
+    }
+
+    fn read(&mut self, _: &Seen<'_>, _: &dyn Surroundings, values: &mut [f64]) {
+        values[0] = f64::from(u8::from(self.pressed));
+    }
+
+    fn open_motor(&self, effort: &mut [f64]) {
+        if let (Some((entry, outwards)), true) = (self.motor, self.pressed)
+            && outwards * effort[entry] > 0.0
+        {
+            effort[entry] = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_switch_is_pressed_at_its_place_and_beyond() {
+        let mut switch = LimitSwitch {
+            joint: 0,
+            at: 0.25,
+            side: Side::Upper,
+            opens_motor: true,
+        };
+        for (position, upper, lower) in [
+            (0.249, false, true),
+            (0.25, true, true),
+            (7.0, true, false),
+            (f64::NAN, false, false),
+        ] {
+            switch.side = Side::Upper;
+            assert_eq!(switch.is_pressed_at(position), upper, "{position}");
+            switch.side = Side::Lower;
+            assert_eq!(switch.is_pressed_at(position), lower, "{position}");
+        }
+    }
+}
