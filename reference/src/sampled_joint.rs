@@ -14,7 +14,7 @@ use crate::joint_loop::{JointPlant, PidGains};
 
 /// What of the joint the controller compares with its reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Controlled {
+pub enum ControlledQuantity {
     /// Its position.
     Position,
     /// Its velocity.
@@ -42,7 +42,7 @@ pub struct SampledJoint {
     /// Time from sample to sample \[s\].
     pub period_s: f64,
     /// What is controlled.
-    pub controlled: Controlled,
+    pub controlled: ControlledQuantity,
     /// What its derivative is of.
     pub rate: Rate,
 }
@@ -69,8 +69,8 @@ impl SampledJoint {
         for _ in 0..count {
             motions.push(motion);
             let measured = match self.controlled {
-                Controlled::Position => motion.q_rad,
-                Controlled::Velocity => motion.qd_rad_s,
+                ControlledQuantity::Position => motion.q_rad,
+                ControlledQuantity::Velocity => motion.qd_rad_s,
             };
             let error = reference - measured;
             sum += error * self.period_s;

@@ -9,7 +9,7 @@ use kinemark_sim::model::contact::Party;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::{BodyKind, Scene, Wind};
 use kinemark_sim::run;
-use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::DivergenceKind;
 use kinemark_sim::run::{End, Observation, Run, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
@@ -225,7 +225,7 @@ fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_can_be_told() {
         let End::Diverged { tick, what } = end else {
             panic!("{end:?}")
         };
-        let BlowUp::Runaway {
+        let DivergenceKind::Runaway {
             kinetic_j, bound_j, ..
         } = what
         else {
@@ -411,7 +411,7 @@ fn bodies_are_as_fast_as_they_are_until_they_fly_off() {
         end,
         End::Diverged {
             tick: 1,
-            what: BlowUp::BodyRunaway { body: 0, .. }
+            what: DivergenceKind::BodyRunaway { body: 0, .. }
         }
     ));
     // a feather of a gram with a square metre goes with the wind at once

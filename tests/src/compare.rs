@@ -254,7 +254,7 @@ fn foreign_names_are_shown_harmlessly() {
     ] {
         spoil(pointer);
     }
-    let harmless = |ran: &crate::testbed::Ran| {
+    let harmless = |ran: &crate::testbed::CommandResult| {
         for text in [&ran.stdout, &ran.stderr] {
             assert!(!text.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{text:?}");
         }

@@ -7,7 +7,7 @@ use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::{Files, Lab, LoadError, Staff};
 use serde_json::Value as Json;
 
-use crate::testbed::{Folder, Ran, TestBed, root};
+use crate::testbed::{CommandResult, Folder, TestBed, root};
 
 /// The files of one lab, and of the staff's part if it has one, beside the checkout's robots and scenes.
 pub(crate) struct OwnLab {
@@ -94,7 +94,7 @@ impl OwnLab {
         self.bed().edit(&self.lab_toml(), from, to);
     }
 
-    fn grade(&self, submission: &str) -> Ran {
+    fn grade(&self, submission: &str) -> CommandResult {
         self.bed().write("mine.rhai", submission);
         let mut args = vec!["grade", self.name, "mine.rhai"];
         // without a reference the grade is of the visible cases alone

@@ -1,10 +1,10 @@
-//! Judging the run of a motion task: the one way for visible runs, hidden runs and the levels of a robustness sweep.
+//! Judging the run of a motion task, in the same way for visible runs, hidden runs and the levels of a robustness sweep.
 
 use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
-use super::judged::{Judged, all_full, judge};
+use super::judged::{JudgedCheck, all_full, judge};
 use super::opening::opening;
 use super::robustness_sweep::{self, Undecided};
 use crate::attempt::motion;
@@ -27,7 +27,7 @@ pub(super) struct MotionJudge<'a> {
     pub(super) work: &'a MotionTask,
     pub(super) checks: &'a [Check<dyn MotionCheck>],
     pub(super) opening: Opening,
-    /// The reference solution's path, where the lab ships it.
+    /// The reference solution's path, if the lab ships it.
     pub(super) reference: Option<&'a TcpPath>,
     /// The band by which dwells are chosen.
     pub(super) pose_band: Band,
@@ -36,14 +36,14 @@ pub(super) struct MotionJudge<'a> {
 /// A run, judged.
 pub(super) struct JudgedRun {
     /// One per check of the task.
-    pub(super) checks: Vec<Judged>,
-    /// The stays at the goals.
+    pub(super) checks: Vec<JudgedCheck>,
+    /// The dwells at the goals.
     pub(super) stays: Vec<Stay>,
-    /// The runs of robustness checks.
+    /// The sweeps of robustness checks.
     pub(super) sweeps: Vec<Climb>,
-    /// What the run alone comes to.
+    /// The verdict on this run alone.
     pub(super) verdict: Verdict,
-    /// How it ended, where that was early or nothing could be decided.
+    /// How it ended, if it ended early or could not be decided.
     pub(super) stopped: Option<Stopped>,
 }
 
@@ -66,7 +66,7 @@ impl<'a> MotionJudge<'a> {
         }
     }
 
-    /// The names in its runs.
+    /// The robot, scene and frame that name things in its runs.
     pub(super) fn names(&self) -> Names<'a> {
         Names {
             robot: &self.lab.robot,
@@ -80,7 +80,7 @@ impl<'a> MotionJudge<'a> {
         motion::run(self.lab.workcell(), self.work, &self.opening, host)
     }
 
-    /// A run as the checks see it.
+    /// The facts of a run for the checks.
     pub(super) fn facts<'t>(&self, trace: &'t Trace) -> MotionFacts<'t>
     where
         'a: 't,
@@ -97,8 +97,8 @@ impl<'a> MotionJudge<'a> {
         }
     }
 
-    /// Judges a run by every check of its task; one that came to its end is first repeated under the disturbances that robustness
-    /// checks name.
+    /// Judges a run by every check of its task. A run that reached its end is first repeated under the disturbances of robustness
+    /// checks.
     ///
     /// # Errors
     /// [`Interrupted`] if the person at the terminal asked to stop.
@@ -113,7 +113,7 @@ impl<'a> MotionJudge<'a> {
         if ended.is_none() {
             match robustness_sweep::sweeps(self, &facts, host) {
                 Ok(sweeps) => facts.climbs = sweeps,
-                // a level that this machine could not run decides nothing, nor does the grade without it
+                // if this machine could not run a level, nothing is decided, and neither is the grade
                 Err(Undecided(stop)) => ended = Some(Ended::stopped_by(stop, 0)),
             }
         }

@@ -1,4 +1,4 @@
-//! The record of a motion task, and the run that is drawn with it.
+//! The record of a motion task, and its run for plots and replay.
 
 use kinemark_sim::trace::{SecondDigest, Trace};
 
@@ -8,7 +8,7 @@ use crate::attempt::Attempt;
 use crate::check::stay::Stay;
 use crate::check::{self, Check, Climb, MotionCheck};
 use crate::record::grade::{
-    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LogEntry, RungDigest, SecondDigests,
+    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LevelDigest, LogEntry, SecondDigests,
     Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
@@ -16,7 +16,7 @@ use crate::record::names::{contacts, events};
 use crate::record::quantity::sum_of_points;
 use crate::record::verdict::Verdict;
 
-/// What a motion task came to, visible and hidden runs together.
+/// The result of a motion task, visible and hidden runs together.
 pub(super) struct MotionResult {
     pub(super) verdict: Verdict,
     pub(super) stopped: Option<Stopped>,
@@ -59,7 +59,7 @@ impl MotionResult {
         }
     }
 
-    /// The visible run, for whoever draws it.
+    /// The visible run, for renderers.
     pub(super) fn run(
         self,
         judge: &MotionJudge<'_>,
@@ -97,7 +97,7 @@ impl MotionResult {
     }
 }
 
-/// The goals with the stays that were judged.
+/// The goals with the dwells that were judged.
 fn goals(judge: &MotionJudge<'_>, stays: &[Stay]) -> Vec<Goal> {
     let band = judge.pose_band;
     let goals = judge.work.goals.iter().enumerate();
@@ -113,7 +113,7 @@ fn goals(judge: &MotionJudge<'_>, stays: &[Stay]) -> Vec<Goal> {
     goals.collect()
 }
 
-/// Identities of every simulated second of a run.
+/// Digests of every simulated second of a run.
 pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<SecondDigests> {
     let seconds = seconds.iter().map(|second| {
         let signal = |i: usize| second.signals[i].to_hex()[..16].to_owned();
@@ -130,8 +130,11 @@ pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<Sec
     seconds.collect()
 }
 
-/// Identities of the runs of all levels of robustness checks, in the lab's order.
-pub(super) fn rung_digests(checks: &[Check<dyn MotionCheck>], sweeps: &[Climb]) -> Vec<RungDigest> {
+/// Digests of the runs of all levels of robustness checks, in the lab's order.
+pub(super) fn level_digests(
+    checks: &[Check<dyn MotionCheck>],
+    sweeps: &[Climb],
+) -> Vec<LevelDigest> {
     let mut digests = Vec::new();
     for sweep in sweeps {
         let check = checks.iter().find(|check| check.name == sweep.check);
@@ -139,7 +142,7 @@ pub(super) fn rung_digests(checks: &[Check<dyn MotionCheck>], sweeps: &[Climb]) 
             continue;
         };
         for (level, facts) in asked.rungs.iter().zip(&sweep.rungs) {
-            digests.push(RungDigest {
+            digests.push(LevelDigest {
                 check: sweep.check.clone(),
                 rung: level.name.clone(),
                 digest: facts.digest.clone(),

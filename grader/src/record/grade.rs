@@ -401,13 +401,13 @@ pub struct Digests {
     pub seconds: Vec<SecondDigests>,
     /// Of the runs under disturbances that robustness checks asked for, where there were any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub rungs: Vec<RungDigest>,
+    pub rungs: Vec<LevelDigest>,
 }
 
 /// Identity of one run under a disturbance.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RungDigest {
+pub struct LevelDigest {
     /// The robustness check's name.
     pub check: String,
     /// The rung's name.

@@ -189,7 +189,7 @@ pub struct Answer {
 
 /// A place in the submission, both from one, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct SourcePosition {
     /// The line.
     pub line: usize,
     /// The column.
@@ -202,7 +202,7 @@ pub struct Mistake {
     /// What is wrong, in a lowercase fragment with names and values.
     pub message: String,
     /// Where, if the host knows.
-    pub place: Option<Place>,
+    pub place: Option<SourcePosition>,
     /// Something to do.
     pub help: Option<String>,
 }
@@ -228,7 +228,7 @@ pub enum Stop {
         /// The budget's value.
         limit: u64,
         /// Where it ran out, if the host knows.
-        place: Option<Place>,
+        place: Option<SourcePosition>,
     },
     /// This machine's clock or memory ended it; says nothing about the work.
     HostLimit(HostLimit),

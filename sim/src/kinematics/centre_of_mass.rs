@@ -1,4 +1,4 @@
-//! Where the mass of the whole robot is, and how the joints move it.
+//! The centre of mass of the whole robot and its Jacobian.
 
 use nalgebra::{Matrix3xX, Vector3};
 
@@ -6,7 +6,7 @@ use super::forward::forward_kinematics;
 use crate::joint_space::JointPositions;
 use crate::model::robot::Robot;
 
-/// What mass counts.
+/// Which masses count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counted {
     /// All links.
@@ -16,7 +16,7 @@ pub enum Counted {
 }
 
 impl Counted {
-    /// Mass \[kg\] and first moment in the world \[kg m\] of what counts although no joint moves it.
+    /// Mass \[kg\] and first moment in the world \[kg m\] of the counted links that no joint moves.
     fn still(self, robot: &Robot) -> (f64, Vector3<f64>) {
         let world = robot.world_inertia();
         match self {
@@ -26,7 +26,7 @@ impl Counted {
     }
 }
 
-/// Returns the centre of mass of what is `counted`, in the world \[m\]; none if nothing of it has mass.
+/// Returns the centre of mass of the `counted` links, in the world \[m\]; `None` if they have no mass.
 pub fn centre_of_mass(robot: &Robot, q: &JointPositions, counted: Counted) -> Option<Vector3<f64>> {
     let poses = forward_kinematics(robot, q);
     let (mut mass_kg, mut moment) = counted.still(robot);
@@ -38,10 +38,10 @@ pub fn centre_of_mass(robot: &Robot, q: &JointPositions, counted: Counted) -> Op
 }
 
 /// Returns the Jacobian of [`centre_of_mass`], shape `(3, n)`: its velocity in the world \[m/s\] per unit of joint velocity; none if
-/// nothing counted has mass.
+/// the counted links have no mass.
 ///
-/// Source: the sum of the bodies' own Jacobians weighted by mass, gathered from the tips to the root: a joint moves all that hangs
-/// on it as one rigid body.
+/// Source: the sum of the bodies' Jacobians weighted by mass, accumulated from the tips to the root: a joint moves its subtree as one
+/// rigid body.
 pub fn centre_of_mass_jacobian(
     robot: &Robot,
     q: &JointPositions,
@@ -49,7 +49,7 @@ pub fn centre_of_mass_jacobian(
 ) -> Option<Matrix3xX<f64>> {
     let poses = forward_kinematics(robot, q);
     let bodies = robot.bodies();
-    // mass and first moment in world axes about the world's origin, of each body with all that hangs on it
+    // mass and first moment, in world axes about the world's origin, of the subtree of each body
     let mut carried: Vec<(f64, Vector3<f64>)> = bodies
         .iter()
         .zip(&poses.placed)

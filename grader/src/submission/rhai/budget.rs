@@ -6,7 +6,7 @@ use rhai::Position;
 
 use super::copies;
 use super::mistake::Problem;
-use crate::submission::controller::{Budget, Budgets, Place, Said};
+use crate::submission::controller::{Budget, Budgets, Said, SourcePosition};
 
 /// A built-in that walks over elements costs one operation for this many of them, which takes it about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
@@ -203,7 +203,7 @@ impl Meter {
     }
 
     /// Where a built-in was last called.
-    pub(super) fn last_place(&self) -> Option<Place> {
+    pub(super) fn last_place(&self) -> Option<SourcePosition> {
         place(self.position.get())
     }
 
@@ -243,8 +243,8 @@ impl Meter {
 }
 
 /// The engine's position as a place in the file.
-pub(super) fn place(position: Position) -> Option<Place> {
-    Some(Place {
+pub(super) fn place(position: Position) -> Option<SourcePosition> {
+    Some(SourcePosition {
         line: position.line()?,
         column: position.position().unwrap_or(1),
     })

@@ -5,7 +5,7 @@ use rhai::{Dynamic, EvalAltResult, LexError, ParseError, ParseErrorType, Positio
 use super::budget::{Meter, place};
 use super::foreign;
 use super::hints::{self, Names};
-use crate::submission::controller::{Budget, Mistake, Place, Stop};
+use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
 /// What to do about a fraction as an index.
 const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
@@ -60,7 +60,7 @@ pub(super) struct Context<'a> {
     pub(super) meter: &'a Meter,
     pub(super) names: &'a Names,
     /// Where the function that was called begins.
-    pub(super) beginning: Option<Place>,
+    pub(super) beginning: Option<SourcePosition>,
 }
 
 impl Context<'_> {
@@ -177,7 +177,7 @@ impl Context<'_> {
         })
     }
 
-    fn over(&self, budget: Budget, place: Option<Place>) -> Stop {
+    fn over(&self, budget: Budget, place: Option<SourcePosition>) -> Stop {
         Stop::OverBudget {
             budget,
             limit: self.meter.limit(budget),
@@ -186,7 +186,7 @@ impl Context<'_> {
     }
 
     /// A built-in's fault, or what the student's own `throw` carries.
-    fn thrown(&self, thrown: &Dynamic, place: Option<Place>) -> (String, Option<String>) {
+    fn thrown(&self, thrown: &Dynamic, place: Option<SourcePosition>) -> (String, Option<String>) {
         let Some(fault) = thrown.read_lock::<Fault>() else {
             let text = super::words::show_briefly(thrown);
             return (format!("the script threw: {text}"), None);
@@ -198,7 +198,7 @@ impl Context<'_> {
     }
 
     /// The name before the `[` or `.` at or before a place: `q` of `q[2]`.
-    fn owner_of(&self, place: Option<Place>) -> Option<String> {
+    fn owner_of(&self, place: Option<SourcePosition>) -> Option<String> {
         let place = place?;
         let before: Vec<char> = self.line(place.line)?.chars().take(place.column).collect();
         let separator = before.iter().rposition(|&c| c == '[' || c == '.')?;
@@ -215,15 +215,19 @@ impl Context<'_> {
         self.source.lines().nth(number.checked_sub(1)?)
     }
 
-    fn end_of_source(&self) -> Option<Place> {
+    fn end_of_source(&self) -> Option<SourcePosition> {
         let line = self.source.lines().count().max(1);
-        Some(Place {
+        Some(SourcePosition {
             line,
             column: self.line(line).map_or(1, |text| text.chars().count() + 1),
         })
     }
 
-    fn parse_words(&self, kind: &ParseErrorType, place: Option<Place>) -> (String, Option<String>) {
+    fn parse_words(
+        &self,
+        kind: &ParseErrorType,
+        place: Option<SourcePosition>,
+    ) -> (String, Option<String>) {
         let line = place.and_then(|place| self.line(place.line)).unwrap_or("");
         let foreign = place.and_then(|place| foreign::syntax(line, place.column));
         let at = place.and_then(|place| line.chars().nth(place.column.checked_sub(1)?));
