@@ -12,7 +12,7 @@
 
 use crate::joint_loop::{JointPlant, PidGains};
 
-/// What of the joint the controller compares with its reference.
+/// The quantity that the controller compares with its reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ControlledQuantity {
     /// Its position.
@@ -21,7 +21,7 @@ pub enum ControlledQuantity {
     Velocity,
 }
 
-/// Where the derivative term takes its rate from.
+/// The source of the derivative term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rate {
     /// The difference of two errors, the one before the first being zero: a step of the reference kicks.
@@ -41,9 +41,9 @@ pub struct SampledJoint {
     pub gains: PidGains,
     /// Time from sample to sample \[s\].
     pub period_s: f64,
-    /// What is controlled.
+    /// The controlled quantity.
     pub controlled: ControlledQuantity,
-    /// What its derivative is of.
+    /// The source of its derivative term.
     pub rate: Rate,
 }
 

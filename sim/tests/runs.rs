@@ -1,4 +1,4 @@
-//! Whole runs in a scene: what is told of them, that they end where nothing can be told any more, and that a copy goes on alike.
+//! Whole runs in a scene: their events, their end at a divergence, and a copy that continues with the same bits.
 
 use std::num::NonZeroU32;
 
@@ -100,16 +100,16 @@ fn a_can_that_is_swept_off_is_told_in_order_and_by_its_side() {
         assert!(touched.tick <= moved.tick && moved.tick < left.tick && left.tick < fell.tick);
         let EventKind::BodyFell {
             body: CAN,
-            side: Some(told),
+            side: Some(beyond),
         } = fell.kind
         else {
             panic!("{fell:?}")
         };
-        assert_eq!(told.seen, side);
+        assert_eq!(beyond.seen, side);
         // the shelf's sides look along x of the world
         let sign = if side == SeenSide::Far { 1.0 } else { -1.0 };
-        assert!((told.outward.x - sign).abs() < 1e-12, "{told:?}");
-        // where it is when it is told to have fallen: below the top of the shelf, beyond that side
+        assert!((beyond.outward.x - sign).abs() < 1e-12, "{beyond:?}");
+        // its position at the event `body-fell`: below the top of the shelf, beyond that side
         let pose = trace
             .world_from_body(CAN, fell.tick as usize)
             .expect("the can moves");
@@ -296,8 +296,8 @@ fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
     let (held, trace) = fastest(Some(&nothing));
     assert!((20.0..20.5).contains(&held), "{held}");
     let shoulder = EventKind::SpeedLimitHit { joint: 0 };
-    let told = trace.events.iter().find(|event| event.kind == shoulder);
-    let tick = told.expect("it is told").tick as usize;
+    let event = trace.events.iter().find(|event| event.kind == shoulder);
+    let tick = event.expect("an event").tick as usize;
     assert!(trace.qd.at(tick)[0] <= -20.0);
     assert!(trace.effort.at(tick)[0].abs() < f64::MIN_POSITIVE);
 }
@@ -314,18 +314,18 @@ fn a_joint_that_is_pressed_on_its_stop_is_told_once() {
     };
     assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
     let trace = recorder.finish();
-    let told = |name: &str| {
+    let count = |name: &str| {
         trace
             .events
             .iter()
             .filter(|event| event.kind.name() == name)
             .count()
     };
-    assert!((1..=4).contains(&told("limit-hit")), "{:?}", trace.events);
-    assert!(told("saturated") <= 4, "{:?}", trace.events);
+    assert!((1..=4).contains(&count("limit-hit")), "{:?}", trace.events);
+    assert!(count("saturated") <= 4, "{:?}", trace.events);
 }
 
-/// What is told of a box of 1 kg on a plate that goes down 0.4 m in a second, with the plate tilted by `slope_deg`.
+/// The trace of a box of 1 kg on a plate that moves down 0.4 m in a second, tilted by `slope_deg`.
 fn lowered(slope_deg: f64) -> Trace {
     let (s, c) = libm::sincos(slope_deg.to_radians());
     let (x, z) = (3.0 + 0.1 * s, 1.0 + 0.1 * c);
@@ -351,18 +351,18 @@ fn what_rides_down_does_not_fall() {
     let trace = lowered(0.0);
     let last = trace.world_from_body(1, 2000).expect("the box");
     assert!((last.translation.z - 0.7).abs() < 1e-3);
-    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    let events: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
     // the plate is faster than gravity at first
     assert!(
-        told.contains(&"left-support") && !told.contains(&"body-fell"),
-        "{told:?}"
+        events.contains(&"left-support") && !events.contains(&"body-fell"),
+        "{events:?}"
     );
     // down a ramp that slides under it, and still on it
     let trace = lowered(12.0);
-    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    let events: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
     assert!(
-        told.contains(&"moved") && !told.contains(&"body-fell"),
-        "{told:?}"
+        events.contains(&"moved") && !events.contains(&"body-fell"),
+        "{events:?}"
     );
 }
 

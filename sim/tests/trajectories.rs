@@ -67,7 +67,7 @@ fn assert_exact_ends(motion: &impl Trajectory<Sample = Sample>, start: f64, end:
     assert_eq!(motion.at(f64::INFINITY), Sample::at_rest(end));
 }
 
-/// The same times by another way: the peak speed by bisection, the way to reach it by the mean of a symmetric speed.
+/// The same times by another method: the peak speed by bisection, the distance by the mean of a symmetric speed.
 fn jerk_limited_duration_by_bisection(way: f64, limits: &JerkLimits) -> f64 {
     let JerkLimits {
         speed: v,
@@ -173,7 +173,7 @@ proptest! {
         let uneven = Trapezoid::with_deceleration(start, end, &limits, deceleration).unwrap();
         let (v, a) = peaks(&uneven, &[]);
         prop_assert!(v <= speed * over && a <= acceleration.max(deceleration) * over);
-        // the way, added up from the peak speed
+        // the distance, summed up from the peak speed
         let peak = uneven.peak_speed();
         let by_slopes = 0.5 * peak * peak * (1.0 / acceleration + 1.0 / deceleration);
         let cruise_s = uneven.duration_s() - peak / acceleration - peak / deceleration;

@@ -66,7 +66,7 @@ fn every_example_of_the_help_names_what_is_there() {
         }
     }
     assert!(labs > 3);
-    // the variable is told where the option is
+    // the variable is documented with the option
     assert!(page.contains("[env: KINEMARK_SALT]"));
     let help = bed.run(&["grade", "--help"]).stdout;
     assert_eq!(help.matches("KINEMARK_SALT").count(), 1, "{help}");
@@ -81,7 +81,7 @@ fn every_command_is_in_the_table_of_the_readme() {
         .filter_map(|line| line.strip_prefix("## `kinemark "));
     let mut seen = 0;
     for command in commands.map(|rest| rest.trim_end_matches('`')) {
-        // a group of commands is told by its members
+        // a group of commands is documented by its members
         if ["robot", "scene", "log", "lab"].contains(&command) {
             continue;
         }

@@ -209,7 +209,7 @@ fn a_folder_that_would_steer_the_terminal_is_told_in_plain_characters() {
     ];
     let ran = bed.run(&args);
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    let told = "report: o⟨U+001B⟩[31m⟨U+202E⟩x/report.html\n";
-    assert!(ran.stdout.contains(told), "{ran:?}");
+    let expected = "report: o⟨U+001B⟩[31m⟨U+202E⟩x/report.html\n";
+    assert!(ran.stdout.contains(expected), "{ran:?}");
     assert!(bed.path(out).join("report.html").exists());
 }

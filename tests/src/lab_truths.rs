@@ -1,5 +1,5 @@
-//! What labs expect of a function is held against another way to the same number: `expected` in lab.toml was typed, and that of
-//! hidden cases is what the solution answers.
+//! Expected answers of functions are compared with an independent computation: `expected` in lab.toml is typed by hand, and for hidden
+//! cases the reference solution computes it.
 
 use kinemark_grader::judge::with_expected;
 use kinemark_grader::lab::model::{Given, TaskWork};

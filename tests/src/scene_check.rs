@@ -115,7 +115,7 @@ fn via_points_are_told_in_the_frame_of_the_robot() {
     ] {
         assert!(ran.stdout.contains(expected), "{expected} {ran:?}");
     }
-    // the same place, told in the world: the robot's first link stands there
+    // the same point in world coordinates: the robot's first link is there
     let record = checked(
         &bed.run(&[
             "scene",

@@ -26,7 +26,7 @@ pub(crate) fn cargo() -> (Command, PathBuf) {
     let target = here.ancestors().nth(3).expect("the target folder");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(root());
-    // what cargo tells a test about its own package must not reach the build of another
+    // the environment that cargo sets for a test must not reach the build of another package
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
         let kept = ["CARGO_HOME", "CARGO_TARGET_DIR", "CARGO_NET_OFFLINE"];
@@ -139,7 +139,7 @@ impl TestBed {
         bed
     }
 
-    /// Copies the labs and the staff's reference into this folder, to be changed there.
+    /// Copies the labs and the course staff's reference into this folder, to be changed there.
     pub(crate) fn copy_labs(&self) {
         for folder in ["labs", "reference"] {
             copy(&root().join(folder), &self.path(folder));
@@ -341,7 +341,7 @@ pub(crate) fn lab(name: &str) -> Lab {
     Lab::load(&Folder(root().join("labs")), name).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
-/// The staff's part of a lab of the checkout, with a salt of its own if given.
+/// The course staff's part of a lab of the checkout, with a salt of its own if given.
 pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
     let staff = Staff::load(&Folder(root().join("reference")), lab, salt);
     staff

@@ -57,7 +57,7 @@ pub fn run<'a>(
             }
             Reply::NotCalled => (None, Said::default()),
         };
-        // what is printed in a hidden case could tell its numbers
+        // output in a hidden case could reveal its numbers
         let lines = said.log.into_iter().filter(|_| is_visible);
         log.extend(lines.map(|text| LogEntry { at: i as u64, text }));
         facts.push(measure(cell.frame, function, case, robot, value.as_ref()));

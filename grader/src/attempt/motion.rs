@@ -264,7 +264,7 @@ fn started(
     Ok(controller)
 }
 
-/// Calls the submission and keeps what it says, answered or not.
+/// Calls the submission and keeps its output, even if the call fails.
 fn ask(
     controller: &mut dyn Controller,
     call: &Call,

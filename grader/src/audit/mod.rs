@@ -38,7 +38,7 @@ const SAME_PATH_M: f64 = 1e-6;
 pub struct Audit {
     /// The lab.
     pub lab: String,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
     /// One row for each part that was tried, in order.
     pub rows: Vec<Row>,
@@ -89,7 +89,7 @@ pub struct Row {
     pub task: Option<String>,
     /// Points earned, if something was graded.
     pub points: Option<f64>,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: Option<f64>,
     /// The problem; `null` if there is none.
     pub problem: Option<String>,

@@ -9,7 +9,7 @@ use super::mistake::{Fault, Problem};
 use super::vector::{Matrix, Vector};
 use crate::submission::controller::Budget;
 
-/// What a value is: `the number 2`, `a vector of 3`.
+/// A value in words: `the number 2`, `a vector of 3`.
 pub(super) fn describe(value: &Dynamic) -> String {
     if let Ok(whole) = value.as_int() {
         format!("the number {whole}")
@@ -36,7 +36,7 @@ pub(super) fn describe(value: &Dynamic) -> String {
     }
 }
 
-/// The name of what else there is in the language.
+/// The names of the other types of the language.
 pub(super) fn kind(value: &Dynamic) -> &'static str {
     if value.is_fnptr() {
         "a function"

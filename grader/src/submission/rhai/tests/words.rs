@@ -101,7 +101,7 @@ fn mistakes_are_told_with_names_values_and_a_way_out() {
         ),
         (
             "this = 5; 1",
-            "`this` is no map any more | keep values under names: this.count = 0",
+            "`this` is not a map any more | keep values under names: this.count = 0",
         ),
         (
             "clamp(1, 2, 0)",
