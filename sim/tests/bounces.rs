@@ -136,7 +136,7 @@ fn a_box_dropped_flat_comes_back_to_the_square_of_its_restitution() {
             }
             before = [before[1], z];
         }
-        // how high it is when it turns is known to a step of its way: first order
+        // the height of the turning point has an error of one step: first order
         // the first is where it was let go
         for (bounce, peak) in peaks.iter().skip(1).take(3).enumerate() {
             let expected = (0..=bounce).fold(1.0, |height, _| height * e * e);

@@ -128,21 +128,21 @@ fn contacts_tell_whom_from_when_to_when_and_how_hard() {
             .clone()
     };
     // the can stands on the shelf from the first step until it leaves it
-    let stands = of([Party::Body(0), Party::Body(CAN)]);
+    let support = of([Party::Body(0), Party::Body(CAN)]);
     let left = first(&trace, "left-support").tick;
     assert!(
-        stands.first_tick <= 1 && stands.last_tick.abs_diff(left) <= 40,
-        "{stands:?} {left}"
+        support.first_tick <= 1 && support.last_tick.abs_diff(left) <= 40,
+        "{support:?} {left}"
     );
     // until the arm comes, its weight times the time is the impulse
     let pushed = of([Party::Link(2), Party::Body(CAN)]);
     assert!(pushed.first_tick > 400 && pushed.peak_force_n > 0.4 * 0.39 * 9.81);
-    let weight_n_s = 0.39 * 9.81 * 1e-3 * stands.last_tick as f64;
+    let weight_n_s = 0.39 * 9.81 * 1e-3 * support.last_tick as f64;
     assert!(
-        (stands.impulse_n_s / weight_n_s - 1.0).abs() < 0.05,
-        "{stands:?} {weight_n_s}"
+        (support.impulse_n_s / weight_n_s - 1.0).abs() < 0.05,
+        "{support:?} {weight_n_s}"
     );
-    assert!((stands.p_first_in_world.z - 1.2).abs() < 1e-3);
+    assert!((support.p_first_in_world.z - 1.2).abs() < 1e-3);
     // what the trace has of the can at the start is where the scene puts it
     let start = trace.world_from_body(CAN, 0).expect("the can moves");
     assert!((start.translation.vector - nalgebra::Vector3::new(1.0, 0.05, 1.25)).norm() < 1e-15);

@@ -280,7 +280,7 @@ proptest! {
                 );
             }
         }
-        // no joint arrives early: all are at half of their way at half time, being symmetric
+        // the joints are synchronous: by symmetry all are at half of their distance at half time
         let middle = motion.at(0.5 * duration_s);
         for (joint, ends) in joints.iter().enumerate() {
             prop_assert!((middle.q.as_slice()[joint] - 0.5 * (ends.0 + ends.1)).abs() < 1e-14);
@@ -432,7 +432,7 @@ proptest! {
             prop_assert!(((point - centre).norm() - radius_m).abs() < tolerance_m);
         }
         prop_assert!(arc.angle_rad() > 0.0 && arc.angle_rad() < 2.0 * PI);
-        // via is met on the way, at the angle it is seen at from the centre
+        // the path passes through via, at its angle about the centre
         let (x, y) = ((p0 - centre) / radius_m, arc.axis_in_world().cross(&(p0 - centre)) / radius_m);
         let to_via = via - centre;
         let seen = libm::atan2(to_via.dot(&y), to_via.dot(&x)).rem_euclid(2.0 * PI);

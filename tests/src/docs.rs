@@ -16,7 +16,7 @@ fn texts(folder: &Path, ending: &str, into: &mut Vec<String>) {
     }
 }
 
-/// Codes such as `lab::band` that stand as texts in a source.
+/// Codes such as `lab::band` in the strings of a source.
 fn codes(source: &str) -> Vec<&str> {
     let is_code = |text: &&str| {
         let parts = text.split_once("::");
@@ -59,7 +59,10 @@ fn every_example_of_the_help_names_what_is_there() {
             && word.as_bytes()[2] == b'-';
         if numbered {
             labs += 1;
-            assert!(root().join("labs").join(word).is_dir(), "{word} is no lab");
+            assert!(
+                root().join("labs").join(word).is_dir(),
+                "{word} is not a lab"
+            );
         }
         if word.starts_with("labs/") {
             assert!(root().join(word).exists(), "{word} is not there");

@@ -1,4 +1,4 @@
-//! Mistakes in files and on the command line: each has a message with its place, and the documented exit code.
+//! Mistakes in files and on the command line: each has a message with its position, and the documented exit code.
 
 use crate::golden::reads;
 use crate::testbed::TestBed;

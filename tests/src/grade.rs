@@ -180,7 +180,7 @@ fn a_pipe_or_a_device_is_no_folder_to_replace() {
 fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
     let bed = TestBed::new();
     good(&bed);
-    // a device is no place for a folder, whoever asks: permissions would not stop the administrator
+    // no user can create a folder on a device, not even the administrator, whom permissions would not stop
     let ran = bed.run(&[
         "grade",
         "01-kinematics",

@@ -182,7 +182,7 @@ fn what_is_not_granted_or_asked_wrongly_is_told_so() {
         ),
         (
             "#{}.fk(q)",
-            "`fk` is asked of the robot, got a map",
+            "`fk` is a function of the robot, got a map",
             Some("write robot.fk(q)"),
         ),
     ] {

@@ -1,4 +1,4 @@
-//! Submissions that would hurt: each ends with its verdict, in counted work, and the points of other tasks stand.
+//! Hostile submissions: each ends with its verdict within its budgets, and the points of other tasks are kept.
 
 use crate::every_case::every_case;
 use crate::testbed::TestBed;

@@ -131,7 +131,7 @@ fn a_wrong_column_is_told_and_a_known_mistake_named() {
         evidence.contains(&"10 of 10 hidden cases of the class \"unequal links\" are off"),
         "{evidence:?}"
     );
-    // (-1, 1) stands where (-1, 0) should: 1 of a norm of √3
+    // (-1, 1) instead of (-1, 0): 1 of a norm of √3
     assert!(
         evidence.contains(
             &"elbow a quarter turn: 57.7 % off: column 2 (elbow): d y / d q2 is 1, should be 0"

@@ -26,7 +26,7 @@ fn each_case(lab_name: &str, task: &str, mut check: impl FnMut(&Numbers<'_>, &Nu
     let staff = staff(&lab, Some("another way"));
     let found = lab.tasks.iter().find(|known| known.name == task);
     let TaskWork::Function(function, _) = &found.expect(task).work else {
-        panic!("{task} is no function task");
+        panic!("{task} is not a function task");
     };
     let hidden = staff.draws_of(task).flat_map(|draw| {
         with_expected(&lab, found.expect(task), &draw.cases, &staff.solution).expect("answers")

@@ -1,5 +1,5 @@
 //! Checks of what a run did in a scene, and along a path: a right submission has full marks, wrong ones lose for the right reason, and
-//! a lab that asks for what cannot be is refused at the place.
+//! an impossible lab is refused with its position.
 
 use crate::own_lab::{OwnLab, check, message};
 

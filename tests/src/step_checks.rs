@@ -1,5 +1,5 @@
 //! Checks of step responses, efforts and smoothness: the linear prediction is what the simulator does where nothing but the loop acts,
-//! gravity and gains that are too high are explained, and a lab that asks for what cannot be is refused at the place.
+//! gravity and gains that are too high are explained, and an impossible lab is refused with its position.
 
 use crate::own_lab::{OwnLab, check, message, value};
 

@@ -10,7 +10,7 @@ use crate::testbed::{cargo, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What the test needs and this machine has not, with the way to get it.
+/// A tool that the test needs and this machine lacks, with how to get it.
 fn missing() -> Vec<String> {
     let mut missing = Vec::new();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

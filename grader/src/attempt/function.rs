@@ -243,8 +243,8 @@ fn hash_value(hasher: &mut blake3::Hasher, value: &Value) {
         Value::Nothing => {
             hasher.update(b"n");
         }
-        Value::Boolean(truth) => {
-            hasher.update(if *truth { b"t" } else { b"f" });
+        Value::Boolean(boolean) => {
+            hasher.update(if *boolean { b"t" } else { b"f" });
         }
         // one bit pattern for every NaN, because its bits differ between platforms
         Value::Number(number) if number.is_nan() => {

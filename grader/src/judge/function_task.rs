@@ -138,14 +138,14 @@ impl Grader<'_> {
     fn function_diagnoses(
         &self,
         task: &Task,
-        (asked, band): (&Function, Band),
+        (function, band): (&Function, Band),
         cases: &[Case],
         student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &mutant.source);
             let cell = self.lab.workcell();
-            let run = function::run(cell, asked, cases, &opening, &mut InProcess);
+            let run = function::run(cell, function, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
             (mutant, run.recorded.facts)

@@ -27,7 +27,7 @@ use crate::task::robot::LabRobot;
 /// Lines of a submission's output that the record keeps.
 pub(super) const MOST_LOG_LINES: usize = 200;
 
-/// The person at the terminal asked to stop.
+/// The user interrupted the grade.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("interrupted")]
 pub struct Interrupted;

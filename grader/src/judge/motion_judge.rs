@@ -101,7 +101,7 @@ impl<'a> MotionJudge<'a> {
     /// checks.
     ///
     /// # Errors
-    /// [`Interrupted`] if the person at the terminal asked to stop.
+    /// [`Interrupted`] if the user interrupted the grade.
     pub(super) fn judge(
         &self,
         attempt: &Attempt<Trace>,

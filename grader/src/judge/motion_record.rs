@@ -138,10 +138,10 @@ pub(super) fn level_digests(
     let mut digests = Vec::new();
     for sweep in sweeps {
         let check = checks.iter().find(|check| check.name == sweep.check);
-        let Some(asked) = check.and_then(|check| check.kind.sweep()) else {
+        let Some(defined) = check.and_then(|check| check.kind.sweep()) else {
             continue;
         };
-        for (level, facts) in asked.rungs.iter().zip(&sweep.rungs) {
+        for (level, facts) in defined.rungs.iter().zip(&sweep.rungs) {
             digests.push(LevelDigest {
                 check: sweep.check.clone(),
                 rung: level.name.clone(),

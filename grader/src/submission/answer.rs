@@ -230,7 +230,7 @@ pub fn describe(value: &Value) -> String {
 fn plain(value: &Value, depth: usize) -> String {
     match value {
         Value::Nothing => "()".to_owned(),
-        Value::Boolean(truth) => truth.to_string(),
+        Value::Boolean(boolean) => boolean.to_string(),
         Value::Number(number) if number.is_finite() => trimmed(*number, 6),
         Value::Number(number) if number.is_nan() => "NaN".to_owned(),
         Value::Number(number) => if *number > 0.0 {

@@ -113,7 +113,7 @@ impl LoopKind {
     }
 
     /// Number of its constraints, including redundant ones.
-    pub fn conditions(self) -> usize {
+    pub fn constraint_count(self) -> usize {
         match self {
             Self::Revolute => 5,
             Self::Spherical => 3,

@@ -36,7 +36,7 @@ struct Falling {
     /// What was beneath it at the start, and the point below it in that party's frame.
     support: Option<(Party, Vector3<f64>)>,
     /// Whether that party pushed it up first.
-    stands: bool,
+    supported: bool,
     /// The centres of its shapes when they were last checked.
     centres: Vec<Vector3<f64>>,
     lost: bool,
@@ -84,7 +84,7 @@ pub(super) fn check(
         pass_on(scene, &facts, &mut moved);
         if let Some(down) = down.filter(|_| tick <= STANDS_TICKS) {
             for one in &mut falling {
-                one.stand(&facts, &world, &down);
+                one.note_support(&facts, &world, &down);
             }
         }
         for one in &mut falling {
@@ -182,14 +182,14 @@ impl Falling {
                 };
                 (party, p)
             }),
-            stands: false,
+            supported: false,
             centres: layout.centres_of(index).collect(),
             lost: false,
         }
     }
 
     /// Takes the party that pushes it up as its support, even if its centre is beyond the edge.
-    fn stand(&mut self, facts: &[ContactFact], world: &World, down: &Vector3<f64>) {
+    fn note_support(&mut self, facts: &[ContactFact], world: &World, down: &Vector3<f64>) {
         let me = Party::Body(self.body);
         for fact in facts {
             let [first, second] = fact.parties;
@@ -199,7 +199,7 @@ impl Falling {
                 (true, false) if lift < 0.0 => second,
                 _ => continue,
             };
-            if self.stands || other == Party::Ground {
+            if self.supported || other == Party::Ground {
                 continue;
             }
             let p_in_world = fact.p_centre_in_world;
@@ -213,7 +213,7 @@ impl Falling {
                 Party::Ground | Party::Link(_) => p_in_world,
             };
             self.support = Some((other, p));
-            self.stands = true;
+            self.supported = true;
         }
     }
 

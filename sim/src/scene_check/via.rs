@@ -103,7 +103,7 @@ impl Follower<'_> {
         collisions
     }
 
-    /// The branches of a via point, unless it is out of reach or all of them collide.
+    /// The branches of a via point, unless it is unreachable or all of them collide.
     fn point(
         &mut self,
         point: usize,

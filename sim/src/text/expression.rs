@@ -54,7 +54,7 @@ pub fn evaluate_named(
     Ok(value)
 }
 
-/// The mark of an expression: optional where only a number can stand, required where a string can stand too.
+/// The mark of an expression: optional where only a number is valid, required where a string is valid too.
 pub const MARK: char = '=';
 
 /// The value of the TOML string `typed`, with its mark or without. It is at `span` of `source`, quotes included.

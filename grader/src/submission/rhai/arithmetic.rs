@@ -122,7 +122,7 @@ pub(super) fn register(library: &mut Library) {
         "!",
         &[TypeId::of::<Dynamic>()],
         |_, arguments| match arguments[0].as_bool() {
-            Ok(truth) => Ok((!truth).into()),
+            Ok(boolean) => Ok((!boolean).into()),
             Err(_) => Err(fault(format!(
                 "`!` takes true or false, got {}",
                 describe(arguments[0])

@@ -51,8 +51,8 @@ fn convert(meter: &Meter, value: &Dynamic, taken: &mut usize) -> Result<Value, P
         )
     } else if let Ok(text) = value.as_immutable_string_ref() {
         Value::Text(text.to_string())
-    } else if let Ok(truth) = value.as_bool() {
-        Value::Boolean(truth)
+    } else if let Ok(boolean) = value.as_bool() {
+        Value::Boolean(boolean)
     } else if let Ok(character) = value.as_char() {
         Value::Text(character.to_string())
     } else if value.is_unit() {
@@ -80,7 +80,7 @@ pub(super) fn is_finite(value: &Value) -> bool {
 pub(super) fn to_dynamic(value: &Value) -> Dynamic {
     match value {
         Value::Nothing => Dynamic::UNIT,
-        Value::Boolean(truth) => (*truth).into(),
+        Value::Boolean(boolean) => (*boolean).into(),
         Value::Number(number) => (*number).into(),
         Value::Text(text) | Value::Other(text) => text.as_str().into(),
         Value::List(elements) => {

@@ -81,7 +81,10 @@ impl Model {
             .is_ok_and(|map| map.contains_key("joint_names") && map.contains_key("lower"));
         if !is_robot {
             return Err(fault_with_help(
-                format!("`{name}` is asked of the robot, got {}", describe(of[0])),
+                format!(
+                    "`{name}` is a function of the robot, got {}",
+                    describe(of[0])
+                ),
                 format!("write robot.{name}(q)"),
             ));
         }

@@ -58,8 +58,8 @@ fn plot(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem>
             }
         }
         operand => match operand.number().or_else(|| {
-            let truth = arguments[1].as_bool().ok()?;
-            Some(f64::from(u8::from(truth)))
+            let boolean = arguments[1].as_bool().ok()?;
+            Some(f64::from(u8::from(boolean)))
         }) {
             Some(value) => meter.plot(name.to_string(), value),
             None => {

@@ -15,8 +15,8 @@ pub(super) fn describe(value: &Dynamic) -> String {
         format!("the number {whole}")
     } else if let Ok(float) = value.as_float() {
         format!("the number {}", number(float))
-    } else if let Ok(truth) = value.as_bool() {
-        truth.to_string()
+    } else if let Ok(boolean) = value.as_bool() {
+        boolean.to_string()
     } else if value.is_unit() {
         "nothing `()`".to_owned()
     } else if let Ok(text) = value.as_immutable_string_ref() {
@@ -97,8 +97,8 @@ fn write_value(
         let _ = write!(text, "{whole}");
     } else if let Ok(float) = value.as_float() {
         text.push_str(&number(float));
-    } else if let Ok(truth) = value.as_bool() {
-        let _ = write!(text, "{truth}");
+    } else if let Ok(boolean) = value.as_bool() {
+        let _ = write!(text, "{boolean}");
     } else if let Ok(content) = value.as_immutable_string_ref() {
         write_text(text, &content, quoted);
     } else if let Some(vector) = value.read_lock::<Vector>() {

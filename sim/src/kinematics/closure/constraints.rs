@@ -25,7 +25,11 @@ pub(crate) struct Closure {
 
 impl Closure {
     pub(crate) fn new(robot: &Robot) -> Self {
-        let rows = robot.loops().iter().map(|l| l.kind.conditions()).sum();
+        let rows = robot
+            .loops()
+            .iter()
+            .map(|l| l.kind.constraint_count())
+            .sum();
         Self {
             motions: BodyMotions::new(robot),
             residual: DVector::zeros(rows),
@@ -41,7 +45,7 @@ impl Closure {
         let mut row = 0;
         for closing in robot.loops() {
             self.one(robot, closing, row);
-            row += closing.kind.conditions();
+            row += closing.kind.constraint_count();
         }
     }
 
@@ -124,7 +128,7 @@ impl Closure {
                     angle = std::f64::consts::PI;
                 }
             }
-            row += closing.kind.conditions();
+            row += closing.kind.constraint_count();
         }
         (gap, angle)
     }

@@ -98,9 +98,9 @@ fn flipped(mesh: &Mesh, uses: &[Use]) -> MeshProblem {
         }
         turned[start] = Some(false);
         let mut shell = vec![(start, false)];
-        let mut walked = 0;
-        while let Some(&(t, t_turned)) = shell.get(walked) {
-            walked += 1;
+        let mut visited = 0;
+        while let Some(&(t, t_turned)) = shell.get(visited) {
+            visited += 1;
             for &(other, agree) in &neighbours[t] {
                 let should = t_turned == agree;
                 match turned[other] {
