@@ -262,17 +262,9 @@ impl Context<'_> {
                 Some("an element of a matrix is m[row][column]".to_owned()),
             ),
             ParseErrorType::MissingToken(token, what) if token == "," => {
-                let closing = if what.contains("array") {
-                    "]"
-                } else if what.contains("map") {
-                    "}"
-                } else {
-                    ")"
-                };
-                (
-                    format!("a `{closing}` or a `,` is missing before this"),
-                    None,
-                )
+                let closing = closing_bracket(what);
+                let message = format!("a `{closing}` or a `,` is missing before this");
+                (message, None)
             }
             ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | "]" | "}") => {
                 (format!("a `{token}` is missing before this"), None)
@@ -303,6 +295,17 @@ impl Context<'_> {
             other => (plain(&other.to_string()), None),
         };
         (message, help.or(foreign))
+    }
+}
+
+/// The bracket that closes what the engine was reading, from its description of that.
+fn closing_bracket(what: &str) -> &'static str {
+    if what.contains("array") {
+        "]"
+    } else if what.contains("map") {
+        "}"
+    } else {
+        ")"
     }
 }
 
