@@ -1,17 +1,17 @@
-//! Lab and submission in, graded run out. No terminal, no clock, no process, no file: what must not differ between machines
-//! lives here.
+//! Lab and submission in, graded run out. This crate uses no terminal, clock, process or file, so that its results are the same on
+//! every machine.
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`task`] | what a task asks for, its robot and its scene, and the files they come from |
 //! | [`record`] | the grade and what is drawn with it, for every renderer |
-//! | [`submission`] | the seam to a student's code, who opens it, and the script language |
+//! | [`submission`] | the interface to a student's code, the hosts that open it, and the script language |
 //! | [`attempt`] | a submission tried on one task, and how that ended |
 //! | [`check`] | what a check finds in an attempt |
-//! | [`lab`] | labs, their hidden cases and known mistakes: read, and none of their code run |
+//! | [`lab`] | labs with their hidden cases and mutants; they are read, and none of their code runs |
 //! | [`judge`] | from attempts to a grade |
 //! | [`compare`] | two graded submissions, compared |
-//! | [`audit`] | the grader of a lab, graded |
+//! | [`audit`] | proves a lab: starter, reference solution, mutants, the course staff's code |
 //!
 //! A module imports only from those above it.
 

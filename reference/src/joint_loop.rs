@@ -21,7 +21,7 @@ pub struct PidGains {
     pub kd: f64,
 }
 
-/// One joint that turns freely but for viscous damping.
+/// One revolute joint with viscous damping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPlant {
     /// Moment of inertia `J` about the joint \[kg m²\].
@@ -120,7 +120,7 @@ impl TransferFunction {
 
     /// Poles \[1/s\] with multiplicity; a pair is exactly conjugate.
     ///
-    /// Right to a few last places where they stand apart; two that are a fraction `g` of their size apart lose `1/g` of that.
+    /// Exact to a few last places if they are well separated; two whose distance is a fraction `g` of their size lose `1/g` of that.
     pub fn poles(&self) -> &[Complex<f64>] {
         &self.poles
     }
@@ -132,7 +132,7 @@ impl TransferFunction {
         (below != 0.0).then(|| above / below)
     }
 
-    /// The response to a unit step from rest; `None` where a pole is zero or two coincide, which single fractions cannot give.
+    /// The response to a unit step from rest; `None` if a pole is zero or two coincide, for which simple fractions do not suffice.
     pub fn step_response(&self) -> Option<StepResponse> {
         let constant = self.dc_gain()?;
         let leading = self.denominator[0];
@@ -193,7 +193,7 @@ fn roots(descending: &[f64]) -> Vec<Complex<f64>> {
         [a, b, c] => roots_of_quadratic(a, b, c).to_vec(),
         [a, b, c, d] => {
             let real = real_root(&[a, b, c, d], d);
-            // by Horner's rule; what that loses, Newton's steps give back
+            // by Horner's rule; Newton's steps correct its rounding
             let b = b + a * real;
             let [first, second] = roots_of_quadratic(a, b, c + b * real);
             vec![Complex::new(real, 0.0), first, second]
@@ -223,7 +223,7 @@ fn real_root(descending: &[f64; 4], constant: f64) -> f64 {
     // Cauchy's bound on the size of roots
     let bound = 1.0 + largest / descending[0].abs();
     let rises = descending[0] > 0.0;
-    // a root has the sign that the constant tells, and this end of the search is zero
+    // the sign of the constant gives that of a root, and this end of the search is zero
     let (mut near, mut far) = (
         0.0,
         if (constant > 0.0) == rises {

@@ -42,7 +42,7 @@ pub struct Planar2r {
     pub gravity_m_s2: f64,
 }
 
-/// Where the arm is and how it moves.
+/// Joint positions and velocities of the arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
     /// Shoulder and elbow angle \[rad\].
@@ -51,29 +51,29 @@ pub struct JointState {
     pub qd_rad_s: Vector2<f64>,
 }
 
-/// Every way the arm can put its TCP on a point; angles `[q₁, q₂]` with `q₁` in `[-π, π)`.
+/// The inverse kinematics of a point: all branches; angles `[q₁, q₂]` with `q₁` in `[-π, π)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum IkSolutions {
-    /// A point inside the workspace: two ways.
+    /// A point inside the workspace: two branches.
     Branches {
-        /// The way with `0 < q₂ < π` \[rad\].
+        /// The branch with `0 < q₂ < π` \[rad\].
         elbow_plus_rad: Vector2<f64>,
-        /// The way with `-π < q₂ < 0` \[rad\].
+        /// The branch with `-π < q₂ < 0` \[rad\].
         elbow_minus_rad: Vector2<f64>,
     },
     /// On the outer circle, to rounding: both branches meet with `q₂ = 0`. The Jacobian is singular.
     Straight {
-        /// The only way \[rad\].
+        /// The only solution \[rad\].
         q_rad: Vector2<f64>,
     },
     /// On the inner circle of unequal links, to rounding: both branches meet with `q₂ = π`. The Jacobian is singular.
     Folded {
-        /// The only way, up to full turns \[rad\].
+        /// The only solution, up to full turns \[rad\].
         q_rad: Vector2<f64>,
     },
     /// On the shoulder with equal links: folded (`q₂ = ±π`) with any shoulder angle.
     AnyShoulderAngle,
-    /// Out of reach.
+    /// Outside the workspace.
     Unreachable {
         /// Distance of the point from the shoulder \[m\]; infinite for a point that is not finite.
         distance_m: f64,
@@ -167,7 +167,7 @@ impl Planar2r {
         self.l1_m * self.l2_m * libm::sin(q_rad.y)
     }
 
-    /// Returns every way to put the TCP on `(x, y)` of the lab frame \[m\].
+    /// Returns all branches of inverse kinematics for the TCP at `(x, y)` of the lab frame \[m\].
     ///
     /// A point off a circle of the workspace by no more than rounding counts as on it. Never gives NaN.
     ///

@@ -12,16 +12,16 @@
 
 use crate::joint_loop::{JointPlant, PidGains};
 
-/// What of the joint the controller compares with its reference.
+/// The quantity that the controller compares with its reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Controlled {
+pub enum ControlledQuantity {
     /// Its position.
     Position,
     /// Its velocity.
     Velocity,
 }
 
-/// Where the derivative term takes its rate from.
+/// The source of the derivative term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rate {
     /// The difference of two errors, the one before the first being zero: a step of the reference kicks.
@@ -41,9 +41,9 @@ pub struct SampledJoint {
     pub gains: PidGains,
     /// Time from sample to sample \[s\].
     pub period_s: f64,
-    /// What is controlled.
-    pub controlled: Controlled,
-    /// What its derivative is of.
+    /// The controlled quantity.
+    pub controlled: ControlledQuantity,
+    /// The source of its derivative term.
     pub rate: Rate,
 }
 
@@ -69,8 +69,8 @@ impl SampledJoint {
         for _ in 0..count {
             motions.push(motion);
             let measured = match self.controlled {
-                Controlled::Position => motion.q_rad,
-                Controlled::Velocity => motion.qd_rad_s,
+                ControlledQuantity::Position => motion.q_rad,
+                ControlledQuantity::Velocity => motion.qd_rad_s,
             };
             let error = reference - measured;
             sum += error * self.period_s;

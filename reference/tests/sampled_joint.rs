@@ -1,7 +1,7 @@
 //! The sampled joint: one period by hand, and the continuous loop where samples are dense.
 
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
-use kinemark_reference::sampled_joint::{Controlled, JointMotion, Rate, SampledJoint};
+use kinemark_reference::sampled_joint::{ControlledQuantity, JointMotion, Rate, SampledJoint};
 
 fn joint(damping_n_m_s: f64, [kp, ki, kd]: [f64; 3], period_s: f64) -> SampledJoint {
     SampledJoint {
@@ -11,7 +11,7 @@ fn joint(damping_n_m_s: f64, [kp, ki, kd]: [f64; 3], period_s: f64) -> SampledJo
         },
         gains: PidGains { kp, ki, kd },
         period_s,
-        controlled: Controlled::Position,
+        controlled: ControlledQuantity::Position,
         rate: Rate::OfError,
     }
 }
@@ -44,32 +44,32 @@ fn twice_as_many_samples_are_twice_as_near_to_the_continuous_loop() {
     let gains = [12.0, 3.0, 2.0];
     let cases = [
         (
-            Controlled::Position,
+            ControlledQuantity::Position,
             Rate::OfError,
             DerivativeOn::Error,
             gains,
         ),
         (
-            Controlled::Position,
+            ControlledQuantity::Position,
             Rate::OfMeasurement,
             DerivativeOn::Measurement,
             gains,
         ),
         (
-            Controlled::Position,
+            ControlledQuantity::Position,
             Rate::Velocity,
             DerivativeOn::Measurement,
             gains,
         ),
         (
-            Controlled::Velocity,
+            ControlledQuantity::Velocity,
             Rate::OfError,
             DerivativeOn::Error,
             [12.0, 3.0, 0.0],
         ),
         // the derivative of a velocity is the inertia's own torque: with less gain than inertia it converges
         (
-            Controlled::Velocity,
+            ControlledQuantity::Velocity,
             Rate::OfMeasurement,
             DerivativeOn::Measurement,
             [12.0, 3.0, 0.2],
@@ -87,8 +87,8 @@ fn twice_as_many_samples_are_twice_as_near_to_the_continuous_loop() {
                 gains: sampled.gains,
             };
             let closed = match controlled {
-                Controlled::Position => continuous.position_closed_loop(derivative),
-                Controlled::Velocity => continuous.velocity_closed_loop(derivative),
+                ControlledQuantity::Position => continuous.position_closed_loop(derivative),
+                ControlledQuantity::Velocity => continuous.velocity_closed_loop(derivative),
             };
             let response = closed.step_response().expect("single poles");
             let count = (2.0 / period_s).round() as usize;
@@ -97,8 +97,8 @@ fn twice_as_many_samples_are_twice_as_near_to_the_continuous_loop() {
             let first = count / 20;
             let errors = motions.iter().enumerate().skip(first).map(|(k, motion)| {
                 let value = match controlled {
-                    Controlled::Position => motion.q_rad,
-                    Controlled::Velocity => motion.qd_rad_s,
+                    ControlledQuantity::Position => motion.q_rad,
+                    ControlledQuantity::Velocity => motion.qd_rad_s,
                 };
                 (value - response.at(k as f64 * period_s)).abs()
             });

@@ -1,46 +1,49 @@
-//! The likely cause of a runaway: a servo beyond its sampled-data limit, or a feedback that overshoots more at every call.
+//! The likely cause of a divergence: a servo beyond its sampled-data limit, or a feedback that overshoots more at every call.
 
 use crate::control::sampled_loop::{SampledLoop, sampled_loop};
-use crate::run::BlowUp;
+use crate::run::DivergenceKind;
 use crate::run::Setup;
 use crate::trace::Trace;
 
-/// Joint rates below this are those of an arm that is still under control \[rad/s or m/s\].
+/// With joint rates below this an arm counts as still under control \[rad/s or m/s\].
 const CALM_RATE: f64 = 10.0;
-/// So many calls in a row must turn the command round, each further than the one before, to blame the feedback; a strong one has run
-/// away after a few.
+/// The feedback is blamed if this many consecutive calls reverse the command, each with a larger amplitude than the one before. The
+/// number is small because a strong feedback diverges within a few calls.
 const TURNS: usize = 2;
 
-/// Why a run ran away, as far as it can be computed.
+/// Why a run diverged, as far as it can be computed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cause {
-    /// The servo's gains are more than its period can hold.
+    /// The servo's gains are too high for its sampling period.
     ServoGains(SampledLoop),
     /// The servo's integral gains: without them the loop would be stable.
     ServoIntegral(SampledLoop),
-    /// The controller's own feedback turns its command round at every call, further each time.
+    /// The controller's own feedback reverses its command at every call, with a growing amplitude.
     Feedback {
-        /// Index of the joint in `q` whose command does it most.
+        /// Index of the joint in `q` whose command reverses most.
         joint: usize,
-        /// How many calls in a row did, up to the end.
+        /// Number of consecutive calls that reversed it, up to the end of the run.
         calls: usize,
     },
 }
 
-/// The likely cause of `what` in a run of `setup` recorded as `trace`; none where nothing computed here explains it.
+/// The likely cause of the divergence `what` in a run of `setup` recorded as `trace`; `None` if nothing computed here explains it.
 ///
-/// The servo is looked at where the run started and where the arm was last calm, by [`sampled_loop()`].
-pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<Cause> {
-    if matches!(what, BlowUp::BodyRunaway { .. } | BlowUp::InContact { .. }) {
+/// [`sampled_loop()`] examines the servo at the start of the run and at the last configuration with low joint rates.
+pub fn likely_cause(setup: &Setup<'_>, what: &DivergenceKind, trace: &Trace) -> Option<Cause> {
+    if matches!(
+        what,
+        DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }
+    ) {
         return None;
     }
     let calm = |tick: &usize| trace.qd.at(*tick).iter().all(|rate| rate.abs() < CALM_RATE);
     let last_calm = (0..trace.len()).rev().find(calm);
-    let places = [
+    let configurations = [
         last_calm.map(|tick| trace.q.at(tick).to_vec()),
         Some(setup.start_q.clone()),
     ];
-    for q in places.iter().flatten() {
+    for q in configurations.iter().flatten() {
         let looked_at = sampled_loop(
             setup.robot,
             &setup.servo,
@@ -60,7 +63,7 @@ pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<C
                 return Some(Cause::ServoIntegral(found.clone()));
             }
         }
-        // gains too weak to hold an upright arm make it grow too, and no share of them helps
+        // gains too low to hold an upright arm make the loop unstable too, and lowering them does not help
         if let Some(found) = looked_at
             && !found.is_stable()
             && (found.stable_share.is_some()
@@ -73,7 +76,7 @@ pub fn likely_cause(setup: &Setup<'_>, what: &BlowUp, trace: &Trace) -> Option<C
     feedback(setup, trace)
 }
 
-/// A command that turns round at every call, further each time, up to the end.
+/// A command that reverses at every call with growing amplitude, up to the end of the run.
 fn feedback(setup: &Setup<'_>, trace: &Trace) -> Option<Cause> {
     let stride = setup.periods.ticks_per_control.get() as usize;
     let calls = trace.len().div_ceil(stride);

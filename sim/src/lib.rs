@@ -1,6 +1,6 @@
 //! Robots, kinematics, dynamics, control and the deterministic run.
 //!
-//! This crate knows no lab, mark, file or terminal: it is handed text and numbers and returns values.
+//! This crate knows no lab, grade, file or terminal: it gets text and numbers and returns values.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -17,7 +17,7 @@
 //! | [`mod@format`] | from text to the model: one folder a format of robots; scenes, strings of joints |
 //! | [`dynamics`] | RNEA, CRBA, ABA, energy, drag and friction |
 //! | [`control`] | joint servos: command in, effort out; when they are stable |
-//! | [`engine`] | contact, and the only place that knows how it is computed |
+//! | [`engine`] | contact; the only module that knows how it is computed |
 //! | [`step`] | one step: smooth while the robot is free, contact while it touches |
 //! | [`sensing`] | what the sensors read, with noise, quantisation, delay and rate |
 //! | [`run`] | the tick loop: observe, control, servo, step |

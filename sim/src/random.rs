@@ -5,13 +5,13 @@
 //! | noise of a sensor, gusts, disturbances | stated, or [`seed_of_name`] | [`SplitMix64`] |
 //! | anything keyed by names, such as the cases of a class | [`KeyedStream::new`] | [`KeyedStream`] |
 //!
-//! Recorded grades depend on every bit of both schemes, so a new one goes beside them and takes the place of none.
+//! Recorded grades depend on every bit of both schemes: add a new scheme if one is needed, but never change these.
 
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-/// A stream of 64-bit numbers; its whole state is one of them, so a copy of it goes on with the same numbers.
+/// A stream of 64-bit numbers. Its state is a single number, so a copy continues with the same sequence.
 ///
 /// Source: Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (SplitMix64).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,16 +59,16 @@ pub fn seed_of_name(name: &str) -> u64 {
     })
 }
 
-/// A stream of numbers keyed by names: BLAKE3 with a derived key, in extendable-output mode. Nobody can tell its numbers, or those of
-/// another key, without the names.
+/// A stream of numbers keyed by names: BLAKE3 with a derived key, in extendable-output mode. Without the names nobody can predict its
+/// numbers or those of another key.
 #[derive(Debug, Clone)]
 pub struct KeyedStream(blake3::OutputReader);
 
 impl KeyedStream {
-    /// The stream of `names` and `index` in a `context`, which says what the numbers are for; another context has other numbers.
+    /// The stream of `names` and `index` in a `context`, which says what the numbers are for; each context has its own numbers.
     ///
-    /// Every name goes in with its length, so that no two lists of names make the same key; `index` are the bytes of a number among
-    /// the things so named, or none.
+    /// Every name is hashed with its length, so that no two lists of names make the same key; `index` holds the bytes of an integer
+    /// that distinguishes things of the same names, or is empty.
     pub fn new(context: &str, names: &[&str], index: &[u8]) -> Self {
         let mut hasher = blake3::Hasher::new_derive_key(context);
         for name in names {
@@ -92,8 +92,7 @@ impl KeyedStream {
         low + (high - low) * unit
     }
 
-    /// The next whole number below `count`, uniform: for a `count` of at most a million no value is preferred by more than a part in
-    /// 10¹³.
+    /// The next integer below `count`, uniform: for a `count` of at most a million no value is preferred by more than a part in 10¹³.
     pub fn below(&mut self, count: u64) -> u64 {
         let product = u128::from(self.bits()) * u128::from(count);
         (product >> 64) as u64

@@ -46,7 +46,7 @@ pub fn pose(rotation: Matrix3<f64>, position_m: Vector3<f64>) -> Pose {
 
 /// Rotation about the axis `x`, then the parent's `y`, then the parent's `z`: `Rz(yaw) Ry(pitch) Rx(roll)`, angles in rad.
 ///
-/// Whole quarter turns are exact when `rpy_deg` holds whole multiples of 90.
+/// Quarter turns are exact: `rpy_deg` may hold integer multiples of 90.
 pub fn rotation_from_rpy_deg(rpy_deg: [f64; 3]) -> Matrix3<f64> {
     rotation_from_sines(rpy_deg.map(sin_cos_deg))
 }
@@ -83,7 +83,7 @@ pub fn rotation_about_axis_deg(axis: Vector3<f64>, angle_deg: f64) -> Matrix3<f6
 
 /// Rotation about the axis of `rotation_vector_rad` by its length \[rad\]: the exponential of SO(3), for any angle.
 ///
-/// The identity at zero. Not a number where the vector is not finite or its square is not.
+/// The identity at zero. NaN where the vector or its square is not finite.
 ///
 /// Source: Rodrigues' formula as `cos θ 1 + sin θ/θ [φ] + (1 - cos θ)/θ² φ φᵀ`, with `1 - cos θ = 2 sin²(θ/2)`.
 pub fn rotation_exp(rotation_vector_rad: &Vector3<f64>) -> Matrix3<f64> {
@@ -113,8 +113,8 @@ pub fn rotation_exp(rotation_vector_rad: &Vector3<f64>) -> Matrix3<f64> {
 
 /// Axis times angle \[rad\] of a rotation, the angle from 0 to pi: the logarithm of SO(3).
 ///
-/// Zero at the identity. At exactly half a turn both axes are right, and the one whose largest component is positive is
-/// returned; a rounding error away from half a turn the sign of the axis is the matrix's own.
+/// Zero at the identity. At exactly half a turn both axes are valid, and the one whose largest component is positive is
+/// returned; a rounding error away from half a turn the matrix itself decides the sign of the axis.
 ///
 /// Source: Lynch & Park, *Modern Robotics* (2017), sec. 3.2.3.3, with the angle from sine and cosine together, and the
 /// axis from the symmetric part `cos θ 1 + (1 - cos θ) n nᵀ` beyond 120 degrees, where the antisymmetric part fades.
@@ -144,7 +144,7 @@ pub fn rotation_log(rotation: &Matrix3<f64>) -> Vector3<f64> {
     column * (signed_angle / column.norm())
 }
 
-/// Sine and cosine of an angle in degrees, exact at whole quarter turns, where `sin(pi)` is not zero in floating point.
+/// Sine and cosine of an angle in degrees, exact at multiples of 90, although `sin(pi)` is not zero in floating point.
 fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = angle_deg / 90.0;
     if quarters.fract() == 0.0 && quarters.abs() < 1e15 {

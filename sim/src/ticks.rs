@@ -1,4 +1,4 @@
-//! Time as integers: the physics step is the tick, the servo and control periods are whole multiples of the one before.
+//! Time as integers: the physics step is the tick, the servo and control periods are integer multiples of the one before.
 
 use std::num::NonZeroU32;
 
@@ -13,7 +13,7 @@ pub struct Periods {
     pub ticks_per_control: NonZeroU32,
 }
 
-/// A time that is no whole, positive number of shorter ones.
+/// A time that is not a positive integer multiple of a shorter one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{longer} of {longer_s} s is not an integer multiple of the {shorter} of {shorter_s} s")]
 pub struct PeriodError {
@@ -27,7 +27,7 @@ pub struct PeriodError {
     pub shorter_s: f64,
 }
 
-/// How many times `shorter_s` goes into `longer_s`, if it does so a whole number of times (to one part in a million of itself).
+/// The ratio of `longer_s` to `shorter_s` if it is a positive integer (to one part in a million of itself).
 pub fn whole_ratio(longer_s: f64, shorter_s: f64) -> Option<u64> {
     let ratio = longer_s / shorter_s;
     let whole = ratio.round();
@@ -39,7 +39,7 @@ impl Periods {
     /// Periods from seconds.
     ///
     /// # Errors
-    /// [`PeriodError`] where a period is not a whole multiple of the one before.
+    /// [`PeriodError`] where a period is not an integer multiple of the one before.
     pub fn new(step_s: f64, servo_s: f64, control_s: f64) -> Result<Self, PeriodError> {
         let ratio = |longer, longer_s, shorter, shorter_s| {
             whole_ratio(longer_s, shorter_s)
@@ -64,7 +64,7 @@ impl Periods {
 
     /// The time of a tick \[s\].
     pub fn time_s(&self, tick: u64) -> f64 {
-        // a step such as 0.001 is not exact in binary; a whole rate such as 1000 is, and then so is the time to half a bit
+        // a step such as 0.001 s is not exact in binary, but an integer rate such as 1000 Hz is: dividing by it is exact to half a bit
         let rate_hz = (1.0 / self.step_s).round();
         if ((1.0 / rate_hz) - self.step_s).abs() <= f64::EPSILON * self.step_s {
             tick as f64 / rate_hz

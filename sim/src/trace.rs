@@ -81,15 +81,15 @@ pub struct Trace {
     pub command: Signal,
     /// The effort held from the tick on \[N m or N\].
     pub effort: Signal,
-    /// The TCP in the frame it is told in: position x, y, z \[m\], then the unit quaternion w, x, y, z with `w >= 0`.
+    /// The TCP in the frame in which it is reported: position x, y, z \[m\], then the unit quaternion w, x, y, z with `w >= 0`.
     pub tcp: Signal,
-    /// The scene's bodies that can move, in scene order, in the world: of each position x, y, z \[m\] and unit quaternion w, x, y, z.
+    /// The scene's bodies that can move, in scene order, in the world: for each, position x, y, z \[m\] and unit quaternion w, x, y, z.
     pub bodies: Signal,
     /// Indices in the scene of the bodies in `bodies`.
     pub moving_bodies: Vec<usize>,
     /// What the sensors read, channel by channel.
     pub sensors: Signal,
-    /// Who pressed on whom, from when to when, in the order the contacts began.
+    /// The contacts, with their parties and first and last ticks, in the order in which they began.
     pub contacts: Vec<ContactSpan>,
     /// What happened, in tick order.
     pub events: Vec<Event>,
@@ -128,7 +128,7 @@ impl Trace {
         self.len() == 0
     }
 
-    /// All signals; without a scene that of the bodies is empty, without sensors theirs.
+    /// All signals. Without a scene the signal of the bodies is empty; without sensors, theirs.
     pub fn signals(&self) -> [&Signal; 7] {
         [
             &self.q,
@@ -141,7 +141,7 @@ impl Trace {
         ]
     }
 
-    /// Pose in the world of body `index` of the scene at a tick; none where that body cannot move.
+    /// Pose in the world of body `index` of the scene at a tick; `None` if that body cannot move.
     ///
     /// # Panics
     /// If the tick was not recorded.
@@ -310,7 +310,7 @@ impl<'a> TraceRecorder<'a> {
 
 impl Recorder for TraceRecorder<'_> {
     fn row(&mut self, row: Row<'_>) {
-        self.watch.see(&row);
+        self.watch.observe(&row);
         let trace = &mut self.trace;
         trace.q.values.extend_from_slice(row.q);
         trace.qd.values.extend_from_slice(row.qd);

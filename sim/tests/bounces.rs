@@ -72,18 +72,18 @@ fn a_ram_that_hits_face_on_obeys_the_law_of_impact() {
             let (ram, body, turning, impulse) = rammed(solid.clone(), reach_m, e);
             // momentum 20 kg m/s; the body leaves with e of the speed of approach
             let common = 20.0 / 20.4;
-            let told = format!("{solid:?} {e}: {ram} {body} {turning}");
-            assert!((body - ram - e).abs() < 2e-3, "{told}");
-            assert!((20.0 * ram + 0.4 * body - 20.0).abs() < 1e-6, "{told}");
-            assert!((body - common * (1.0 + e)).abs() < 2e-3, "{told}");
-            assert!(turning < 0.05, "{told}");
-            // the facts tell what the body got
+            let case = format!("{solid:?} {e}: {ram} {body} {turning}");
+            assert!((body - ram - e).abs() < 2e-3, "{case}");
+            assert!((20.0 * ram + 0.4 * body - 20.0).abs() < 1e-6, "{case}");
+            assert!((body - common * (1.0 + e)).abs() < 2e-3, "{case}");
+            assert!(turning < 0.05, "{case}");
+            // the contact facts contain the impulse on the body
             assert!(
                 (impulse / (0.4 * body) - 1.0).abs() < 1e-6,
-                "{told} {impulse}"
+                "{case} {impulse}"
             );
             let energy = 10.0 * ram * ram + 0.2 * body * body;
-            assert!(energy <= 10.0 + 1e-6, "{told} {energy}");
+            assert!(energy <= 10.0 + 1e-6, "{case} {energy}");
         }
     }
 }
@@ -104,13 +104,13 @@ fn free_bodies_of_any_ratio_of_masses_bounce_alike() {
                     .expect("a step");
             }
             let [a, b] = [0, 1].map(|i| step.body(i).twist);
-            let told = format!("{mass_kg} {e}: {a:?} {b:?}");
-            assert!((b.linear.x - a.linear.x - e).abs() < 2e-3, "{told}");
+            let case = format!("{mass_kg} {e}: {a:?} {b:?}");
+            assert!((b.linear.x - a.linear.x - e).abs() < 2e-3, "{case}");
             assert!(
                 (mass_kg * a.linear.x + b.linear.x - mass_kg).abs() < 1e-6,
-                "{told}"
+                "{case}"
             );
-            assert!(a.angular.norm() < 0.05 && b.angular.norm() < 0.05, "{told}");
+            assert!(a.angular.norm() < 0.05 && b.angular.norm() < 0.05, "{case}");
         }
     }
 }
@@ -136,7 +136,7 @@ fn a_box_dropped_flat_comes_back_to_the_square_of_its_restitution() {
             }
             before = [before[1], z];
         }
-        // how high it is when it turns is known to a step of its way: first order
+        // the height of the turning point has an error of one step: first order
         // the first is where it was let go
         for (bounce, peak) in peaks.iter().skip(1).take(3).enumerate() {
             let expected = (0..=bounce).fold(1.0, |height, _| height * e * e);

@@ -1,4 +1,5 @@
-//! Runs under disturbances: none changes no bit, late commands act late, noise is seen and not lived, and servos do not know of a payload.
+//! Runs under disturbances: a zero disturbance changes no bit, delayed commands act late, noise affects only measurements, and servos do
+//! not know of a payload.
 
 use std::num::NonZeroU32;
 

@@ -16,7 +16,7 @@ use crate::contact_scenes::reach;
 use crate::golden_rrbot::{golden, numbers};
 
 const DT_S: f64 = 1e-3;
-/// How long the arm stands at the last via point: the last can to fall does so 1.3 s after the end of the path.
+/// How long the arm rests at the last via point: the last can to fall does so 1.3 s after the end of the path.
 const STAND_S: f64 = 2.0;
 
 fn lab_scene(name: &str) -> Scene {
@@ -49,7 +49,7 @@ fn at_point([x, y]: [f64; 2]) -> [f64; 2] {
     reach(x, y)
 }
 
-/// Part of the way gone at part `s` of the time: at rest at both ends, in velocity and acceleration.
+/// Fraction of the path at fraction `s` of the time: zero velocity and acceleration at both ends.
 fn smooth(s: f64) -> f64 {
     let s = s.clamp(0.0, 1.0);
     s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)

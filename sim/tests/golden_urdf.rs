@@ -209,7 +209,7 @@ fn industrial(json: &str, model_name: &str) {
 fn the_ur5_agrees() {
     industrial("H_ur5.json", "ur5");
     let robot = model("ur5", false);
-    // its root is written last, and stands first
+    // its root is last in the file and first in the robot
     assert_eq!(robot.links()[0].name, "world");
     assert_eq!(robot.links()[1].name, "base_link");
     assert_eq!(robot.warnings(), [""; 0]);

@@ -382,7 +382,7 @@ fn answers_stay_near_the_start_by_whole_turns() {
 fn limits_bind_where_they_are_respected() {
     let robot = model("panda");
     let frame = robot.frame("panda_hand_tcp").expect("tcp");
-    // the elbow bends one way only: 0.5 rad the other way is 0.57 beyond its limit
+    // the elbow bends in one direction only: 0.5 rad in the other is 0.57 beyond its limit
     let beyond = [0.2, 0.3, -0.4, 0.5, 0.5, 1.9, 0.1, 0.0, 0.0];
     let wanted = place(&robot, "panda_hand_tcp", &beyond);
     let mut q0 = beyond;
@@ -442,7 +442,7 @@ fn a_posture_is_kept_while_the_tip_stays() {
     assert!(without.reached && with.reached);
     assert!(off(&without.q, &q) > 0.05, "{}", off(&without.q, &q));
     assert!(off(&with.q, &q) < 1e-4, "{} {:?}", off(&with.q, &q), with);
-    // the textbook way, step by step in the null space
+    // the iteration of the textbook, step by step in the null space
     for method in [
         Method::PseudoInverse,
         Method::DampedLeastSquares {
@@ -489,7 +489,7 @@ fn the_fallback_takes_over_where_the_pseudo_inverse_leaves() {
         (fallback.q, fallback.iterations),
         (damped.q, 60 + damped.iterations)
     );
-    // where the first arrives there is no second
+    // if the first start converges there is no second
     let start = place(&question.robot, &question.tip, &question.whole(&q0));
     let near = start.translation.vector + Vector3::new(0.01, 0.0, 0.01);
     question.target = Target::Position(near);
@@ -654,7 +654,7 @@ fn a_robot_with_loops_stays_closed() {
                 }
             }
         }
-        // out of reach: closed all the same
+        // unreachable, but the loops are closed all the same
         let beyond = Target::Position(wanted.translation.vector + Vector3::new(2.0, 0.0, 0.0));
         let answer = inverse_kinematics(
             &robot,

@@ -4,7 +4,7 @@
 use std::num::NonZeroU32;
 
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
-use kinemark_reference::sampled_joint::{Controlled, Rate, SampledJoint};
+use kinemark_reference::sampled_joint::{ControlledQuantity, Rate, SampledJoint};
 use kinemark_sim::control::linear_step::{Fed, LinearStep};
 use kinemark_sim::control::{Derivative, Gains, Mode, ServoSettings};
 use kinemark_sim::run::{End, Setup, run};
@@ -128,11 +128,11 @@ proptest! {
         reference in -2.0..2.0f64, way in 0usize..5,
     ) {
         let (controlled, rate, mode, derivative) = [
-            (Controlled::Position, Rate::OfError, Mode::Position, Derivative::Error),
-            (Controlled::Position, Rate::OfMeasurement, Mode::Position, Derivative::Measurement),
-            (Controlled::Position, Rate::Velocity, Mode::Position, Derivative::Velocity),
-            (Controlled::Velocity, Rate::OfError, Mode::Velocity, Derivative::Error),
-            (Controlled::Velocity, Rate::OfMeasurement, Mode::Velocity, Derivative::Measurement),
+            (ControlledQuantity::Position, Rate::OfError, Mode::Position, Derivative::Error),
+            (ControlledQuantity::Position, Rate::OfMeasurement, Mode::Position, Derivative::Measurement),
+            (ControlledQuantity::Position, Rate::Velocity, Mode::Position, Derivative::Velocity),
+            (ControlledQuantity::Velocity, Rate::OfError, Mode::Velocity, Derivative::Error),
+            (ControlledQuantity::Velocity, Rate::OfMeasurement, Mode::Velocity, Derivative::Measurement),
         ][way];
         let (step_s, substeps, samples) = (1e-3, 4, 200);
         let joint = SampledJoint {

@@ -21,7 +21,7 @@ fn step_responses_are_those_of_partial_fractions() {
                 "velocity_pid_D_on_error" => (Fed::Velocity, true, number("Kd")),
                 "velocity_pid_D_on_measurement" => (Fed::Velocity, false, number("Kd")),
                 "velocity_pi_Kd0" => (Fed::Velocity, true, 0.0),
-                // functions of the document that are no closed loop from the reference
+                // functions of the document that are not closed loops from the reference
                 _ => continue,
             };
             let of_joint = LinearStep {

@@ -95,7 +95,7 @@ fn a_binary_file_may_start_like_a_text() {
         let mesh = Mesh::parse("a.stl", &binary_stl(title, &corners)).expect(title);
         assert_eq!(mesh, cube());
     }
-    // and is told to be cut off rather than read as words
+    // and is reported as cut off instead of being read as text
     let bytes = binary_stl("solid part", &corners);
     let cut = problem("a.stl", &bytes[..bytes.len() - 7]);
     assert!(matches!(cut, MeshProblem::BinaryLength { .. }), "{cut}");

@@ -125,7 +125,7 @@ proptest! {
 
     #[test]
     fn the_inverse_kinematics_finds_either_branch_from_beside_it(arm in arms(), q in angles(), off in -0.1..0.1f64) {
-        // next to the straight and the folded arm both branches are beside each other
+        // near the straight and the folded arm both branches are close together
         prop_assume!(libm::sin(q.y).abs() > 0.3);
         let robot = built(&arm);
         let p = arm.p_tcp_in_lab(q);

@@ -1,4 +1,4 @@
-//! Whole runs in a scene: what is told of them, that they end where nothing can be told any more, and that a copy goes on alike.
+//! Whole runs in a scene: their events, their end at a divergence, and a copy that continues with the same bits.
 
 use std::num::NonZeroU32;
 
@@ -9,7 +9,7 @@ use kinemark_sim::model::contact::Party;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::{BodyKind, Scene, Wind};
 use kinemark_sim::run;
-use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::DivergenceKind;
 use kinemark_sim::run::{End, Observation, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
@@ -100,16 +100,16 @@ fn a_can_that_is_swept_off_is_told_in_order_and_by_its_side() {
         assert!(touched.tick <= moved.tick && moved.tick < left.tick && left.tick < fell.tick);
         let EventKind::BodyFell {
             body: CAN,
-            side: Some(told),
+            side: Some(beyond),
         } = fell.kind
         else {
             panic!("{fell:?}")
         };
-        assert_eq!(told.seen, side);
+        assert_eq!(beyond.seen, side);
         // the shelf's sides look along x of the world
         let sign = if side == SeenSide::Far { 1.0 } else { -1.0 };
-        assert!((told.outward.x - sign).abs() < 1e-12, "{told:?}");
-        // where it is when it is told to have fallen: below the top of the shelf, beyond that side
+        assert!((beyond.outward.x - sign).abs() < 1e-12, "{beyond:?}");
+        // its position at the event `body-fell`: below the top of the shelf, beyond that side
         let pose = trace
             .world_from_body(CAN, fell.tick as usize)
             .expect("the can moves");
@@ -128,21 +128,21 @@ fn contacts_tell_whom_from_when_to_when_and_how_hard() {
             .clone()
     };
     // the can stands on the shelf from the first step until it leaves it
-    let stands = of([Party::Body(0), Party::Body(CAN)]);
+    let support = of([Party::Body(0), Party::Body(CAN)]);
     let left = first(&trace, "left-support").tick;
     assert!(
-        stands.first_tick <= 1 && stands.last_tick.abs_diff(left) <= 40,
-        "{stands:?} {left}"
+        support.first_tick <= 1 && support.last_tick.abs_diff(left) <= 40,
+        "{support:?} {left}"
     );
     // until the arm comes, its weight times the time is the impulse
     let pushed = of([Party::Link(2), Party::Body(CAN)]);
     assert!(pushed.first_tick > 400 && pushed.peak_force_n > 0.4 * 0.39 * 9.81);
-    let weight_n_s = 0.39 * 9.81 * 1e-3 * stands.last_tick as f64;
+    let weight_n_s = 0.39 * 9.81 * 1e-3 * support.last_tick as f64;
     assert!(
-        (stands.impulse_n_s / weight_n_s - 1.0).abs() < 0.05,
-        "{stands:?} {weight_n_s}"
+        (support.impulse_n_s / weight_n_s - 1.0).abs() < 0.05,
+        "{support:?} {weight_n_s}"
     );
-    assert!((stands.p_first_in_world.z - 1.2).abs() < 1e-3);
+    assert!((support.p_first_in_world.z - 1.2).abs() < 1e-3);
     // what the trace has of the can at the start is where the scene puts it
     let start = trace.world_from_body(CAN, 0).expect("the can moves");
     assert!((start.translation.vector - nalgebra::Vector3::new(1.0, 0.05, 1.25)).norm() < 1e-15);
@@ -191,7 +191,7 @@ fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_can_be_told() {
         let End::Diverged { tick, what } = end else {
             panic!("{end:?}")
         };
-        let BlowUp::Runaway {
+        let DivergenceKind::Runaway {
             kinetic_j, bound_j, ..
         } = what
         else {
@@ -262,8 +262,8 @@ fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
     let (held, trace) = fastest(Some(&nothing));
     assert!((20.0..20.5).contains(&held), "{held}");
     let shoulder = EventKind::SpeedLimitHit { joint: 0 };
-    let told = trace.events.iter().find(|event| event.kind == shoulder);
-    let tick = told.expect("it is told").tick as usize;
+    let event = trace.events.iter().find(|event| event.kind == shoulder);
+    let tick = event.expect("an event").tick as usize;
     assert!(trace.qd.at(tick)[0] <= -20.0);
     assert!(trace.effort.at(tick)[0].abs() < f64::MIN_POSITIVE);
 }
@@ -280,18 +280,18 @@ fn a_joint_that_is_pressed_on_its_stop_is_told_once() {
     };
     assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
     let trace = recorder.finish();
-    let told = |name: &str| {
+    let count = |name: &str| {
         trace
             .events
             .iter()
             .filter(|event| event.kind.name() == name)
             .count()
     };
-    assert!((1..=4).contains(&told("limit-hit")), "{:?}", trace.events);
-    assert!(told("saturated") <= 4, "{:?}", trace.events);
+    assert!((1..=4).contains(&count("limit-hit")), "{:?}", trace.events);
+    assert!(count("saturated") <= 4, "{:?}", trace.events);
 }
 
-/// What is told of a box of 1 kg on a plate that goes down 0.4 m in a second, with the plate tilted by `slope_deg`.
+/// The trace of a box of 1 kg on a plate that moves down 0.4 m in a second, tilted by `slope_deg`.
 fn lowered(slope_deg: f64) -> Trace {
     let (s, c) = libm::sincos(slope_deg.to_radians());
     let (x, z) = (3.0 + 0.1 * s, 1.0 + 0.1 * c);
@@ -317,18 +317,18 @@ fn what_rides_down_does_not_fall() {
     let trace = lowered(0.0);
     let last = trace.world_from_body(1, 2000).expect("the box");
     assert!((last.translation.z - 0.7).abs() < 1e-3);
-    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    let events: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
     // the plate is faster than gravity at first
     assert!(
-        told.contains(&"left-support") && !told.contains(&"body-fell"),
-        "{told:?}"
+        events.contains(&"left-support") && !events.contains(&"body-fell"),
+        "{events:?}"
     );
     // down a ramp that slides under it, and still on it
     let trace = lowered(12.0);
-    let told: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
+    let events: Vec<&str> = trace.events.iter().map(|event| event.kind.name()).collect();
     assert!(
-        told.contains(&"moved") && !told.contains(&"body-fell"),
-        "{told:?}"
+        events.contains(&"moved") && !events.contains(&"body-fell"),
+        "{events:?}"
     );
 }
 
@@ -377,7 +377,7 @@ fn bodies_are_as_fast_as_they_are_until_they_fly_off() {
         end,
         End::Diverged {
             tick: 1,
-            what: BlowUp::BodyRunaway { body: 0, .. }
+            what: DivergenceKind::BodyRunaway { body: 0, .. }
         }
     ));
     // a feather of a gram with a square metre goes with the wind at once

@@ -432,7 +432,7 @@ fn via_points_beyond_reach_in_the_shelf_and_reached_in_one_branch_only() {
         panic!("{found:?}")
     };
 
-    // straight up there is one branch, and nothing to tell
+    // straight up there is one branch and no finding
     assert_eq!(around_rrbot(&scene, &[[0.0, 4.0]]), []);
     // at the middle of the can, which gives way
     let found = around_rrbot(&scene, &[[1.0, 1.25]]);

@@ -1,4 +1,4 @@
-//! Scene files: the scenes of the labs have the numbers they were made for, and each mistake is told at its place.
+//! Scene files: the scenes of the labs have the numbers they were made for, and each mistake is reported at its position.
 
 #![expect(
     clippy::float_cmp,
@@ -266,7 +266,7 @@ fn only_fixed_bodies_keep_a_mesh_as_it_is() {
 
 const HEAD: &str = "format = 1\nname = \"s\"\n";
 
-/// A free ball with a key added or replaced; the key of the name is on line 4.
+/// A dynamic ball with a key added or replaced; the key of the name is on line 4.
 fn ball(changes: &[(&str, &str)]) -> String {
     let mut keys = vec![
         ("name", "\"ball\""),
@@ -545,12 +545,12 @@ fn kinematic(motion: &str) -> String {
 
 #[test]
 fn messages_say_what_was_given_and_what_to_do() {
-    let told = |text: &str| {
+    let problem = |text: &str| {
         let error = read(text).expect_err(text);
         (error.to_string(), error.problem.help().unwrap_or_default())
     };
     assert_eq!(
-        told(&ball(&[("inertia", "{ mass_kg = 0 }")])),
+        problem(&ball(&[("inertia", "{ mass_kg = 0 }")])),
         (
             "free body `ball` needs a positive mass, got 0.0 kg".to_owned(),
             "a body without mass cannot be moved by forces; make it `fixed` or `kinematic`"
@@ -558,21 +558,21 @@ fn messages_say_what_was_given_and_what_to_do() {
         )
     );
     assert_eq!(
-        told(&ball(&[("inertia", "{ mass_kg = 1, com_m = [0, 0, 0] }")])),
+        problem(&ball(&[("inertia", "{ mass_kg = 1, com_m = [0, 0, 0] }")])),
         (
             "body `ball` has `com_m` but no `tensor_kg_m2`".to_owned(),
             "leave `com_m` out to take both from the shapes, or give the tensor too".to_owned()
         )
     );
     assert_eq!(
-        told(&ball(&[("velocty", "{}")])),
+        problem(&ball(&[("velocty", "{}")])),
         (
             "unknown key `velocty`".to_owned(),
             "did you mean `velocity`?".to_owned()
         )
     );
     assert_eq!(
-        told(&ball(&[("type", "\"fre\"")])),
+        problem(&ball(&[("type", "\"fre\"")])),
         (
             "unknown value `fre`".to_owned(),
             "did you mean `free`?".to_owned()
@@ -583,7 +583,7 @@ fn messages_say_what_was_given_and_what_to_do() {
         "[[bodies]]\nname = \"b\"\ntype = \"fixed\"\ncontact = { friction = 1 }\n".repeat(1001)
     );
     assert_eq!(
-        told(&many),
+        problem(&many),
         (
             "1001 bodies are more than a scene may have (1000)".to_owned(),
             "leave out bodies that nothing needs".to_owned()

@@ -1,4 +1,4 @@
-//! The tables of sensors: what they may say, mistakes at their places, and that they survive being written.
+//! The tables of sensors: what they may say, mistakes at their positions, and that they survive being written.
 
 use kinemark_sim::format::RobotFile;
 use kinemark_sim::text::{Problem as _, Source};

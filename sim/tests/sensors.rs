@@ -92,13 +92,13 @@ fn a_switch_opens_the_motor_to_its_side_and_leaves_the_other() {
     assert_eq!(opened(&lower, 0.2, -3.0), (1.0, 0.0));
     assert_eq!(opened(&lower, 0.2, 3.0), (1.0, 3.0));
     assert_eq!(opened(&lower, 0.3, -3.0), (0.0, -3.0));
-    // at the joint's own limit where no place is said
+    // at the joint's own limit if no position is given
     let at_limit = switch("s", "slide", "side = 'upper'");
     assert_eq!(opened(&at_limit, 0.5, 3.0), (1.0, 0.0));
     assert_eq!(opened(&at_limit, 0.49, 3.0), (0.0, 3.0));
-    // one that only tells
-    let tells = format!("{upper}opens_motor = false\n");
-    assert_eq!(opened(&tells, 0.3, 3.0), (1.0, 3.0));
+    // one that only reports
+    let reports = format!("{upper}opens_motor = false\n");
+    assert_eq!(opened(&reports, 0.3, 3.0), (1.0, 3.0));
     // the second finger goes up while the motor goes down
     let geared = switch("s", "follow", "side = 'upper'\nat = 0.0");
     assert_eq!(opened(&geared, -0.1, -3.0), (1.0, 0.0));

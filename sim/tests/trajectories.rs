@@ -67,7 +67,7 @@ fn assert_exact_ends(motion: &impl Trajectory<Sample = Sample>, start: f64, end:
     assert_eq!(motion.at(f64::INFINITY), Sample::at_rest(end));
 }
 
-/// The same times by another way: the peak speed by bisection, the way to reach it by the mean of a symmetric speed.
+/// The same times by another method: the peak speed by bisection, the distance by the mean of a symmetric speed.
 fn jerk_limited_duration_by_bisection(way: f64, limits: &JerkLimits) -> f64 {
     let JerkLimits {
         speed: v,
@@ -173,7 +173,7 @@ proptest! {
         let uneven = Trapezoid::with_deceleration(start, end, &limits, deceleration).unwrap();
         let (v, a) = peaks(&uneven, &[]);
         prop_assert!(v <= speed * over && a <= acceleration.max(deceleration) * over);
-        // the way, added up from the peak speed
+        // the distance, summed up from the peak speed
         let peak = uneven.peak_speed();
         let by_slopes = 0.5 * peak * peak * (1.0 / acceleration + 1.0 / deceleration);
         let cruise_s = uneven.duration_s() - peak / acceleration - peak / deceleration;
@@ -280,7 +280,7 @@ proptest! {
                 );
             }
         }
-        // no joint arrives early: all are at half of their way at half time, being symmetric
+        // the joints are synchronous: by symmetry all are at half of their distance at half time
         let middle = motion.at(0.5 * duration_s);
         for (joint, ends) in joints.iter().enumerate() {
             prop_assert!((middle.q.as_slice()[joint] - 0.5 * (ends.0 + ends.1)).abs() < 1e-14);
@@ -432,7 +432,7 @@ proptest! {
             prop_assert!(((point - centre).norm() - radius_m).abs() < tolerance_m);
         }
         prop_assert!(arc.angle_rad() > 0.0 && arc.angle_rad() < 2.0 * PI);
-        // via is met on the way, at the angle it is seen at from the centre
+        // the path passes through via, at its angle about the centre
         let (x, y) = ((p0 - centre) / radius_m, arc.axis_in_world().cross(&(p0 - centre)) / radius_m);
         let to_via = via - centre;
         let seen = libm::atan2(to_via.dot(&y), to_via.dot(&x)).rem_euclid(2.0 * PI);

@@ -1,4 +1,4 @@
-//! Broken URDF files: each mistake is named at its place, slips are warnings, and no text costs more than its size.
+//! Broken URDF files: each error is reported at its position, small slips are warnings, and no text costs more than its size.
 
 use std::fmt::Write as _;
 

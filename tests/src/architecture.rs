@@ -35,7 +35,7 @@ fn crates_depend_on_each_other_as_drawn() {
             }
         }
     }
-    // what a crate stands on anyway, its tests may ask for with more features
+    // tests may use a dependency of their crate with more features
     let more = of_tests.difference(&arrows).cloned();
     assert_eq!(
         more.collect::<Vec<_>>(),

@@ -1,6 +1,6 @@
 //! The pictures of briefs: those that show a run are drawn from that run, and every picture that a brief names is there.
 //!
-//! A brief shows a plot by its name: `plot-PLOT.svg` of the reference's run, `plot-PLOT-by-MUTANT.svg` of a known mistake's.
+//! A brief shows a plot by its name: `plot-PLOT.svg` of the reference's run, `plot-PLOT-by-MUTANT.svg` of a mutant's run.
 
 use std::path::PathBuf;
 use std::sync::Mutex;

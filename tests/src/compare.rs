@@ -1,4 +1,4 @@
-//! `kinemark compare`: two reports of a lab beside each other.
+//! `kinemark compare`: compares two reports of a lab.
 
 use serde_json::Value;
 
@@ -39,11 +39,11 @@ fn two_attempts_are_told_apart_where_they_part() {
         ran.stdout.contains("A  a: a.rhai, 24 of 24 points, passed"),
         "{ran:?}"
     );
-    let told = ran
+    let line = ran
         .stdout
         .lines()
         .find(|line| line.contains("first differ at"));
-    let told = told.expect("a difference");
+    let line = line.expect("a difference");
     // the command of the second move comes at 2.6 s, not 2.5 s; the joints part by 0.02 rad soon after
     let record = record(&bed);
     assert_eq!(record["format"], "kinemark-comparison/1");
@@ -58,8 +58,8 @@ fn two_attempts_are_told_apart_where_they_part() {
     let time_s = first["time_s"].as_f64().expect("a time");
     assert!((2.5..2.6).contains(&time_s), "{first}");
     assert!(
-        told.contains(first["message"].as_str().expect("words")),
-        "{told}"
+        line.contains(first["message"].as_str().expect("words")),
+        "{line}"
     );
     // what both do the same is said so
     assert_eq!(of("warm-up")["motion"]["same_bits"], true);
@@ -121,12 +121,12 @@ fn students_with_other_numbers_are_compared_and_the_page_says_so() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let record: Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let notes = record["notes"].as_array().expect("notes");
-    let told = |words: &str| {
+    let noted = |words: &str| {
         notes
             .iter()
             .any(|note| note.as_str().is_some_and(|note| note.contains(words)))
     };
-    assert!(told("anna") && told("bert"), "{notes:?}");
+    assert!(noted("anna") && noted("bert"), "{notes:?}");
     // other goals, so the arms part; both stand in one page, each with its own shelf and can
     assert!(moved(&record)["first"]["time_s"].is_number(), "{record}");
     let page = std::fs::read_to_string(bed.path("kinemark-compare/compare.html")).expect("a page");
@@ -164,16 +164,16 @@ fn a_run_that_stopped_is_told_with_when_and_why() {
     assert!(line.contains(&format!("{time_s:.2} s")), "{line} {time_s}");
     assert!(line.contains(message), "{line}");
     assert!(!ran.stdout.contains("A stopped"), "{ran:?}");
-    // no points because nothing was judged is a dash, and no zero
+    // a check that was not judged shows a dash and not zero
     assert!(ran.stdout.contains(" \u{2013}/"), "{ran:?}");
     let record = record(&bed);
     let tasks = record["tasks"].as_array().expect("tasks");
-    let told = tasks.iter().find(|task| task["ended_b"].is_object());
-    let told = told.expect("it is told");
-    assert_eq!(told["ended_b"]["message"], stopped["message"]);
-    assert_eq!(told["ended_b"]["tick"], stopped["tick"]);
-    assert!(told["ended_a"].is_null());
-    let checks = told["checks"].as_array().expect("checks");
+    let task = tasks.iter().find(|task| task["ended_b"].is_object());
+    let task = task.expect("a task that B ended early");
+    assert_eq!(task["ended_b"]["message"], stopped["message"]);
+    assert_eq!(task["ended_b"]["tick"], stopped["tick"]);
+    assert!(task["ended_a"].is_null());
+    let checks = task["checks"].as_array().expect("checks");
     assert!(
         checks
             .iter()
@@ -184,7 +184,7 @@ fn a_run_that_stopped_is_told_with_when_and_why() {
     assert!(page.contains("not judged"));
 }
 
-/// What this machine cannot do is no result.
+/// A failure of the machine is not a result.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_machine_that_cannot_run_them_again_is_told_and_nothing_is_written() {
@@ -197,9 +197,9 @@ fn a_machine_that_cannot_run_them_again_is_told_and_nothing_is_written() {
         .current_dir(bed.path(""))
         .output()
         .expect("a shell");
-    let told = String::from_utf8_lossy(&ran.stderr);
-    assert_eq!(ran.status.code(), Some(4), "{told}");
-    assert!(told.contains("could not be run again"), "{told}");
+    let stderr = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(4), "{stderr}");
+    assert!(stderr.contains("could not be run again"), "{stderr}");
     assert!(ran.stdout.is_empty());
     assert!(!bed.path("kinemark-compare").exists());
 }
@@ -211,8 +211,11 @@ fn what_is_no_whole_report_of_this_version_is_told() {
         for args in [&["compare", "a", "b"][..], &["verify", "b", "--practice"]] {
             let ran = bed.run(args);
             assert_eq!(ran.code, Some(3), "{args:?} {ran:?}");
-            let told = ran.stderr.replace("\n  \u{2502} ", " ");
-            assert!(told.contains(words) && told.contains("help:"), "{ran:?}");
+            let stderr = ran.stderr.replace("\n  \u{2502} ", " ");
+            assert!(
+                stderr.contains(words) && stderr.contains("help:"),
+                "{ran:?}"
+            );
         }
     };
     bed.edit("b/grade.json", "kinemark-grade/1", "kinemark-grade/7");
@@ -254,7 +257,7 @@ fn foreign_names_are_shown_harmlessly() {
     ] {
         spoil(pointer);
     }
-    let harmless = |ran: &crate::testbed::Ran| {
+    let harmless = |ran: &crate::testbed::CommandResult| {
         for text in [&ran.stdout, &ran.stderr] {
             assert!(!text.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{text:?}");
         }

@@ -16,7 +16,7 @@ fn texts(folder: &Path, ending: &str, into: &mut Vec<String>) {
     }
 }
 
-/// Codes such as `lab::band` that stand as texts in a source.
+/// Codes such as `lab::band` in the strings of a source.
 fn codes(source: &str) -> Vec<&str> {
     let is_code = |text: &&str| {
         let parts = text.split_once("::");
@@ -59,14 +59,17 @@ fn every_example_of_the_help_names_what_is_there() {
             && word.as_bytes()[2] == b'-';
         if numbered {
             labs += 1;
-            assert!(root().join("labs").join(word).is_dir(), "{word} is no lab");
+            assert!(
+                root().join("labs").join(word).is_dir(),
+                "{word} is not a lab"
+            );
         }
         if word.starts_with("labs/") {
             assert!(root().join(word).exists(), "{word} is not there");
         }
     }
     assert!(labs > 3);
-    // the variable is told where the option is
+    // the variable is documented with the option
     assert!(page.contains("[env: KINEMARK_SALT]"));
     let help = bed.run(&["grade", "--help"]).stdout;
     assert_eq!(help.matches("KINEMARK_SALT").count(), 1, "{help}");
@@ -81,7 +84,7 @@ fn every_command_is_in_the_table_of_the_readme() {
         .filter_map(|line| line.strip_prefix("## `kinemark "));
     let mut seen = 0;
     for command in commands.map(|rest| rest.trim_end_matches('`')) {
-        // a group of commands is told by its members
+        // a group of commands is documented by its members
         if ["robot", "scene", "log", "lab"].contains(&command) {
             continue;
         }

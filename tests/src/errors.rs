@@ -1,4 +1,4 @@
-//! Mistakes in files and on the command line: each has a message with its place, and the documented exit code.
+//! Mistakes in files and on the command line: each has a message with its position, and the documented exit code.
 
 use crate::golden::reads;
 use crate::testbed::TestBed;
@@ -271,8 +271,8 @@ fn a_broken_lab_takes_no_other_off_the_list() {
 fn an_empty_salt_is_told_where_it_stands() {
     let bed = bed();
     let output = bed.command(&GRADE).env("KINEMARK_SALT", "").output();
-    let told = String::from_utf8_lossy(&output.expect("the binary runs").stderr).into_owned();
-    assert!(told.contains("unset KINEMARK_SALT"), "{told}");
+    let stderr = String::from_utf8_lossy(&output.expect("the binary runs").stderr).into_owned();
+    assert!(stderr.contains("unset KINEMARK_SALT"), "{stderr}");
     let ran = bed.run(&[&GRADE[..], &["--salt", ""]].concat());
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("leave --salt out"), "{ran:?}");

@@ -47,7 +47,7 @@ pub(crate) fn numbers(value: &Value) -> Vec<f64> {
         other => vec![
             other
                 .as_f64()
-                .unwrap_or_else(|| panic!("{other} is no number")),
+                .unwrap_or_else(|| panic!("{other} is not a number")),
         ],
     }
 }

@@ -38,7 +38,7 @@ fn parts(pose: &Value) -> (Value, Value) {
     (json!(position), json!(rotation))
 }
 
-/// Where each joint of the robot stands in the order of the golden file.
+/// Index of each joint of the robot in the order of the golden file.
 fn order(robot: &[&str], golden_order: &Value) -> Vec<usize> {
     let info = ask(robot, &[json!({ "op": "info" })]);
     let golden_order = golden_order.as_array().expect("joint order");

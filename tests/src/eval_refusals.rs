@@ -181,7 +181,7 @@ fn a_loop_that_does_not_reach_is_open() {
     bed.write("four-bar.toml", FOUR_BAR);
     let requests = [
         r#"{"op": "fk", "q": [0.1]}"#.to_owned(),
-        // the crank points back: rod and rocker together are 1.7 m, the way is 2.2 m
+        // the crank points back: rod and rocker together are 1.7 m, the distance is 2.2 m
         r#"{"op": "fk", "q": [1.5707963267948966]}"#.to_owned(),
     ];
     let (answers, _) = eval_with(&bed, &["four-bar.toml"], &requests);

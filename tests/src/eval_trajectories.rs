@@ -80,7 +80,7 @@ fn trajectories_are_planned_to_the_numbers_of_hand() {
         1e-15,
         "line",
     );
-    // half a circle at 1 m/s from rest: at 2 s the way is 1.5 m, towards the centre 1 m/s²
+    // half a circle at 1 m/s from rest: at 2 s the arc length is 1.5 m, towards the centre 1 m/s²
     let turned = 1.5_f64;
     let radial = [-libm_cos(turned), -libm_sin(turned), 0.0];
     close(

@@ -9,7 +9,7 @@ fn is_set_to(name: &str, word: &str) -> bool {
     value.split([',', ' ']).any(|known| known == word)
 }
 
-/// Whether `what` shall be compared; says so where it is not.
+/// Whether `what` should be compared; prints a note if not.
 pub(crate) fn is_asked_for(what: &str) -> bool {
     let asked = is_set_to("KINEMARK_EXACT", "all");
     if !asked {

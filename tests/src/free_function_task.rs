@@ -132,8 +132,8 @@ fn a_wrong_entry_is_told_and_a_known_mistake_named() {
     assert_eq!(task.verdict, Verdict::Missed, "{}", text(&grade));
     // one of two entries in every case, and the other alone
     assert!((task.points - 3.0).abs() <= 1e-12, "{}", task.points);
-    let told: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
-    assert_eq!(told, ["hertz"]);
+    let mistakes: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
+    assert_eq!(mistakes, ["hertz"]);
     let evidence = evidence(task);
     assert_eq!(
         evidence,

@@ -180,7 +180,7 @@ fn a_pipe_or_a_device_is_no_folder_to_replace() {
 fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
     let bed = TestBed::new();
     good(&bed);
-    // a device is no place for a folder, whoever asks: permissions would not stop the administrator
+    // no user can create a folder on a device, not even the administrator, whom permissions would not stop
     let ran = bed.run(&[
         "grade",
         "01-kinematics",
@@ -209,7 +209,7 @@ fn a_folder_that_would_steer_the_terminal_is_told_in_plain_characters() {
     ];
     let ran = bed.run(&args);
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    let told = "report: o⟨U+001B⟩[31m⟨U+202E⟩x/report.html\n";
-    assert!(ran.stdout.contains(told), "{ran:?}");
+    let expected = "report: o⟨U+001B⟩[31m⟨U+202E⟩x/report.html\n";
+    assert!(ran.stdout.contains(expected), "{ran:?}");
     assert!(bed.path(out).join("report.html").exists());
 }

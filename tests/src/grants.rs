@@ -1,4 +1,4 @@
-//! `grants`: what a task lends a submission of Kinemark's own model of the robot, and which labs may not.
+//! `grants`: the functions of Kinemark's own model that a task grants to a submission, and which labs may not grant any.
 
 use kinemark_grader::lab::Lab;
 use kinemark_grader::record::grade::Grade;
@@ -52,7 +52,7 @@ points = 2.0
 joint-reached = { joint = "elbow", position_rad = 0.7, hold_s = 0.5, full_rad = 1e-6, zero_rad = 0.1 }
 "#;
 
-/// Central differences, and the arm held by what gravity takes; what is lent is held against the formulas of the arm.
+/// Central differences and gravity compensation; the granted functions are compared with the formulas of the arm.
 const SUBMISSION: &str = r#"
 fn jacobian(robot, q) {
     let h = 1e-5;
@@ -182,7 +182,7 @@ fn what_is_not_granted_or_asked_wrongly_is_told_so() {
         ),
         (
             "#{}.fk(q)",
-            "`fk` is asked of the robot, got a map",
+            "`fk` is a function of the robot, got a map",
             Some("write robot.fk(q)"),
         ),
     ] {

@@ -1,4 +1,4 @@
-//! Hidden runs of a lab with variants: numbers written down lose points there, and nothing tells what the hidden numbers are.
+//! Hidden runs of a lab with variants: hard-coded numbers lose points there, and no output reveals the hidden numbers.
 
 use kinemark_grader::lab::Staff;
 use kinemark_grader::record::verdict::Verdict;
@@ -20,23 +20,26 @@ fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
     // one of three runs is right; in the others the place is 150 mm and more from the one written down
     assert_eq!(touch.points, 1.0, "{}", text(&fixed));
     assert_eq!(touch.verdict, Verdict::Missed);
-    let told = text(&fixed);
+    let output = text(&fixed);
     assert!(
-        told.contains("in 2 of 2 hidden runs of the class \"nearer places\" points are lost"),
-        "{told}"
+        output.contains("in 2 of 2 hidden runs of the class \"nearer places\" points are lost"),
+        "{output}"
     );
-    assert!(told.contains("hidden runs: nearer places 0/2"), "{told}");
-    assert!(told.contains("run with other numbers, too"), "{told}");
+    assert!(
+        output.contains("hidden runs: nearer places 0/2"),
+        "{output}"
+    );
+    assert!(output.contains("run with other numbers, too"), "{output}");
     assert_ne!(touch.digests.all, full.tasks[1].digests.all);
     assert_eq!(
         touch.digests.seconds.len(),
         full.tasks[1].digests.seconds.len()
     );
-    // without the staff's part there are none
+    // without the course staff's part there are none
     let practice = grade(&base(&bed), None, "mine.rhai", SOLUTION).grade;
     assert_eq!(practice.tasks[1].hidden, []);
 
-    // what it says and throws there is kept for itself
+    // its output and errors in hidden runs are not reported
     let leaks = SOLUTION.replace(
         "let out = observation.target[0][1];",
         "let out = observation.target[0][1]; if out < 0.8 { print(`secret ${out}`); throw `secret ${out}`; }",

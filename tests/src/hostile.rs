@@ -1,4 +1,4 @@
-//! Submissions that would hurt: each ends with its verdict, in counted work, and the points of other tasks stand.
+//! Hostile submissions: each ends with its verdict within its budgets, and the points of other tasks are kept.
 
 use crate::every_case::every_case;
 use crate::testbed::TestBed;
@@ -125,15 +125,15 @@ fn ctrl_c_writes_nothing_and_leaves_nothing() {
         .status();
     assert!(killed.expect("kill").success());
     let status = child.wait().expect("ends");
-    let mut told = String::new();
+    let mut stderr = String::new();
     child
         .stderr
         .take()
         .expect("stderr")
-        .read_to_string(&mut told)
+        .read_to_string(&mut stderr)
         .expect("text");
-    assert_eq!(status.code(), Some(130), "{told}");
-    assert!(told.contains("interrupted"), "{told}");
+    assert_eq!(status.code(), Some(130), "{stderr}");
+    assert!(stderr.contains("interrupted"), "{stderr}");
     let left: Vec<_> = std::fs::read_dir(bed.path("")).expect("folder").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }

@@ -124,14 +124,14 @@ fn a_wrong_column_is_told_and_a_known_mistake_named() {
     let grade = graded(ELBOW_BY_SHOULDER);
     let task = &grade.tasks[0];
     assert_eq!((task.verdict, task.points), (Verdict::Missed, 0.0));
-    let told: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
-    assert_eq!(told, ["elbow-by-shoulder"]);
+    let mistakes: Vec<&str> = task.diagnoses.iter().map(|d| d.mistake.as_str()).collect();
+    assert_eq!(mistakes, ["elbow-by-shoulder"]);
     let evidence = evidence(task);
     assert!(
         evidence.contains(&"10 of 10 hidden cases of the class \"unequal links\" are off"),
         "{evidence:?}"
     );
-    // (-1, 1) stands where (-1, 0) should: 1 of a norm of √3
+    // (-1, 1) instead of (-1, 0): 1 of a norm of √3
     assert!(
         evidence.contains(
             &"elbow a quarter turn: 57.7 % off: column 2 (elbow): d y / d q2 is 1, should be 0"
@@ -140,12 +140,12 @@ fn a_wrong_column_is_told_and_a_known_mistake_named() {
     );
 
     let grade = graded(ABSOLUTE_ELBOW);
-    let told: Vec<&str> = grade.tasks[0]
+    let mistakes: Vec<&str> = grade.tasks[0]
         .diagnoses
         .iter()
         .map(|d| d.mistake.as_str())
         .collect();
-    assert_eq!(told, ["absolute-elbow"]);
+    assert_eq!(mistakes, ["absolute-elbow"]);
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! What labs expect of a function is held against another way to the same number: `expected` in lab.toml was typed, and that of
-//! hidden cases is what the solution answers.
+//! Expected answers of functions are compared with an independent computation: `expected` in lab.toml is typed by hand, and for hidden
+//! cases the reference solution computes it.
 
 use kinemark_grader::judge::with_expected;
 use kinemark_grader::lab::TaskWork;
@@ -27,7 +27,7 @@ fn each_case(lab_name: &str, task: &str, mut check: impl FnMut(&Numbers<'_>, &Nu
     let staff = staff(&lab, Some("another way"));
     let found = lab.tasks.iter().find(|known| known.name == task);
     let TaskWork::Function(function, _) = &found.expect(task).work else {
-        panic!("{task} is no function task");
+        panic!("{task} is not a function task");
     };
     let hidden = staff.draws_of(task).flat_map(|draw| {
         with_expected(&lab, found.expect(task), &draw.cases, &staff.solution).expect("answers")

@@ -1,4 +1,4 @@
-//! A lab whose robot has a mesh: graded, copied with its report, verified from the copy, and told apart when the mesh changes.
+//! A lab whose robot has a mesh: graded, copied with its report, verified from the copy, and distinguished when the mesh changes.
 
 use crate::robot_files::CUBE;
 use crate::testbed::{TestBed, files_below, root};

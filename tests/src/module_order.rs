@@ -1,4 +1,4 @@
-//! Inside a crate, modules stand in one order: an import against the order that docs/architecture.md gives fails here.
+//! Inside a crate, modules have one order: an import against the order in docs/architecture.md fails here.
 //!
 //! The page holds a block for each crate, low to high, one module a line and what it holds behind the name:
 //!
@@ -81,7 +81,7 @@ fn orders(page: &str) -> Vec<(String, Vec<String>)> {
 
 /// What goes against `order`, low to high, in the crate whose root lies in the folder `src`; a line for each, with file and line.
 ///
-/// Paths count wherever they stand: in `use` (nested too), in code, in types and in what macros are given. Comments, strings and
+/// Paths count everywhere: in `use` (nested too), in code, in types and in the input of macros. Comments, strings and
 /// whatever is compiled for tests only do not.
 fn violations(src: &Path, order: &[String]) -> Vec<String> {
     let root = ["lib.rs", "main.rs"]
@@ -105,7 +105,7 @@ fn violations(src: &Path, order: &[String]) -> Vec<String> {
     for name in order {
         if !crate_.modules.contains(name) {
             crate_.found.push(format!(
-                "{}: the order names `{name}`, which is no module",
+                "{}: the order names `{name}`, which is not a module",
                 root.display()
             ));
         }
@@ -159,7 +159,7 @@ impl Crate {
         }
     }
 
-    /// Walks the items of the module `here`, which stand in `file`; its child modules have their files in `folder`.
+    /// Walks the items of the module `here`, which are in `file`; its child modules have their files in `folder`.
     fn items(&mut self, items: &[Item], file: &Path, folder: &Path, here: &mut Vec<String>) {
         for item in items {
             match item {
@@ -311,7 +311,7 @@ impl Crate {
         match (rank(user), rank(&used)) {
             (Some(user_rank), Some(used_rank)) if used_rank > user_rank => {
                 self.found.push(format!(
-                    "{place}: `{user}` uses `{used}`, which stands below it"
+                    "{place}: `{user}` uses `{used}`, which is below it"
                 ));
             }
             (_, None) if !self.own.contains(&used) && !self.modules.contains(&used) => {
@@ -347,7 +347,7 @@ fn leaves(tree: &UseTree, module: Option<&str>, names: &mut Vec<(String, String)
     }
 }
 
-/// Whether two colons stand at token `at`.
+/// Whether two colons are at token `at`.
 fn is_colons(tokens: &[TokenTree], at: usize) -> bool {
     let colon = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(colon)) if colon.as_char() == ':');
     colon(tokens.get(at)) && colon(tokens.get(at + 1))
@@ -484,7 +484,7 @@ fn a_file_deep_in_a_module_is_read() {
     ];
     assert_eq!(
         found_in(&files),
-        ["/low/deep/deeper.rs:2: `low` uses `high`, which stands below it"]
+        ["/low/deep/deeper.rs:2: `low` uses `high`, which is below it"]
     );
 }
 
@@ -499,7 +499,7 @@ fn a_file_that_a_macro_declares_is_read() {
     ];
     assert_eq!(
         found_in(&files),
-        ["/low/deep.rs:1: `low` uses `high`, which stands below it"]
+        ["/low/deep.rs:1: `low` uses `high`, which is below it"]
     );
 }
 
@@ -516,7 +516,7 @@ fn a_module_without_a_line_and_a_line_without_a_module_are_found() {
         found_in(&files),
         [
             "/lib.rs: module `stray` has no line in the order",
-            "/lib.rs: the order names `middle`, which is no module",
+            "/lib.rs: the order names `middle`, which is not a module",
             "/low.rs:1: `low` uses `unheard`, of which nothing is known",
         ]
     );

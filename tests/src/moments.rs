@@ -1,4 +1,4 @@
-//! Where points were lost: terminal, page, replay and storyboard tell one moment of the run that is shown, and no other run's.
+//! Moments at which points were lost: terminal, page, replay and storyboard show the same moment of the visible run.
 
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Outcome, TaskGrade};
@@ -57,7 +57,7 @@ fn a_loss_is_marked_where_the_band_was_left() {
         .find(|check| check.title == "On the first line");
     let check = check.expect("the check");
     let first = check.first_lost.expect("a moment");
-    // the furthest place is told, and the way there began before
+    // the evidence gives the furthest point; the loss began before it
     let furthest = check.evidence[0].tick.expect("a tick");
     assert!(first.tick + 100 < furthest, "{first:?}, {furthest}");
     let curve = graded.runs[0]
@@ -75,13 +75,13 @@ fn a_loss_is_marked_where_the_band_was_left() {
     // terminal, replay and storyboard have that moment
     let link = format!("#task=knock&t={}", first.time_s);
     assert_eq!(first_loss_of(knock).expect("a loss").fragment(), link);
-    let told = plain(&graded);
+    let output = plain(&graded);
     assert!(
-        told.contains(&format!(
+        output.contains(&format!(
             "points are lost from {} s on [tick {}] {link}",
             first.time_s, first.tick
         )),
-        "{told}"
+        "{output}"
     );
     let events = replay(&graded, "knock")["events"].clone();
     let mut marks = events.as_array().expect("events").iter();
@@ -102,7 +102,7 @@ fn a_loss_is_marked_where_the_band_was_left() {
         link.replace('&', "&amp;")
     );
     assert!(html::html(&graded, &[]).contains(&seek), "the page");
-    // and what is told of points adds up
+    // and the reported points add up
     let parts: f64 = knock.checks.iter().map(|check| check.points).sum();
     assert!(
         (parts - knock.points).abs() < 1e-9,
@@ -163,10 +163,10 @@ fn a_stop_leads_to_the_last_tick_there_is() {
     assert_eq!(stopped.tick, Some(3010));
     let loss = first_loss_of(task(&late, "move")).expect("a loss");
     assert_eq!(loss.fragment(), "#task=move&t=3.009");
-    let told = plain(&late);
+    let output = plain(&late);
     assert!(
-        told.contains("(at 3.01 s, tick 3010) #task=move&t=3.009"),
-        "{told}"
+        output.contains("(at 3.01 s, tick 3010) #task=move&t=3.009"),
+        "{output}"
     );
     let page = html::html(&late, &[]);
     assert!(page.contains("<a class=\"seek\" href=\"#task=move&amp;t=3.009\">3.01 s</a>"));
@@ -183,8 +183,8 @@ fn a_stop_leads_to_the_last_tick_there_is() {
     );
     // a first call that fails leaves nothing to show but the section
     let at_once = of("fn control(o) { throw \"no\" }");
-    let told = plain(&at_once);
-    assert!(told.contains("(at 0 s, tick 0) #task=move\n"), "{told}");
+    let output = plain(&at_once);
+    assert!(output.contains("(at 0 s, tick 0) #task=move\n"), "{output}");
     let loss = first_loss_of(task(&at_once, "move")).expect("a loss");
     assert_eq!(loss.fragment(), "#task=move");
     // which is there without a script, too
@@ -277,14 +277,14 @@ fn a_mean_with_hidden_runs_says_what_the_visible_one_earns() {
         .iter()
         .find(|check| check.title == "The shoulder is held");
     let shoulder = shoulder.expect("the check");
-    let told: Vec<&str> = shoulder
+    let output: Vec<&str> = shoulder
         .evidence
         .iter()
         .map(|fact| fact.message.as_str())
         .collect();
     let mean =
         "the visible run alone earns 0 of 1; the points are the mean of it and 2 hidden runs";
-    assert!(told.contains(&mean), "{told:?}");
+    assert!(output.contains(&mean), "{output:?}");
     // a check that needs it earns something just where it does
     for (task, asked) in graded.grade.tasks.iter().zip(&lab.tasks) {
         for (check, asked) in task.checks.iter().zip(asked.checks()) {

@@ -9,9 +9,9 @@ use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
 use serde_json::Value as Json;
 
-use crate::testbed::{Folder, Ran, TestBed, root};
+use crate::testbed::{CommandResult, Folder, TestBed, root};
 
-/// The files of one lab, and of the staff's part if it has one, beside the checkout's robots and scenes.
+/// The files of one lab, and of the course staff's part if it has one, next to the checkout's robots and scenes.
 pub(crate) struct OwnLab {
     name: &'static str,
     /// By their paths in the folder of the lab.
@@ -29,7 +29,7 @@ impl OwnLab {
         }
     }
 
-    /// The lab with a file of its staff's part: `hidden.toml`, `solution.rhai` and so on.
+    /// The lab with a file of the course staff's part: `hidden.toml`, `solution.rhai` and so on.
     pub(crate) fn and(mut self, name: &'static str, text: impl Into<String>) -> Self {
         self.files.push((name, text.into()));
         self
@@ -60,7 +60,7 @@ impl OwnLab {
         self.load().unwrap_or_else(|error| panic!("{error:?}"))
     }
 
-    /// The staff's part of the lab, which nothing is wrong with.
+    /// The course staff's part of the lab, which has no errors.
     pub(crate) fn staff(&self, lab: &Lab) -> Option<Staff> {
         Staff::load(self, lab, None).unwrap_or_else(|error| panic!("{error:?}"))
     }
@@ -96,7 +96,7 @@ impl OwnLab {
         self.bed().edit(&self.lab_toml(), from, to);
     }
 
-    fn grade(&self, submission: &str) -> Ran {
+    fn grade(&self, submission: &str) -> CommandResult {
         self.bed().write("mine.rhai", submission);
         let mut args = vec!["grade", self.name, "mine.rhai"];
         // without a reference the grade is of the visible cases alone

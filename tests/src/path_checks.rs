@@ -100,7 +100,7 @@ fn who_follows_the_path_as_asked_has_full_marks() {
     assert_eq!(task["points"], 11.0, "{task}");
     // from 1.95 s on 0.44 m of the second line at 0.4 m/s, and a servo that lags by kd / kp = 0.06 s
     assert!((value(&task, "soon") - 3.11).abs() < 0.02, "{task}");
-    // the rungs' runs are not in the report, but in the digests
+    // the runs of the levels are not in the report, but in the digests
     let rungs = task["digests"]["rungs"].as_array().expect("rungs");
     let names: Vec<&str> = rungs
         .iter()
@@ -127,12 +127,12 @@ fn who_hurries_rests_or_stops_loses_for_that() {
     assert_eq!(check(&task, "near")["outcome"], "full", "{task}");
     // hand: an error of 1 where the speed has settled
     assert!((0.8..1.1).contains(&value(&task, "pace")), "{task}");
-    let told = message(check(&task, "pace"));
+    let words = message(check(&task, "pace"));
     assert!(
-        told.starts_with(
+        words.starts_with(
             "segment 2 of the path `ell`, from [1.25, 1.25, 0.05] to [1.75, 1.25, 0.05]"
         ),
-        "{told}"
+        "{words}"
     );
     // a rest of 0.5 s in the middle of the first line: 0.2 m of 0.38 m and 0.2 m
     let resting = "if t < 0.825 { 0.4 * max(t - 0.2, 0.0) } else { min(0.25 + 0.4 * max(t - 1.325, 0.0), 1.0) }";
@@ -149,11 +149,11 @@ fn who_hurries_rests_or_stops_loses_for_that() {
         message(check(&task, "pace")).contains("0.380 m are never passed"),
         "{task}"
     );
-    let told = message(check(&task, "soon"));
+    let words = message(check(&task, "soon"));
     assert!(
-        told.starts_with("point 3 of the path `ell`, at [1.75, 1.25, 0.05], was missed by 0.")
-            && told.ends_with("the path was never finished"),
-        "{told}"
+        words.starts_with("point 3 of the path `ell`, at [1.75, 1.25, 0.05], was missed by 0.")
+            && words.ends_with("the path was never finished"),
+        "{words}"
     );
     // nothing is tried again where nothing was earned
     assert_eq!(check(&task, "sturdy")["outcome"], "not-judged");
@@ -166,16 +166,16 @@ fn a_rung_that_is_too_high_costs_its_share() {
     lab.edit("payload_kg = 0.1", "payload_kg = 8.0");
     let task = lab.graded(&along(RIGHT), 1);
     let sturdy = check(&task, "sturdy");
-    // three rungs of five shares are kept
+    // three levels of five shares are kept
     assert_eq!(sturdy["measure"]["value"], 0.6, "{sturdy}");
     assert_eq!(
         sturdy["points"].as_f64().map(|p| (p * 1e9).round()),
         Some(2.4e9)
     );
-    let told = message(sturdy);
+    let words = message(sturdy);
     assert!(
-        told.starts_with("in the run `loaded` (8 kg more at the TCP): \"On the lines\" earns 0 % of its points; segment "),
-        "{told}"
+        words.starts_with("in the run `loaded` (8 kg more at the TCP): \"On the lines\" earns 0 % of its points; segment "),
+        "{words}"
     );
     // the moment is one of another run than the report shows, so that there is nothing to lead to
     let evidence = &sturdy["evidence"][0];
@@ -183,7 +183,7 @@ fn a_rung_that_is_too_high_costs_its_share() {
     assert_eq!(evidence["tick"], Json::Null);
     assert_eq!(evidence["time_s"], Json::Null);
     assert_eq!(sturdy["first_lost"], Json::Null);
-    // what is lost on a rung is no fault of the run itself
+    // a loss on a level is not a stop of the visible run
     assert_eq!(check(&task, "near")["outcome"], "full");
     assert_eq!(task["stopped"], Json::Null);
 }
@@ -199,11 +199,11 @@ fn a_submission_that_fails_on_a_rung_loses_the_rung_only() {
     let task = lab.graded(&wary, 1);
     let sturdy = check(&task, "sturdy");
     assert_eq!(sturdy["measure"]["value"], 0.8, "{sturdy}");
-    let told = message(sturdy);
+    let words = message(sturdy);
     assert!(
-        told.starts_with("in the run `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd), at 0 s: the submission was stopped:")
-            && told.contains("shaking"),
-        "{told}"
+        words.starts_with("in the run `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd), at 0 s: the submission was stopped:")
+            && words.contains("shaking"),
+        "{words}"
     );
     assert_eq!(task["verdict"], "missed");
 }

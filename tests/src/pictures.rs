@@ -12,7 +12,7 @@ fn graded(bed: &TestBed, lab: &str, case: &str, args: &[&str], out: &str) -> Str
     ran.stdout
 }
 
-/// Width and height that a PNG tells of itself.
+/// Width and height in the header of a PNG.
 fn size(png: &[u8]) -> (u32, u32) {
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     assert_eq!(&png[png.len() - 8..png.len() - 4], b"IEND", "it is whole");
@@ -25,12 +25,12 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
     let bed = TestBed::new();
     bed.copy_labs();
     let both = ["--png", "--storyboard"];
-    let told = graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
+    let output = graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
     assert!(
-        told.ends_with(
+        output.ends_with(
             "\nstoryboard: out/warm-up/storyboard.png\nstoryboard: out/move/storyboard.png\n"
         ),
-        "{told}"
+        "{output}"
     );
     let files = files_below(&bed.path("out"));
     let of = |wanted: &str| {
@@ -43,7 +43,7 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
             continue;
         }
         let (width, height) = size(of(&name.replace(".svg", ".png")));
-        // twice the size that the SVG tells
+        // twice the size given in the SVG
         let head = String::from_utf8_lossy(&svg[..400]).into_owned();
         assert!(head.contains(&format!("width=\"{}\"", width / 2)), "{name}");
         assert!(head.contains(&format!("height=\"{}", height / 2)), "{name}");
@@ -95,7 +95,7 @@ fn a_storyboard_tells_where_points_were_lost_and_what_was_touched() {
     let svg = std::fs::read_to_string(bed.path("out/knock/storyboard.svg")).expect("there");
     assert_eq!(svg.matches("<clipPath").count(), 6);
     assert!(svg.contains("href=\"../report.html#task=knock&amp;t="));
-    assert!(svg.contains("touches"), "contacts are told");
+    assert!(svg.contains("touches"), "contacts are output");
 }
 
 #[test]

@@ -26,9 +26,10 @@ fn log(bytes: &[u8]) -> (Vec<String>, Vec<String>) {
         let topic = message.channel.topic.clone();
         if topic == "/reference/scene" {
             let scene: Value = serde_json::from_slice(&message.data).expect("JSON");
-            let told = scene["entities"].as_array().expect("entities");
+            let shown = scene["entities"].as_array().expect("entities");
             entities.extend(
-                told.iter()
+                shown
+                    .iter()
                     .map(|e| e["id"].as_str().expect("id").to_owned()),
             );
         }
@@ -49,9 +50,9 @@ fn every_lost_point_with_a_moment_has_its_link() {
         .strip_prefix("first lost point: out/report.html#task=move&t=")
         .unwrap_or_else(|| panic!("{last}"));
     let time_s: f64 = link.parse().expect("a time");
-    // the same moment is told beside its evidence, and leads somewhere in the page
-    let told = format!("] #task=move&t={link}");
-    assert!(ran.stdout.contains(&told), "{ran:?}");
+    // the same moment is shown with its evidence, and its link works in the page
+    let shown = format!("] #task=move&t={link}");
+    assert!(ran.stdout.contains(&shown), "{ran:?}");
     let page = std::fs::read_to_string(bed.path("out/report.html")).expect("page");
     assert!(page.contains(&format!(
         "<a class=\"seek\" href=\"#task=move&amp;t={link}\">"

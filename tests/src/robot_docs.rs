@@ -4,10 +4,10 @@ use std::io::Write as _;
 use std::process::Stdio;
 
 use crate::golden::are_current;
-use crate::testbed::{Ran, TestBed, root};
+use crate::testbed::{CommandResult, TestBed, root};
 
 /// Runs `kinemark ARGS` or `echo 'TEXT' | kinemark ARGS`, as a shell would.
-fn shell(bed: &TestBed, line: &str) -> Ran {
+fn shell(bed: &TestBed, line: &str) -> CommandResult {
     let (input, command) = match line.split_once(" | ") {
         Some((echo, command)) => (
             echo.trim_start_matches("echo '").trim_end_matches('\''),

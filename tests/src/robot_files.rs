@@ -10,7 +10,7 @@ use crate::testbed::TestBed;
 
 const ROW: [&str; 5] = ["RzRyRz", "--base", "2", "--links", "0,0,4; 3,0,0; 1,0,0"];
 
-fn run(bed: &TestBed, command: &str, robot: &[&str]) -> crate::testbed::Ran {
+fn run(bed: &TestBed, command: &str, robot: &[&str]) -> crate::testbed::CommandResult {
     bed.run(&[&["robot", command], robot].concat())
 }
 

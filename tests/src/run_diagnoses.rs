@@ -1,5 +1,5 @@
-//! Whole runs held against known mistakes and the reference solution: what is the same mistake is named, what is nearly the same is not,
-//! and the first difference is told at its tick. The lab is its own, with six mistakes, and `lab check` finds nothing wrong with it.
+//! Whole runs compared with mutants and the reference solution: the same mistake is named, a similar one is not, and the first difference
+//! is reported at its tick. The lab is made for these tests, with six mutants, and `lab check` finds no problem in it.
 
 use kinemark_grader::audit::Audit;
 use kinemark_grader::lab::{Lab, Staff};
@@ -169,7 +169,7 @@ fn sweep(lab: &Lab, staff: Option<&Staff>, text: &str) -> (TaskGrade, Grade) {
     (run.grade.tasks[0].clone(), run.grade)
 }
 
-fn told(task: &TaskGrade) -> Vec<&str> {
+fn mistakes(task: &TaskGrade) -> Vec<&str> {
     task.diagnoses.iter().map(|d| d.mistake.as_str()).collect()
 }
 
@@ -195,11 +195,11 @@ fn the_same_mistake_in_other_words_is_named() {
     every_case(&cases.collect::<Vec<_>>(), |(name, words)| {
         let text = changed(SWEEP, &[&words[..], &[mutant(name)]].concat());
         let (task, all) = sweep(&lab, Some(&staff), &text);
-        assert_eq!(told(&task), [*name], "{}", self::text(&all));
-        let told = &task.diagnoses[0];
+        assert_eq!(mistakes(&task), [*name], "{}", self::text(&all));
+        let diagnosis = &task.diagnoses[0];
         assert!(
-            told.telling >= 50 && 100 * told.agreeing >= 95 * told.telling,
-            "{told:?}"
+            diagnosis.telling >= 50 && 100 * diagnosis.agreeing >= 95 * diagnosis.telling,
+            "{diagnosis:?}"
         );
         assert!(self::text(&all).contains("telling moments agree)"));
         // the diagnosis takes the place of the checks' own hints
@@ -256,7 +256,7 @@ fn what_is_nearly_a_known_mistake_is_not_named() {
     every_case(&cases, |changes| {
         let (task, all) = sweep(&lab, Some(&staff), &changed(SWEEP, changes));
         assert_eq!(task.verdict, Verdict::Missed, "{}", text(&all));
-        assert_eq!(told(&task), [""; 0], "{}", text(&all));
+        assert_eq!(mistakes(&task), [""; 0], "{}", text(&all));
         assert!(task.divergence.is_some());
     });
 }
@@ -270,7 +270,7 @@ fn of_two_mutants_that_do_the_same_neither_is_named() {
     );
     let (lab, staff) = loaded(&bed);
     let (task, _) = sweep(&lab, Some(&staff), &changed(SWEEP, &[mutant("half-speed")]));
-    assert_eq!(told(&task), [""; 0]);
+    assert_eq!(mistakes(&task), [""; 0]);
     let mut audit = Audit::new(&lab);
     audit.mutants(&lab, &staff);
     let bad: Vec<&str> = audit.problems().map(|row| row.name.as_str()).collect();
@@ -297,7 +297,7 @@ fn the_first_difference_is_told_where_points_are_lost() {
     let line = format!("differs at {} s: the TCP is at", differs.time_s);
     assert!(anstream_free(&shown).contains(&line), "{shown}");
 
-    // students have no solution, and without a path of it nothing is told
+    // students have no solution, and without its path nothing is reported
     let (task, _) = sweep(&lab, None, &text_of);
     assert_eq!(task.divergence, None);
 }
@@ -352,7 +352,7 @@ fn a_crash_is_not_compared() {
     let half = changed(&crash, &[mutant("half-speed")]);
     let (task, _) = sweep(&lab, Some(&staff), &half);
     assert_eq!(task.verdict, Verdict::Crashed);
-    assert_eq!((told(&task), task.divergence.clone()), (vec![], None));
+    assert_eq!((mistakes(&task), task.divergence.clone()), (vec![], None));
 }
 
 #[test]

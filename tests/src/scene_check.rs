@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::testbed::{Ran, TestBed};
+use crate::testbed::{CommandResult, TestBed};
 
 /// Finds nothing wrong with itself, but for what a test makes of it.
 const SCENE: &str = r#"format = 1
@@ -51,7 +51,7 @@ points = 2.0
 pose-reached = { full_m = 0.02, zero_m = 0.1 }
 "#;
 
-fn checked(ran: &Ran, code: i32) -> Value {
+fn checked(ran: &CommandResult, code: i32) -> Value {
     assert_eq!(ran.code, Some(code), "{ran:?}");
     serde_json::from_str(&ran.stdout).expect("JSON")
 }
@@ -115,7 +115,7 @@ fn via_points_are_told_in_the_frame_of_the_robot() {
     ] {
         assert!(ran.stdout.contains(expected), "{expected} {ran:?}");
     }
-    // the same place, told in the world: the robot's first link stands there
+    // the same point in world coordinates: the robot's first link is there
     let record = checked(
         &bed.run(&[
             "scene",

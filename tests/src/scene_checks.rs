@@ -1,5 +1,5 @@
 //! Checks of what a run did in a scene, and along a path: a right submission has full marks, wrong ones lose for the right reason, and
-//! a lab that asks for what cannot be is refused at the place.
+//! an impossible lab is refused with its position.
 
 use crate::own_lab::{OwnLab, check, message};
 
@@ -114,8 +114,8 @@ fn an_arm_that_stays_earns_nothing() {
     for name in ["shelf", "calm"] {
         assert_eq!(check(&task, name)["outcome"], "not-judged");
     }
-    let told = message(check(&task, "line")).to_owned();
-    assert!(told.contains("never passed"), "{told}");
+    let words = message(check(&task, "line")).to_owned();
+    assert!(words.contains("never passed"), "{words}");
     assert_eq!(check(&task, "whole")["measure"]["value"], 0.0);
     assert_eq!(
         message(check(&task, "soon")),
@@ -127,12 +127,12 @@ fn an_arm_that_stays_earns_nothing() {
 fn half_a_push_earns_its_share() {
     let task = own_lab().graded(&tip("[1.25, min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.0)]"), 1);
     let knocked = check(&task, "knocked");
-    let told = message(knocked);
+    let words = message(knocked);
     assert!(
-        told.starts_with("`can` moved at 0.9") && told.ends_with("but did not fall"),
-        "{told}"
+        words.starts_with("`can` moved at 0.9") && words.ends_with("but did not fall"),
+        "{words}"
     );
-    let share = if told.contains("toppled") { 0.6 } else { 0.3 };
+    let share = if words.contains("toppled") { 0.6 } else { 0.3 };
     assert_eq!(knocked["points"], 4.0 * share);
     // half of the line is driven, and driven well
     let covered = check(&task, "whole")["measure"]["value"].as_f64();
@@ -148,11 +148,11 @@ fn a_fling_that_ends_on_the_shelf_loses_for_both() {
         1,
     );
     let shelf = check(&task, "shelf");
-    let told = message(shelf);
+    let words = message(shelf);
     assert!(
-        told.starts_with("`forearm` first touched `shelf` at 1.")
-            && told.contains(" N at its peak"),
-        "{told}"
+        words.starts_with("`forearm` first touched `shelf` at 1.")
+            && words.contains(" N at its peak"),
+        "{words}"
     );
     assert_eq!(shelf["outcome"], "none");
     assert_eq!(shelf["evidence"][0]["signal"], "contacts");

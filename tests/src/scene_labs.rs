@@ -86,7 +86,7 @@ fn a_lab_with_a_scene_is_graded_logged_copied_and_verified() {
     let record = record(&bed);
     assert_eq!(record["scenes"][0]["name"], "shelf-and-can");
     let task = &record["tasks"][0];
-    let told: Vec<&str> = task["events"]
+    let messages: Vec<&str> = task["events"]
         .as_array()
         .expect("events")
         .iter()
@@ -100,9 +100,12 @@ fn a_lab_with_a_scene_is_graded_logged_copied_and_verified() {
         "`can` fell over the far side (+y)",
         "`can` touched `ground`",
     ];
-    let mut rest = told.iter();
+    let mut rest = messages.iter();
     for message in expected {
-        assert!(rest.any(|told| *told == message), "{message}: {told:?}");
+        assert!(
+            rest.any(|messages| *messages == message),
+            "{message}: {messages:?}"
+        );
     }
     let contacts = task["contacts"].as_array().expect("contacts");
     let pushed = contacts

@@ -128,10 +128,10 @@ fn sensors_reach_the_submission_the_digests_and_the_log() {
         }
     }
     assert_eq!(readings.len(), 101);
-    // weight of the forearm, which stands on the elbow
+    // weight of the forearm, which rests on the elbow
     let weight = readings[0]["wrist_fz"].as_f64().expect("force");
     assert!((weight - 0.5 * 9.81).abs() < 1e-9, "{weight}");
-    // the lab's noisy encoder stands in the place of the robot's: whole multiples of its resolution, and not the truth
+    // the lab's noisy encoder replaces the robot's: integer multiples of its resolution, not the true position
     let encoder: Vec<f64> = readings
         .iter()
         .map(|reading| reading["elbow_encoder"].as_f64().expect("angle"))

@@ -1,4 +1,4 @@
-//! The staff's own submissions, broken: whoever grades is told, with file and line, and no student pays for it.
+//! Broken submissions of the course staff: the person who grades gets file and line, and students lose no points.
 
 use crate::testbed::TestBed;
 

@@ -1,5 +1,5 @@
 //! Checks of step responses, efforts and smoothness: the linear prediction is what the simulator does where nothing but the loop acts,
-//! gravity and gains that are too high are explained, and a lab that asks for what cannot be is refused at the place.
+//! gravity and gains that are too high are explained, and an impossible lab is refused with its position.
 
 use crate::own_lab::{OwnLab, check, message, value};
 
@@ -87,7 +87,7 @@ fn own_lab() -> OwnLab {
     OwnLab::new("91-step", LAB)
 }
 
-/// The lab with the motors in the student's hands: the lab's servo is gone, and chatter is judged whatever the joint did.
+/// The lab in effort mode, without its servo; chatter is judged whatever the joint did.
 fn effort_lab() -> OwnLab {
     let lab = own_lab();
     lab.edit("mode = \"position\"", "mode = \"effort\"");
@@ -142,12 +142,12 @@ fn gravity_is_what_a_proportional_gain_leaves() {
     lab.edit("gravity_compensation = true, ", "");
     let task = lab.graded(STEP, 1);
     let exact = check(&task, "exact");
-    let told = message(exact);
+    let words = message(exact);
     // 0.5 kg at half a metre, half a radian from upright: -1.18 N m, and the error that gives it
     assert!(
-        told.contains(": gravity takes 1.2")
-            && told.contains("and kp = 100 needs 0.012 rad of error"),
-        "{told}"
+        words.contains(": gravity takes 1.2")
+            && words.contains("and kp = 100 needs 0.012 rad of error"),
+        "{words}"
     );
     let off = value(&task, "exact");
     assert!((off - 0.012).abs() < 5e-4, "{off}");
@@ -164,10 +164,10 @@ fn a_feedback_too_strong_for_its_period_is_explained() {
 ",
         1,
     );
-    let told = message(check(&task, "calm"));
+    let words = message(check(&task, "calm"));
     assert!(
-        told.contains("turns round at every control period of 10 ms: the gains are too high"),
-        "{told}"
+        words.contains("turns round at every control period of 10 ms: the gains are too high"),
+        "{words}"
     );
 }
 

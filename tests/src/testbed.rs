@@ -27,7 +27,7 @@ pub(crate) fn cargo() -> (Command, PathBuf) {
     let target = here.ancestors().nth(3).expect("the target folder");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(root());
-    // what cargo tells a test about its own package must not reach the build of another
+    // the environment that cargo sets for a test must not reach the build of another package
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
         let kept = ["CARGO_HOME", "CARGO_TARGET_DIR", "CARGO_NET_OFFLINE"];
@@ -74,13 +74,13 @@ pub(crate) fn binary() -> &'static Path {
 
 /// What a command did.
 #[derive(Debug)]
-pub(crate) struct Ran {
+pub(crate) struct CommandResult {
     pub(crate) stdout: String,
     pub(crate) stderr: String,
     pub(crate) code: Option<i32>,
 }
 
-impl From<Output> for Ran {
+impl From<Output> for CommandResult {
     fn from(output: Output) -> Self {
         Self {
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
@@ -123,7 +123,7 @@ impl TestBed {
         command
     }
 
-    pub(crate) fn run(&self, args: &[&str]) -> Ran {
+    pub(crate) fn run(&self, args: &[&str]) -> CommandResult {
         self.command(args).output().expect("the binary runs").into()
     }
 
@@ -140,7 +140,7 @@ impl TestBed {
         bed
     }
 
-    /// Copies the labs and the staff's reference into this folder, to be changed there.
+    /// Copies the labs and the course staff's reference into this folder, to be changed there.
     pub(crate) fn copy_labs(&self) {
         for folder in ["labs", "reference"] {
             copy(&root().join(folder), &self.path(folder));
@@ -182,16 +182,16 @@ impl Serving {
         let mut command = bed.command(args);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the binary runs");
-        let (tell, lines) = channel();
+        let (sender, lines) = channel();
         let outputs: [Box<dyn Read + Send>; 2] = [
             Box::new(child.stdout.take().expect("standard output")),
             Box::new(child.stderr.take().expect("standard error")),
         ];
         for output in outputs {
-            let tell = tell.clone();
+            let sender = sender.clone();
             std::thread::spawn(move || {
                 for line in BufReader::new(output).lines().map_while(Result::ok) {
-                    if tell.send(line).is_err() {
+                    if sender.send(line).is_err() {
                         return;
                     }
                 }
@@ -342,7 +342,7 @@ pub(crate) fn lab(name: &str) -> Lab {
     Lab::load(&Folder(root().join("labs")), name).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
-/// The staff's part of a lab of the checkout, with a salt of its own if given.
+/// The course staff's part of a lab of the checkout, with a salt of its own if given.
 pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
     let staff = Staff::load(&Folder(root().join("reference")), lab, salt);
     staff

@@ -1,4 +1,4 @@
-//! Mistakes of whoever writes a lab with parameters, variants and hidden runs: each is told at its place.
+//! Mistakes of authors of labs with parameters, variants and hidden runs: each is reported at its position.
 
 use crate::variants::{BRIEF, HIDDEN, LAB, bed};
 
@@ -167,12 +167,12 @@ fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
             "--variants",
             students,
         ]);
-        // this lab has no known mistakes, which is a problem of its own
+        // this lab has no mutants, which is another problem
         assert_eq!(ran.code, Some(1), "{ran:?}");
         ran.stdout
     };
-    let told = check("0");
-    assert!(told.contains("can be handed out"), "{told}");
+    let output = check("0");
+    assert!(output.contains("can be handed out"), "{output}");
     for (brief, problem) in [
         (
             BRIEF.replace("= out -->", "= ouf -->"),
@@ -184,12 +184,12 @@ fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
         ),
     ] {
         bed.write("labs/93-touch/brief.md", brief);
-        let told = check("0");
-        assert!(told.contains(problem), "{told}");
+        let output = check("0");
+        assert!(output.contains(problem), "{output}");
     }
     std::fs::remove_file(bed.path("labs/93-touch/brief.md")).expect("removed");
-    let told = check("0");
-    assert!(told.contains("there is no brief.md"), "{told}");
+    let output = check("0");
+    assert!(output.contains("there is no brief.md"), "{output}");
 
     bed.edit(
         "labs/93-touch/lab.toml",
@@ -201,8 +201,11 @@ fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
         "points = 3.0",
         "points = \"= out\"",
     );
-    let told = check("6");
-    assert!(told.contains("such as that of `student "), "{told}");
-    assert!(told.contains("it cannot be loaded (lengths = ["), "{told}");
-    assert!(told.contains("out = -0.5): "), "{told}");
+    let output = check("6");
+    assert!(output.contains("such as that of `student "), "{output}");
+    assert!(
+        output.contains("it cannot be loaded (lengths = ["),
+        "{output}"
+    );
+    assert!(output.contains("out = -0.5): "), "{output}");
 }

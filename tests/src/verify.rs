@@ -18,7 +18,7 @@ fn an_untouched_report_holds() {
     let ran = bed.run(&["verify", "out"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(ran.stdout.starts_with("same bits: 4 of 4 tasks"), "{ran:?}");
-    // without the staff's part the motion can still be compared
+    // without the course staff's part the motion can still be compared
     let ran = bed.run(&["verify", "out", "--practice"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(ran.stdout.contains("not compared: task `fk`"), "{ran:?}");
@@ -31,7 +31,7 @@ fn a_changed_submission_is_found_with_second_and_signal() {
     let ran = bed.run(&["verify", "out"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("differs: submission"), "{ran:?}");
-    // the second move starts at 2.6 s instead of 2.5 s: the command differs in second 2 (as do q and qd), and q is told first
+    // the second move starts at 2.6 s instead of 2.5 s: the command differs in second 2 (as do q and qd), and q is reported first
     assert!(
         ran.stdout
             .contains("trace of task `move`, first in second 2, signal `q`"),

@@ -97,7 +97,7 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
         "GET /grade.json HTTP/1.1\r\nHost: localhost:{port}\r\n"
     ));
     assert_eq!(answer.code, 200);
-    // a port that is taken is told
+    // a port that is in use is reported
     let ran = bed.run(&["view", "out", "--no-open", "--port", port]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("is taken"), "{ran:?}");
@@ -181,8 +181,8 @@ fn what_never_ends_is_not_waited_for() {
 #[test]
 fn a_program_is_told_folder_and_address_as_json() {
     let bed = graded("out");
-    let (serving, told) = Serving::start(&bed, &["view", "out", "--no-open", "--json"]);
-    let line: serde_json::Value = serde_json::from_str(&told[0]).expect("JSON");
+    let (serving, lines) = Serving::start(&bed, &["view", "out", "--no-open", "--json"]);
+    let line: serde_json::Value = serde_json::from_str(&lines[0]).expect("JSON");
     let address = format!("http://{}/", serving.host);
     assert_eq!(
         line,

@@ -10,7 +10,7 @@ use crate::testbed::{cargo, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What the test needs and this machine has not, with the way to get it.
+/// A tool that the test needs and this machine lacks, with how to get it.
 fn missing() -> Vec<String> {
     let mut missing = Vec::new();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
@@ -81,7 +81,7 @@ fn webassembly_gives_the_same_grades_and_the_same_contact() {
         let submission = submission.to_str().expect("UTF-8");
         let record = node(&module, &["grade", lab, submission]);
         let native = tested_record(lab);
-        // the digests first: they tell in which task to look
+        // the digests first: they show which task differs
         assert_eq!(digests(&record), digests(native));
         assert_eq!(record, native);
     });

@@ -13,8 +13,8 @@ fn bed() -> TestBed {
 /// Waits for a report after the one seen, and returns its number: a save that a busy machine spreads out may be graded twice.
 fn newer(serving: &Serving, seen: u64) -> u64 {
     let answer = serving.get(&format!("/kinemark/changes?seen={seen}"));
-    let told: serde_json::Value = serde_json::from_str(&answer.body).expect("JSON");
-    let version = told["version"].as_u64().expect("a number");
+    let status: serde_json::Value = serde_json::from_str(&answer.body).expect("JSON");
+    let version = status["version"].as_u64().expect("a number");
     assert!(version > seen, "{answer:?}");
     version
 }
@@ -47,7 +47,7 @@ fn every_save_is_graded_and_open_pages_are_told() {
     assert_eq!(newer(&serving, 0), 1);
     assert_eq!(serving.get("/kinemark/changes?seen=x").code, 400);
 
-    // a mistake that does not build: told with its line, and the watch goes on
+    // a submission that does not compile is reported with its line, and the watch goes on
     let good = std::fs::read_to_string(bed.path("mine.rhai")).expect("a submission");
     bed.write("mine.rhai", good.clone() + "\nfn (");
     serving.line_with("did-not-build; ");
@@ -63,7 +63,7 @@ fn every_save_is_graded_and_open_pages_are_told() {
     serving.line_with(" of 24 points, ");
     let seen = newer(&serving, seen);
 
-    // a lab that breaks for a moment is told, and mended
+    // a lab that is invalid for a moment is reported, then repaired
     let lab = std::fs::read_to_string(bed.path("labs/01-kinematics/lab.toml")).expect("a lab");
     bed.write("labs/01-kinematics/lab.toml", "format = ");
     serving.line_with("lab.toml");

@@ -1,4 +1,4 @@
-//! The answers of a submission to the cases of a function task, each with how far off it is.
+//! The answers of a submission to the cases of a function task, each with its error.
 
 use kinemark_sim::model::robot::Robot;
 use nalgebra::Vector3;
@@ -24,14 +24,14 @@ pub struct CaseFacts<'a> {
     pub case: &'a Case,
     /// The robot of the case.
     pub robot: Robot,
-    /// What the submission answered.
+    /// The submission's answer.
     pub answer: Answered,
-    /// How far off it is, by the kind of the case.
+    /// Its error, by the kind of the case.
     pub error: CaseError,
 }
 
 impl CaseFacts<'_> {
-    /// What may be reported of the case: its name, or the class of a hidden one.
+    /// The public name of the case: its name, or the class of a hidden one.
     pub fn label(&self) -> &str {
         self.case.hidden_class.as_deref().unwrap_or(&self.case.name)
     }
@@ -42,7 +42,7 @@ impl CaseFacts<'_> {
     }
 }
 
-/// What a submission answered, once its shape has been checked.
+/// An answer of a submission after a check of its shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answered {
     /// A position \[m\].
@@ -51,39 +51,39 @@ pub enum Answered {
     Branches(Vec<Vec<f64>>),
     /// A matrix, row by row.
     Matrix(Vec<Vec<f64>>),
-    /// The entries that were expected, in their order, a number as a list of one.
+    /// The expected entries, in their order; a number is a list of one.
     Entries(Vec<Vec<f64>>),
-    /// Something of the wrong shape or not finite; in words.
+    /// A description of a value of the wrong shape, or not finite.
     Invalid(String),
-    /// Nothing: the submission was stopped in this case, or before.
+    /// None, because the submission was stopped in this case or before.
     Stopped,
 }
 
-/// How far off an answer is.
+/// The error of an answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CaseError {
-    /// Distance of the position \[m\]; infinite where there is no valid answer.
+    /// Distance of the position \[m\]; infinite without a valid answer.
     Position(f64),
-    /// Of a reachable target: distance of the position of each answered branch \[m\], best first.
+    /// For a reachable target: the position error of each answered branch, best first.
     Reach {
-        /// Distances \[m\]; empty where there is no valid answer.
+        /// Distances \[m\]; empty without a valid answer.
         branches_m: Vec<f64>,
-        /// How many branches there are.
+        /// The number of branches that exist.
         expected: u32,
     },
-    /// Of an unreachable target: whether the answer says so.
+    /// For an unreachable target: whether the answer says so.
     Unreachable {
-        /// It answered with an empty list.
+        /// Whether the answer is an empty list.
         said_so: bool,
     },
-    /// Of a Jacobian.
+    /// For a Jacobian.
     Jacobian {
-        /// Frobenius norm of its difference from the true one, as a fraction of that one's norm; infinite where there is no
-        /// valid answer.
+        /// Frobenius norm of its difference from the true Jacobian, as a fraction of the norm of the true one; infinite without a valid
+        /// answer.
         relative: f64,
-        /// The true one, row by row.
+        /// The true Jacobian, row by row.
         truth: Vec<Vec<f64>>,
     },
-    /// Of a free function: the relative error of each entry expected; infinite where there is no valid one.
+    /// For a free function: the relative error of each expected entry; infinite without a valid one.
     Entries(Vec<f64>),
 }

@@ -1,4 +1,4 @@
-//! What is left of an attempt once it is over.
+//! The result of an attempt.
 
 use super::ended::Ended;
 
@@ -7,9 +7,9 @@ use super::ended::Ended;
 pub struct Attempt<T> {
     /// What was recorded, up to the end.
     pub recorded: T,
-    /// How it ended, where that was not at its end: of a run, what stopped it; of answers to cases, the first thing that went
-    /// wrong, after which the other cases were still called.
+    /// How it ended early, if it did: what stopped a run, or the first failure among the answers to cases, after which the other cases
+    /// were still called.
     pub ended: Option<Ended>,
-    /// Operations used; of a function task those of visible cases.
+    /// Operations used; in a function task those of visible cases.
     pub operations: u64,
 }

@@ -2,7 +2,7 @@
 
 use kinemark_sim::control::{Mode, SampledLoop};
 use kinemark_sim::diagnosis::Cause;
-use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::DivergenceKind;
 
 use crate::record::names::Names;
 use crate::record::quantity::trimmed;
@@ -11,44 +11,48 @@ use crate::task::model::MotionTask;
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
-/// A diverged simulation in words, with the names of a run.
+/// Describes a divergence in words, with the names of a run.
 pub(crate) trait DivergedWords {
-    /// What ended a run of `task`, and the next step.
-    fn diverged(&self, what: &BlowUp, cause: Option<&Cause>, task: &MotionTask)
-    -> (String, String);
+    /// A message about the divergence of a run of `task`, and the next step.
+    fn diverged(
+        &self,
+        what: &DivergenceKind,
+        cause: Option<&Cause>,
+        task: &MotionTask,
+    ) -> (String, String);
 
-    /// Why the servo itself is the cause, with the limits that were computed.
+    /// Why the servo itself is the cause, with its computed stability limits.
     fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String;
 }
 
 impl DivergedWords for Names<'_> {
     fn diverged(
         &self,
-        what: &BlowUp,
+        what: &DivergenceKind,
         cause: Option<&Cause>,
         task: &MotionTask,
     ) -> (String, String) {
         let lost = match what {
-            BlowUp::NotFinite { joint } => format!(
+            DivergenceKind::NotFinite { joint } => format!(
                 "the simulation diverged at joint `{}`: its motion is no longer finite",
                 self.joint(*joint)
             ),
-            BlowUp::Runaway { joint, bound_j, .. } => format!(
+            DivergenceKind::Runaway { joint, bound_j, .. } => format!(
                 "the simulation diverged at joint `{}`: kinetic energy above {bound_j:.0e} J",
                 self.joint(*joint)
             ),
-            BlowUp::BodyRunaway { body, speed_m_s } => {
+            DivergenceKind::BodyRunaway { body, speed_m_s } => {
                 format!(
                     "the simulation diverged at body `{}`: it moves at {speed_m_s:.0} m/s",
                     self.body(*body)
                 )
             }
-            BlowUp::InContact { body: Some(body) } => {
+            DivergenceKind::InContact { body: Some(body) } => {
                 format!(
                     "the simulation diverged at body `{body}`: the contact force on it is unbounded"
                 )
             }
-            BlowUp::InContact { body: None } => {
+            DivergenceKind::InContact { body: None } => {
                 "the simulation diverged: a contact force on a link is unbounded".to_owned()
             }
         };
@@ -78,7 +82,7 @@ impl DivergedWords for Names<'_> {
             None => (
                 lost,
                 match (what, task.servo.mode) {
-                    (BlowUp::BodyRunaway { .. } | BlowUp::InContact { .. }, _) => {
+                    (DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }, _) => {
                         "press less hard, or more slowly".to_owned()
                     }
                     (_, Mode::Effort) => "command less effort, and take it back in time".to_owned(),

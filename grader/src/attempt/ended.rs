@@ -1,7 +1,7 @@
 //! How an attempt ended early: its verdict, and its record for people.
 
 use kinemark_sim::diagnosis::Cause;
-use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::DivergenceKind;
 
 use super::diverged::DivergedWords as _;
 use crate::record::grade::Stopped;
@@ -15,7 +15,7 @@ use crate::task::model::MotionTask;
 pub struct Ended {
     /// The tick of a motion task, or the index of the case of a function task.
     pub at: u64,
-    /// Why.
+    /// The reason.
     pub why: EndReason,
 }
 
@@ -29,33 +29,33 @@ pub enum EndReason {
     /// The simulation diverged.
     Diverged {
         /// What grew without bound.
-        what: BlowUp,
-        /// Why, as far as it can be computed.
+        what: DivergenceKind,
+        /// The likely cause, if one was found.
         cause: Option<Cause>,
     },
 }
 
-/// What may be reported of how an attempt ended: of hidden numbers nothing, of the submission's words there nothing either.
+/// What a report may say about the end of an attempt. For hidden runs and cases that is neither a number nor the submission's words.
 #[derive(Debug, Clone, Copy)]
 pub enum Disclosure<'a> {
-    /// All of a run.
+    /// Everything about a visible run.
     Run {
-        /// The names in it.
+        /// Robot, scene and frame, for their names.
         names: Names<'a>,
-        /// Its task.
+        /// The task.
         task: &'a MotionTask,
     },
-    /// Of a hidden run, its class alone.
+    /// Only the class of a hidden run.
     HiddenRun {
         /// The class.
         class: &'a str,
     },
-    /// All of a case.
+    /// Everything about a visible case.
     Case {
         /// The case's name.
         name: &'a str,
     },
-    /// Of a hidden case, its class alone.
+    /// Only the class of a hidden case.
     HiddenCase {
         /// The class.
         class: &'a str,
@@ -71,7 +71,7 @@ impl Ended {
         }
     }
 
-    /// The verdict of a task that ended so; `None` where the person asked to stop.
+    /// The verdict of a task that ended this way; `None` if the user interrupted it.
     pub fn verdict(&self) -> Option<Verdict> {
         match &self.why {
             EndReason::Stopped(stop) => verdict_of(stop),
@@ -93,10 +93,10 @@ impl Ended {
         matches!(self.why, EndReason::Diverged { .. })
     }
 
-    /// The record of it, with the student's line from `source`.
+    /// The record of the end, with the student's line from `source`.
     pub fn record(&self, source: &str, disclosure: Disclosure<'_>) -> Stopped {
         if let Some(stop) = self.stop().filter(|stop| !is_of_one_call(stop)) {
-            // it happened to the whole file, or to this machine: at no moment of the attempt
+            // it concerns the whole file or this machine, so it has no moment in the attempt
             return record_of(stop, source);
         }
         match disclosure {
@@ -114,7 +114,7 @@ impl Ended {
         }
     }
 
-    /// The record without its moment, nothing kept back.
+    /// The complete record, without its moment.
     fn whole_record(&self, source: &str, run: Option<(Names<'_>, &MotionTask)>) -> Stopped {
         let (message, help) = match &self.why {
             EndReason::Stopped(stop) => return record_of(stop, source),
@@ -154,8 +154,8 @@ impl Ended {
     }
 }
 
-/// A record of something hidden. Neither the submission's words nor the line that fails are in it: a chain of comparisons could
-/// count a hidden number out.
+/// A record of a hidden run or case. It has neither the submission's words nor the line that fails, because a chain of comparisons
+/// could reveal a hidden number through them.
 fn without_place(message: &str, class: &str) -> Stopped {
     Stopped {
         message: message.to_owned(),
@@ -164,7 +164,7 @@ fn without_place(message: &str, class: &str) -> Stopped {
     }
 }
 
-/// The verdict of a task that was stopped by `stop`; `None` where the person asked to stop.
+/// The verdict of a task that was stopped by `stop`; `None` if the user interrupted it.
 fn verdict_of(stop: &Stop) -> Option<Verdict> {
     Some(match stop {
         Stop::DidNotBuild(_) => Verdict::DidNotBuild,
@@ -177,7 +177,7 @@ fn verdict_of(stop: &Stop) -> Option<Verdict> {
     })
 }
 
-/// Whether a stop happened in one call: not to the whole file, and not to the machine.
+/// Whether a stop concerns one call, and not the whole file or the machine.
 fn is_of_one_call(stop: &Stop) -> bool {
     match stop {
         Stop::Crashed(_) => true,
@@ -222,7 +222,7 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
         ),
         Stop::GraderFault(message) => (
             format!("the grader failed: {message}"),
-            Some("this is no fault of the submission; please report it".to_owned()),
+            Some("this is not the submission's fault; please report it".to_owned()),
             None,
         ),
         Stop::Interrupted => ("interrupted".to_owned(), None, None),
@@ -244,7 +244,7 @@ fn budget_help(budget: Budget) -> &'static str {
         Budget::OperationsPerCall | Budget::OperationsPerTask => {
             "look for a loop that does not end, or for work that can be done once in `init`"
         }
-        Budget::CallDepth => "look for a function that calls itself without an end",
+        Budget::CallDepth => "look for a function that calls itself endlessly",
         Budget::ExpressionDepth => "take the expression apart with `let`",
         Budget::ListSize | Budget::MapSize | Budget::TextSize => {
             "keep less: what is not needed at the next call need not be kept"
@@ -253,7 +253,7 @@ fn budget_help(budget: Budget) -> &'static str {
     }
 }
 
-/// A line of the submission, cut where it would fill a screen.
+/// A line of the submission, shortened if it is very long.
 fn shortened(line: &str) -> String {
     const LONGEST: usize = 200;
     if line.chars().count() > LONGEST {
@@ -264,7 +264,7 @@ fn shortened(line: &str) -> String {
     }
 }
 
-/// Where numbers that are not finite come from.
+/// A hint on the origin of numbers that are not finite.
 fn not_finite_help(message: &str) -> Option<String> {
     let shown = message.contains("NaN") || message.contains("infinity");
     shown.then(|| {

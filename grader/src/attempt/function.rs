@@ -16,7 +16,7 @@ use crate::task::model::{Case, Function, Given};
 use crate::task::value::Value;
 use crate::task::workcell::Workcell;
 
-/// After so many calls that used up their budget the submission is not called again: the reason is known, and each costs time.
+/// After this many calls that used up their budget the submission is not called again: the reason is known, and each costs time.
 const MOST_EXHAUSTED: usize = 3;
 
 /// Calls the submission of `opening` on `cases`.
@@ -44,7 +44,7 @@ pub fn run<'a>(
         let reply = calls.reply(i, &call_of(function, &robot, case));
         let (value, said) = match reply {
             Reply::Answered(answer) => {
-                // a loop as long as a hidden number would count it out
+                // the operations of a loop whose length is a hidden number would reveal it
                 if is_visible {
                     operations += answer.operations;
                 }
@@ -57,7 +57,7 @@ pub fn run<'a>(
             }
             Reply::NotCalled => (None, Said::default()),
         };
-        // what is printed in a hidden case could tell its numbers
+        // output in a hidden case could reveal its numbers
         let lines = said.log.into_iter().filter(|_| is_visible);
         log.extend(lines.map(|text| LogEntry { at: i as u64, text }));
         facts.push(measure(cell.frame, function, case, robot, value.as_ref()));
@@ -73,7 +73,7 @@ pub fn run<'a>(
     }
 }
 
-/// The first answer of the wrong shape, or not finite.
+/// The first answer that has the wrong shape or is not finite.
 fn first_invalid(facts: &[CaseFacts<'_>]) -> Option<Ended> {
     let mut cases = (0..).zip(facts);
     cases.find_map(|(at, facts)| match &facts.answer {
@@ -100,11 +100,11 @@ struct Calls<'o> {
     stop: Option<Ended>,
 }
 
-/// What came of a call.
+/// The result of a call.
 enum Reply {
     Answered(Answer),
     Stopped(Said),
-    /// What stopped it before would stop it again.
+    /// Skipped, because the same failure would happen again.
     NotCalled,
 }
 
@@ -114,7 +114,7 @@ impl Calls<'_> {
         match cell.robot_file.build(&case.dimensions) {
             Ok(robot) => robot,
             Err(error) => {
-                // loading has built every case's robot once; a failure here is ours
+                // loading already built every case's robot, so a failure here is a bug of the grader
                 let fault = Stop::GraderFault(error.to_string());
                 self.stop.get_or_insert(Ended::stopped_by(fault, i as u64));
                 self.exhausted = MOST_EXHAUSTED;
@@ -123,7 +123,7 @@ impl Calls<'_> {
         }
     }
 
-    /// Makes the call of case `i`, unless it is known what would come of it.
+    /// Makes the call of case `i`, unless its failure is known in advance.
     fn reply(&mut self, i: usize, call: &Call) -> Reply {
         if self.exhausted >= MOST_EXHAUSTED {
             return Reply::NotCalled;
@@ -133,13 +133,13 @@ impl Calls<'_> {
             Err(stop) => stop,
         };
         self.exhausted = match stop {
-            // one case's failure costs that case
+            // a failure in one case costs only that case
             Stop::Crashed(_) => self.exhausted,
             Stop::OverBudget {
                 budget: Budget::OperationsPerCall,
                 ..
             } => self.exhausted + 1,
-            // what is wrong with the whole file, or with this machine, is so for every case
+            // a problem of the whole file or of this machine concerns every case
             _ => MOST_EXHAUSTED,
         };
         self.stop.get_or_insert(Ended::stopped_by(stop, i as u64));
@@ -156,7 +156,7 @@ impl Calls<'_> {
     }
 }
 
-/// What the submission of `opening` answers to cases of a free function, in this process.
+/// The answers of the submission of `opening` to cases of a free function, computed in this process.
 ///
 /// # Errors
 /// The first [`Stop`].
@@ -200,7 +200,7 @@ fn call_of(function: &Function, robot: &Robot, case: &Case) -> Call {
     }
 }
 
-/// What a submission may know of `robot`; `effort_limits` are the task's, else the robot's own.
+/// The facts about `robot` for a submission; `effort_limits` are those of the task, else those of the robot.
 pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts {
     let dimensions = robot
         .dimensions()
@@ -225,7 +225,7 @@ pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts
     }
 }
 
-/// A number or a list of numbers as submissions get it.
+/// A number or a list of numbers as a value for submissions.
 fn value_of(dimension: &Dimension) -> Value {
     match dimension {
         Dimension::Number(number) => Value::Number(*number),
@@ -243,10 +243,10 @@ fn hash_value(hasher: &mut blake3::Hasher, value: &Value) {
         Value::Nothing => {
             hasher.update(b"n");
         }
-        Value::Boolean(truth) => {
-            hasher.update(if *truth { b"t" } else { b"f" });
+        Value::Boolean(boolean) => {
+            hasher.update(if *boolean { b"t" } else { b"f" });
         }
-        // every NaN is one NaN: its bits are not the same on every platform
+        // one bit pattern for every NaN, because its bits differ between platforms
         Value::Number(number) if number.is_nan() => {
             hasher.update(b"N");
         }

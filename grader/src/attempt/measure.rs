@@ -1,4 +1,4 @@
-//! How far an answer of a function task is off, by the kind of its case.
+//! The error of an answer of a function task, by the kind of its case.
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimension;
@@ -11,7 +11,7 @@ use crate::task::model::{Case, Function, Given, Rows};
 use crate::task::tcp::tcp_in;
 use crate::task::value::Value;
 
-/// Measures `value`, which `function` returned for `case`; none where there is no answer.
+/// Measures the error of `value`, which `function` returned for `case`; `None` without an answer.
 pub fn measure<'a>(
     frame: &str,
     function: &Function,
@@ -45,7 +45,7 @@ pub fn measure<'a>(
     }
 }
 
-/// What a function returned for one case, to be read and measured.
+/// The return value of a function for one case.
 struct Reading<'a> {
     function: &'a Function,
     frame: &'a str,
@@ -54,7 +54,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// The answer as `read` has it, or in words what it is instead.
+    /// The answer as parsed by `read`, or a description of the invalid value.
     fn answered<T>(
         &self,
         read: impl FnOnce(&Value) -> Result<T, String>,
@@ -75,7 +75,7 @@ impl Reading<'_> {
     }
 
     fn jacobian(&self, q: &[f64], rows: Rows) -> (Answered, CaseError) {
-        // a case's positions were counted when the lab was loaded
+        // loading checked the number of positions of every case
         let truth = jacobian::jacobian_in(self.robot, self.frame, q, rows).unwrap_or_default();
         let shape = (truth.len(), self.robot.n());
         let answer = self.answered(
@@ -149,10 +149,10 @@ impl Reading<'_> {
     }
 }
 
-/// More than this is no list of branches.
+/// Longer lists are not accepted as a list of branches.
 const MOST_LISTED: usize = 64;
 
-/// Branches, of which at most `most` differ by more than whole turns, so that an answer cannot be a guess at every sign.
+/// Branches, of which at most `most` may differ by more than full turns, so that an answer cannot try every combination of signs.
 fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Vec<f64>>, String> {
     let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
     match count_distinct(robot, &branches) {
@@ -171,7 +171,7 @@ pub fn as_slice(entry: &Dimension) -> &[f64] {
     }
 }
 
-/// How far an entry is off as a fraction of what it should be, in the Euclidean norm; where that is zero, the distance itself.
+/// The relative error of an entry in the Euclidean norm; the absolute error if the expected entry is zero.
 pub fn relative_error(answer: &[f64], expected: &[f64]) -> f64 {
     let norm = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|x| x * x).sum::<f64>().sqrt();
     if answer.len() != expected.len() {
@@ -184,7 +184,7 @@ pub fn relative_error(answer: &[f64], expected: &[f64]) -> f64 {
     }
 }
 
-/// How many of the branches differ by more than whole circles and rounding.
+/// The number of branches that differ by more than full turns and rounding.
 pub fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
     let mut distinct: Vec<&Vec<f64>> = Vec::new();
     for branch in branches {
@@ -198,9 +198,10 @@ pub fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
     distinct.len()
 }
 
-/// Whether two answers are one configuration: angles equal but for whole circles, positions of prismatic joints equal, to a fiftieth and a thousandth.
+/// Whether two answers are the same configuration: angles equal up to full turns to 0.02 rad, positions of prismatic joints equal to
+/// 0.001 m.
 pub fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
-    // what moves the TCP by less than a band is no other branch; two branches inside the boundary differ by far more
+    // answers that move the TCP by less than a band are the same branch; two branches inside the workspace differ by far more
     let (near_rad, near_m) = (0.02, 1e-3);
     robot
         .moving_joints()

@@ -19,13 +19,13 @@ use crate::task::model::MotionTask;
 use crate::task::value::Value;
 use crate::task::workcell::Workcell;
 
-/// The robot as a motion task's submission sees it, with the task's effort limits.
+/// The facts about the robot for a motion task's submission, with the task's effort limits.
 pub fn facts_of(robot: &Robot, motion: &MotionTask) -> RobotFacts {
     let limits = motion.servo.gains.iter().map(|g| g.effort_limit).collect();
     robot_facts(robot, Some(limits))
 }
 
-/// The sensors as a motion task's submission knows them.
+/// The facts about the sensors for a motion task's submission.
 pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
     let facts = |sensor: &Sensor| SensorFacts {
         name: sensor.name.clone(),
@@ -38,7 +38,7 @@ pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
     motion.sensors.iter().map(facts).collect()
 }
 
-/// What `observation.target` holds: the goals' positions, or the task's value.
+/// The value of `observation.target`: the goals' positions, or the task's value.
 pub fn target_of(motion: &MotionTask) -> Value {
     let list = |numbers: &[f64]| Value::List(numbers.iter().copied().map(Value::Number).collect());
     if motion.goals.is_empty() {
@@ -62,8 +62,8 @@ pub fn run(
     whole(Session::open(cell, motion, opening, host))
 }
 
-/// Runs `motion` under the submission of `opening` with the robot of `cell` disturbed. The submission is told neither of the
-/// disturbance nor of what differs from the robot it is opened with.
+/// Runs `motion` under the submission of `opening` with a disturbance of the robot of `cell`. The submission knows neither the
+/// disturbance nor the difference to the robot of its opening.
 pub fn run_disturbed(
     cell: Workcell<'_>,
     motion: &MotionTask,
@@ -101,10 +101,10 @@ pub struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Starts the submission of `opening` and stands before the first tick.
+    /// Starts the submission of `opening`; the session is then before the first tick.
     ///
     /// # Errors
-    /// The run as it went, if the submission does not start.
+    /// The run without any tick, if the submission does not start.
     pub fn open(
         cell: Workcell<'a>,
         motion: &'a MotionTask,
@@ -163,17 +163,17 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// The tick that comes next.
+    /// The next tick.
     pub fn tick(&self) -> u64 {
         self.run.tick()
     }
 
-    /// Whether it has ended, at its last tick or before.
+    /// Whether it has ended, at its last tick or early.
     pub fn is_over(&self) -> bool {
         self.ended.is_some()
     }
 
-    /// How it ended, where that was before its last tick.
+    /// How it ended, if it ended early.
     pub fn ended(&self) -> Option<&Ended> {
         self.ended.as_ref()?.as_ref().err()
     }
@@ -183,7 +183,7 @@ impl<'a> Session<'a> {
         self.recorder.so_far()
     }
 
-    /// Goes on until `tick` comes next, or to the end.
+    /// Advances until `tick` is the next tick, or to the end.
     pub fn advance_to(&mut self, tick: u64) {
         while self.ended.is_none() && self.run.tick() < tick {
             let mut control = |seen: &run::Observation<'_>, command: &mut [f64]| {
@@ -220,7 +220,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// What was recorded up to here.
+    /// Ends the session and returns its attempt.
     pub fn finish(self) -> Attempt<Trace> {
         let ended = self.ended.and_then(Result::err);
         let mut attempt = attempt(self.recorder, self.output, ended);
@@ -264,7 +264,7 @@ fn started(
     Ok(controller)
 }
 
-/// Calls the submission and keeps what it says, answered or not.
+/// Calls the submission and keeps its output, even if the call fails.
 fn ask(
     controller: &mut dyn Controller,
     call: &Call,
@@ -288,7 +288,7 @@ fn ask(
     }
 }
 
-/// What a submission printed and plotted in a run.
+/// The printed lines and plotted signals of a submission in a run.
 #[derive(Debug, Default)]
 struct Output {
     log: Vec<LogLine>,
@@ -297,7 +297,7 @@ struct Output {
     operations: u64,
 }
 
-/// Signals of a submission that are drawn: more are unreadable, and each costs a plot's time.
+/// Most plotted signals of a submission: more are unreadable, and each costs the time of a plot.
 const MOST_PLOTS: usize = 24;
 
 impl Output {

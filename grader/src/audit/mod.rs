@@ -1,8 +1,8 @@
-//! The grader of a lab, graded: the starter must miss, the reference solution must have full marks whatever the hidden cases, every
-//! mutant must lose points and be named.
+//! Proves a lab: the starter must miss, the reference solution must have full marks with any hidden cases, and every mutant must lose
+//! points and be named.
 //!
-//! An [`Audit`] collects rows. A lab that can be had in several forms is audited form by form: each call takes the lab as it is
-//! there, and says in words which it is.
+//! An [`Audit`] collects rows. A lab with several forms, such as variants, is audited form by form: each call takes the lab in one form
+//! and the name of that form.
 
 mod staff_code;
 mod variants;
@@ -22,43 +22,43 @@ use crate::record::verdict::Verdict;
 use crate::submission::host::InProcess;
 
 pub use self::staff_code::staff_code;
-pub use self::variants::{Room, Variants};
+pub use self::variants::{VariantMargin, Variants};
 
-/// The share of a lab's points that a starter may earn, for a warm-up that it solves.
+/// The share of a lab's points that a starter may earn, for a warm-up task that it solves.
 pub const MOST_STARTER_SHARE: f64 = 0.1;
-/// Known mistakes that a lab has at least.
+/// Least number of mutants of a lab.
 pub const LEAST_MUTANTS: usize = 6;
-/// The share of a function task's cases in which a mutant must show.
+/// The share of a function task's cases in which a mutant must give a wrong answer.
 pub const LEAST_SHARE: f64 = 0.3;
 /// How far `reference-path.json` may be from the reference solution's path: its numbers are rounded to a tenth of a micrometre \[m\].
 const SAME_PATH_M: f64 = 1e-6;
 
-/// What was tried of a lab, and what is wrong with it.
+/// The parts of a lab that were tried, and their problems.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Audit {
     /// The lab.
     pub lab: String,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
-    /// What was tried, in order.
+    /// One row for each part that was tried, in order.
     pub rows: Vec<Row>,
-    /// The room of the reference solution in every band, over the variants that were tried; empty where none were.
-    pub rooms: Vec<Room>,
+    /// The margin of the reference solution in every band, over the variants that were tried; empty if none were.
+    pub rooms: Vec<VariantMargin>,
 }
 
-/// What was tried.
+/// The part of a lab that was tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tried {
-    /// What students read.
+    /// The brief.
     Brief,
-    /// What students begin with.
+    /// The starter.
     Starter,
     /// The reference solution.
     Reference,
-    /// The reference solution's path that students see.
+    /// The file with the reference solution's path, which students see.
     ReferencePath,
-    /// How many mutants there are.
+    /// The number of mutants.
     Mutants,
     /// A mutant in one task.
     Mutant,
@@ -78,27 +78,27 @@ impl Tried {
     }
 }
 
-/// One thing tried.
+/// The result for one part of a lab.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
-    /// What.
+    /// The part.
     pub tried: Tried,
-    /// Which: the form of the lab, or the mistake; empty where there is one only.
+    /// The form of the lab or the name of the mutant; empty if there is only one.
     pub name: String,
-    /// The task, where it is about one.
+    /// The task, if the row is about one.
     pub task: Option<String>,
-    /// Points earned, where something was graded.
+    /// Points earned, if something was graded.
     pub points: Option<f64>,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: Option<f64>,
-    /// What is wrong; `null` where nothing is.
+    /// The problem; `null` if there is none.
     pub problem: Option<String>,
-    /// What to do about it.
+    /// What to do about the problem.
     pub help: Option<String>,
 }
 
 impl Audit {
-    /// An audit of which nothing is tried yet.
+    /// An audit without rows.
     pub fn new(lab: &Lab) -> Self {
         Self {
             lab: lab.name.clone(),
@@ -108,7 +108,7 @@ impl Audit {
         }
     }
 
-    /// Rows in which something is wrong.
+    /// The number of rows with a problem.
     pub fn problems(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.problem.is_some())
     }
@@ -134,16 +134,16 @@ impl Audit {
         });
     }
 
-    /// Looks at what students read: it is there, its numbers can be told in every variant, and it has a place for the table of points.
+    /// Checks the brief: it exists, its numbers can be computed for every variant, and it marks the position of the table of points.
     pub fn brief(&mut self, lab: &Lab, brief: Option<&str>) {
         let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
             None => Some((
                 "there is no brief.md".to_owned(),
-                "write what students read beside lab.toml: `kinemark new` hands it out",
+                "write the brief next to lab.toml: `kinemark new` copies it for students",
             )),
             Some((_, Err(why))) => Some((
                 format!("brief.md: {why}"),
-                "a mark is `<!-- = expression -->` behind the number it stands for",
+                "a mark is `<!-- = expression -->`, right after the number that it computes",
             )),
             Some((brief, Ok(_))) if !has_place_for_grading(brief) => Some((
                 format!(
@@ -156,7 +156,7 @@ impl Audit {
         self.add((Tried::Brief, ""), None, None, problem);
     }
 
-    /// Tries what students begin with: it runs, earns next to nothing, and is diagnosed with no mistake.
+    /// Tries the starter: it must run, earn almost nothing, and be diagnosed with no mistake.
     pub fn starter(&mut self, lab: &Lab, staff: &Staff, starter: &Source) {
         let Some(GradedRun { grade, .. }) = graded(lab, staff, starter) else {
             return;
@@ -195,7 +195,7 @@ impl Audit {
         self.add((Tried::Starter, ""), None, earned, problem);
     }
 
-    /// Tries the reference solution in one form of the lab, named in words.
+    /// Tries the reference solution in the form `form` of the lab.
     pub fn reference(&mut self, lab: &Lab, staff: &Staff, form: &str) -> Option<GradedRun> {
         let run = graded(lab, staff, &staff.solution)?;
         let grade = &run.grade;
@@ -219,7 +219,7 @@ impl Audit {
         Some(run)
     }
 
-    /// Holds `reference-path.json` against the reference solution's run, in the lab as its file has it.
+    /// Compares `reference-path.json` with the reference solution's run in the default variant.
     pub fn reference_paths(&mut self, lab: &Lab, reference: &GradedRun) {
         for (task, path) in &lab.reference_paths.paths {
             let run = reference.runs.iter().find(|run| run.task == *task);
@@ -232,7 +232,7 @@ impl Audit {
         }
     }
 
-    /// Tries every mutant in each of its tasks: it loses points, shows in enough cases, and is named.
+    /// Tries every mutant in each of its tasks: it must lose points, show in enough cases, and be named.
     pub fn mutants(&mut self, lab: &Lab, staff: &Staff) {
         let count = staff.mutants.len();
         let few = (count < LEAST_MUTANTS).then(|| {
@@ -247,7 +247,7 @@ impl Audit {
 
     /// Tries one mutant.
     pub fn mutant(&mut self, lab: &Lab, staff: &Staff, mutant: &Mutant) {
-        // only the tasks that are looked at are run
+        // run only the tasks of the mutant
         let mut part = lab.clone();
         part.tasks.retain(|task| mutant.tasks.contains(&task.name));
         let Some(GradedRun { grade, .. }) = graded(&part, staff, &mutant.source) else {
@@ -266,7 +266,7 @@ impl Audit {
     }
 }
 
-/// The grade of a submission of the staff's own, which runs in this process.
+/// The grade of a submission of the course staff, which runs in this process.
 fn graded(lab: &Lab, staff: &Staff, submission: &Source) -> Option<GradedRun> {
     // nobody can interrupt this host
     grade(lab, Some(staff), submission, &mut InProcess).ok()
@@ -317,7 +317,7 @@ fn stop_of(task: &TaskGrade) -> String {
     }
 }
 
-/// Where a submission of the staff stopped: file, line and column, and below them the line with a caret.
+/// The position at which a submission of the course staff stopped: file, line and column, and below them the line with a caret.
 fn place_of(stopped: &Stopped, source: &Source) -> String {
     let (Some(line), Some(text)) = (stopped.line, &stopped.source_line) else {
         return String::new();
@@ -330,7 +330,7 @@ fn place_of(stopped: &Stopped, source: &Source) -> String {
     )
 }
 
-/// Why a task lost points, in its own words.
+/// Why a task lost points, in the words of its checks.
 fn loss_of(task: &TaskGrade) -> String {
     let lost = task
         .checks
@@ -346,17 +346,17 @@ fn loss_of(task: &TaskGrade) -> String {
 }
 
 fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<String> {
-    let mut told = 0;
+    let mut last_tick = 0;
     for (i, place) in path.points_m.iter().enumerate() {
         let time_s = i as f64 * path.period_s;
         let tick = (time_s / trace.step_s).round() as usize;
         if tick >= trace.len() {
             return Some(format!(
-                "reference-path.json goes on beyond the run, from {}",
+                "reference-path.json continues after the end of the run, from {}",
                 seconds(time_s)
             ));
         }
-        told = tick;
+        last_tick = tick;
         let apart = (trace.tcp_position(tick) - nalgebra::Vector3::from(*place)).norm();
         if apart > SAME_PATH_M {
             return Some(format!(
@@ -366,7 +366,7 @@ fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<St
             ));
         }
     }
-    let rest_s = trace.len().saturating_sub(told + 1) as f64 * trace.step_s;
+    let rest_s = trace.len().saturating_sub(last_tick + 1) as f64 * trace.step_s;
     (rest_s >= path.period_s)
         .then(|| "reference-path.json ends before the reference solution does".to_owned())
 }

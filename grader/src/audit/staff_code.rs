@@ -1,5 +1,5 @@
-//! The staff's own code, tried: solution and known mistakes are programs, and the solution answers the hidden cases that it is the
-//! measure of. Loading a lab runs none of it.
+//! Tries the course staff's code: solution and mutants must compile, and the solution must answer the hidden cases whose expected
+//! answers it defines. Loading a lab runs none of this code.
 
 use kinemark_sim::text::{Problem, Source};
 
@@ -21,10 +21,10 @@ problems! {
     }
 }
 
-/// Tries the code of `staff`, whose part of `lab` it is.
+/// Tries the code of `staff`, the course staff's part of `lab`.
 ///
 /// # Errors
-/// [`LoadError`] at the line of a submission that is no program, or at the draw whose cases the solution does not answer.
+/// [`LoadError`] at the line of a submission that does not compile, or at the random hidden cases that the solution does not answer.
 pub fn staff_code(lab: &Lab, staff: &Staff) -> Result<(), LoadError> {
     builds(lab, None, StaffSubmission::Solution, &staff.solution)?;
     answers(lab, staff)?;
@@ -36,7 +36,7 @@ pub fn staff_code(lab: &Lab, staff: &Staff) -> Result<(), LoadError> {
     Ok(())
 }
 
-/// Refuses a submission that is no program.
+/// Refuses a submission that does not compile.
 fn builds(
     lab: &Lab,
     task: Option<&str>,
@@ -56,7 +56,7 @@ fn builds(
     }
 }
 
-/// Refuses a draw of cases to which the solution has no answer.
+/// Refuses random hidden cases to which the solution has no answer.
 fn answers(lab: &Lab, staff: &Staff) -> Result<(), LabError> {
     let Some(source) = &staff.hidden_source else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The reference solution in the variants of many students: it has full marks in every one, and some room in every band.
+//! The reference solution in the variants of many students: it must have full marks in every one, with a margin in every band.
 
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
@@ -12,40 +12,40 @@ use crate::record::verdict::Verdict;
 use crate::task::files::Files;
 use crate::task::problem::LoadError;
 
-/// What came of the variants of some students.
+/// The results of the variants of some students.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Variants {
     students: u32,
-    /// Students in whose variant the reference solution lost points, and which.
+    /// Students in whose variant the reference solution lost points, with the problem.
     lost: Vec<(String, String)>,
-    rooms: Vec<Room>,
+    rooms: Vec<VariantMargin>,
 }
 
-/// How far inside a check's band the reference solution stays, over the variants that were tried: what makes one as hard as another.
+/// The margin of the reference solution in a check's band, over the variants that were tried. Similar margins make variants equally hard.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Room {
+pub struct VariantMargin {
     /// The task.
     pub task: String,
     /// The check.
     pub check: String,
-    /// The least distance of its value from the value that earns all points, on the good side, as a fraction of the band's width;
-    /// negative where points were lost.
+    /// The least margin of its value to the value that earns all points, as a fraction of the band's width; negative if points were
+    /// lost.
     pub least: f64,
-    /// The greatest such distance.
+    /// The greatest such margin.
     pub greatest: f64,
 }
 
-/// The room that a measure leaves; none where it has no value, or its band no width.
-fn room_of(measure: &Measure) -> Option<f64> {
+/// The margin of a measure; `None` if it has no value or its band has no width.
+fn margin_of(measure: &Measure) -> Option<f64> {
     let value = measure.value?;
-    let room = (measure.full - value) / (measure.zero - measure.full);
-    // without the sign of a zero
-    room.is_finite().then_some(room + 0.0)
+    let margin = (measure.full - value) / (measure.zero - measure.full);
+    // adding zero turns -0 into 0
+    margin.is_finite().then_some(margin + 0.0)
 }
 
 impl Variants {
-    /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that is no lab is
-    /// noted like one that loses points.
+    /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that cannot be loaded is
+    /// recorded like one that loses points.
     pub fn student(&mut self, lab: &Lab, reference: &dyn Files, salt: &str, student: &str) {
         self.students += 1;
         let mut numbers = String::new();
@@ -74,7 +74,7 @@ impl Variants {
         self.measure(&run.grade);
     }
 
-    /// The lab with the numbers of `variant`, and the staff's part of that.
+    /// The lab with the numbers of `variant`, and the course staff's part of it.
     fn load(
         lab: &Lab,
         reference: &dyn Files,
@@ -96,42 +96,43 @@ impl Variants {
     fn measure(&mut self, grade: &Grade) {
         for task in &grade.tasks {
             for check in &task.checks {
-                if let Some(room) = check.measure.as_ref().and_then(room_of) {
-                    self.widen(Room {
+                if let Some(margin) = check.measure.as_ref().and_then(margin_of) {
+                    self.widen(VariantMargin {
                         task: task.name.clone(),
                         check: check.name.clone(),
-                        least: room,
-                        greatest: room,
+                        least: margin,
+                        greatest: margin,
                     });
                 }
             }
         }
     }
 
-    fn widen(&mut self, room: Room) {
+    fn widen(&mut self, margin: VariantMargin) {
         let known = self.rooms.iter_mut();
-        let mut same = known.filter(|known| known.task == room.task && known.check == room.check);
+        let mut same =
+            known.filter(|known| known.task == margin.task && known.check == margin.check);
         match same.next() {
             Some(known) => {
-                known.least = known.least.min(room.least);
-                known.greatest = known.greatest.max(room.greatest);
+                known.least = known.least.min(margin.least);
+                known.greatest = known.greatest.max(margin.greatest);
             }
-            None => self.rooms.push(room),
+            None => self.rooms.push(margin),
         }
     }
 
-    /// These with those of other students.
+    /// Adds the results of other students.
     pub fn join(&mut self, other: Self) {
         self.students += other.students;
         self.lost.extend(other.lost);
-        for room in other.rooms {
-            self.widen(room);
+        for margin in other.rooms {
+            self.widen(margin);
         }
     }
 }
 
 impl Audit {
-    /// Notes what came of the variants.
+    /// Records the results of the variants.
     pub fn variants(&mut self, mut tried: Variants) {
         tried.lost.sort();
         let problem = tried.lost.first().map(|(student, what)| {
@@ -164,15 +165,15 @@ mod tests {
 
     #[test]
     fn room_counts_from_full_in_widths_of_the_band_whichever_way_is_better() {
-        assert_eq!(room_of(&measure(1.0, 2.0, 4.0)), Some(0.5));
-        assert_eq!(room_of(&measure(3.0, 2.0, 4.0)), Some(-0.5));
-        assert_eq!(room_of(&measure(1.0, 0.75, 0.5)), Some(1.0));
-        assert_eq!(room_of(&measure(1.0, 2.0, 2.0)), None);
+        assert_eq!(margin_of(&measure(1.0, 2.0, 4.0)), Some(0.5));
+        assert_eq!(margin_of(&measure(3.0, 2.0, 4.0)), Some(-0.5));
+        assert_eq!(margin_of(&measure(1.0, 0.75, 0.5)), Some(1.0));
+        assert_eq!(margin_of(&measure(1.0, 2.0, 2.0)), None);
     }
 
     #[test]
     fn students_that_were_tried_apart_are_joined() {
-        let room = |least, greatest| Room {
+        let margin = |least, greatest| VariantMargin {
             task: "line".to_owned(),
             check: "speed".to_owned(),
             least,
@@ -183,9 +184,9 @@ mod tests {
             lost: vec![(student.to_owned(), "a point".to_owned())],
             rooms,
         };
-        let mut all = some("s4", vec![room(0.2, 0.3)]);
-        all.join(some("s1", vec![room(0.1, 0.25)]));
+        let mut all = some("s4", vec![margin(0.2, 0.3)]);
+        all.join(some("s1", vec![margin(0.1, 0.25)]));
         assert_eq!(all.students, 4);
-        assert_eq!(all.rooms, [room(0.1, 0.3)]);
+        assert_eq!(all.rooms, [margin(0.1, 0.3)]);
     }
 }

@@ -1,4 +1,4 @@
-//! Two graded submissions of one lab beside each other: what each check earned, and where the motions first part.
+//! Compares two graded submissions of one lab: the points of each check, and the first difference of their motions.
 
 use kinemark_sim::model::robot::Robot;
 
@@ -13,31 +13,31 @@ use crate::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use crate::record::graded::{GradedRun, TaskRun};
 use crate::record::quantity::{list, metres, trimmed};
 
-/// One of the two.
+/// One of the two submissions.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<'a> {
-    /// What it is called besides its letter, such as its folder.
+    /// Its name besides its letter, such as its folder.
     pub name: &'a str,
-    /// Its record, as it was written.
+    /// Its record, as read from its report.
     pub recorded: &'a Grade,
     /// Its lab.
     pub lab: &'a Lab,
-    /// Its runs, made again.
+    /// Its runs, repeated for the comparison.
     pub again: &'a GradedRun,
 }
 
-/// Two submissions of one lab that have nothing to be held against each other.
+/// Why two submissions cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the two cannot be compared: {}", .0.join("; "))]
 pub struct NotComparable(pub Vec<String>);
 
 /// Compares two submissions of one lab.
 ///
-/// Points are those of the records. Motions are compared as they were made again, by joints and TCP, with the tolerances of
-/// [`divergence`], as far as both go.
+/// Points are those of the records. Motions are those of the repeated runs, compared by joints and TCP with the tolerances of
+/// [`divergence`], up to the end of the shorter one.
 ///
 /// # Errors
-/// [`NotComparable`] for two labs, or where no task has the same checks in both.
+/// [`NotComparable`] for different labs, or if no task has the same checks in both.
 pub fn compare(a: &Side<'_>, b: &Side<'_>) -> Result<Comparison, NotComparable> {
     if a.recorded.lab.name != b.recorded.lab.name {
         let labs =
@@ -96,7 +96,7 @@ fn record(side: &Side<'_>) -> SideRecord {
     }
 }
 
-/// What two records rest on that is not the same.
+/// Differences in what two records are based on, such as robot, variant and engine.
 fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
     let mut notes = Vec::new();
     let variant = |grade: &Grade| {
@@ -113,7 +113,7 @@ fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
         notes.push("the lab was changed between the two".to_owned());
     }
     if a.robot.name == b.robot.name {
-        // other numbers are told already
+        // other numbers are reported already
         if a.robot.digest != b.robot.digest && a.variant == b.variant {
             notes.push(format!(
                 "robot `{}` was changed between the two",
@@ -145,7 +145,7 @@ fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
     notes
 }
 
-/// Whether a task asks the same of both.
+/// Whether a task has the same checks in both.
 fn agree(a: &TaskGrade, b: &TaskGrade) -> Result<(), String> {
     if a.kind != b.kind {
         return Err("it is a motion in one and a function in the other".to_owned());
@@ -200,7 +200,7 @@ fn task(
         },
         _ => None,
     };
-    // as it was recorded with the points; what no record tells, as it ran again
+    // as recorded with the points; what no record says, from the repeated run
     let ended = |task: &TaskGrade, again: &GradedRun| {
         let run = again.runs.iter().find(|run| run.task == task.name);
         let recorded = task.stopped.as_ref().map(Ended::of);

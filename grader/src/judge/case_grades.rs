@@ -1,4 +1,4 @@
-//! The cases of a function task as the record has them: visible ones with their numbers, hidden ones by class.
+//! The cases of a function task in the record: visible ones with their numbers, hidden ones by class.
 
 use kinemark_sim::text::Dimension;
 
@@ -27,7 +27,7 @@ pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGr
             branches,
         } => (
             format!("position = {} m", list(position_m)),
-            // the angles would be the answer of the task itself
+            // the expected angles would be the answer of the task
             (*branches == 0).then(|| "[] (out of reach)".to_owned()),
         ),
         Given::Values { given, expected } => (entries(given), Some(entries(expected))),

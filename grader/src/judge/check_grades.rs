@@ -1,16 +1,16 @@
-//! What the checks of a task earned, all attempts together: the record of each check is made here, once.
+//! The grade of each check, over all attempts of a task. The record of each check is made here, once.
 
 use super::hidden_attempts::{HiddenAttempts, of_control};
-use super::judged::Judged;
+use super::judged::JudgedCheck;
 use crate::check::Check;
 use crate::record::grade::{CheckGrade, Evidence, Instant, Measure, Outcome};
 use crate::record::quantity::{points, whole_hundredths};
 
-/// The grades of a task's checks: `visible` and `first_lost` have one entry per check; `explained` says that a stop or a diagnosis
-/// explains the loss, beside which a check's general hint would read as another one.
+/// The grades of a task's checks: `visible` and `first_lost` have one entry per check. If `explained`, a stop or a diagnosis already
+/// explains the loss, and a check's general hint would look like another cause.
 pub(super) fn check_grades<K: ?Sized>(
     checks: &[Check<K>],
-    visible: &[Judged],
+    visible: &[JudgedCheck],
     first_lost: &[Option<Instant>],
     hidden: &HiddenAttempts,
     explained: bool,
@@ -39,7 +39,7 @@ pub(super) fn check_grades<K: ?Sized>(
     grades.collect()
 }
 
-/// What a check comes to, before it is written down.
+/// The result of a check, before it becomes a record.
 struct Parts {
     /// The share of the points, in `[0, 1]`.
     score: f64,
@@ -50,7 +50,7 @@ struct Parts {
 }
 
 impl Default for Parts {
-    /// Those of a check of which nothing is known.
+    /// The result of a check that was not judged.
     fn default() -> Self {
         Self {
             score: 0.0,
@@ -62,8 +62,8 @@ impl Default for Parts {
     }
 }
 
-/// What a check comes to in the visible attempt.
-fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &Judged) -> Parts {
+/// The result of a check in the visible attempt.
+fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &JudgedCheck) -> Parts {
     let loss = judged.loss();
     let next_step = match (loss, judged.unmet) {
         (Some(finding), _) => {
@@ -89,27 +89,27 @@ fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &Judg
 const OTHER_NUMBERS: &str = "The task is run with other numbers, too. If one is typed in, take it from `robot` or `observation`; if none is, aim for wider margins: the margins of the visible run show how wide they are.";
 
 impl Parts {
-    /// The mean of the visible and the hidden attempts; `self` is what check `i` comes to in the visible one.
+    /// The mean of the visible and the hidden attempts; `self` is the result of check `i` in the visible one.
     fn averaged<K: ?Sized>(self, checks: &[Check<K>], i: usize, hidden: &HiddenAttempts) -> Self {
         let check = &checks[i];
         let was = self.outcome;
         let score = (self.score + hidden.sum_of_scores(i)) / (hidden.count() + 1) as f64;
         let mut evidence = self.evidence;
         let [alone, together] = [self.score, score].map(|score| check.points * score);
-        // as far as it shows
+        // a note only if the shown points differ
         if points(alone) != points(together) {
             evidence.push(mean_of(alone, check.points, hidden.count()));
         }
         let [lost, needs_failed] = hidden.losses(i);
         let is_lost = !lost.is_empty() || !needs_failed.is_empty();
         let next_step = self.next_step.or_else(|| {
-            // what the visible run lost has its next step already
+            // a loss in the visible run already has its next step
             (is_lost && was == Outcome::Full).then(|| hidden_next_step(checks, check, &lost))
         });
         evidence.extend(lost);
         evidence.extend(needs_failed);
         let outcome = match was {
-            // full in every hidden run, too
+            // full in every hidden run too
             Outcome::Full if !is_lost => Outcome::Full,
             _ if score > 0.0 => Outcome::Partial,
             Outcome::NotJudged => Outcome::NotJudged,
@@ -136,7 +136,7 @@ fn hidden_next_step<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, lost: &[Ev
     format!("Look at \"{}\" there first.", needed.join("\" and \""))
 }
 
-/// What the measure of the visible run does not say: that others count as much.
+/// A note that hidden runs count as much as the visible run, whose measure is shown.
 fn mean_of(alone: f64, of: f64, hidden: usize) -> Evidence {
     let runs = match hidden {
         1 => "a hidden run".to_owned(),

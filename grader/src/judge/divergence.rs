@@ -1,7 +1,7 @@
-//! The first control tick at which a run differs from the reference solution's: in a joint, or in where the TCP is.
+//! The first control tick at which a run differs from the reference solution's, in a joint or in the position of the TCP.
 //!
-//! To differ is no mistake by itself. Another branch, another path or another time may be as right, so this is told only of
-//! runs that lost points, and as the place where to look first.
+//! A difference is not a mistake by itself: another branch, another path or another time may be as right. So it is reported only for
+//! runs that lost points, as the moment to look at first.
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::ticks::Periods;
@@ -12,7 +12,7 @@ use crate::record::grade::Divergence;
 use crate::record::graded::TcpPath;
 use crate::record::quantity::{list, metres, trimmed};
 
-/// Compares two runs of the same task by joints and TCP, as far as both go.
+/// Compares two runs of the same task by joints and TCP, up to the end of the shorter one.
 pub fn from_run(
     student: &Trace,
     reference: &Trace,
@@ -81,28 +81,39 @@ pub fn from_run(
     None
 }
 
-/// Compares a run with all that students have of the reference: the path of its TCP.
+/// Compares a run with the part of the reference that students have: the path of its TCP.
 pub fn from_path(student: &Trace, path: &TcpPath, periods: &Periods) -> Option<Divergence> {
     let every = u64::from(periods.ticks_per_control.get());
-    path.points_m.iter().enumerate().find_map(|(i, place)| {
-        let tick = (i as f64 * path.period_s / periods.step_s).round() as u64;
-        let is_seen = tick < student.len() as u64 && tick.is_multiple_of(every);
-        is_seen.then(|| of_tcp(student, tick as usize, place, periods))?
-    })
+    path.points_m
+        .iter()
+        .enumerate()
+        .find_map(|(i, reference_m)| {
+            let tick = (i as f64 * path.period_s / periods.step_s).round() as u64;
+            let is_control_tick = tick < student.len() as u64 && tick.is_multiple_of(every);
+            is_control_tick.then(|| of_tcp(student, tick as usize, reference_m, periods))?
+        })
 }
 
-/// Where the TCP is not, if it is not there.
-fn of_tcp(student: &Trace, tick: usize, place: &[f64], periods: &Periods) -> Option<Divergence> {
+/// The difference of the TCP from `reference_m` at a tick, if it is above the tolerance.
+fn of_tcp(
+    student: &Trace,
+    tick: usize,
+    reference_m: &[f64],
+    periods: &Periods,
+) -> Option<Divergence> {
     let yours = student.tcp_position(tick);
     let yours = yours.as_slice();
-    let squares = yours.iter().zip(place).map(|(a, b)| (a - b) * (a - b));
+    let squares = yours
+        .iter()
+        .zip(reference_m)
+        .map(|(a, b)| (a - b) * (a - b));
     let distance = squares.sum::<f64>().sqrt();
     (distance > POSITION_TOLERANCE_M).then(|| Divergence {
         tick: tick as u64,
         time_s: periods.time_s(tick as u64),
         signal: "tcp".to_owned(),
         yours: yours.to_vec(),
-        reference: place.to_vec(),
+        reference: reference_m.to_vec(),
         distance,
         tolerance: POSITION_TOLERANCE_M,
         unit: "m".to_owned(),
@@ -110,7 +121,7 @@ fn of_tcp(student: &Trace, tick: usize, place: &[f64], periods: &Periods) -> Opt
             "the TCP is at {} m, {} from the reference solution's at {} m",
             list(yours),
             metres(distance),
-            list(place)
+            list(reference_m)
         ),
     })
 }
@@ -166,7 +177,7 @@ mod tests {
         let found = found.unwrap();
         assert_eq!((found.tick, found.signal.as_str()), (40, "tcp"));
         assert!((found.distance - 0.02).abs() < 1e-12);
-        // points between control ticks, and after the run's end, are not looked at
+        // points between control ticks, and after the run's end, are ignored
         for path in [
             path(vec![at, off, at], 0.015),
             path(vec![at, at, off], 0.06),

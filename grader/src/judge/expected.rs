@@ -1,4 +1,4 @@
-//! What is expected in hidden cases: of a function of the lab's own, what the reference solution answers when it is called on them.
+//! Expected answers of hidden cases: for a function of the lab's own, the reference solution is called on them.
 
 use kinemark_sim::text::Source;
 
@@ -10,10 +10,10 @@ use crate::lab::{Lab, Task};
 use crate::submission::answer::named_entries;
 use crate::task::model::{Case, Function, FunctionTask, Given};
 
-/// `cases` of `task` with what is expected in them: entry by entry as in the visible cases.
+/// `cases` of `task` with their expected entries, in the form of the visible cases.
 ///
 /// # Errors
-/// Why the solution has no answer, in words.
+/// The reason why the solution has no answer, in words.
 pub fn with_expected(
     lab: &Lab,
     task: &Task,

@@ -1,4 +1,4 @@
-//! Where a check of a motion task began to lose points: the moment at which the curve it judged left the band of full points, or the
+//! The moment at which a check of a motion task began to lose points: when the curve it judged left the band of full points, or the
 //! earliest moment of its evidence.
 
 use kinemark_sim::ticks::Periods;
@@ -7,18 +7,18 @@ use crate::check::{Finding, Statistic};
 use crate::record::grade::Instant;
 use crate::record::graded::Curve;
 
-/// Where a check that lost points in the visible run began to lose them, if its curve or its evidence says when.
+/// The moment at which a check began to lose points in the visible run, if its curve or its evidence gives one.
 pub(super) fn first_lost(finding: &Finding, periods: &Periods) -> Option<Instant> {
-    let evident = || finding.evidence.iter().filter_map(|fact| fact.time_s);
+    let times = || finding.evidence.iter().filter_map(|fact| fact.time_s);
     let left = finding.curve.as_ref().zip(finding.statistic);
     let left = left.and_then(|(curve, statistic)| match statistic {
         Statistic::Greatest => first_beyond(curve),
-        Statistic::RootMeanSquare => evident()
+        Statistic::RootMeanSquare => times()
             .filter_map(|time_s| went_beyond(curve, time_s))
             .min_by(f64::total_cmp),
         Statistic::SoFar => went_beyond(curve, f64::INFINITY),
     });
-    let time_s = left.or_else(|| evident().min_by(f64::total_cmp))?;
+    let time_s = left.or_else(|| times().min_by(f64::total_cmp))?;
     // times of curves and of evidence are those of ticks
     let tick = (time_s / periods.step_s).round() as u64;
     Some(Instant {
@@ -35,8 +35,8 @@ fn first_beyond(curve: &Curve) -> Option<f64> {
     first.map(|(t_s, _)| *t_s)
 }
 
-/// The moment at which the curve went beyond the band of full points for the stretch that holds the last sample up to `until_s` \[s\];
-/// none if it is inside there. Samples that are no number are gaps, over which a stretch goes on.
+/// The start \[s\] of the stretch beyond the band of full points that contains the last sample up to `until_s`; `None` if that sample is
+/// inside the band. NaN samples are gaps, which do not end a stretch.
 fn went_beyond(curve: &Curve, until_s: f64) -> Option<f64> {
     let full = curve.full?;
     let samples = curve.t_s.iter().zip(&curve.values);
@@ -74,11 +74,11 @@ mod tests {
     #[test]
     fn a_stretch_beyond_begins_where_the_band_was_left_for_it() {
         let twice = curve(&[0.0, 1.5, 0.5, 1.5, f64::NAN, 4.0, 1.5]);
-        // the worst at 0.5 s is of the stretch from 0.3 s on, over the gap
+        // the worst sample, at 0.5 s, is in the stretch from 0.3 s on, across the gap
         assert_eq!(went_beyond(&twice, 0.5), Some(curve(&[0.0; 4]).t_s[3]));
         assert_eq!(went_beyond(&twice, 0.1), Some(0.1));
         assert_eq!(went_beyond(&twice, 0.2), None);
-        // what has come together so far
+        // a mean accumulates from the start
         assert_eq!(
             went_beyond(&curve(&[0.0, 3.0, 0.5, 2.0, 2.0]), f64::INFINITY),
             Some(curve(&[0.0; 4]).t_s[3])

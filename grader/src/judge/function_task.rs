@@ -1,4 +1,4 @@
-//! Grading a function task: its visible and hidden cases, its checks, and the known mistakes it shows.
+//! Grading a function task: its visible and hidden cases, its checks, and the mutants that it matches.
 
 use super::Interrupted;
 use super::case_grades::{case_grade, hidden_classes};
@@ -7,7 +7,7 @@ use super::diagnose;
 use super::expected::with_expected;
 use super::grader::{Grader, MOST_LOG_LINES};
 use super::hidden_attempts::HiddenAttempts;
-use super::judged::{Judged, all_full, judge};
+use super::judged::{JudgedCheck, all_full, judge};
 use crate::attempt::answers::{Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
 use crate::check::{self, Check, FunctionCheck};
@@ -56,7 +56,7 @@ impl Grader<'_> {
         Ok(self.function_grade((task, band), verdict, stopped, checks, diagnoses, attempt))
     }
 
-    /// All cases of a task, hidden ones with what is expected in them; with a fault, where the reference solution does not say what,
+    /// All cases of a task, hidden ones with their expected answers; with a fault, if the reference solution does not give them,
     /// the visible ones alone.
     fn cases(&self, task: &Task, work: &FunctionTask) -> (Vec<Case>, Option<String>) {
         let mut all = work.cases.clone();
@@ -74,7 +74,7 @@ impl Grader<'_> {
         }
     }
 
-    /// What the end of an attempt alone comes to.
+    /// The verdict that follows from the end of an attempt alone.
     fn ended(
         &self,
         attempt: &Attempt<Answers<'_>>,
@@ -138,14 +138,14 @@ impl Grader<'_> {
     fn function_diagnoses(
         &self,
         task: &Task,
-        (asked, band): (&Function, Band),
+        (function, band): (&Function, Band),
         cases: &[Case],
         student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &mutant.source);
             let cell = self.lab.workcell();
-            let run = function::run(cell, asked, cases, &opening, &mut InProcess);
+            let run = function::run(cell, function, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
             (mutant, run.recorded.facts)
@@ -156,7 +156,7 @@ impl Grader<'_> {
     }
 }
 
-/// Whether the submission is no program, or lacks the function.
+/// Whether the submission does not compile or lacks the function.
 fn is_without_function(ended: Option<&Ended>) -> bool {
     matches!(
         ended.map(|ended| &ended.why),
@@ -166,10 +166,10 @@ fn is_without_function(ended: Option<&Ended>) -> bool {
     )
 }
 
-/// The grades of a function task's checks: hidden cases are among those judged, and no moment is the first.
+/// The grades of a function task's checks: the judged cases include the hidden ones, and there is no first moment of loss.
 fn function_checks(
     checks: &[Check<dyn FunctionCheck>],
-    judged: &[Judged],
+    judged: &[JudgedCheck],
     explained: bool,
 ) -> Vec<CheckGrade> {
     let first_lost = vec![None; judged.len()];

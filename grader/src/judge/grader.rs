@@ -27,7 +27,7 @@ use crate::task::robot::LabRobot;
 /// Lines of a submission's output that the record keeps.
 pub(super) const MOST_LOG_LINES: usize = 200;
 
-/// The person at the terminal asked to stop.
+/// The user interrupted the grade.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("interrupted")]
 pub struct Interrupted;
@@ -76,7 +76,7 @@ pub fn grade(
     })
 }
 
-/// The grade of all tasks together, with what took part in it.
+/// The grade of all tasks together, with the digests of lab, robot, submission and reference.
 fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<TaskGrade>) -> Grade {
     let verdicts = tasks.iter().map(|task| task.verdict);
     Grade {
@@ -125,7 +125,7 @@ fn digest_of_lab(lab: &Lab) -> blake3::Hash {
     blake3::hash(texts.as_bytes())
 }
 
-/// The scenes, each file once whatever its dimensions.
+/// The scenes, each file once, whatever its dimensions.
 fn scene_parts(lab: &Lab) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for scene in &lab.scenes {
@@ -163,7 +163,7 @@ pub(super) struct Grader<'a> {
     pub(super) submission: &'a Source,
     /// Function tasks so far that passed.
     passed: Vec<String>,
-    /// Submissions of the staff that failed.
+    /// Submissions of the course staff that failed.
     staff_faults: RefCell<Vec<Arc<StaffFault>>>,
 }
 
@@ -172,7 +172,7 @@ impl Grader<'_> {
         opening(self.lab, task, submission)
     }
 
-    /// Keeps that a submission of the staff stopped, once for each.
+    /// Records that a submission of the course staff stopped, once for each.
     pub(super) fn note_stop(
         &self,
         whose: StaffSubmission,
@@ -191,7 +191,7 @@ impl Grader<'_> {
         }
     }
 
-    /// The known mistakes that a task may show: in a run none that a function task would show too and did not.
+    /// The mutants that a task may match: a motion task excludes those that a function task would have shown but did not.
     pub(super) fn mutants_of(&self, task: &Task) -> impl Iterator<Item = &Mutant> {
         let all = self.staff.map_or(&[][..], |staff| &staff.mutants);
         let name = task.name.clone();

@@ -1,10 +1,10 @@
-//! Hidden runs: a motion task run again with numbers that only the staff's salt knows, judged by the same checks, and reported by
-//! class alone.
+//! Hidden runs: a motion task run again with numbers that only the course staff's salt gives, judged by the same checks, and reported
+//! only by class.
 
 use kinemark_sim::text::Source;
 
 use super::Interrupted;
-use super::judged::Judged;
+use super::judged::JudgedCheck;
 use super::motion_judge::MotionJudge;
 use crate::attempt::Disclosure;
 use crate::lab::TaskWork;
@@ -13,23 +13,23 @@ use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped};
 use crate::record::verdict::Verdict;
 use crate::submission::host::Host;
 
-/// The hidden runs of one task, judged; none in practice, and none where the visible run did not come to its end.
+/// The hidden runs of one task, judged. There are none in practice mode, or if the visible run did not reach its end.
 #[derive(Debug, Default)]
 pub(super) struct HiddenAttempts(Vec<HiddenAttempt>);
 
 #[derive(Debug)]
 struct HiddenAttempt {
     class: String,
-    /// The share of points that each check counts here.
+    /// The share of points of each check.
     scores: Vec<f64>,
-    /// For each check, whether it was judged: a check that needs another one may not have been.
+    /// For each check, whether it was judged: a check that needs another one may not be.
     judged: Vec<bool>,
     digest: blake3::Hash,
     stopped: Option<(Verdict, Stopped)>,
 }
 
 impl HiddenAttempt {
-    /// Whether this machine or the grader failed in it, so that nothing is known.
+    /// Whether this machine or the grader failed in it, so that it decides nothing.
     fn is_undecided(&self) -> bool {
         matches!(&self.stopped, Some((verdict, _)) if !verdict.is_decided())
     }
@@ -74,7 +74,7 @@ impl HiddenAttempts {
         self.0.len()
     }
 
-    /// Whether some run decides nothing, so that nothing is decided.
+    /// Whether the points are undecided because some run decides nothing.
     pub(super) fn is_undecided(&self) -> bool {
         self.0.iter().any(HiddenAttempt::is_undecided)
     }
@@ -94,7 +94,7 @@ impl HiddenAttempts {
         self.0.iter().map(|attempt| attempt.score(check)).sum()
     }
 
-    /// What is reported of a check: the classes in which it lost points, and those in which one that it needs earned nothing.
+    /// The report on a check: the classes in which it lost points, and those in which a check that it needs earned nothing.
     pub(super) fn losses(&self, check: usize) -> [Vec<Evidence>; 2] {
         [
             self.evidence(
@@ -108,7 +108,7 @@ impl HiddenAttempts {
         ]
     }
 
-    /// One sentence per class with a run in which `lost`: how many, and never which numbers.
+    /// One sentence per class with a run in which `lost`: the count, and never the numbers of a run.
     fn evidence(&self, lost: impl Fn(&HiddenAttempt) -> bool, what: &str) -> Vec<Evidence> {
         let classes = self.classes().into_iter();
         let evidence = classes.filter_map(|HiddenClass { class, total, .. }| {
@@ -121,7 +121,7 @@ impl HiddenAttempts {
         evidence.collect()
     }
 
-    /// The runs counted by class: good is one in which every check is full.
+    /// The runs counted by class; a good run is one in which every check is full.
     pub(super) fn classes(&self) -> Vec<HiddenClass> {
         let mut classes: Vec<HiddenClass> = Vec::new();
         for run in &self.0 {
@@ -141,14 +141,14 @@ impl HiddenAttempts {
         classes
     }
 
-    /// The worst stop of a hidden run, of equal ones the first.
+    /// The worst stop of a hidden run; the first among equal ones.
     pub(super) fn into_stopped(self) -> Option<(Verdict, Stopped)> {
         let stops = self.0.into_iter().filter_map(|run| run.stopped);
         stops.min_by_key(|(verdict, _)| *verdict)
     }
 }
 
-/// Evidence about all calls of `control`, at no moment of the visible run.
+/// Evidence about all calls of `control`, without a moment in the visible run.
 pub(super) fn of_control(message: String, class: Option<String>) -> Evidence {
     Evidence {
         message,
@@ -158,18 +158,18 @@ pub(super) fn of_control(message: String, class: Option<String>) -> Evidence {
     }
 }
 
-/// Steps in which a hidden score counts: finer ones could carry a hidden number out in the points.
+/// Steps of a hidden score: finer ones could reveal a hidden number through the points.
 const HIDDEN_STEPS: f64 = 20.0;
 
-/// A score as it counts in a hidden run: cut off to whole steps, so that it is full only where it was full, but for one above zero not
-/// to zero: what a check needs has earned something or it has not, and the points must say the same.
+/// The score of a hidden run, rounded down to a step, so that it is full only if it was full. A score above zero does not become zero,
+/// because other checks may need one that earned something.
 fn counted_score(score: f64) -> f64 {
     let steps = (score * HIDDEN_STEPS).floor();
     let least = if score > 0.0 { 1.0 } else { 0.0 };
     steps.max(least) / HIDDEN_STEPS
 }
 
-/// One run; `None` if the lab of the run has not the task, which loading has ruled out.
+/// One run; `None` if the lab of the run does not have the task, which loading excludes.
 fn attempt(
     run: &HiddenRun,
     name: &str,
@@ -187,7 +187,7 @@ fn attempt(
     let attempt = judge.attempt(host);
     let disclosure = Disclosure::HiddenRun { class: &run.class };
     let judged = judge.judge(&attempt, disclosure, host)?;
-    let was_judged = |check: &Judged| check.outcome != Outcome::NotJudged;
+    let was_judged = |check: &JudgedCheck| check.outcome != Outcome::NotJudged;
     Ok(Some(HiddenAttempt {
         class: run.class.clone(),
         scores: judged

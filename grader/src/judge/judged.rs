@@ -1,22 +1,22 @@
-//! Judging an attempt: every check of its task in order, whether the attempt is a visible run, a hidden one or the answers to cases.
+//! Judging an attempt by every check of its task in order: a visible run, a hidden run, or the answers to cases.
 
 use crate::check::{Check, Finding};
 use crate::record::grade::Outcome;
 
-/// What a check came to in one attempt.
+/// The result of a check in one attempt.
 #[derive(Debug)]
-pub(super) struct Judged {
+pub(super) struct JudgedCheck {
     /// The share of its points, in `[0, 1]`; 0 where it was not judged.
     pub(super) score: f64,
-    /// How much that is.
+    /// The outcome that goes with the score.
     pub(super) outcome: Outcome,
-    /// What it found; none where it was not judged.
+    /// Its finding; `None` if it was not judged.
     pub(super) finding: Option<Finding>,
-    /// The check it needs that earned nothing, by index, where that is why it was not judged.
+    /// Index of a needed check that earned nothing, if that is why it was not judged.
     pub(super) unmet: Option<usize>,
 }
 
-impl Judged {
+impl JudgedCheck {
     fn not_judged(unmet: Option<usize>) -> Self {
         Self {
             score: 0.0,
@@ -27,7 +27,7 @@ impl Judged {
     }
 
     fn of(finding: Finding) -> Self {
-        // a trace of a point would be shown as none
+        // a tiny fraction of a point would be shown as no point
         let score = if finding.score < 1e-6 {
             0.0
         } else {
@@ -48,34 +48,34 @@ impl Judged {
         }
     }
 
-    /// What it found where points were lost.
+    /// Its finding, if points were lost.
     pub(super) fn loss(&self) -> Option<&Finding> {
         let finding = self.finding.as_ref();
         finding.filter(|_| self.outcome != Outcome::Full)
     }
 }
 
-/// Judges an attempt by its task's checks in order. A check that needs one which earned nothing is not judged, nor is any where the
-/// attempt cannot be judged.
+/// Judges an attempt by its task's checks in order. A check is not judged if it needs one that earned nothing, or if the attempt cannot
+/// be judged.
 pub(super) fn judge<K: ?Sized>(
     checks: &[Check<K>],
     can_be_judged: bool,
     find: impl Fn(&Check<K>) -> Finding,
-) -> Vec<Judged> {
-    let mut judged: Vec<Judged> = Vec::with_capacity(checks.len());
+) -> Vec<JudgedCheck> {
+    let mut judged: Vec<JudgedCheck> = Vec::with_capacity(checks.len());
     for check in checks {
         let mut needs = check.needs.iter().copied();
         let unmet = needs.find(|&need| judged[need].score <= 0.0);
         judged.push(match (can_be_judged, unmet) {
-            (false, _) => Judged::not_judged(None),
-            (true, Some(need)) => Judged::not_judged(Some(need)),
-            (true, None) => Judged::of(find(check)),
+            (false, _) => JudgedCheck::not_judged(None),
+            (true, Some(need)) => JudgedCheck::not_judged(Some(need)),
+            (true, None) => JudgedCheck::of(find(check)),
         });
     }
     judged
 }
 
 /// Whether every check earned all its points.
-pub(super) fn all_full(judged: &[Judged]) -> bool {
+pub(super) fn all_full(judged: &[JudgedCheck]) -> bool {
     judged.iter().all(|check| check.outcome == Outcome::Full)
 }

@@ -1,5 +1,5 @@
-//! From a lab and a submission to a graded run: every task is attempted, its checks judge the attempts, and the record is put together
-//! from what they found, once.
+//! From a lab and a submission to a graded run: every task is attempted, its checks judge the attempts, and the record is made once,
+//! from their findings.
 
 mod case_grades;
 mod check_grades;

@@ -1,10 +1,10 @@
-//! Judging the run of a motion task: the one way for visible runs, hidden runs and the levels of a robustness sweep.
+//! Judging the run of a motion task, in the same way for visible runs, hidden runs and the levels of a robustness sweep.
 
 use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
-use super::judged::{Judged, all_full, judge};
+use super::judged::{JudgedCheck, all_full, judge};
 use super::opening::opening;
 use super::robustness_sweep::{self, Undecided};
 use crate::attempt::motion;
@@ -26,7 +26,7 @@ pub(super) struct MotionJudge<'a> {
     pub(super) work: &'a MotionTask,
     pub(super) checks: &'a [Check<dyn MotionCheck>],
     pub(super) opening: Opening,
-    /// The reference solution's path, where the lab ships it.
+    /// The reference solution's path, if the lab ships it.
     pub(super) reference: Option<&'a TcpPath>,
     /// The band by which dwells are chosen.
     pub(super) pose_band: Band,
@@ -35,14 +35,14 @@ pub(super) struct MotionJudge<'a> {
 /// A run, judged.
 pub(super) struct JudgedRun {
     /// One per check of the task.
-    pub(super) checks: Vec<Judged>,
+    pub(super) checks: Vec<JudgedCheck>,
     /// The dwells at the goals.
     pub(super) dwells: Vec<Dwell>,
     /// The runs of robustness checks.
     pub(super) sweeps: Vec<SweepRuns>,
-    /// What the run alone comes to.
+    /// The verdict on this run alone.
     pub(super) verdict: Verdict,
-    /// How it ended, where that was early or nothing could be decided.
+    /// How it ended, if it ended early or could not be decided.
     pub(super) stopped: Option<Stopped>,
 }
 
@@ -65,7 +65,7 @@ impl<'a> MotionJudge<'a> {
         }
     }
 
-    /// The names in its runs.
+    /// The robot, scene and frame that name things in its runs.
     pub(super) fn names(&self) -> Names<'a> {
         Names {
             robot: &self.lab.robot,
@@ -79,7 +79,7 @@ impl<'a> MotionJudge<'a> {
         motion::run(self.lab.workcell(), self.work, &self.opening, host)
     }
 
-    /// A run as the checks see it.
+    /// The facts of a run for the checks.
     pub(super) fn facts<'t>(&self, trace: &'t Trace) -> MotionFacts<'t>
     where
         'a: 't,
@@ -96,11 +96,11 @@ impl<'a> MotionJudge<'a> {
         }
     }
 
-    /// Judges a run by every check of its task; one that came to its end is first repeated under the disturbances that robustness
-    /// checks name.
+    /// Judges a run by every check of its task. A run that reached its end is first repeated under the disturbances of robustness
+    /// checks.
     ///
     /// # Errors
-    /// [`Interrupted`] if the person at the terminal asked to stop.
+    /// [`Interrupted`] if the user interrupted the grade.
     pub(super) fn judge(
         &self,
         attempt: &Attempt<Trace>,
@@ -112,7 +112,7 @@ impl<'a> MotionJudge<'a> {
         if ended.is_none() {
             match robustness_sweep::sweeps(self, &facts, host) {
                 Ok(sweeps) => facts.sweeps = sweeps,
-                // a level that this machine could not run decides nothing, nor does the grade without it
+                // if this machine could not run a level, nothing is decided, and neither is the grade
                 Err(Undecided(stop)) => ended = Some(Ended::stopped_by(stop, 0)),
             }
         }

@@ -1,4 +1,4 @@
-//! The record of a motion task, and the run that is drawn with it.
+//! The record of a motion task, and its run for plots and replay.
 
 use kinemark_sim::trace::{SecondDigest, Trace};
 
@@ -7,7 +7,7 @@ use super::motion_judge::MotionJudge;
 use crate::attempt::Attempt;
 use crate::check::{self, Check, Dwell, MotionCheck, SweepRuns};
 use crate::record::grade::{
-    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LogEntry, RungDigest, SecondDigests,
+    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LevelDigest, LogEntry, SecondDigests,
     Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
@@ -15,7 +15,7 @@ use crate::record::names::{contacts, events};
 use crate::record::quantity::sum_of_points;
 use crate::record::verdict::Verdict;
 
-/// What a motion task came to, visible and hidden runs together.
+/// The result of a motion task, visible and hidden runs together.
 pub(super) struct MotionResult {
     pub(super) verdict: Verdict,
     pub(super) stopped: Option<Stopped>,
@@ -58,7 +58,7 @@ impl MotionResult {
         }
     }
 
-    /// The visible run, for whoever draws it.
+    /// The visible run, for renderers.
     pub(super) fn run(
         self,
         judge: &MotionJudge<'_>,
@@ -112,7 +112,7 @@ fn goals(judge: &MotionJudge<'_>, dwells: &[Dwell]) -> Vec<Goal> {
     goals.collect()
 }
 
-/// Identities of every simulated second of a run.
+/// Digests of every simulated second of a run.
 pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<SecondDigests> {
     let seconds = seconds.iter().map(|second| {
         let signal = |i: usize| second.signals[i].to_hex()[..16].to_owned();
@@ -129,19 +129,19 @@ pub(super) fn second_digests(trace: &Trace, seconds: &[SecondDigest]) -> Vec<Sec
     seconds.collect()
 }
 
-/// Identities of the runs of all levels of robustness checks, in the lab's order.
-pub(super) fn rung_digests(
+/// Digests of the runs of all levels of robustness checks, in the lab's order.
+pub(super) fn level_digests(
     checks: &[Check<dyn MotionCheck>],
     sweeps: &[SweepRuns],
-) -> Vec<RungDigest> {
+) -> Vec<LevelDigest> {
     let mut digests = Vec::new();
     for sweep in sweeps {
         let check = checks.iter().find(|check| check.name == sweep.check);
-        let Some(asked) = check.and_then(|check| check.kind.sweep()) else {
+        let Some(defined) = check.and_then(|check| check.kind.sweep()) else {
             continue;
         };
-        for (level, facts) in asked.levels.iter().zip(&sweep.levels) {
-            digests.push(RungDigest {
+        for (level, facts) in defined.levels.iter().zip(&sweep.levels) {
+            digests.push(LevelDigest {
                 check: sweep.check.clone(),
                 rung: level.name.clone(),
                 digest: facts.digest.clone(),

@@ -10,9 +10,9 @@ use super::divergence;
 use super::first_lost::first_lost;
 use super::grader::Grader;
 use super::hidden_attempts::HiddenAttempts;
-use super::judged::Judged;
+use super::judged::JudgedCheck;
 use super::motion_judge::MotionJudge;
-use super::motion_record::{MotionResult, rung_digests, second_digests};
+use super::motion_record::{MotionResult, level_digests, second_digests};
 use crate::attempt::motion::Session;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck};
@@ -75,7 +75,7 @@ impl Grader<'_> {
             digests: Digests {
                 all: all.to_hex().to_string(),
                 seconds: second_digests(&attempt.recorded, &digest.seconds),
-                rungs: rung_digests(checks, &visible.sweeps),
+                rungs: level_digests(checks, &visible.sweeps),
             },
             divergence: differs,
         };
@@ -84,7 +84,7 @@ impl Grader<'_> {
         Ok((grade, run))
     }
 
-    /// Where a run that lost points first differs from the reference solution's, and which known mistake it shows.
+    /// Where a run that lost points first differs from the reference solution's, and which mutant it matches.
     fn compared(
         &self,
         judge: &MotionJudge<'_>,
@@ -116,7 +116,7 @@ impl Grader<'_> {
         (differs, diagnoses)
     }
 
-    /// The known mistake that settles where a run with goals did, if it came to its end.
+    /// The mutant that settles at the same positions as a run with goals that reached its end.
     fn settled_mistakes(
         &self,
         judge: &MotionJudge<'_>,
@@ -136,7 +136,7 @@ impl Grader<'_> {
         diagnose::motion_task(judge.work, judge.pose_band, &attempt.recorded, mutants)
     }
 
-    /// The known mistake whose whole run is that of a submission.
+    /// The mutant whose whole run agrees with that of a submission.
     fn whole_run_mistakes(
         &self,
         judge: &MotionJudge<'_>,
@@ -167,14 +167,14 @@ impl Grader<'_> {
         diagnose::whole_run(compared, mutants, &note)
     }
 
-    /// The reference solution's run of a task, with the staff's part and if it comes to its end.
+    /// The reference solution's run of a task, if the course staff's part is present and the run reaches its end.
     fn solution_run(&self, judge: &MotionJudge<'_>) -> Option<Trace> {
         let solution = &self.staff?.solution;
         let run = self.staff_run(judge, StaffSubmission::Solution, solution);
         run.ended.is_none().then_some(run.recorded)
     }
 
-    /// The run of a submission of the staff's own; that it stops is noted.
+    /// The run of a submission of the course staff; an early stop is recorded.
     fn staff_run(
         &self,
         judge: &MotionJudge<'_>,
@@ -193,7 +193,7 @@ impl Grader<'_> {
         run
     }
 
-    /// The hidden runs of a task whose visible run came to its end.
+    /// The hidden runs of a task whose visible run reached its end.
     fn hidden(
         &self,
         task: &Task,
@@ -214,8 +214,8 @@ impl Grader<'_> {
     }
 }
 
-/// Where each check began to lose points in the visible run.
-fn first_losses(judge: &MotionJudge<'_>, judged: &[Judged]) -> Vec<Option<Instant>> {
+/// The moment at which each check began to lose points in the visible run.
+fn first_losses(judge: &MotionJudge<'_>, judged: &[JudgedCheck]) -> Vec<Option<Instant>> {
     let losses = judged
         .iter()
         .map(|judged| first_lost(judged.loss()?, &judge.work.periods));
@@ -223,7 +223,7 @@ fn first_losses(judge: &MotionJudge<'_>, judged: &[Judged]) -> Vec<Option<Instan
 }
 
 /// The curves that checks judged.
-fn curves(judged: Vec<Judged>) -> Vec<Curve> {
+fn curves(judged: Vec<JudgedCheck>) -> Vec<Curve> {
     let findings = judged.into_iter().filter_map(|check| check.finding);
     findings.filter_map(|finding| finding.curve).collect()
 }

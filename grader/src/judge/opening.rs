@@ -1,4 +1,4 @@
-//! What a submission is opened with: the task, the robot's numbers, and what the task grants.
+//! The opening of a submission: the task, the robot's numbers, and what the task grants.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::text::Source;
@@ -12,7 +12,7 @@ use crate::task::mesh_file::MeshFile;
 use crate::task::model::{Function, FunctionTask};
 use crate::task::value::Value;
 
-/// What a submission is opened with for `task` of `lab`.
+/// The opening of a submission for `task` of `lab`.
 pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
     let (robot, target, sensors) = match &task.work {
         TaskWork::Function(..) => (
@@ -48,7 +48,7 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
     }
 }
 
-/// What a task grants, with what the robot's model is made from; none where it grants nothing.
+/// The functions that a task grants, with the files of the robot's model; `None` if it grants nothing.
 fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
     let (functions, gravity_m_s2) = match work {
         TaskWork::Function(function, _) => (&function.grants, GRAVITY_M_S2),

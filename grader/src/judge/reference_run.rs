@@ -1,4 +1,4 @@
-//! The reference solution's motion beside a graded run: for staff, who know the answer.
+//! Adds the reference solution's motion to a graded run, for the course staff, who know the answer.
 
 use crate::attempt::motion;
 use crate::judge::opening;
@@ -7,8 +7,8 @@ use crate::lab::{Lab, Staff};
 use crate::record::graded::GradedRun;
 use crate::submission::host::InProcess;
 
-/// Puts the reference solution's motion beside every run of `graded`, to be shown by its report and its logs; a solution that stops
-/// early is not shown. The grade is not touched.
+/// Adds the reference solution's motion to every run of `graded`, for its report and its logs; a solution that stops early is left out.
+/// The grade does not change.
 pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
     for run in &mut graded.runs {
         let Some(task) = lab.tasks.iter().find(|task| task.name == run.task) else {

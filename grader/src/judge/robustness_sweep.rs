@@ -1,4 +1,4 @@
-//! Robustness sweeps: the same motion once more under every level of disturbance, judged by the check that is repeated.
+//! Robustness sweeps: the motion is repeated under every level of disturbance and judged by the repeated check.
 
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::run::Disturbance;
@@ -13,11 +13,11 @@ use crate::submission::controller::Stop;
 use crate::submission::host::Host;
 use crate::task::workcell::Workcell;
 
-/// Why a sweep says nothing about the work.
+/// Why a sweep decides nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Undecided(pub(super) Stop);
 
-/// Runs every level of every robustness check whose repeated check earns anything in `undisturbed`.
+/// Runs every level of every robustness check whose repeated check earns points in `undisturbed`.
 ///
 /// # Errors
 /// [`Undecided`] if the person, the machine or the grader stopped a run.
@@ -75,12 +75,12 @@ fn attempt(judge: &MotionJudge<'_>, level: &Level, host: &mut dyn Host) -> Attem
     motion::run_disturbed(cell, judge.work, &judge.opening, host, &disturbance)
 }
 
-/// Where the noise of a level starts: the same for every submission, everywhere.
+/// Seed of the noise of a level: the same for every submission, on every platform.
 fn seed(names: [&str; 3]) -> u64 {
     KeyedStream::new("kinemark 2026 noise of a rung", &names, &[]).bits()
 }
 
-/// What the repeated check finds in the run of a level, or how that run ended early.
+/// The finding of the repeated check in the run of a level, or how that run ended early.
 fn judged(
     judge: &MotionJudge<'_>,
     repeated: &Check<dyn MotionCheck>,

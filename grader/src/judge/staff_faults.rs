@@ -1,4 +1,4 @@
-//! A stop of the staff's own code as an error at its line: it would else be noticed by nobody.
+//! A stop of the course staff's own code as an error at its line; nobody would notice it otherwise.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::lab::Task;
 use crate::record::staff_fault::{StaffFault, StaffProblem, StaffSubmission};
 use crate::submission::controller::Stop;
 
-/// `stop` as a fault at its line of `source`, in `task` or before any; none where the submission is not at fault.
+/// `stop` as a fault at its line of `source`, in `task` or before any; `None` if the submission is not at fault.
 pub(crate) fn staff_fault(
     submission: StaffSubmission,
     task: Option<&Task>,
@@ -36,7 +36,7 @@ pub(crate) fn staff_fault(
 
 /// The bytes of the word at a line and a column, both from one.
 fn word_at(text: &str, line: usize, column: usize) -> Range<usize> {
-    // an editor's mark of the encoding is not counted by who reads scripts
+    // the script reader does not count a byte order mark
     let mark = text.len() - text.trim_start_matches('\u{feff}').len();
     let lines = text[mark..].split_inclusive('\n');
     let start = mark
@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(&text[word_at(text, 2, 9)], "länge");
         assert_eq!(&text[word_at(text, 1, 1)], "fn");
         assert_eq!(&text[word_at(text, 2, 7)], "+");
-        // beyond the last line and the last column there is nothing
+        // empty beyond the last line and the last column
         assert_eq!(&text[word_at(text, 9, 9)], "");
         assert_eq!(&text[word_at(text, 3, 2)], "");
         assert_eq!(word_at("", 1, 1), 0..0);

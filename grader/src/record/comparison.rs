@@ -1,4 +1,4 @@
-//! A comparison of two graded submissions as data: what each check earned, and where the motions first part.
+//! The record of a comparison of two graded submissions: the points of each check, and the first difference of the motions.
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::watch::event::EventKind;
@@ -12,9 +12,9 @@ use crate::record::verdict::Verdict;
 /// The format and its version.
 pub const FORMAT: &str = "kinemark-comparison/1";
 
-/// Revolute joints nearer to each other than this are not reported: half of it is what a tracking servo lags behind \[rad\].
+/// Smaller differences of revolute joints are not reported; the lag of a tracking servo is half as large \[rad\].
 pub const JOINT_TOLERANCE_RAD: f64 = 0.02;
-/// The same of the TCP and of prismatic joints \[m\].
+/// The same tolerance for the TCP and for prismatic joints \[m\].
 pub const POSITION_TOLERANCE_M: f64 = 0.01;
 
 /// Two submissions, compared.
@@ -28,7 +28,7 @@ pub struct Comparison {
     pub a: SideRecord,
     /// The second.
     pub b: SideRecord,
-    /// What else is not the same, and what could not be compared.
+    /// Notes on other differences, and on what could not be compared.
     pub notes: Vec<String>,
     /// Tasks that both have, in the lab's order.
     pub tasks: Vec<TaskComparison>,
@@ -37,7 +37,7 @@ pub struct Comparison {
 /// One of two submissions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SideRecord {
-    /// What it is called, such as its folder.
+    /// Its name, such as its folder.
     pub name: String,
     /// The submission's file name.
     pub submission: String,
@@ -47,11 +47,11 @@ pub struct SideRecord {
     pub verdict: Verdict,
     /// Points earned.
     pub points: f64,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
 }
 
-/// A task of both.
+/// A task that both submissions have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskComparison {
     /// Its name in the lab file.
@@ -62,28 +62,28 @@ pub struct TaskComparison {
     pub verdict_a: Verdict,
     /// Outcome of the second.
     pub verdict_b: Verdict,
-    /// What both earned.
+    /// Points of both.
     pub points: Pair,
-    /// What ended the first early, if something did.
+    /// The early end of the first, if it ended early.
     pub ended_a: Option<Ended>,
-    /// What ended the second early.
+    /// The early end of the second, if it ended early.
     pub ended_b: Option<Ended>,
     /// Its checks, in the lab's order.
     pub checks: Vec<CheckComparison>,
-    /// How the motions compare; absent in a function task.
+    /// The comparison of the motions; absent in a function task.
     pub motion: Option<MotionComparison>,
 }
 
 /// Points of both.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pair {
-    /// Of the first.
+    /// Points of the first.
     pub a: f64,
-    /// Of the second.
+    /// Points of the second.
     pub b: f64,
-    /// Of the second above those of the first.
+    /// Points of the second minus those of the first.
     pub difference: f64,
-    /// Points there are.
+    /// Maximum points.
     pub max: f64,
 }
 
@@ -98,38 +98,38 @@ impl Pair {
     }
 }
 
-/// A check of both.
+/// A check that both submissions have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CheckComparison {
     /// Its name in the lab file.
     pub name: String,
     /// Its title.
     pub title: String,
-    /// How much the first earned; what is not judged has no points, which is not the same as zero.
+    /// Outcome of the first; a check that was not judged has no points, which is not the same as zero points.
     pub outcome_a: Outcome,
-    /// How much the second earned.
+    /// Outcome of the second.
     pub outcome_b: Outcome,
-    /// What both earned.
+    /// Points of both.
     pub points: Pair,
 }
 
-/// What ended a task early: the submission was stopped, or the simulation diverged.
+/// The early end of a task: the submission was stopped, or the simulation diverged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ended {
-    /// The tick of a motion task at which it did.
+    /// The tick at which a motion task ended.
     pub tick: Option<u64>,
     /// The time of that tick \[s\].
     pub time_s: Option<f64>,
     /// Line in the submission, from one.
     pub line: Option<usize>,
-    /// The case of a function task in which it did.
+    /// The case in which a function task ended.
     pub case: Option<String>,
-    /// Why.
+    /// The reason.
     pub message: String,
 }
 
 impl Ended {
-    /// When, where and why, after the letter of the one that ended: `B stopped at 3.01 s, line 12: ...`.
+    /// A sentence with time, line and reason after the submission's letter: `B stopped at 3.01 s, line 12: ...`.
     pub fn words(&self, letter: &str) -> String {
         let at = self
             .time_s
@@ -146,12 +146,12 @@ impl Ended {
     }
 }
 
-/// What ended a run before its time, if something did.
+/// The early end of a run, if it ended early.
 pub fn ended(run: &TaskRun, task: Option<&TaskGrade>) -> Option<Ended> {
     let stopped = task.and_then(|task| task.stopped.as_ref());
-    // a stop without a tick is of a run that is not this one
-    let told = stopped.filter(|stopped| stopped.tick.is_some() || run.trace.is_empty());
-    if let Some(stopped) = told {
+    // a stop without a tick belongs to another run than the visible one
+    let of_this_run = stopped.filter(|stopped| stopped.tick.is_some() || run.trace.is_empty());
+    if let Some(stopped) = of_this_run {
         return Some(Ended::of(stopped));
     }
     let ends = |kind: &EventKind| matches!(kind, EventKind::Diverged | EventKind::Stopped);
@@ -177,16 +177,16 @@ impl Ended {
     }
 }
 
-/// How two motions compare.
+/// The comparison of two motions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionComparison {
-    /// Whether every number of every tick is the same.
+    /// Whether all numbers of all ticks are equal.
     pub same_bits: bool,
-    /// The first control tick at which they are apart; absent where they never are.
+    /// The first control tick at which they differ; absent if they never do.
     pub first: Option<FirstDifference>,
 }
 
-/// The first control tick at which two motions are apart.
+/// The first control tick at which two motions differ by more than the tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FirstDifference {
     /// The tick.
@@ -195,13 +195,13 @@ pub struct FirstDifference {
     pub time_s: f64,
     /// The signal: `tcp`, or a joint's position such as `q[1]`.
     pub signal: String,
-    /// The signal there in the first: x, y, z in the lab's frame, or one number.
+    /// Value of the signal in the first submission: x, y, z in the lab's frame, or one number.
     pub a: Vec<f64>,
-    /// In the second.
+    /// Value of the signal in the second submission.
     pub b: Vec<f64>,
-    /// How far the two are from each other.
+    /// Distance between the two values.
     pub distance: f64,
-    /// How far they may be without being told.
+    /// Smaller distances are not reported.
     pub tolerance: f64,
     /// Unit of all four.
     pub unit: String,
@@ -209,7 +209,7 @@ pub struct FirstDifference {
     pub message: String,
 }
 
-/// The runs of a task of both.
+/// The runs of one task in both submissions.
 pub fn runs<'a>(
     task: &str,
     a: &'a GradedRun,

@@ -1,6 +1,6 @@
-//! The grade record `kinemark-grade/1`: the one value every format is rendered from.
+//! The grade record `kinemark-grade/1`, from which every output is rendered.
 //!
-//! No clock, no path, no host is in it: the same submission gives the same bytes.
+//! It contains no clock time, path or host name: the same submission gives the same bytes.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::verdict::Verdict;
 
-/// The version of the record this build writes.
+/// The record version that this build writes.
 pub const FORMAT: &str = "kinemark-grade/1";
 
 /// A graded run.
@@ -20,11 +20,11 @@ pub struct Grade {
     pub format: String,
     /// The engine and its version, such as `kinemark 0.1.0`.
     pub engine: String,
-    /// `graded` with the staff's reference and hidden cases, `practice` without.
+    /// `graded` with the course staff's reference and hidden cases, `practice` without.
     pub mode: GradeMode,
     /// The lab.
     pub lab: Part,
-    /// The numbers of the variant that was graded; absent where it was the lab as everyone has it.
+    /// The numbers of the graded variant; absent for the default variant.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<VariantRecord>,
     /// The robot file.
@@ -34,23 +34,23 @@ pub struct Grade {
     pub scenes: Vec<Part>,
     /// The submission; `name` is its file name.
     pub submission: Part,
-    /// The staff's reference folder, if it took part.
+    /// The course staff's reference folder, if it took part.
     pub reference: Option<Part>,
     /// The worst verdict of the tasks.
     pub verdict: Verdict,
     /// Points earned.
     pub points: f64,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
     /// One per task, in the lab's order.
     pub tasks: Vec<TaskGrade>,
 }
 
-/// A variant of a lab: whose it is, and its numbers.
+/// A variant of a lab: its student and its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VariantRecord {
-    /// The student; absent where the file names none.
+    /// The student; absent if the variant file names none.
     pub student: Option<String>,
     /// All parameters of the lab.
     pub parameters: BTreeMap<String, ParameterValue>,
@@ -67,7 +67,7 @@ pub enum ParameterValue {
 }
 
 impl VariantRecord {
-    /// It in words: whose it is, and every number.
+    /// The variant in words: its student and every number.
     pub fn words(&self) -> String {
         let numbers = self.parameters.iter().map(|(name, value)| match value {
             ParameterValue::Number(number) => format!("{name} = {number}"),
@@ -92,7 +92,7 @@ pub enum GradeMode {
     Graded,
 }
 
-/// Something that took part, by name and content.
+/// A file or folder that took part, by name and content.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
@@ -126,37 +126,37 @@ pub struct TaskGrade {
     pub verdict: Verdict,
     /// Points earned.
     pub points: f64,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
-    /// What stopped the submission, if something did.
+    /// The stop of the submission, if it was stopped.
     pub stopped: Option<Stopped>,
     /// Its checks, in the lab's order.
     pub checks: Vec<CheckGrade>,
-    /// Known mistakes that the answers agree with.
+    /// Common mistakes that the answers agree with.
     pub diagnoses: Vec<Diagnosis>,
     /// Visible cases of a function task, each with its answer.
     pub cases: Vec<CaseGrade>,
     /// Hidden cases of a function task, or hidden runs of a motion task, counted by class.
     pub hidden: Vec<HiddenClass>,
-    /// What happened in the run of a motion task (the first 100 events of joints and the first 200 others).
+    /// Events in the run of a motion task (the first 100 events of joints and the first 200 others).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventRecord>,
-    /// Who pressed on whom in a scene (the first 200 contacts).
+    /// Contacts in a scene (the first 200).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactRecord>,
-    /// Operations the submission used; in a function task those of visible cases.
+    /// Operations that the submission used; in a function task those of visible cases.
     pub operations: u64,
     /// Lines the submission printed (the first 200).
     pub log: Vec<LogEntry>,
-    /// Identity of what the submission did.
+    /// Digests of the run or the answers.
     pub digests: Digests,
-    /// Where the run of a motion task that lost points first differs from the reference solution's; absent where it does not.
+    /// The first difference of a motion task's run that lost points from the reference solution's run; absent if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub divergence: Option<Divergence>,
 }
 
-/// The first control tick at which a run is not where the reference solution's is. It is no mistake by itself: another path, or
-/// another time, may be as right.
+/// The first control tick at which a run differs from the reference solution's. It is not a mistake by itself: another path or another
+/// time may be as right.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Divergence {
@@ -166,13 +166,13 @@ pub struct Divergence {
     pub time_s: f64,
     /// The signal: `tcp`, or a joint's position such as `q[1]`.
     pub signal: String,
-    /// The signal there: x, y, z in the lab's frame, or one number.
+    /// Value of the signal: x, y, z in the lab's frame, or one number.
     pub yours: Vec<f64>,
-    /// The reference solution's.
+    /// Value of the signal in the reference solution's run.
     pub reference: Vec<f64>,
-    /// How far the two are from each other.
+    /// Distance between the two values.
     pub distance: f64,
-    /// How far they may be without being told.
+    /// Smaller distances are not reported.
     pub tolerance: f64,
     /// Unit of all four.
     pub unit: String,
@@ -180,7 +180,7 @@ pub struct Divergence {
     pub message: String,
 }
 
-/// Something that happened in a run.
+/// An event in a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventRecord {
@@ -198,27 +198,27 @@ pub struct EventRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactRecord {
-    /// The two.
+    /// The names of the two parties.
     pub parties: [String; 2],
     /// The first tick at which they pressed on each other.
     pub first_tick: u64,
-    /// The last one; shorter pauses than 20 ms count as contact.
+    /// The last such tick; pauses shorter than 20 ms count as contact.
     pub last_tick: u64,
     /// The greatest normal force, mean over a physics step \[N\].
     pub peak_force_n: f64,
-    /// The tick of that.
+    /// The tick of the greatest force.
     pub peak_tick: u64,
     /// Sum of the normal impulses \[N s\].
     pub impulse_n_s: f64,
 }
 
-/// What stopped a submission in a task.
+/// The stop of a submission in a task.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stopped {
     /// What happened.
     pub message: String,
-    /// Something to do.
+    /// What to do about it.
     pub help: Option<String>,
     /// Line in the submission, from one.
     pub line: Option<usize>,
@@ -234,7 +234,7 @@ pub struct Stopped {
     pub case: Option<String>,
 }
 
-/// How much of a check's points was earned.
+/// How many of a check's points were earned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -244,7 +244,7 @@ pub enum Outcome {
     Partial,
     /// None of them.
     None,
-    /// None, because a check it needs earned none, or the submission was stopped before.
+    /// None, because a check that it needs earned none, or the submission was stopped before.
     NotJudged,
 }
 
@@ -258,23 +258,23 @@ pub struct CheckGrade {
     pub title: String,
     /// Its outcome.
     pub outcome: Outcome,
-    /// Points earned, in whole hundredths.
+    /// Points earned, an integer number of hundredths.
     pub points: f64,
-    /// Points there are.
+    /// Maximum points.
     pub max_points: f64,
-    /// What was measured against the band.
+    /// The measured value and its band.
     pub measure: Option<Measure>,
-    /// Where it began to lose points in the run of a motion task: where the curve it judged first leaves the band of full points, if
-    /// every moment of that curve is held against the band, else the earliest moment of its evidence. Absent where no moment is told.
+    /// The moment at which it began to lose points in the run of a motion task: when the judged curve first leaves the band of full
+    /// points, if every moment of that curve is compared with the band, else the earliest moment of its evidence. Absent if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_lost: Option<Instant>,
-    /// Why points were lost, worst first; empty where none were.
+    /// Why points were lost, worst first; empty if none were.
     pub evidence: Vec<Evidence>,
-    /// One thing to do next, where points were lost.
+    /// The next step, if points were lost.
     pub next_step: Option<String>,
 }
 
-/// A moment of the run of a motion task: the visible one, which the report shows.
+/// A moment of the visible run of a motion task, which the report shows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Instant {
@@ -301,7 +301,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// How far the value lies inside `full` (positive) or outside it (negative), in the unit of the measure.
+    /// Margin of the value to `full`, negative outside, in the unit of the measure.
     pub fn margin(&self) -> Option<f64> {
         let toward = if self.zero >= self.full { 1.0 } else { -1.0 };
         self.value.map(|value| (self.full - value) * toward)
@@ -316,25 +316,24 @@ pub struct Evidence {
     pub message: String,
     /// The signal it shows in, such as `tcp`, `q[1]`, `effort[0]`, or the function called.
     pub signal: String,
-    /// The tick of a motion task at which it first went wrong, or at its worst; always one of the visible run. Of another run only
-    /// the message tells a time.
+    /// The tick of the visible run at which it first went wrong, or was worst. For another run only the message gives a time.
     pub tick: Option<u64>,
     /// The time of that tick \[s\].
     pub time_s: Option<f64>,
-    /// The run it happened in, where that is not the visible one: the name of the rung of a robustness check.
+    /// The run in which it happened, if not the visible one: the name of the level of a robustness check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run: Option<String>,
     /// The visible case of a function task, or the class of hidden ones.
     pub case: Option<String>,
     /// The value there.
     pub value: Option<f64>,
-    /// The limit it was held against.
+    /// The limit with which it was compared.
     pub limit: Option<f64>,
     /// Unit of value and limit.
     pub unit: String,
 }
 
-/// A known mistake that the answers agree with.
+/// A common mistake that the answers agree with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Diagnosis {
@@ -354,22 +353,22 @@ pub struct Diagnosis {
 pub struct CaseGrade {
     /// Its name.
     pub name: String,
-    /// What the function was given.
+    /// The input of the function.
     pub given: String,
-    /// What it answered.
+    /// Its answer.
     pub answer: String,
-    /// What would have been right, where telling it gives no other task away.
+    /// The right answer, if it does not give away another task.
     pub expected: Option<String>,
-    /// Error of the answer \[m\]; absent where there is none or it is not finite.
+    /// Error of the answer \[m\]; absent if there is no answer or the error is not finite.
     pub error_m: Option<f64>,
-    /// Of a Jacobian: distance from the true one as a fraction of its norm; absent where it is not finite.
+    /// Of a Jacobian: distance from the true one as a fraction of its norm; absent if it is not finite.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f64>,
     /// Whether the answer is within the band's `full`.
     pub good: bool,
 }
 
-/// Hidden cases or runs of one class: only their number is told.
+/// Hidden cases or runs of one class; only their number is reported.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HiddenClass {
@@ -377,7 +376,7 @@ pub struct HiddenClass {
     pub class: String,
     /// Cases with a good answer; runs in which every check is full.
     pub good: u32,
-    /// Cases or runs there are.
+    /// All cases or runs of the class.
     pub total: u32,
 }
 
@@ -391,28 +390,28 @@ pub struct LogEntry {
     pub text: String,
 }
 
-/// Identity of what a submission did in a task, in hexadecimal BLAKE3.
+/// Digests of a submission's run or answers in a task, in hexadecimal BLAKE3.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Digests {
-    /// Of the whole run, or of all answers in order.
+    /// Digest of the whole run, or of all answers in order.
     pub all: String,
-    /// Of every simulated second of a motion task.
+    /// Digests of every simulated second of a motion task.
     pub seconds: Vec<SecondDigests>,
-    /// Of the runs under disturbances that robustness checks asked for, where there were any.
+    /// Digests of the runs under the disturbances of robustness checks, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub rungs: Vec<RungDigest>,
+    pub rungs: Vec<LevelDigest>,
 }
 
-/// Identity of one run under a disturbance.
+/// Digest of one run under a disturbance.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RungDigest {
+pub struct LevelDigest {
     /// The robustness check's name.
     pub check: String,
-    /// The rung's name.
+    /// The name of the level.
     pub rung: String,
-    /// Of the whole run, in hexadecimal BLAKE3.
+    /// Digest of the whole run, in hexadecimal BLAKE3.
     pub digest: String,
 }
 
@@ -430,10 +429,10 @@ pub struct SecondDigests {
     pub effort: String,
     /// TCP poses.
     pub tcp: String,
-    /// Poses of the scene's bodies, where any can move.
+    /// Poses of the scene's bodies, if any can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bodies: Option<String>,
-    /// Readings of the sensors, where there are any.
+    /// Readings of the sensors, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensors: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! A graded run: the record, and what the renderers draw from besides it.
+//! A graded run: the record, and the runs that renderers need in addition to it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,49 +20,49 @@ pub struct GradedRun {
     pub grade: Grade,
     /// The lab's title.
     pub title: String,
-    /// Submissions of the staff that failed, once each: their part of the feedback is missing.
+    /// Submissions of the course staff that failed, once each; their part of the feedback is missing.
     pub staff_faults: Vec<Arc<StaffFault>>,
     /// The motion tasks that ran, in the lab's order.
     pub runs: Vec<TaskRun>,
 }
 
-/// One motion task as it ran.
+/// The run of one motion task.
 #[derive(Debug, Clone)]
 pub struct TaskRun {
     /// The task's name.
     pub task: String,
     /// The robot that moved.
     pub robot: Robot,
-    /// What was around it, where anything was.
+    /// The scene around it, if there is one.
     pub scene: Option<Arc<LabScene>>,
-    /// What the robot measured, in the order of the trace's readings.
+    /// The robot's sensors, in the order of the trace's readings.
     pub sensors: Vec<Sensor>,
-    /// The frame in which the TCP, the goals and the paths are told.
+    /// The frame in which the TCP, the goals and the paths are given.
     pub seen_from: String,
     /// The servo's mode: what the command means.
     pub mode: Mode,
     /// Effort limits of the servo, shape `(n)`; infinity where there is none \[N m or N\].
     pub effort_limits: Vec<f64>,
-    /// What the run recorded, up to its end or to where it stopped.
+    /// The recorded run, up to its end or its early stop.
     pub trace: Trace,
-    /// Where the TCP was to go, in order.
+    /// The goals of the TCP, in order.
     pub goals: Vec<Goal>,
     /// The reference solution's TCP path, if the lab has one.
     pub reference_tcp: Option<TcpPath>,
-    /// Paths that the TCP was to follow.
+    /// The paths that the TCP should follow.
     pub paths: Vec<AskedPath>,
     /// The curves that checks judged, in the lab's order.
     pub curves: Vec<Curve>,
     /// The titles of the task's checks by their names.
     pub check_titles: BTreeMap<String, String>,
-    /// Where it first differs from the reference solution's, where that is told.
+    /// Its first difference from the reference solution's run, if that is reported.
     pub divergence: Option<Divergence>,
-    /// The reference solution's run, where staff asked for it to be shown: its joint motion is the answer.
+    /// The reference solution's run, present only if the course staff requested it, because its joint motion is the answer.
     pub reference_overlay: Option<Trace>,
 }
 
 impl TaskRun {
-    /// The names in it, for events and contacts.
+    /// Robot, scene and frame, for the names in events and contacts.
     pub fn names(&self) -> Names<'_> {
         Names {
             robot: &self.robot,
@@ -72,22 +72,22 @@ impl TaskRun {
     }
 }
 
-/// A place the TCP is to reach and to stay at.
+/// A position that the TCP should reach, with a dwell there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
     /// Position in the lab's frame \[m\].
     pub position_m: [f64; 3],
-    /// How long to stay \[s\].
+    /// Duration of the dwell \[s\].
     pub dwell_s: f64,
     /// Distance that earns all points \[m\].
     pub full_m: f64,
     /// Distance that earns none \[m\].
     pub zero_m: f64,
-    /// First and last tick of the stay that was judged, if one was found.
+    /// First and last tick of the dwell that was judged, if one was found.
     pub stay: Option<(u64, u64)>,
 }
 
-/// A path of straight segments that the TCP was to follow.
+/// A path of straight segments that the TCP should follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AskedPath {
     /// Its name.
@@ -112,7 +112,7 @@ pub struct TcpPath {
 pub struct Curve {
     /// The check's name.
     pub check: String,
-    /// What is drawn, such as `distance to the goal`.
+    /// Title of the plot, such as `distance to the goal`.
     pub title: String,
     /// Unit of the values; empty for a ratio.
     pub unit: String,
@@ -124,19 +124,19 @@ pub struct Curve {
     pub full: Option<f64>,
     /// The value that earns none, drawn as a line.
     pub zero: Option<f64>,
-    /// Moments worth a mark, with what they are.
+    /// Marked moments, with their labels.
     pub marks: Vec<(f64, String)>,
-    /// What a step response is drawn with.
+    /// Additions for the plot of a step response, if it is one.
     pub step: Option<StepBackdrop>,
 }
 
-/// What is drawn with a step response besides the run.
+/// Additions to the plot of a step response.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StepBackdrop {
-    /// What a linear loop would have done, at the times of the curve.
+    /// The response of the linear loop, at the times of the curve.
     pub prediction: Option<Vec<f64>>,
-    /// Where the joint was to go, drawn as a line.
+    /// The setpoint of the joint, drawn as a line.
     pub target: Option<f64>,
-    /// Values from and to that are shaded, with what they are.
+    /// A shaded range: lower value, upper value and label.
     pub band: Option<(f64, f64, String)>,
 }

@@ -1,4 +1,4 @@
-//! What a grade is made of once it is made: the record, the runs it rests on, their names and numbers for people.
+//! A finished grade: the record, the runs it is based on, and names and numbers for people.
 
 pub mod comparison;
 pub mod grade;

@@ -1,4 +1,4 @@
-//! What a record keeps of what happened in a run: events and contacts, in words.
+//! The events and contacts of a run that a record keeps, in words.
 
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
@@ -7,12 +7,12 @@ use kinemark_sim::watch::event::EventKind;
 
 use crate::record::grade::{ContactRecord, EventRecord};
 
-/// Contacts, and events of bodies, that a record keeps.
+/// Most contacts, and most events of bodies, that a record keeps.
 const MOST_RECORDS: usize = 200;
-/// Events of joints and singular positions that a record keeps beside them: a loop that buzzes makes thousands.
+/// Most events of joints and of singular configurations that a record keeps in addition: an oscillating loop makes thousands.
 const MOST_OF_JOINTS: usize = 100;
 
-/// The events of a run, as far as a record keeps them.
+/// The events of a run that a record keeps.
 pub fn events(names: &Names<'_>, trace: &Trace, periods: &Periods) -> Vec<EventRecord> {
     let (mut of_joints, mut others) = (0, 0);
     let kept = trace.events.iter().filter(|event| {
@@ -23,7 +23,7 @@ pub fn events(names: &Names<'_>, trace: &Trace, periods: &Periods) -> Vec<EventR
             (&mut others, MOST_RECORDS)
         };
         *count += 1;
-        // how a run ended is never left out
+        // the end of a run is always kept
         *count <= most || matches!(event.kind, EventKind::Diverged | EventKind::Stopped)
     });
     kept.map(|event| EventRecord {
@@ -35,7 +35,7 @@ pub fn events(names: &Names<'_>, trace: &Trace, periods: &Periods) -> Vec<EventR
     .collect()
 }
 
-/// The contacts of a run, as far as a record keeps them.
+/// The contacts of a run that a record keeps.
 pub fn contacts(names: &Names<'_>, trace: &Trace) -> Vec<ContactRecord> {
     let contacts = trace.contacts.iter().take(MOST_RECORDS);
     contacts

@@ -1,4 +1,4 @@
-//! Numbers with their units, as people read them in messages.
+//! Numbers with their units, formatted for messages.
 
 /// A length or distance: millimetres below 10 cm, metres above.
 pub fn metres(value_m: f64) -> String {
@@ -24,7 +24,7 @@ pub fn seconds(value_s: f64) -> String {
     format!("{} s", trimmed(value_s, 3))
 }
 
-/// Beyond this a number only says that it is beyond all reason.
+/// Larger numbers are shown as being above this one.
 const BEYOND: f64 = 1e9;
 
 /// A value in the unit of a measure.
@@ -49,12 +49,12 @@ fn beyond(which: &str, unit: &str) -> String {
     format!("{which}{BEYOND} {unit}")
 }
 
-/// A value in the unit of a measure, as [`with_unit`] tells it, but with so many digits that it does not read like `limit` unless it is
-/// equal to it.
+/// A value in the unit of a measure, formatted like [`with_unit`], but with enough digits to differ from `limit` unless it is equal to
+/// it.
 pub fn told_apart(value: f64, limit: f64, unit: &str) -> String {
-    let told = with_unit(value, unit);
-    if value.total_cmp(&limit).is_eq() || told != with_unit(limit, unit) {
-        return told;
+    let short = with_unit(value, unit);
+    if value.total_cmp(&limit).is_eq() || short != with_unit(limit, unit) {
+        return short;
     }
     let (scale, shown) = match unit {
         "m" if limit.abs() < 0.1 => (1000.0, "mm"),
@@ -65,19 +65,18 @@ pub fn told_apart(value: f64, limit: f64, unit: &str) -> String {
     let apart = (2..=15).find(|decimals| written(value, *decimals) != written(limit, *decimals));
     match apart {
         Some(decimals) => format!("{} {shown}", written(value, decimals)),
-        None => told,
+        None => short,
     }
 }
 
-/// Points: whole where whole, else two decimals without trailing zeros, cut off rather than rounded: what is not full does not look
-/// full.
+/// Points with at most two decimals and no trailing zeros, rounded down, so that points that are not full do not look full.
 pub fn points(value: f64) -> String {
-    // a sum of hundredths is off by its rounding
+    // a sum of hundredths has a rounding error
     trimmed((value * 100.0 + 1e-6).floor() / 100.0, 2)
 }
 
-/// Points of `of` as a record has them: all of them, or whole hundredths, cut off as [`points`] does it; what earned something has one
-/// at least.
+/// Points of `of` for a record: all of them, or an integer number of hundredths, rounded down as by [`points`], but at least one if
+/// anything was earned.
 pub fn whole_hundredths(value: f64, of: f64) -> f64 {
     let cut = (value * 100.0 + 1e-6).floor() / 100.0;
     match value {
@@ -87,12 +86,12 @@ pub fn whole_hundredths(value: f64, of: f64) -> f64 {
     }
 }
 
-/// The sum of points, without what adding binary numbers leaves.
+/// The sum of points, without the rounding error of binary addition.
 pub fn sum_of_points(points: impl Iterator<Item = f64>) -> f64 {
     (points.sum::<f64>() * 1e9).round() / 1e9
 }
 
-/// How much more points `b` are than `a`, of both as they are shown.
+/// The difference `b - a` of points, both as shown.
 pub fn difference_of_points(a: f64, b: f64) -> f64 {
     let shown = |value: f64| (value * 100.0 + 1e-6).floor();
     (shown(b) - shown(a)) / 100.0

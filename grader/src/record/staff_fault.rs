@@ -1,31 +1,31 @@
-//! A submission of the course staff that fails: the reference solution, or a known mistake. What it would have shown of a student's
-//! work is missing, so whoever grades is told at which line.
+//! A failure of the course staff's own code: the reference solution or a mutant. Its part of the feedback is missing, so the person who
+//! grades gets its position.
 
 use kinemark_sim::text::{Located, Problem};
 
-/// A fault in the staff's own code, with its place in their file.
+/// A failure of the course staff's own code, with its position in their file.
 pub type StaffFault = Located<StaffProblem>;
 
-/// What is wrong with a submission of the staff.
+/// Why a submission of the course staff failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{}: {message}", self.what_fails())]
 pub struct StaffProblem {
     /// The submission.
     pub submission: StaffSubmission,
-    /// The task in which it stops; none where it does not even start.
+    /// The task in which it stops; `None` if it does not compile.
     pub task: Option<String>,
-    /// Why.
+    /// The reason.
     pub message: String,
-    /// Something to do.
+    /// What to do about it.
     pub help: Option<String>,
 }
 
-/// A submission of the staff.
+/// A submission of the course staff.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum StaffSubmission {
     /// The reference solution.
     Solution,
-    /// The known mistake of this name.
+    /// The mutant of this name.
     Mutant(String),
 }
 

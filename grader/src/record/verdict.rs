@@ -1,4 +1,4 @@
-//! The verdicts of a task and the order in which they win.
+//! The verdicts of a task, and their order: the worst decides a grade.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,14 +21,14 @@ pub enum Verdict {
     OverBudget,
     /// The submission returned something of the wrong shape, or a number that is not finite.
     InvalidOutput,
-    /// It ran, and some check is not full.
+    /// It ran, and at least one check lost points.
     Missed,
-    /// Every check is full.
+    /// Every check earned all its points.
     Passed,
 }
 
 impl Verdict {
-    /// The verdict's word, as in the grade record.
+    /// The name of the verdict in the grade record.
     pub fn name(self) -> &'static str {
         match self {
             Self::GraderFault => "grader-fault",
@@ -42,7 +42,7 @@ impl Verdict {
         }
     }
 
-    /// Whether points are decided: not where the grader or its machine failed.
+    /// Whether points are decided: false if the grader or its machine failed.
     pub fn is_decided(self) -> bool {
         !matches!(self, Self::GraderFault | Self::HostLimit)
     }

@@ -1,4 +1,4 @@
-//! From what a submission returned to what was asked for: shape and finiteness, or words for what came instead.
+//! Parses the return value of a submission: checks its shape and finiteness, or describes the invalid value.
 
 use kinemark_sim::text::Dimension;
 use nalgebra::Vector3;
@@ -9,7 +9,7 @@ use crate::submission::controller::Value;
 /// A position: three finite numbers \[m\].
 ///
 /// # Errors
-/// What was returned instead, in words.
+/// A description of the invalid value.
 pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
     match numbers(value).as_deref() {
         Some([x, y, z]) => finite(value, &[*x, *y, *z]).map(|()| Vector3::new(*x, *y, *z)),
@@ -20,7 +20,7 @@ pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
 /// Branches of `n` finite numbers each; one bare branch is accepted, and `[]` says there is none.
 ///
 /// # Errors
-/// What was returned instead, in words; also more than `most` branches.
+/// A description of the invalid value; also for more than `most` branches.
 pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, String> {
     let wrong = || {
         Err(instead(
@@ -62,7 +62,7 @@ pub fn branches(value: &Value, n: usize, most: usize) -> Result<Vec<Vec<f64>>, S
 /// A matrix of `rows` rows of `columns` finite numbers each, row by row; a single row may be bare.
 ///
 /// # Errors
-/// What was returned instead, in words.
+/// A description of the invalid value.
 pub fn matrix(value: &Value, rows: usize, columns: usize) -> Result<Vec<Vec<f64>>, String> {
     let found: Option<Vec<Vec<f64>>> = match (value, numbers(value)) {
         (_, Some(bare)) if rows == 1 => Some(vec![bare]),
@@ -93,10 +93,10 @@ pub fn matrix(value: &Value, rows: usize, columns: usize) -> Result<Vec<Vec<f64>
     }
 }
 
-/// The entries of a map that were expected, in their order: each a finite number, or a list of as many as expected. A single entry
-/// without a name is the answer itself.
+/// The expected entries of a map, in their order: each is a finite number, or a list with the expected length. A single entry without a
+/// name is the answer itself.
 ///
-/// For each entry, or all of them, what was returned instead, in words.
+/// A description of the invalid value, for each entry or for all of them.
 pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Vec<f64>, String>> {
     let names = || expected.iter().map(|(name, _)| name.as_str());
     let entry = |(name, should): &(String, Dimension)| {
@@ -133,7 +133,7 @@ pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Ve
 /// The entries of an answer under the names of `like`, numbers where that has numbers and lists where it has lists of any length.
 ///
 /// # Errors
-/// What was returned instead, in words.
+/// A description of the invalid value.
 pub fn named_entries(
     value: &Value,
     like: &[(String, Dimension)],
@@ -166,7 +166,7 @@ pub fn named_entries(
 /// A command: `n` finite numbers; one bare number where `n` is 1.
 ///
 /// # Errors
-/// What was returned instead, in words.
+/// A description of the invalid value.
 pub fn command(value: &Value, n: usize) -> Result<Vec<f64>, String> {
     let found = match value {
         Value::Number(number) if n == 1 => Some(vec![*number]),
@@ -186,7 +186,7 @@ fn finite(value: &Value, numbers: &[f64]) -> Result<(), String> {
     }
 }
 
-/// What came, and what was expected.
+/// A message with the invalid value and the expectation.
 fn instead(value: &Value, expected: &str) -> String {
     format!("{}, expected {expected}", describe(value))
 }
@@ -230,7 +230,7 @@ pub fn describe(value: &Value) -> String {
 fn plain(value: &Value, depth: usize) -> String {
     match value {
         Value::Nothing => "()".to_owned(),
-        Value::Boolean(truth) => truth.to_string(),
+        Value::Boolean(boolean) => boolean.to_string(),
         Value::Number(number) if number.is_finite() => trimmed(*number, 6),
         Value::Number(number) if number.is_nan() => "NaN".to_owned(),
         Value::Number(number) => if *number > 0.0 {

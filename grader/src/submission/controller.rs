@@ -1,7 +1,6 @@
-//! The seam between the grader and a student's code: calls go in, answers come out, and a stop says why there is none.
+//! The interface between the grader and a student's code: calls go in, answers come out, and a stop says why there is no answer.
 //!
-//! One trait, several transports: the script in this process, a worker process, later a remote client. All carry these types and
-//! give the same bits.
+//! One trait with two transports: the script in this process, and a worker process. Both carry these types and give the same bits.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +15,11 @@ pub trait Controller {
     /// [`Stop`] if there is no answer. After [`Stop::Crashed`] and [`Stop::OverBudget`] it can be called again.
     fn call(&mut self, call: &Call) -> Result<Answer, Stop>;
 
-    /// What the last call said before it was stopped, which no answer carries: a student looks there for the reason.
+    /// The output of the last call before it was stopped, which no answer carries: students look there for the reason.
     fn unanswered(&mut self) -> Said;
 }
 
-/// What a call says besides its value.
+/// The output of a call besides its value.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Said {
     /// Lines it printed.
@@ -29,10 +28,10 @@ pub struct Said {
     pub plots: Vec<(String, f64)>,
 }
 
-/// What a controller is opened with, once per task.
+/// The opening of a controller, once per task.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Opening {
-    /// File name of the submission, as the student knows it.
+    /// File name of the submission, for messages.
     pub file: String,
     /// The submission's text.
     pub source: String,
@@ -40,19 +39,19 @@ pub struct Opening {
     pub task: String,
     /// The robot of the task.
     pub robot: RobotFacts,
-    /// What `observation.target` holds.
+    /// The value of `observation.target`.
     pub target: Value,
     /// The sensors, in the order of their readings.
     pub sensors: Vec<SensorFacts>,
-    /// What the code may use up.
+    /// The budgets of the code.
     pub budgets: Budgets,
-    /// What it may ask of the robot's model, where the task grants anything.
+    /// The functions of the robot's model that the task grants, if any.
     pub granted: Option<Granted>,
-    /// The function of the lab's own that is called, where one is.
+    /// The lab's own function that is called, if any.
     pub function: Option<String>,
 }
 
-/// What a task grants, and what the robot's model is made from; its dimensions are those of [`RobotFacts`].
+/// The granted functions, and the files of the robot's model; its dimensions are those of [`RobotFacts`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Granted {
     /// The functions.
@@ -61,7 +60,7 @@ pub struct Granted {
     pub robot_path: String,
     /// The robot file's text.
     pub robot_text: String,
-    /// Bytes of the meshes it names, by the names it gives them.
+    /// Bytes of its meshes, by their names in the robot file.
     pub meshes: Vec<(String, Vec<u8>)>,
     /// The lab's frame.
     pub frame: String,
@@ -69,7 +68,7 @@ pub struct Granted {
     pub gravity_m_s2: [f64; 3],
 }
 
-/// What a submission may know of the robot: the map `robot`.
+/// The facts about the robot for a submission: the map `robot`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RobotFacts {
     /// The robot's name.
@@ -78,11 +77,11 @@ pub struct RobotFacts {
     pub joint_names: Vec<String>,
     /// The dimensions of the robot file: numbers and lists of numbers.
     pub dimensions: Vec<(String, Value)>,
-    /// Lower position limits, shape `(n)`; minus infinity where there is none \[rad or m\].
+    /// Lower position limits, shape `(n)`; minus infinity without a limit \[rad or m\].
     pub lower: Vec<f64>,
-    /// Upper position limits, shape `(n)`; infinity where there is none \[rad or m\].
+    /// Upper position limits, shape `(n)`; infinity without a limit \[rad or m\].
     pub upper: Vec<f64>,
-    /// Effort limits of the task's servo, shape `(n)`; infinity where there is none \[N m or N\].
+    /// Effort limits of the task's servo, shape `(n)`; infinity without a limit \[N m or N\].
     pub effort: Vec<f64>,
 }
 
@@ -114,17 +113,17 @@ pub enum Call {
     Free {
         /// The function's name.
         function: String,
-        /// What it is given: numbers and lists of numbers.
+        /// Its input: numbers and lists of numbers.
         given: Vec<(String, Value)>,
     },
-    /// `init(robot, task)`, once before the first `Control`; a submission without `init` answers nothing.
+    /// `init(robot, task)`, once before the first `Control`; without an `init`, a submission returns nothing.
     Init,
     /// `control(observation)`.
     Control(Observation),
 }
 
 impl Call {
-    /// The robot of the case it is for; none in a motion task, whose robot is that of the [`Opening`].
+    /// The robot of its case; `None` in a motion task, whose robot is that of the [`Opening`].
     pub fn robot(&self) -> Option<&RobotFacts> {
         match self {
             Self::ForwardKinematics { robot, .. }
@@ -135,7 +134,7 @@ impl Call {
     }
 }
 
-/// What `control` sees; task and target are those of the [`Opening`].
+/// The argument of `control`, without task and target, which are in the [`Opening`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// The tick.
@@ -152,93 +151,93 @@ pub struct Observation {
     pub effort: Vec<f64>,
     /// Position of the TCP in the lab's frame \[m\].
     pub tcp_m: [f64; 3],
-    /// What the sensors read, all their numbers in order.
+    /// All numbers of the sensor readings, in order.
     pub sensors: Vec<f64>,
 }
 
-/// A sensor as a submission knows it.
+/// The facts about a sensor for a submission.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SensorFacts {
     /// Its name in `observation.sensors`.
     pub name: String,
-    /// What it reads.
+    /// The type of its readings.
     pub reads: Reads,
 }
 
-/// What a sensor reads.
+/// The type of a sensor's readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reads {
-    /// True or false, from one number that is not zero or is.
+    /// A boolean, transported as one number that is zero for false.
     Truth,
     /// A number.
     Number,
-    /// A vector of so many numbers.
+    /// A vector with this many numbers.
     Vector(usize),
 }
 
-/// What came of a call.
+/// The result of a call.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
-    /// What the function returned.
+    /// The return value of the function.
     pub value: Value,
-    /// What it said.
+    /// Its output.
     pub said: Said,
     /// Operations it used.
     pub operations: u64,
 }
 
-/// A place in the submission, both from one, the column in characters.
+/// A position in the submission; line and column count from one, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct SourcePosition {
     /// The line.
     pub line: usize,
     /// The column.
     pub column: usize,
 }
 
-/// What a student did that cannot run.
+/// An error in a submission.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mistake {
-    /// What is wrong, in a lowercase fragment with names and values.
+    /// The message: a lowercase fragment with names and values.
     pub message: String,
-    /// Where, if the host knows.
-    pub place: Option<Place>,
-    /// Something to do.
+    /// The position, if the host knows it.
+    pub place: Option<SourcePosition>,
+    /// What to do about it.
     pub help: Option<String>,
 }
 
-/// Why a call has no answer.
+/// The reason why a call has no answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Stop {
-    /// The submission cannot be read as a program.
+    /// The submission does not compile.
     DidNotBuild(Mistake),
-    /// It has no such function; `help` names the nearest one, or says what its parameters should be.
+    /// It has no such function; `help` gives the nearest name, or the right parameters.
     Missing {
         /// The function's name and parameters: `control(observation)`.
         function: String,
-        /// Something to do.
+        /// What to do about it.
         help: Option<String>,
     },
     /// It failed while running.
     Crashed(Mistake),
     /// It used up a budget.
     OverBudget {
-        /// Which.
+        /// The budget.
         budget: Budget,
-        /// The budget's value.
+        /// The limit of the budget.
         limit: u64,
-        /// Where it ran out, if the host knows.
-        place: Option<Place>,
+        /// The position where it ran out, if the host knows it.
+        place: Option<SourcePosition>,
     },
-    /// This machine's clock or memory ended it; says nothing about the work.
+    /// This machine's clock or memory ended it; it says nothing about the work.
     HostLimit(HostLimit),
     /// The grader failed; the student is not at fault.
     GraderFault(String),
-    /// The person at the terminal asked to stop.
+    /// The user interrupted it.
     Interrupted,
 }
 
-/// What a submission may use up; all are counted, none is timed.
+/// A budget of a submission; all budgets are counted, none is timed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Budget {
     /// Operations of one call.
@@ -260,7 +259,7 @@ pub enum Budget {
 }
 
 impl Budget {
-    /// What it counts, in words: `operations in one call`.
+    /// The counted quantity in words: `operations in one call`.
     pub fn name(self) -> &'static str {
         match self {
             Self::OperationsPerCall => "operations in one call",

@@ -1,4 +1,4 @@
-//! Who opens submissions: this process, or whoever starts workers.
+//! Hosts that open submissions: this process, or one that starts workers.
 
 use super::controller::{Controller, Opening, Stop};
 use super::rhai::ScriptController;
@@ -11,7 +11,7 @@ pub trait Host {
     /// [`Stop`] if it cannot start.
     fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop>;
 
-    /// A task begins; for whoever shows progress.
+    /// Called when a task begins, to show progress.
     fn begins(&mut self, _task: &str) {}
 }
 

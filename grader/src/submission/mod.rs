@@ -1,4 +1,4 @@
-//! The seam to a student's code ([`controller`]), who opens it ([`host`]), what answers must look like ([`answer`]), and the
+//! The interface to a student's code ([`controller`]), the hosts that open it ([`host`]), the parsing of answers ([`answer`]), and the
 //! script language ([`rhai`]).
 
 pub mod answer;

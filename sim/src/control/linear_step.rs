@@ -1,4 +1,4 @@
-//! The step response of one joint under an ideal PID controller: the linear loop that textbooks compute, to draw beside a run.
+//! The step response of one joint under an ideal PID controller: the linear loop of the textbooks, to compare with a run.
 //!
 //! The joint is `J dω/dt + b ω = torque`, and the controller gives `kp e + ki ∫e dt + kd de/dt`: no filter, no limit, no sampling, no
 //! gravity. From the reference the closed loops are
@@ -8,8 +8,8 @@
 //!
 //! both without `kd` in the numerator where the derivative is taken of the measurement.
 //!
-//! With the error as a state nothing drives the position loop but where it starts, and the velocity loop but a constant; so a
-//! matrix exponential carries either exactly from one time to the next.
+//! With the error as a state, the position loop is homogeneous and the velocity loop has a constant input, so a matrix exponential
+//! advances either exactly from one time to the next.
 //!
 //! Source: Åström & Murray, *Feedback Systems* (2008), sec. 10.1 (PID), 5.3 (matrix exponential).
 
@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::matrix_functions::exponential;
 
-/// What of the joint is fed back.
+/// The quantity that is fed back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fed {
     /// Its position.
@@ -26,8 +26,8 @@ pub enum Fed {
     Velocity,
 }
 
-/// One joint that turns freely but for viscous damping, with its controller; units of the gains are those of a position loop, and in
-/// a velocity loop each has a factor s.
+/// One revolute joint with viscous damping, and its controller. The units of the gains are those of a position loop; in a velocity loop
+/// each has a factor s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearStep {
     /// What is fed back.
@@ -58,10 +58,10 @@ impl LinearStep {
         }
     }
 
-    /// The response to a unit step of the reference at time zero, at `count` times `dt_s` apart from zero on; the first value is that
-    /// just after the step.
+    /// The response to a unit step of the reference at time zero, at `count` times that start at zero and are `dt_s` apart; the first
+    /// value is the one just after the step.
     ///
-    /// `None` where numbers are so large that the loop cannot be computed.
+    /// `None` if numbers are too large to compute the loop.
     pub fn response(&self, dt_s: f64, count: usize) -> Option<Vec<f64>> {
         let (rates, start) = self.error_dynamics();
         let scaled = DMatrix::from_iterator(3, 3, rates.iter().map(|rate| rate * dt_s));

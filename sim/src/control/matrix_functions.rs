@@ -3,11 +3,11 @@
 
 use nalgebra::DMatrix;
 
-/// Squarings of a matrix on the way to its spectral radius: the power is then 2^40, and what the norm hides is below 1e-10.
+/// Squarings of a matrix for its spectral radius: the power is then 2^40, and the error of the norm is below 1e-10.
 const SQUARINGS: i32 = 40;
 
-/// Roots may be this far beyond one and still count as on it: rounding splits the double root of a joint that nothing holds by
-/// about 1e-8. A root at the edge takes two hours at 1 kHz to double.
+/// Roots may be this far outside the unit circle and still count as on it: rounding splits the double root of an uncontrolled joint by
+/// about 1e-8. A mode at this bound takes two hours at 1 kHz to double.
 const MARGIN: f64 = 1e-7;
 
 /// Terms of the Taylor series: with arguments up to one half the rest is below 1e-18.
@@ -99,7 +99,7 @@ impl Powers {
     }
 }
 
-/// The largest modulus of an eigenvalue, and a matrix whose columns lie in the space of the modes that have it.
+/// The largest modulus of an eigenvalue, and a matrix whose columns span the modes that have it.
 ///
 /// Zero and no mode where a power vanishes. `None` where an entry is not finite.
 ///
@@ -229,7 +229,7 @@ mod tests {
         let nilpotent = DMatrix::from_row_slice(2, 2, &[0.0, 1e6, 0.0, 0.0]);
         assert_eq!(spectral_radius(&nilpotent).unwrap().0, 0.0);
         assert!(is_stable(&nilpotent));
-        // a double root on the circle grows like the time, which is no instability
+        // a double root on the circle grows linearly in time, which does not count as instability
         let drift = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 0.0, 1.0]);
         assert!((spectral_radius(&drift).unwrap().0 - 1.0).abs() < 1e-10);
         assert!(is_stable(&drift));

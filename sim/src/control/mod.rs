@@ -1,5 +1,5 @@
 //! Joint servos: a command in, an effort out; the gains and periods at which they are stable; the step response of the ideal loop;
-//! and how drives keep speed limits.
+//! and the speed limits of drives.
 
 pub mod linear_step;
 mod matrix_functions;

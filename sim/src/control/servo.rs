@@ -68,11 +68,11 @@ pub struct ServoSettings {
     pub derivative: Derivative,
     /// One per joint that moves.
     pub gains: Vec<Gains>,
-    /// Whether the effort that holds the arm against gravity is added.
+    /// Whether gravity compensation is added.
     pub gravity_compensation: bool,
 }
 
-/// The gains and limits of all joints as a file or a request lists them: of each, one number per joint that moves.
+/// The gains and limits of all joints as a file or a request lists them: each list has one number per joint that moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GainLists {
     /// Effort per error, zero or more \[N m/rad, N m s/rad, N/m or N s/m\].
@@ -112,7 +112,7 @@ impl GainLists {
                 let (expected, found) = (n, list.len());
                 return Err(ServoError::Count { expected, found });
             }
-            // a limit of zero would let the arm hang limp; what is no number is in no range
+            // a limit of zero would leave a motor without effort; NaN is in no range
             let fits = |value: &f64| *value > 0.0 || (!is_limit && *value >= 0.0);
             match list.iter().copied().find(|value| !fits(value)) {
                 Some(found) if is_limit => return Err(ServoError::Limit { what, found }),
@@ -132,10 +132,10 @@ impl GainLists {
 }
 
 impl ServoSettings {
-    /// Settings for `robot`, by the one rule for labs and requests alike.
+    /// Settings for `robot`, by the same rules for labs and requests.
     ///
-    /// Every joint that is not marked `passive` has a drive, and so its gains, also one whose position follows from a loop: two drives
-    /// in a loop work with or against each other, as they would in the machine. Gains of passive joints do nothing.
+    /// Every joint that is not marked `passive` has a drive and gains, also a dependent joint of a loop: two drives in a loop work with
+    /// or against each other, as they would in a real mechanism. Gains of passive joints have no effect.
     ///
     /// # Errors
     /// [`ServoError`]: a list of another length than the robot has joints that move, a negative gain, a limit that is not positive, a
@@ -191,7 +191,7 @@ pub enum ServoError {
         /// The gain.
         found: f64,
     },
-    /// A limit that would leave no effort at all.
+    /// A limit that would allow no effort.
     #[error("`{what}` must be positive, got {found}")]
     Limit {
         /// The name of the list.
@@ -199,14 +199,14 @@ pub enum ServoError {
         /// The limit \[N m or N\].
         found: f64,
     },
-    /// The velocity's own rate is not measured.
+    /// A derivative that needs a measured acceleration, in velocity mode.
     #[error(
         "derivative `velocity` is for position mode; in velocity mode take `measurement` or `error`"
     )]
     VelocityOfVelocity,
 }
 
-/// The servos with their memory.
+/// The servos with their state.
 #[derive(Debug, Clone)]
 pub struct Servo {
     settings: ServoSettings,
@@ -247,8 +247,8 @@ impl Servo {
         })
     }
 
-    /// Takes one sample and writes the effort to hold until the next, zero for joints without a drive; all slices have shape `(n)`. Allocates nothing, but for the
-    /// gravity compensation of a robot with loops, whose dependent joints carry nothing.
+    /// Takes one sample and writes the effort to hold until the next, zero for joints without a drive; all slices have shape `(n)`.
+    /// Allocates nothing, except in the gravity compensation of a robot with loops, whose dependent joints get none.
     pub fn sample(
         &mut self,
         robot: &Robot,
@@ -301,7 +301,8 @@ impl Servo {
     }
 }
 
-/// Moves the efforts of a tree to its independent joints; at a singular position, where nothing can, dependent joints just let go.
+/// Maps the efforts of a tree to its independent joints; in a singular configuration, where that is impossible, it only sets those of
+/// the dependent joints to zero.
 fn carried_by_independent(robot: &Robot, q: &[f64], effort: &mut [f64]) {
     if let Ok(motions) = independent_motions(robot, q) {
         let tree = effort.to_vec();
@@ -344,7 +345,7 @@ fn pid(
         }
         Derivative::Velocity => -rate,
     };
-    // a sum that grew beyond all numbers must not matter where nothing integrates: 0 times infinity is no number
+    // without an integral gain the sum must not matter even where it overflowed: 0 times infinity is NaN
     let held = if gains.ki == 0.0 {
         0.0
     } else {

@@ -1,7 +1,7 @@
-//! Speed limits of joints, as drives keep them: at or beyond its limit a motor gives nothing that would drive its joint faster.
+//! Speed limits of joints, as drives keep them: at or beyond its limit a motor gives no effort that would accelerate its joint further.
 //!
-//! The limit is looked at once a physics step, so a joint may be faster by what its motor does to it in one; and nothing but its
-//! motor is held back: gravity and contact may make it as fast as they like.
+//! The limit is checked once a physics step, so a joint may exceed it by what its motor adds in one step. Only the motor is limited:
+//! gravity and contact can accelerate the joint beyond the limit.
 
 use crate::model::robot::Robot;
 
@@ -27,7 +27,7 @@ impl SpeedLimits {
         qd.abs() >= self.limits[joint]
     }
 
-    /// Takes from `effort` what drives a joint faster that has reached its limit; both have shape `(n)`.
+    /// Sets to zero the entries of `effort` that would accelerate a joint beyond its limit; both have shape `(n)`.
     pub fn hold(&self, qd: &[f64], effort: &mut [f64]) {
         for (joint, effort) in effort.iter_mut().enumerate() {
             if *effort * qd[joint] > 0.0 && self.is_reached(joint, qd[joint]) {

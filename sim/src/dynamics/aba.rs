@@ -1,12 +1,12 @@
-//! Forward dynamics by the articulated-body algorithm: the accelerations that efforts cause, in time linear in the joints.
+//! Forward dynamics by the articulated-body algorithm: the accelerations caused by efforts, in time linear in the number of joints.
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::kinematics::forward::Placed;
+use crate::kinematics::forward::BodyPose;
 use crate::model::robot::Robot;
 use crate::spatial::Symmetric3;
 
-/// A joint that moves no inertia at all: no effort on it has a finite answer.
+/// A joint that moves no inertia: an effort on it would cause an infinite acceleration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("joint `{joint}` moves no inertia, so an effort on it has no finite acceleration")]
 pub struct SingularMassMatrix {
@@ -14,7 +14,7 @@ pub struct SingularMassMatrix {
     pub joint: String,
 }
 
-/// Room for the algorithm on one robot, so that a loop allocates nothing.
+/// Scratch memory of the algorithm for one robot, so that a loop allocates nothing.
 #[derive(Debug, Clone)]
 pub(super) struct Aba {
     nodes: Vec<Node>,
@@ -24,26 +24,26 @@ pub(super) struct Aba {
 /// `n = upper dw + cross a`, `f = crossᵀ dw + lower a`.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    placed: Placed,
+    placed: BodyPose,
     /// Origin relative to the parent's origin.
     r: Vector3<f64>,
     axis: Vector3<f64>,
     w: Vector3<f64>,
-    /// Acceleration that the velocities cause: angular and linear.
+    /// Velocity-dependent acceleration: angular and linear.
     bias_dw: Vector3<f64>,
     bias_a: Vector3<f64>,
     upper: Symmetric3,
     cross: Matrix3<f64>,
     lower: Symmetric3,
-    /// Wrench the velocities need: moment and force.
+    /// Velocity-dependent wrench: moment and force.
     n: Vector3<f64>,
     f: Vector3<f64>,
     /// Inertia times the joint's axis: moment and force.
     u_n: Vector3<f64>,
     u_f: Vector3<f64>,
-    /// One over the inertia felt at the joint.
+    /// Inverse of the articulated inertia at the joint.
     per_inertia: f64,
-    /// Effort left for acceleration.
+    /// Effort that remains for acceleration.
     free: f64,
     dw: Vector3<f64>,
     a: Vector3<f64>,
@@ -53,7 +53,7 @@ impl Node {
     fn zero() -> Self {
         let zero = Vector3::zeros();
         Self {
-            placed: Placed::WORLD,
+            placed: BodyPose::WORLD,
             r: zero,
             axis: zero,
             w: zero,
@@ -75,7 +75,7 @@ impl Node {
 }
 
 impl Aba {
-    /// Room for `robot`, a plain tree.
+    /// Allocates the scratch memory for `robot`, a plain tree.
     pub(super) fn new(robot: &Robot) -> Self {
         Self {
             nodes: vec![Node::zero(); robot.bodies().len()],
@@ -89,9 +89,9 @@ impl Aba {
     /// [`SingularMassMatrix`] if a joint moves neither mass nor armature; `qdd` is then unfinished.
     ///
     /// # Panics
-    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
-    // long: three passes over the same nodes, where the second makes articulated inertias of the rigid ones in place and the third
-    // reads what both left: in any other order, or alone, none of them is right
+    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one of [`Aba::new`].
+    // long: three passes over the same nodes. The second turns the rigid inertias of the first into articulated ones in place, and the
+    // third reads the results of both, so none of them is meaningful alone or in another order.
     pub(super) fn acceleration(
         &mut self,
         robot: &Robot,
@@ -107,11 +107,11 @@ impl Aba {
         for (i, body) in bodies.iter().enumerate() {
             let (parent_placed, parent_w) = match body.parent {
                 Some(p) => (nodes[p].placed, nodes[p].w),
-                None => (Placed::WORLD, Vector3::zeros()),
+                None => (BodyPose::WORLD, Vector3::zeros()),
             };
             let rate = qd[body.q_index];
             let node = &mut nodes[i];
-            let placed = Placed::on(&parent_placed, body, q[body.q_index]);
+            let placed = BodyPose::on_parent(&parent_placed, body, q[body.q_index]);
             let axis = placed.axis();
             let r = placed.position - parent_placed.position;
             let swung = parent_w.cross(&parent_w.cross(&r));
@@ -161,7 +161,7 @@ impl Aba {
             }
             node.per_inertia = 1.0 / felt;
             let Some(p) = body.parent else { continue };
-            // what the joint gives way to is not felt by the parent
+            // the parent gets no force along the motion of the joint
             let s = node.per_inertia;
             node.upper.subtract_outer(&node.u_n, s);
             node.lower.subtract_outer(&node.u_f, s);
@@ -188,7 +188,7 @@ impl Aba {
                     let node = &nodes[i];
                     (dw + node.bias_dw, a + dw.cross(&node.r) + node.bias_a)
                 }
-                // gravity is an upward acceleration of the world
+                // gravity as an upward acceleration of the base
                 None => (Vector3::zeros(), -gravity_m_s2),
             };
             let node = &mut nodes[i];

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Vector3};
 
 use crate::joint_space::JointPositions;
-use crate::kinematics::forward::Placed;
+use crate::kinematics::forward::BodyPose;
 use crate::model::robot::Robot;
 use crate::spatial::Symmetric3;
 
@@ -16,7 +16,7 @@ pub fn mass_matrix(robot: &Robot, q: &JointPositions) -> DMatrix<f64> {
     matrix
 }
 
-/// Room for the algorithm on one robot, so that a loop allocates nothing.
+/// Scratch memory of the algorithm for one robot, so that a loop allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Crba {
     nodes: Vec<Node>,
@@ -25,17 +25,17 @@ pub struct Crba {
 /// A subtree frozen into one rigid body, about the origin of its first body, in world axes.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    placed: Placed,
+    placed: BodyPose,
     mass_kg: f64,
     h: Vector3<f64>,
     inertia: Symmetric3,
 }
 
 impl Crba {
-    /// Room for `robot`.
+    /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
         let node = Node {
-            placed: Placed::WORLD,
+            placed: BodyPose::WORLD,
             mass_kg: 0.0,
             h: Vector3::zeros(),
             inertia: Symmetric3::default(),
@@ -48,13 +48,15 @@ impl Crba {
     /// Writes the mass matrix at `q` into `matrix`. Allocates nothing.
     ///
     /// # Panics
-    /// If `q` or `matrix` does not have the shape of `robot`, or `robot` is not the one the room was made for.
+    /// If `q` or `matrix` does not have the shape of `robot`, or `robot` is not the one of [`Crba::new`].
     pub fn fill(&mut self, robot: &Robot, q: &[f64], matrix: &mut DMatrix<f64>) {
-        // as one block: entry by entry it would cost as much as the rest
+        // cleared as one block: entry by entry would cost as much as the rest
         matrix.as_mut_slice().fill(0.0);
         for (i, body) in robot.bodies().iter().enumerate() {
-            let parent = body.parent.map_or(Placed::WORLD, |p| self.nodes[p].placed);
-            let placed = Placed::on(&parent, body, body.position(q));
+            let parent = body
+                .parent
+                .map_or(BodyPose::WORLD, |p| self.nodes[p].placed);
+            let placed = BodyPose::on_parent(&parent, body, body.position(q));
             self.nodes[i] = Node {
                 placed,
                 mass_kg: body.mass_kg,
@@ -94,7 +96,7 @@ impl Crba {
             let along = if body.turns { n } else { f };
             // a mimic joint adds to the row and column of its master
             matrix[(k, k)] += body.gear * body.gear * (axis.dot(&along) + body.armature);
-            // carried inwards, it is felt by every joint on the way
+            // the wrench acts on every joint towards the root
             let mut at = node.placed.position;
             let mut next = body.parent;
             while let Some(p) = next {

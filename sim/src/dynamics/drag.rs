@@ -1,23 +1,23 @@
-//! Drag on links: the joint efforts that the air's forces on them amount to.
+//! Drag on links: the joint efforts equivalent to the forces of the air.
 //!
 //! Each link with drag feels `½ ρ c A |v| v` at its own centre of mass (the origin of its frame if it has no mass), `v` being the
-//! velocity of the air past that point. The efforts are `Σ Jᵀ F`, worked out body by body without Jacobians. A link fixed to the
-//! world feels nothing that matters.
+//! velocity of the air relative to that point. The efforts are `Σ Jᵀ F`, computed body by body without Jacobians. Drag on a link that
+//! is fixed to the world has no effect.
 
 use nalgebra::Vector3;
 
-use crate::kinematics::forward::Placed;
+use crate::kinematics::forward::BodyPose;
 use crate::model::air::{AirNow, Drag};
 use crate::model::robot::Robot;
 
-/// The links of one robot that resist the air, and room for the recursion. Allocates nothing in its loop.
+/// The links of one robot with drag, and scratch memory of the recursion, so that a loop allocates nothing.
 #[derive(Debug, Clone)]
 pub struct LinkDrag {
     points: Vec<DragPoint>,
     nodes: Vec<Node>,
 }
 
-/// Where one link's force acts.
+/// The point at which the force on one link acts.
 #[derive(Debug, Clone, Copy)]
 struct DragPoint {
     body: usize,
@@ -29,7 +29,7 @@ struct DragPoint {
 /// A body in world axes; the moment is about its origin.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    placed: Placed,
+    placed: BodyPose,
     w: Vector3<f64>,
     v: Vector3<f64>,
     force_n: Vector3<f64>,
@@ -38,7 +38,7 @@ struct Node {
 
 impl Node {
     const STILL: Self = Self {
-        placed: Placed::WORLD,
+        placed: BodyPose::WORLD,
         w: Vector3::new(0.0, 0.0, 0.0),
         v: Vector3::new(0.0, 0.0, 0.0),
         force_n: Vector3::new(0.0, 0.0, 0.0),
@@ -62,7 +62,7 @@ impl LinkDrag {
                 })
             })
             .collect();
-        // bodies beyond the last one with drag neither feel nor carry any
+        // bodies after the last one with drag have no effect
         let bodies = points.iter().map(|point| point.body + 1).max();
         Self {
             points,
@@ -78,7 +78,7 @@ impl LinkDrag {
     /// Adds the efforts of `air` at `(q, qd)` to `effort`; all slices have shape `(n)`, dependent joints of loops included.
     ///
     /// # Panics
-    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
+    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one of [`LinkDrag::new`].
     pub fn add_efforts(
         &mut self,
         robot: &Robot,
@@ -91,7 +91,7 @@ impl LinkDrag {
         // outward pass: poses and velocities
         for (i, body) in bodies.iter().enumerate() {
             let parent = body.parent.map_or(Node::STILL, |p| self.nodes[p]);
-            let placed = Placed::on(&parent.placed, body, body.position(q));
+            let placed = BodyPose::on_parent(&parent.placed, body, body.position(q));
             let drive = placed.axis() * body.rate(qd);
             let r = placed.position - parent.placed.position;
             let carried = parent.v + parent.w.cross(&r);
@@ -114,7 +114,7 @@ impl LinkDrag {
             node.force_n += force;
             node.moment_n_m += r.cross(&force);
         }
-        // inward pass: project what each subtree feels on its joint, hand it to the parent
+        // inward pass: project the force on each subtree on its joint, add it to the parent
         for (i, body) in bodies.iter().enumerate().rev() {
             let node = self.nodes[i];
             let along = if body.turns {

@@ -1,8 +1,8 @@
-//! Dry friction over one step: the effort, within `±dry_friction`, that brings each joint as near to rest as it can.
+//! Dry friction over one step: the effort, within `±dry_friction`, that brings each joint as near to rest as possible.
 //!
-//! A sign function inside the integrator would chatter around rest. Instead the effort is decided once a step and held, like a
-//! servo's: it stops a joint that can be stopped within the step (so a joint sticks exactly), and opposes motion with its full
-//! value otherwise. The joints are coupled through the mass matrix, so the efforts are found together by projected Gauss-Seidel.
+//! A sign function inside the integrator would chatter around rest. Instead the effort is computed once a step and held, like that of
+//! a servo: it stops a joint that can be stopped within the step (so a joint sticks exactly), and otherwise opposes motion with its
+//! full value. The joints are coupled through the mass matrix, so the efforts are found together by projected Gauss-Seidel.
 //!
 //! Source: Stewart & Trinkle, *An implicit time-stepping scheme for rigid body dynamics* (1996), restricted to joint friction.
 
@@ -14,7 +14,7 @@ use crate::model::robot::Robot;
 /// Sweeps over the joints. The iteration contracts on any positive definite matrix; 40 sweeps leave less than rounding on arms.
 const SWEEPS: usize = 40;
 
-/// Room for the friction efforts of one robot; does nothing for a robot without dry friction.
+/// The friction efforts of one robot and their scratch memory; does nothing for a robot without dry friction.
 #[derive(Debug, Clone)]
 pub struct DryFriction {
     limits: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct DryFriction {
 }
 
 impl DryFriction {
-    /// Room for `robot`.
+    /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
         let n = robot.n();
         let mut limits = vec![0.0; n];
@@ -67,7 +67,7 @@ impl DryFriction {
         for _ in 0..SWEEPS {
             for i in 0..n {
                 let per_effort = dt_s * inverse[(i, i)];
-                // a joint that the loops hold fast gives way to no effort
+                // no effort moves a joint that the loops lock
                 if per_effort <= 0.0 {
                     continue;
                 }
@@ -84,7 +84,7 @@ impl DryFriction {
     }
 }
 
-/// Sign with `sign(0) = 0`: a joint at rest has no dry friction of its own direction.
+/// Sign with `sign(0) = 0`: dry friction of a joint at rest has no direction.
 pub(crate) fn sign(x: f64) -> f64 {
     if x > 0.0 {
         1.0

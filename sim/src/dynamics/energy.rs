@@ -1,4 +1,4 @@
-//! Kinetic and potential energy: what a frictionless run must keep.
+//! Kinetic and potential energy, whose sum a frictionless run conserves.
 
 use nalgebra::{DMatrix, Vector3};
 
@@ -12,7 +12,7 @@ use crate::model::robot::Robot;
 pub struct Energy {
     /// `qdᵀ M qd / 2`, armature included \[J\].
     pub kinetic_j: f64,
-    /// `-m g·c` over all links, fixed ones too, zero at the world's origin \[J\].
+    /// `-m g·c` over all links, including fixed ones; zero at the world's origin \[J\].
     pub potential_j: f64,
 }
 

@@ -37,23 +37,23 @@ pub fn forward_dynamics(
     Ok(qdd)
 }
 
-/// Room for forward dynamics of one robot. Allocates nothing in its loop on a plain tree.
+/// Forward dynamics of one robot, with its scratch memory. In a loop it allocates nothing for a plain tree.
 #[derive(Debug, Clone)]
-pub struct ForwardDynamics(Way);
+pub struct ForwardDynamics(Algorithm);
 
 #[derive(Debug, Clone)]
-enum Way {
+enum Algorithm {
     Tree(Aba),
     Coupled(Box<Constrained>),
 }
 
 impl ForwardDynamics {
-    /// Room for `robot`.
+    /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
         Self(if robot.is_plain_tree() {
-            Way::Tree(Aba::new(robot))
+            Algorithm::Tree(Aba::new(robot))
         } else {
-            Way::Coupled(Box::new(Constrained::new(robot)))
+            Algorithm::Coupled(Box::new(Constrained::new(robot)))
         })
     }
 
@@ -64,7 +64,7 @@ impl ForwardDynamics {
     /// [`SingularMassMatrix`] if a joint moves neither mass nor armature; `qdd` is then unfinished.
     ///
     /// # Panics
-    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
+    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one of [`ForwardDynamics::new`].
     pub fn acceleration(
         &mut self,
         robot: &Robot,
@@ -75,12 +75,14 @@ impl ForwardDynamics {
         qdd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         match &mut self.0 {
-            Way::Tree(aba) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
-            Way::Coupled(coupled) => coupled.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
+            Algorithm::Tree(aba) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
+            Algorithm::Coupled(coupled) => {
+                coupled.acceleration(robot, gravity_m_s2, q, qd, effort, qdd)
+            }
         }
     }
 
-    /// Moves a state of shape `(n)` back onto the loops' conditions; nothing to do on a tree.
+    /// Projects a state of shape `(n)` onto the loop-closure constraints; does nothing for a tree.
     ///
     /// # Errors
     /// [`SingularMassMatrix`] if a joint moves neither mass nor armature.
@@ -91,16 +93,16 @@ impl ForwardDynamics {
         qd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         match &mut self.0 {
-            Way::Tree(_) => Ok(()),
-            Way::Coupled(coupled) => coupled.close(robot, q, qd),
+            Algorithm::Tree(_) => Ok(()),
+            Algorithm::Coupled(coupled) => coupled.close(robot, q, qd),
         }
     }
 
-    /// The accelerations that unit efforts cause, shape `(n, n)`; `None` where the mass matrix is singular.
+    /// The inverse mass matrix, constraints included: accelerations per unit effort, shape `(n, n)`; `None` if it is singular.
     pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
         match &mut self.0 {
-            Way::Coupled(coupled) => coupled.inverse_inertia(robot, q),
-            Way::Tree(_) => {
+            Algorithm::Coupled(coupled) => coupled.inverse_inertia(robot, q),
+            Algorithm::Tree(_) => {
                 let q = JointPositions::new(q.iter().copied());
                 super::mass_matrix(robot, &q)
                     .cholesky()

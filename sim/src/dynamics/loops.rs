@@ -1,8 +1,8 @@
-//! Dynamics of robots that are no plain tree: closed loops, and joints that mimic another.
+//! Dynamics of robots that are not a plain tree: closed loops and mimic joints.
 //!
-//! Forward: the accelerations of the tree, corrected by the multipliers that keep the loops' conditions from accelerating:
-//! `J M⁻¹ Jᵀ λ = -(J a + J̇ q̇)`. Conditions that say nothing new drop out by pivoting. Inverse: with independent rates `u`, all
-//! rates are `B u`, and the efforts of the driven joints are `Bᵀ` times those of the tree, which no constraint force enters.
+//! Forward: the accelerations of the tree, corrected by the Lagrange multipliers of the loop-closure constraints:
+//! `J M⁻¹ Jᵀ λ = -(J a + J̇ q̇)`. Redundant constraints drop out by pivoting. Inverse: with independent rates `u`, all rates are `B u`,
+//! and the efforts of the driven joints are `Bᵀ` times those of the tree, which eliminates the constraint forces.
 //!
 //! Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), sections 8.5 and 8.6.
 
@@ -18,10 +18,10 @@ use crate::kinematics::closure::{
 };
 use crate::model::robot::Robot;
 
-/// Pivots below this part of the largest belong to conditions that say nothing new.
+/// Pivots below this fraction of the largest belong to redundant constraints.
 const REDUNDANT: f64 = 1e-11;
 
-/// Room for constrained forward dynamics of one robot.
+/// Scratch memory of constrained forward dynamics for one robot.
 #[derive(Debug, Clone)]
 pub(crate) struct Constrained {
     closure: Closure,
@@ -86,7 +86,7 @@ impl Constrained {
         Ok(())
     }
 
-    /// The accelerations that unit efforts cause, shape `(n, n)`: the inverse mass matrix, less what the loops take up.
+    /// Accelerations per unit effort, shape `(n, n)`: the inverse mass matrix projected on the constraints.
     pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
         let factor = self.factor(robot, q).ok()?;
         let mut inverse = factor.inverse();
@@ -103,7 +103,7 @@ impl Constrained {
         Some(inverse)
     }
 
-    /// Moves `(q, qd)` onto the loops' conditions by the smallest change in the sense of kinetic energy.
+    /// Projects `(q, qd)` onto the loop-closure constraints by the smallest change in the metric of the kinetic energy.
     pub(crate) fn close(
         &mut self,
         robot: &Robot,
@@ -114,7 +114,7 @@ impl Constrained {
             return Ok(());
         }
         let factor = self.factor(robot, q)?;
-        // after one step the gap is of the integrator's error; two corrections bring it to rounding
+        // after one step the gap has the size of the integrator's error; two corrections reduce it to rounding
         for _ in 0..2 {
             self.closure.update(robot, q, &self.still);
             let response = Response::new(&factor, &self.closure.jacobian);
@@ -134,11 +134,11 @@ impl Constrained {
     }
 }
 
-/// How the joints answer to forces along the conditions: `M⁻¹ Jᵀ`, and the factor of `J M⁻¹ Jᵀ`.
+/// Response of the joints to constraint forces: `M⁻¹ Jᵀ`, and the factor of `J M⁻¹ Jᵀ`.
 struct Response {
-    /// `M⁻¹ Jᵀ`, shape (n, conditions).
+    /// `M⁻¹ Jᵀ`, shape `(n, constraints)`.
     per_multiplier: DMatrix<f64>,
-    /// Pivoted Cholesky factor over the conditions kept.
+    /// Pivoted Cholesky factor over the constraints that are kept.
     kept: Vec<usize>,
     lower: DMatrix<f64>,
 }
@@ -156,7 +156,7 @@ impl Response {
                 .map(|(a, b)| a * b)
                 .sum()
         };
-        // pivoted Cholesky: take the strongest condition left, until none says anything new
+        // pivoted Cholesky: take the remaining constraint with the largest pivot, until all others are redundant
         let mut rest: Vec<f64> = (0..rows).map(|i| compliance(i, i)).collect();
         let strongest = rest.iter().copied().fold(0.0, f64::max);
         let mut kept: Vec<usize> = Vec::with_capacity(rows);
@@ -193,7 +193,7 @@ impl Response {
         }
     }
 
-    /// The change of the joints that changes the conditions by `wanted`.
+    /// The change of the joints that changes the constraints by `wanted`.
     fn for_change(&self, wanted: &DVector<f64>) -> DVector<f64> {
         let k = self.kept.len();
         let mut y = vec![0.0; k];
@@ -220,7 +220,7 @@ impl Response {
     }
 }
 
-/// The joint that moves the least inertia, for the message.
+/// The joint that moves the least inertia, for the error message.
 #[cold]
 fn weakest(robot: &Robot, matrix: &DMatrix<f64>) -> SingularMassMatrix {
     let least = (0..robot.n()).min_by(|&a, &b| matrix[(a, a)].total_cmp(&matrix[(b, b)]));
@@ -232,9 +232,9 @@ fn weakest(robot: &Robot, matrix: &DMatrix<f64>) -> SingularMassMatrix {
     }
 }
 
-/// What [`driven_efforts`] found; all vectors over the whole of `q`.
+/// The motion and efforts of [`driven_efforts`]; joint vectors are over the whole of `q`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DrivenMotion {
+pub struct ConstrainedMotion {
     /// Positions that close the loops, shape `(n)`.
     pub q: JointPositions,
     /// Their rates, shape `(n)`.
@@ -261,7 +261,7 @@ pub fn driven_efforts(
     q: &[f64],
     qd: &[f64],
     qdd: &[f64],
-) -> Result<DrivenMotion, LoopError> {
+) -> Result<ConstrainedMotion, LoopError> {
     let closed = closed_positions(robot, q)?;
     let rates = closed_velocities(robot, &closed, qd)?;
     let accelerations = closed_accelerations(robot, &closed, &rates, qdd)?;
@@ -276,7 +276,7 @@ pub fn driven_efforts(
         .column_iter()
         .map(|b| b.iter().zip(tree.as_slice()).map(|(b, t)| b * t).sum())
         .collect();
-    Ok(DrivenMotion { q, qd, qdd, effort })
+    Ok(ConstrainedMotion { q, qd, qdd, effort })
 }
 
 /// The mass matrix of the independent joints alone, `Bᵀ M B`, shape `(independent, independent)`, at the closed position `q`,

@@ -1,6 +1,5 @@
-//! Rigid-body dynamics of a tree, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`ForwardDynamics`]), energy
-//! ([`mod@energy`]), closed loops ([`loops`]), dry friction as it acts over a step ([`dry_friction`]), and the drag of
-//! the air on links ([`drag`]).
+//! Rigid-body dynamics, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`ForwardDynamics`]), energy
+//! ([`mod@energy`]), closed loops ([`loops`]), dry friction over a step ([`dry_friction`]), and air drag on links ([`drag`]).
 //!
 //! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
 //! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is

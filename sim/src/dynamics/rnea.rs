@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::dry_friction::sign;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
-use crate::kinematics::forward::Placed;
+use crate::kinematics::forward::BodyPose;
 use crate::model::robot::{Body, Robot};
 
 /// Returns the joint efforts, shape `(n)`, that give `qdd` at `(q, qd)`: `M qdd + h + damping qd + dry_friction sign(qd)`.
@@ -68,7 +68,7 @@ fn rigid(
     effort
 }
 
-/// Room for the recursion on one robot, so that a loop allocates nothing.
+/// Scratch memory of the recursion for one robot, so that a loop allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Rnea {
     nodes: Vec<Node>,
@@ -76,7 +76,7 @@ pub struct Rnea {
 
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    placed: Placed,
+    placed: BodyPose,
     /// Angular velocity in world axes \[rad/s\].
     w: Vector3<f64>,
     /// Angular acceleration in world axes \[rad/s²\].
@@ -93,10 +93,10 @@ impl Node {
     fn world(gravity_m_s2: &Vector3<f64>) -> Self {
         let zero = Vector3::zeros();
         Self {
-            placed: Placed::WORLD,
+            placed: BodyPose::WORLD,
             w: zero,
             dw: zero,
-            // gravity is an upward acceleration of the world
+            // gravity as an upward acceleration of the base
             a: -gravity_m_s2,
             f: zero,
             n: zero,
@@ -105,7 +105,7 @@ impl Node {
 
     #[inline]
     fn moved(parent: &Self, body: &Body, q: f64, qd: f64, qdd: f64) -> Self {
-        let placed = Placed::on(&parent.placed, body, q);
+        let placed = BodyPose::on_parent(&parent.placed, body, q);
         let axis = placed.axis();
         let r = placed.position - parent.placed.position;
         let carried = parent.a + parent.dw.cross(&r) + parent.w.cross(&parent.w.cross(&r));
@@ -141,7 +141,7 @@ impl Node {
 }
 
 impl Rnea {
-    /// Room for `robot`.
+    /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
         Self {
             nodes: vec![Node::world(&Vector3::zeros()); robot.bodies().len()],
@@ -151,7 +151,7 @@ impl Rnea {
     /// Writes `M qdd + h + armature qdd` into `effort`; all slices have shape `(n)`. No damping, no friction. Allocates nothing.
     ///
     /// # Panics
-    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one the room was made for.
+    /// If a slice is shorter than [`Robot::n`], or `robot` is not the one of [`Rnea::new`].
     pub fn effort(
         &mut self,
         robot: &Robot,
@@ -162,7 +162,7 @@ impl Rnea {
         effort: &mut [f64],
     ) {
         let world = Node::world(gravity_m_s2);
-        // outward pass: motion, and the force each body needs for it
+        // outward pass: motion, and the force that it needs on each body
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(&world, |p| &self.nodes[p]);
             self.nodes[i] = Node::moved(
@@ -173,7 +173,7 @@ impl Rnea {
                 body.rate(qdd),
             );
         }
-        // inward pass: project each subtree's force on its joint, hand it to the parent
+        // inward pass: project each subtree's force on its joint, add it to the parent
         effort[..robot.n()].fill(0.0);
         for (i, body) in robot.bodies().iter().enumerate().rev() {
             let node = self.nodes[i];
@@ -204,7 +204,7 @@ impl Rnea {
         let world = Node::world(gravity_m_s2);
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(&world, |p| &self.nodes[p]);
-            let placed = Placed::on(&parent.placed, body, body.position(q));
+            let placed = BodyPose::on_parent(&parent.placed, body, body.position(q));
             let node = &mut self.nodes[i];
             node.placed = placed;
             node.f = world.a * body.mass_kg;

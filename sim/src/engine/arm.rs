@@ -1,4 +1,4 @@
-//! The robot among the bodies: a multibody of the same joints, inertias, damping and armature; state and efforts in, state out.
+//! The robot in the engine: a multibody of the same joints, inertias, damping and armature; state and efforts in, state out.
 
 use rapier3d_f64::dynamics::{
     GenericJointBuilder, JointAxesMask, JointAxis, MassProperties, MultibodyDofCoupling,
@@ -17,14 +17,14 @@ use crate::model::contact::Party;
 use crate::model::robot::{Body, Joint, JointKind, LoopKind, Robot};
 use crate::spatial::Symmetric3;
 
-/// Stiffness of the springs that carry the efforts \[N m/rad or N/m\]: a spring this soft, stretched far enough, is a constant
-/// effort to 13 digits, prismatic joints too.
+/// Stiffness of the springs that apply the efforts \[N m/rad or N/m\]: a spring this soft, stretched far enough, gives a constant
+/// effort to 13 digits, also on prismatic joints.
 const CARRIER: f64 = 1e-6;
 
-/// Passes over the rows of a step for a robot whose joints are coupled; they converge slower than contacts alone.
+/// Solver iterations of a step for a robot with coupled joints, which converge more slowly than contacts alone.
 const COUPLED_PASSES: usize = 4;
 
-/// Where the robot's joints are in the multibody.
+/// The robot as a multibody of the engine.
 #[derive(Debug, Clone)]
 pub(super) struct Arm {
     multibody: MultibodyIndex,
@@ -45,7 +45,7 @@ struct ArmJoint {
     slot: usize,
 }
 
-/// Puts the links that do not move into the world, on one fixed body.
+/// Adds the links that do not move to the world, on one fixed body.
 pub(super) fn insert_base(
     robot: &Robot,
     physics: &mut PhysicsWorld,
@@ -221,7 +221,7 @@ impl Arm {
         }
     }
 
-    /// Takes the robot out of the world, where it costs time, or puts it back; it must then be written before the next step.
+    /// Removes the robot from the world, to save time, or puts it back; then its state must be written before the next step.
     pub(super) fn set_present(&mut self, physics: &mut PhysicsWorld, present: bool) {
         if self.present == present {
             return;

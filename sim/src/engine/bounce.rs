@@ -1,9 +1,9 @@
-//! Bounces: what comes in fast leaves by its coefficient of restitution, at all points of a contact together.
+//! Bounces by the coefficient of restitution, at all points of a contact together.
 //!
-//! The engine itself goes through the points of a contact once and bounces each by itself; of the corners of a face the first takes
-//! most, so that a face leaves too fast, and turning. Here the engine presses without any bounce, and the velocities after its step
-//! are then raised until every point that came in faster than [`SLOWEST_M_S`] leaves with its share of that speed, and none that
-//! pressed comes in faster than before (Newton's hypothesis, by projected Gauss-Seidel over all points).
+//! The engine itself goes through the points of a contact once and bounces each separately. The first corner of a face then gets most of
+//! the impulse, and the face leaves too fast and rotates. Here the engine solves the contacts without restitution, and the velocities
+//! after its step are then corrected until every point that approached faster than [`SLOWEST_M_S`] leaves with its fraction of that
+//! speed, and no contact point approaches faster than before (Newton's hypothesis, by projected Gauss-Seidel over all points).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 use rapier3d_f64::dynamics::{RigidBodyHandle, RigidBodySet};
@@ -18,47 +18,47 @@ use crate::model::contact::{ContactFact, Party};
 use crate::model::robot::Robot;
 use crate::model::scene::{BodyKind, Scene};
 
-/// Slower than this nothing bounces: twice what gravity adds in a step of a millisecond, so that rest is rest \[m/s\].
+/// Slower than this nothing bounces: twice the speed that gravity adds in a step of 1 ms, so that resting bodies stay at rest \[m/s\].
 const SLOWEST_M_S: f64 = 0.02;
-/// Passes over all points: corners of a face agree to 1e-6 by then.
+/// Iterations over all points: the corners of a face then agree to 1e-6.
 const PASSES: usize = 200;
-/// A pass that changes no velocity by more than this is the last \[m/s\].
+/// An iteration that changes no velocity by more than this is the last \[m/s\].
 const SETTLED_M_S: f64 = 1e-12;
 
-/// The restitutions of one world, and how everything moved before its step.
+/// The restitutions of one world, and its velocities before the step.
 pub(super) struct Bounce {
     of_links: Vec<f64>,
     of_bodies: Vec<f64>,
     of_ground: f64,
-    /// Of free bodies the inverse mass \[1/kg\] and the inverse tensor about the centre of mass, in the body's axes \[1/(kg m²)\].
+    /// Of dynamic bodies the inverse mass \[1/kg\] and the inverse tensor about the centre of mass, in the body's axes \[1/(kg m²)\].
     inverse: Vec<Option<(f64, Matrix3<f64>)>>,
-    /// Of free bodies the velocity of the centre of mass and the angular velocity before the step, world axes.
+    /// Of dynamic bodies the velocity of the centre of mass and the angular velocity before the step, world axes.
     before: Vec<(Vector3<f64>, Vector3<f64>)>,
     arm_before: BodyMotions,
     arm_after: BodyMotions,
 }
 
-/// What a point presses on, on one side.
+/// One side of a contact point.
 enum End {
-    /// Something that the bounce does not move, with its velocity along the normal \[m/s\].
+    /// A party that the bounce does not move, with its velocity along the normal \[m/s\].
     Driven(f64),
-    /// A free body by its index, and the way from its centre of mass to the point.
+    /// A dynamic body by its index, and the vector from its centre of mass to the point.
     Free(usize, Vector3<f64>),
     /// A link: its point's velocity along the normal is `row · qd`, and an impulse there changes `qd` by `solved`.
     Arm { row: Vec<f64>, solved: DVector<f64> },
 }
 
-/// A point that presses, as the engine leaves it.
+/// A contact point with a normal force, as the engine leaves it.
 struct Touch {
-    /// In the engine's order.
+    /// The parties, in the engine's order.
     parties: [Party; 2],
     /// World axes \[m\].
     p: Vector3<f64>,
-    /// From the first to the second.
+    /// The normal, from the first party to the second.
     normal: Vector3<f64>,
 }
 
-/// A touch whose speed an impulse changes.
+/// A contact point whose normal velocity an impulse can change.
 struct Point {
     touch: Touch,
     ends: [End; 2],
@@ -95,10 +95,10 @@ impl<'a> BodiesAfter<'a> {
     }
 }
 
-/// Velocities of free bodies and joints while they are looked for.
+/// Velocities of dynamic bodies and joints during the iteration.
 struct Velocities {
     free: Vec<(Vector3<f64>, Vector3<f64>)>,
-    /// Inverse mass and inverse tensor in the world.
+    /// Inverse mass and inverse inertia tensor in world axes.
     inverse: Vec<Option<(f64, Matrix3<f64>)>>,
     qd: Vec<f64>,
 }
@@ -152,7 +152,7 @@ pub(super) struct ArmAfter<'a> {
 }
 
 impl Bounce {
-    /// The bounces of `robot` in `scene`; none where nothing bounces.
+    /// The bounces of `robot` in `scene`; `None` if all restitutions are zero.
     pub(super) fn new(robot: &Robot, scene: &Scene) -> Option<Self> {
         let of_links: Vec<f64> = robot
             .links()
@@ -187,7 +187,7 @@ impl Bounce {
         })
     }
 
-    /// Notes how everything moves before a step.
+    /// Records all velocities before a step.
     pub(super) fn remember(
         &mut self,
         robot: &Robot,
@@ -214,7 +214,7 @@ impl Bounce {
         }
     }
 
-    /// Lets everything bounce that came in fast enough: changes velocities of bodies and of `arm`, and adds to `facts`.
+    /// Bounces everything that approached fast enough: changes velocities of bodies and of `arm`, and adds to `facts`.
     #[expect(
         clippy::too_many_arguments,
         reason = "what one step of the engine leaves"
@@ -251,11 +251,11 @@ impl Bounce {
             arm.qd.copy_from_slice(&velocities.qd);
         }
         for point in points.iter().filter(|point| point.impulse_n_s > 0.0) {
-            tell(point, dt_s, facts);
+            record_bounce(point, dt_s, facts);
         }
     }
 
-    /// How fast each touch that came in fast enough is to leave along its normal \[m/s\]; the livelier party decides.
+    /// The normal speed with which each contact that approached fast enough should leave \[m/s\]; the larger restitution counts.
     fn leaves_m_s(
         &self,
         robot: &Robot,
@@ -272,8 +272,8 @@ impl Bounce {
         touches.iter().map(leaves).collect()
     }
 
-    /// The velocity that `party` had at `p` before the step, world axes \[m/s\]. A body that is not free keeps to its law, and so
-    /// has it still.
+    /// The velocity that `party` had at `p` before the step, world axes \[m/s\]. A kinematic body follows its prescribed motion, and so
+    /// still has that velocity.
     fn velocity_before(
         &self,
         robot: &Robot,
@@ -295,7 +295,7 @@ impl Bounce {
         }
     }
 
-    /// What the bounce starts from: the velocities that the engine's step left, world axes.
+    /// The velocities after the engine's step, from which the iteration starts, world axes.
     fn velocities(&self, after: &BodiesAfter<'_>, arm: Option<&ArmAfter<'_>>) -> Velocities {
         let (bodies, handles) = (after.bodies, after.handles);
         Velocities {
@@ -320,8 +320,8 @@ impl Bounce {
         }
     }
 
-    /// The factor of the arm's mass matrix where the step left it, and `arm_after` brought there too. Without it the arm counts as
-    /// driven: so does one with closed loops, where the mass matrix alone does not say how an impulse moves the joints.
+    /// The factor of the arm's mass matrix in the configuration after the step, to which `arm_after` is moved too. Without it the arm
+    /// counts as kinematic; so does an arm with closed loops, for which the mass matrix alone does not give the effect of an impulse.
     fn arm_mass(
         &mut self,
         robot: &Robot,
@@ -334,7 +334,7 @@ impl Bounce {
         mass.cholesky()
     }
 
-    /// What `touch` presses on at its side of `party`.
+    /// The side of `party` at `touch`.
     fn end(
         &self,
         robot: &Robot,
@@ -364,7 +364,7 @@ impl Bounce {
         }
     }
 
-    /// Gives the free bodies their velocities after the bounce, and wakes those that it moved.
+    /// Sets the velocities of the dynamic bodies after the bounce, and wakes those that it moved.
     fn move_bodies(
         &self,
         velocities: &Velocities,
@@ -405,8 +405,8 @@ impl Bounce {
 }
 
 impl Point {
-    /// None where no impulse changes the speed of the touch. One that did not come in fast enough to bounce is held to the speed it
-    /// has, at most to rest.
+    /// `None` if no impulse changes the normal velocity at the contact. A contact that did not approach fast enough to bounce keeps its
+    /// velocity, or is brought to rest.
     fn new(
         touch: Touch,
         ends: [End; 2],
@@ -429,8 +429,8 @@ impl Point {
     }
 }
 
-/// Finds the impulses that give every point at least its speed, none of them pulling (projected Gauss-Seidel), and raises
-/// `velocities` by them.
+/// Finds impulses that give every point at least its required speed, none of them pulling (projected Gauss-Seidel), and applies them to
+/// `velocities`.
 fn settle(points: &mut [Point], velocities: &mut Velocities) {
     for _ in 0..PASSES {
         let mut changed_m_s = 0.0_f64;
@@ -452,7 +452,7 @@ fn settle(points: &mut [Point], velocities: &mut Velocities) {
     }
 }
 
-/// Every point that presses, in the order in which the engine has them.
+/// All contact points with a normal force, in the engine's order.
 fn pressed(
     narrow_phase: &NarrowPhase,
     colliders: &ColliderSet,
@@ -489,8 +489,8 @@ fn pressed(
     points
 }
 
-/// Adds a bounce to what its pair did in the step.
-fn tell(point: &Point, dt_s: f64, facts: &mut [ContactFact]) {
+/// Adds the impulse of a bounce to the contact of its pair.
+fn record_bounce(point: &Point, dt_s: f64, facts: &mut [ContactFact]) {
     let touch = &point.touch;
     let [first, second] = touch.parties;
     let (parties, sign) = if first > second {

@@ -1,8 +1,8 @@
-//! Clearance: a cheap and certain answer to "can any link touch anything during this step?".
+//! Clearance: a cheap, conservative answer to "can any link touch anything during this step?".
 //!
-//! Every shape of a moving link is covered by balls strung along its longest side; what stands around is covered by boxes along the
-//! world's axes. The least distance between the two is a budget: as long as no ball can have travelled that far, by the sum of
-//! the joints' motions times their levers, nothing needs to be looked at again. What is near is near until it has moved away.
+//! Every shape of a moving link is covered by balls along its longest side; obstacles are covered by axis-aligned boxes. The least
+//! distance between the two is a budget of travel: as long as no ball can have travelled that far, by the sum of the joints' motions
+//! times their lever arms, the distance need not be computed again. A link that is near counts as near until it may have moved away.
 
 use nalgebra::Vector3;
 
@@ -11,19 +11,19 @@ use crate::model::inertia::Solid;
 use crate::model::robot::Robot;
 use crate::spatial::Pose;
 
-/// Nearer than this \[m\], links may touch: more than the distance at which contacts are foreseen.
+/// Nearer than this \[m\], links may touch: more than the distance at which the engine predicts contacts.
 const NEAR_M: f64 = 2.5 * super::engine_settings::PREDICTION_M;
-/// The largest budget \[m\]; it bounds how far sliding joints can lengthen the levers before the next look.
+/// The largest budget \[m\]; it bounds how far prismatic joints can lengthen the lever arms before the next check.
 const BUDGET_M: f64 = 1.0;
 /// Most balls along one shape.
 const MOST_BALLS: f64 = 32.0;
 
-/// Something that stands in the way.
+/// Something that a link may touch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Obstacle {
-    /// All below z = 0.
+    /// The ground: all below z = 0.
     Ground,
-    /// A box along the world's axes: its least and greatest corner \[m\].
+    /// An axis-aligned box in the world: its least and greatest corner \[m\].
     Box([Vector3<f64>; 2]),
 }
 
@@ -42,9 +42,9 @@ pub(crate) struct Clearance {
     poses: FramePoses,
     /// How far a ball can go per unit of each body's joint.
     levers: Vec<f64>,
-    /// Travel that is left before a link can be near.
+    /// Travel left before a link can be near an obstacle \[m\].
     left_m: f64,
-    /// Travel that is left before a link that is near can be clear.
+    /// Travel left before a near link can be clear again \[m\].
     stays_near_m: f64,
     obstacles: Vec<Obstacle>,
 }
@@ -78,14 +78,14 @@ impl Clearance {
         !self.balls.is_empty()
     }
 
-    /// Drops the budgets: something else moved.
+    /// Drops the budgets, because an obstacle moved.
     pub(crate) fn forget(&mut self) {
         self.left_m = 0.0;
         self.stays_near_m = -1.0;
     }
 
-    /// Whether a link may touch an obstacle on the way from `q` to `next_q`, while no obstacle moves farther than `others_m`; true
-    /// also for states that are not numbers.
+    /// Whether a link may touch an obstacle in the motion from `q` to `next_q`, while no obstacle moves farther than `others_m`; true
+    /// also for NaN.
     pub(crate) fn is_near(
         &mut self,
         robot: &Robot,
@@ -113,12 +113,12 @@ impl Clearance {
         self.left_m = (distance_m - others_m).min(BUDGET_M);
         self.stays_near_m = NEAR_M - distance_m;
         self.measure_levers(robot, next_q);
-        // a ball may have come from as far away as it travelled
+        // before its travel in this step a ball may have been nearer by that distance
         let is_clear = distance_m > NEAR_M + self.travel_m(robot, q, next_q) + others_m;
         !is_clear
     }
 
-    /// No ball travels farther than this on the way from `q` to `next_q`.
+    /// Upper bound of the travel of any ball from `q` to `next_q` \[m\].
     pub(crate) fn travel_m(&self, robot: &Robot, q: &[f64], next_q: &[f64]) -> f64 {
         let bodies = robot.bodies().iter().zip(&self.levers);
         bodies
@@ -140,7 +140,7 @@ impl Clearance {
                         outside.sup(&Vector3::zeros()).norm()
                     }
                 } - ball.radius_m;
-                // f64::min would lose what is no number
+                // f64::min would drop a NaN
                 if distance.is_nan() {
                     return distance;
                 }
@@ -156,7 +156,7 @@ impl Clearance {
             let reach = &mut self.levers[ball.body];
             *reach = reach.max(ball.p_in_body.norm());
         }
-        // children come after their parents: how far from each joint its last ball is
+        // children come after their parents: the distance from each joint to its farthest ball
         for (i, body) in robot.bodies().iter().enumerate().rev() {
             let slid = if body.turns {
                 0.0

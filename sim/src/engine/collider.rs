@@ -1,4 +1,4 @@
-//! Colliders: our solids as the engine's shapes, centred and turned as ours are.
+//! Colliders: our solids as shapes of the engine, with the same frames.
 
 use nalgebra::Vector3;
 use rapier3d_f64::geometry::{ColliderBuilder, SharedShape, TriMeshFlags};
@@ -12,8 +12,8 @@ use crate::model::mesh::surface::Mesh;
 use crate::model::robot::{Contact, Shape};
 use crate::spatial::{Pose, rotation_about_axis_deg};
 
-/// A collider of `shape` for a body in whose frame `body_from_owner` places the shape's owner. A mesh becomes its convex hull, or
-/// its own surface where the description says so.
+/// A collider of `shape` for a body; `body_from_owner` is the pose of the shape's owner on it. A mesh becomes its convex hull, or its
+/// own surface if the description says so.
 ///
 /// # Errors
 /// A mesh without a volume, or without a usable surface.
@@ -29,7 +29,7 @@ pub(super) fn collider(
             size_m: [x, y, z], ..
         } => SharedShape::cuboid(0.5 * x, 0.5 * y, 0.5 * z),
         Solid::Cylinder { radius_m, length_m } => {
-            // theirs lies along y
+            // the engine's cylinders and capsules are along y
             let upright = rotation_about_axis_deg(Vector3::x(), 90.0);
             place *= EnginePose::from_rotation(super::convert::rotation(&upright));
             SharedShape::cylinder(0.5 * length_m, *radius_m)
@@ -50,7 +50,7 @@ pub(super) fn collider(
     };
     Ok(ColliderBuilder::new(shared)
         .position(place)
-        // masses are those of the description
+        // the masses come from the description, not from the shapes
         .density(0.0)
         .friction(contact.friction)
         .friction_combine_rule(COMBINE))

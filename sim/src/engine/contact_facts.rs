@@ -1,4 +1,4 @@
-//! Contact facts: who pressed on whom during a step, where and how hard.
+//! The contacts of a step: their parties, points, forces and impulses.
 
 use std::cmp::Ordering;
 
@@ -10,7 +10,7 @@ use rapier3d_f64::utils::OrthonormalBasis;
 use super::convert::from_vector;
 use crate::model::contact::{ContactFact, Party};
 
-/// The party as the number that a collider carries.
+/// The party as the user data of a collider.
 pub(super) fn to_user_data(party: Party) -> u128 {
     match party {
         Party::Link(index) => index as u128,
@@ -19,7 +19,7 @@ pub(super) fn to_user_data(party: Party) -> u128 {
     }
 }
 
-/// The party of a collider that carries `data`.
+/// The party of a collider with the user data `data`.
 pub(super) fn from_user_data(data: u128) -> Party {
     let index = data as u64 as usize;
     match data >> 64 {
@@ -29,7 +29,7 @@ pub(super) fn from_user_data(data: u128) -> Party {
     }
 }
 
-/// Writes what every pair did in the last step, in the order of the parties.
+/// Writes the contact of every pair in the last step, in the order of the parties.
 pub(super) fn read(
     narrow_phase: &NarrowPhase,
     colliders: &ColliderSet,
@@ -66,7 +66,7 @@ pub(super) fn read(
                     continue;
                 };
                 let pressed = point.data.impulse;
-                // speculative pairs press nothing
+                // predicted contacts have no force
                 if pressed > 0.0 {
                     let (a, b) = manifold.data.solver_contact_world_points(contact, bodies);
                     impulse += pressed;
@@ -105,7 +105,7 @@ pub(super) fn read(
     facts.sort_by_key(|fact| fact.parties);
 }
 
-/// Adds what other points of the same two parties did.
+/// Adds the contact at other points of the same two parties.
 fn add(known: &mut ContactFact, other: &ContactFact) {
     let impulse = known.impulse_n_s + other.impulse_n_s;
     known.p_centre_in_world = (known.p_centre_in_world * known.impulse_n_s

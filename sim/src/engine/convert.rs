@@ -1,4 +1,4 @@
-//! Between our vectors and poses and the engine's.
+//! Conversions between our vectors and poses and those of the engine.
 
 use nalgebra::{Matrix3, Vector3};
 use rapier3d_f64::math::{Matrix, Pose as EnginePose, Rotation, Vector};

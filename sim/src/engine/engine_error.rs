@@ -1,4 +1,4 @@
-//! What keeps a robot or a scene from having contact.
+//! Why a robot or a scene cannot be simulated with contact.
 
 use crate::model::robot::JointKind;
 
@@ -16,7 +16,7 @@ pub enum EngineError {
         file: String,
     },
     /// A mesh whose triangles cannot be used as a surface.
-    #[error("mesh `{file}` of the fixed body `{owner}` is no usable surface: {reason}")]
+    #[error("mesh `{file}` of the fixed body `{owner}` is not a usable surface: {reason}")]
     Surface {
         /// The body.
         owner: String,
@@ -25,7 +25,7 @@ pub enum EngineError {
         /// What the engine found.
         reason: String,
     },
-    /// A free body without mass or with a flat tensor.
+    /// A dynamic body without mass or with a flat inertia tensor.
     #[error(
         "dynamic body `{body}` has a mass of {mass_kg} kg and a least moment of inertia of {least_kg_m2} kg m^2; both must be positive"
     )]
@@ -37,7 +37,7 @@ pub enum EngineError {
         /// Its least principal moment \[kg m²\].
         least_kg_m2: f64,
     },
-    /// A joint the multibody refused.
+    /// A joint that the engine's multibody does not support.
     #[error("{} joint `{joint}` cannot be part of a robot in contact", .kind.name())]
     Joint {
         /// The joint.

@@ -1,36 +1,36 @@
-//! The numbers of contact: how stiff, how far ahead, how surfaces combine.
+//! The parameters of contact: stiffness, prediction distance, combination of surfaces.
 
 use rapier3d_f64::dynamics::SpringCoefficients;
 use rapier3d_f64::dynamics::{CoefficientCombineRule, FrictionModel, IntegrationParameters};
 
 use crate::model::robot::Contact;
 
-/// Natural frequency of a contact \[Hz\] and its damping ratio: stiff enough that an arm pushed into a shelf sinks in by hundredths of
-/// a millimetre, damped enough that it does not ring.
+/// Natural frequency of a contact \[Hz\] and its damping ratio: stiff enough that an arm pressed on a shelf penetrates it by hundredths
+/// of a millimetre, damped enough that it does not oscillate.
 const CONTACT: (f64, f64) = (300.0, 5.0);
 
-/// How far apart two surfaces already count as a contact to come \[m\], at least ...
+/// Prediction distance: two surfaces this near are treated as a coming contact \[m\]; at least this ...
 pub(super) const PREDICTION_M: f64 = 0.002;
-/// ... and as a part of what the fastest body travels in a step, so that an impact is seen before surfaces are in each other ...
+/// ... and this fraction of the travel of the fastest body in a step, so that an impact is found before surfaces overlap ...
 pub(super) const PREDICTION_OF_TRAVEL: f64 = 1.5;
 /// ... but at most: a thin body at a speed beyond this may pass through another.
 pub(super) const PREDICTION_MOST_M: f64 = 0.05;
 
-/// Of two surfaces the rougher and the bouncier one counts, as in MuJoCo.
+/// The larger friction and the larger restitution of two surfaces count, as in MuJoCo.
 pub(super) const COMBINE: CoefficientCombineRule = CoefficientCombineRule::Max;
 
-/// The surface of a link that describes none: dry metal or plastic.
+/// The surface of a link without a `contact` table: dry metal or plastic.
 pub(super) const SURFACE: Contact = Contact {
     friction: 0.3,
     restitution: 0.0,
 };
 
-/// A body sleeps when no point of it has moved faster than this \[m/s\] ...
+/// A body sleeps after none of its points has moved faster than this \[m/s\] ...
 pub(super) const REST_SPEED_M_S: f64 = 1e-4;
 /// ... for this long \[s\].
 pub(super) const REST_TIME_S: f64 = 0.2;
 
-/// Rows of joint limits act only beyond the limit; moving them in by this much \[rad or m\] lets them hold a joint that rests on it.
+/// The engine's joint limits act only beyond the limit; moving them in by this much \[rad or m\] lets them hold a joint that rests on it.
 pub(super) const LIMIT_SKIN: f64 = 1e-7;
 
 pub(super) fn parameters(dt_s: f64) -> IntegrationParameters {
@@ -46,9 +46,9 @@ pub(super) fn parameters(dt_s: f64) -> IntegrationParameters {
         friction_model: FrictionModel::Simplified,
         // stale lever arms and distances
         contact_recycling: false,
-        // the engine's own bound, 400 m/s, would pass for physics; a run ends soon after that
+        // the engine's default bound of 400 m/s would look like physics; with this one a run ends soon after it is reached
         normalized_max_linear_velocity: f64::MAX,
-        // would move a link away from where its joints say it is
+        // would move a link away from the pose that its joints give
         max_ccd_substeps: 0,
         ..IntegrationParameters::default()
     }

@@ -1,9 +1,9 @@
-//! Contact points found anew as soon as surfaces have moved, where the engine would carry old ones along.
+//! Contact points are recomputed as soon as surfaces have moved, where the engine would reuse old ones.
 //!
-//! Between two convex shapes the engine keeps its contact points, fixed to the surfaces, until they have gone 1 mm or 1 degree. A
-//! can that rolls then stands on a point behind its centre, and its weight drives it on: on a level shelf it gained 0.05 m/s every
-//! second. Points found anew are where the surfaces are. Only surfaces that cling to each other keep their points, or what is held
-//! would creep.
+//! Between two convex shapes the engine keeps its contact points, fixed to the surfaces, until they have moved by 1 mm or 1 degree. A
+//! rolling can then rests on a point behind its centre, and its weight accelerates it: on a level shelf it gained 0.05 m/s every
+//! second. Recomputed points are where the surfaces are. Only surfaces that stick to each other keep their points; otherwise a body at
+//! rest would creep.
 
 use rapier3d_f64::geometry::{ContactData, ContactManifold, ContactManifoldData};
 use rapier3d_f64::math::{Pose, Vector};
@@ -17,20 +17,20 @@ use rapier3d_f64::parry::query::{
 };
 use rapier3d_f64::parry::shape::{PackedFeatureId, Shape};
 
-/// By this little \[rad\] surfaces may turn against each other and keep their contact points: a can that rolls slower than
+/// Surfaces may rotate against each other by this much \[rad\] and keep their contact points: that of a can which rolls slower than
 /// 0.3 mm/s, driven by its weight through `r` times as much.
 const CLINGS_RAD: f64 = 1e-5;
-/// By this little \[m\] they may slide.
+/// Surfaces may slide by this much \[m\] and keep their contact points.
 const CLINGS_M: f64 = 1e-5;
-/// Points this near to each other \[m\] are one.
+/// Contact points this near to each other \[m\] count as one.
 const SAME_M: f64 = 1e-6;
 
-/// The engine's own queries, without old contact points where surfaces have moved.
+/// The engine's queries, without old contact points where surfaces have moved.
 pub(super) fn queries() -> impl PersistentQueryDispatcher<ContactManifoldData, ContactData> {
-    Fresh.chain(DefaultQueryDispatcher)
+    FreshContacts.chain(DefaultQueryDispatcher)
 }
 
-/// Has the points of `manifold` found anew, unless the surfaces cling to each other.
+/// Makes the engine recompute the points of `manifold`, unless the surfaces stick to each other.
 fn forget_if_moved(first_from_second: &Pose, manifold: &mut ContactManifold) {
     let n1 = manifold.local_n1;
     let turned = n1.cross(first_from_second.rotation * manifold.local_n2);
@@ -44,8 +44,8 @@ fn forget_if_moved(first_from_second: &Pose, manifold: &mut ContactManifold) {
     }
 }
 
-/// Drops the nearest point where it is a corner found already: that end of a lying can would carry twice its share, and the next
-/// time the other.
+/// Drops the nearest point if it repeats a corner that was already found: otherwise one end of a lying can would carry twice its share,
+/// and in another step the other end.
 fn drop_double(manifold: &mut ContactManifold) {
     let double = manifold.points.iter().position(|point| {
         point.fid1 == PackedFeatureId::UNKNOWN
@@ -59,10 +59,10 @@ fn drop_double(manifold: &mut ContactManifold) {
     }
 }
 
-/// Finds contact points; leaves all else to the engine.
-struct Fresh;
+/// Recomputes contact points; leaves all other queries to the engine.
+struct FreshContacts;
 
-impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Fresh {
+impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for FreshContacts {
     fn contact_manifolds(
         &self,
         first_from_second: &Pose,
@@ -98,12 +98,12 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Fresh {
         _: f64,
         _: &mut ContactManifold,
     ) -> Result<(), Unsupported> {
-        // asked of the engine's own, by itself
+        // the engine's dispatcher calls its own implementation of this
         Err(Unsupported)
     }
 }
 
-impl QueryDispatcher for Fresh {
+impl QueryDispatcher for FreshContacts {
     fn intersection_test(
         &self,
         _: &Pose,

@@ -1,8 +1,18 @@
-//! Contact: robot and scene as bodies that press on each other. The only place that names rapier; no type of it leaves.
+//! Contact: robot and scene as bodies of a physics engine. The only module that names rapier; none of its types leave it.
 //!
-//! `world` holds all bodies and steps them, `arm` puts the robot among them as a reduced-coordinate multibody, `collider` makes
-//! colliders, `fresh` has contact points found anew, `bounce` lets things bounce, `contact_facts` reads who pressed on whom, `clearance` says when nobody can, `overlap`
-//! who is in whom where they stand, `ray` looks along a line, `wind` blows, `engine_settings` are the numbers.
+//! | file | what it does |
+//! |---|---|
+//! | `world` | holds all bodies and steps them |
+//! | `arm` | adds the robot as a reduced-coordinate multibody |
+//! | `collider` | makes colliders from shapes |
+//! | `fresh` | recomputes contact points |
+//! | `bounce` | applies restitution |
+//! | `contact_facts` | reads the contacts of a step |
+//! | `clearance` | says when no link can touch anything |
+//! | `overlap` | finds overlaps without a step |
+//! | `ray` | casts rays |
+//! | `wind` | computes the air of each step |
+//! | `engine_settings` | parameters of contact |
 
 mod arm;
 mod bounce;

@@ -1,6 +1,6 @@
-//! Overlap: which bodies, links and ground are in each other where they stand, what lies below a point, what a way leads into.
+//! Overlap queries without a simulation step: which parties overlap, what lies below a point, what a straight path enters.
 //!
-//! The shapes are those of a run, and nothing is stepped. A surface of triangles has no inside: only what crosses it overlaps.
+//! The shapes are those of a run. A surface of triangles has no inside: only shapes that cross it overlap.
 
 use std::cmp::Ordering;
 
@@ -20,22 +20,22 @@ use crate::model::robot::{Contact, Robot, Shape};
 use crate::model::scene::{BodyKind, Scene};
 use crate::spatial::Pose;
 
-/// Where centres coincide, the search for the way out has no direction to begin with; this far aside it has one \[m\].
+/// Where centres coincide, the search for the separating direction has no start; an offset of this much gives it one \[m\].
 const ASIDE_M: f64 = 1e-7;
 
-/// Farther than anything can be \[m\]: no number of a scene is beyond a millionth of it.
+/// Farther than anything can be \[m\]: numbers of a scene are at most a millionth of it.
 const ANYWHERE_M: f64 = 1e12;
 
-/// Two parties that are in each other.
+/// Two parties that overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// The two, the lesser first.
+    /// Both parties, the lesser first.
     pub parties: [Party; 2],
-    /// How far one of them has to go until they only touch \[m\].
+    /// Penetration depth: how far one must move until they only touch \[m\].
     pub depth_m: f64,
-    /// A point of the deepest place, in the world \[m\].
+    /// The point of deepest penetration, in the world \[m\].
     pub p_in_world: Vector3<f64>,
-    /// Whether they push each other apart in a run: not where each stands or goes its given way.
+    /// Whether a run pushes them apart; false if both are fixed or kinematic.
     pub pushes: bool,
 }
 
@@ -43,9 +43,9 @@ pub struct Overlap {
 enum Mobility {
     /// Fixed to the world.
     Stands,
-    /// Goes a given way.
+    /// Follows a prescribed motion.
     Driven,
-    /// A free body, or a link that joints move.
+    /// A dynamic body, or a link that joints move.
     Moves,
 }
 
@@ -66,7 +66,7 @@ struct Part {
     solids: Vec<Solid>,
 }
 
-/// Where every shape of a scene, and of a robot in it, stands.
+/// The poses of all shapes of a scene and of a robot in it.
 #[derive(Debug, Clone)]
 pub struct Layout {
     /// The bodies in their order, then the ground, then the links in theirs.
@@ -77,7 +77,7 @@ impl Layout {
     /// The bodies of `scene` where they start, and `robot` at `q = 0` until it is placed.
     ///
     /// # Errors
-    /// Meshes the engine cannot use.
+    /// Meshes that the engine cannot use.
     pub fn new(scene: &Scene, robot: Option<&Robot>) -> Result<Self, EngineError> {
         let mut parts = Vec::new();
         for (index, body) in scene.bodies.iter().enumerate() {
@@ -137,8 +137,8 @@ impl Layout {
         self.parts[index].place(world_from_body);
     }
 
-    /// Bodies and ground that are in each other by more than `least_m`, in their order; of two that are fixed to the world
-    /// nothing is said.
+    /// The overlaps deeper than `least_m` of bodies with each other and the ground, in their order; pairs that are both fixed to the
+    /// world are left out.
     pub fn among_bodies(&self, least_m: f64) -> Vec<Overlap> {
         let is_link = |part: &Part| matches!(part.party, Party::Link(_));
         let parts: Vec<&Part> = self.parts.iter().filter(|part| !is_link(part)).collect();
@@ -152,8 +152,8 @@ impl Layout {
         found
     }
 
-    /// Links that are in a body or in the ground by more than `least_m`, in their order; of a link and a body that are both fixed
-    /// to the world nothing is said, nor of two links.
+    /// The overlaps deeper than `least_m` of links with bodies and the ground, in their order; pairs that are both fixed to the world
+    /// are left out, and so are pairs of links.
     pub fn of_links(&self, least_m: f64) -> Vec<Overlap> {
         let is_link = |part: &&Part| matches!(part.party, Party::Link(_));
         let mut found = Vec::new();
@@ -172,15 +172,15 @@ impl Layout {
         solids.map(|solid| from_vector(solid.world_from_shape * solid.p_centre_in_shape))
     }
 
-    /// What the straight way `from` one point `to` another leads into first, body `index` aside. What `from` lies in already is
-    /// not entered; links that joints move are not looked at.
+    /// The first party that the straight path `from` one point `to` another enters, without body `index`, the links that joints move,
+    /// and anything that contains `from`.
     pub fn entered(&self, index: usize, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<Party> {
         let ray = Ray::new(vector(from), vector(&(to - from)));
         let hit = self.first_hit(index, &ray, 1.0, |fraction| fraction > 0.0);
         hit.map(|(party, _)| party)
     }
 
-    /// What is met first on the way from `p_in_world` in the direction `down`, body `index` aside, and where.
+    /// The first party, without body `index`, that a ray from `p_in_world` in the direction `down` hits, and the point.
     pub fn below(
         &self,
         index: usize,
@@ -207,7 +207,7 @@ impl Layout {
             }
             for solid in &part.solids {
                 let near = first.map_or(most, |(_, near)| near);
-                // the box of the ground has no bounds to be met
+                // the ground has no finite bounds
                 let boxed = solid.shape.as_halfspace().is_none();
                 if boxed && !solid.bounds.intersects_local_ray(ray, near) {
                     continue;

@@ -10,7 +10,7 @@ use super::convert::vector;
 use super::engine_error::EngineError;
 use super::engine_settings::SURFACE;
 use crate::kinematics::FramePoses;
-use crate::kinematics::forward::Placed;
+use crate::kinematics::forward::BodyPose;
 use crate::model::contact::Party;
 use crate::model::robot::Robot;
 
@@ -30,13 +30,13 @@ impl Ray {
         Self {
             from: *from,
             direction: *direction,
-            // a ray from nowhere meets nothing
+            // a ray that is not finite hits nothing
             range_m: if finite { range_m } else { f64::NEG_INFINITY },
             nearest: None,
         }
     }
 
-    /// What it met, and how far away \[m\].
+    /// The nearest party hit so far, and its distance \[m\].
     pub(crate) fn nearest(&self) -> Option<(Party, f64)> {
         self.nearest
     }
@@ -48,7 +48,7 @@ impl Ray {
         }
     }
 
-    /// Shows it the ground.
+    /// Tests the ray against the ground.
     pub(super) fn meet_ground(&mut self) {
         if self.from.z <= 0.0 {
             self.met(Party::Ground, 0.0);
@@ -57,7 +57,7 @@ impl Ray {
         }
     }
 
-    /// Shows it a collider of a body at `world_from_body`.
+    /// Tests the ray against a collider of a body at `world_from_body`.
     pub(super) fn meet_collider(&mut self, world_from_body: &EnginePose, collider: &Collider) {
         let party = from_user_data(collider.user_data);
         let place = match collider.position_wrt_parent() {
@@ -68,7 +68,7 @@ impl Ray {
         self.meet(party, collider.shape(), &place, &from, &direction);
     }
 
-    /// Shows it a shape in a frame in which it starts at `from` along `direction`.
+    /// Tests the ray against a shape, in a frame in which the ray starts at `from` along `direction`.
     fn meet(
         &mut self,
         party: Party,
@@ -87,7 +87,7 @@ impl Ray {
     }
 }
 
-/// The shapes of a robot's links, as rays meet them.
+/// The shapes of a robot's links, for ray casting.
 pub(crate) struct LinkShapes(Vec<LinkShape>);
 
 struct LinkShape {
@@ -119,7 +119,7 @@ impl LinkShapes {
         Ok(Self(shapes))
     }
 
-    /// Shows `ray` all links but those fixed to `own`, the moving body or the world.
+    /// Tests `ray` against all links except those fixed to `own`, a moving body or the world.
     pub(crate) fn meet(&self, poses: &FramePoses, own: Option<usize>, ray: &mut Ray) {
         for LinkShape {
             link,
@@ -128,7 +128,7 @@ impl LinkShapes {
             shape,
         } in self.0.iter().filter(|shape| shape.body != own)
         {
-            let placed = body.map_or(Placed::WORLD, |body| poses.placed[body]);
+            let placed = body.map_or(BodyPose::WORLD, |body| poses.placed[body]);
             let body_from_world = placed.world_from_body.transpose();
             let from = body_from_world * (ray.from - placed.position);
             let direction = body_from_world * ray.direction;

@@ -1,4 +1,4 @@
-//! The air of one run: the mean wind of the scene with its gusts, felt by bodies and links as drag.
+//! The air of one run: the mean wind of the scene with its gusts, which acts on bodies and links as drag.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use crate::model::air::AirNow;
 use crate::model::gust::GustSequence;
 use crate::model::scene::Wind;
 
-/// The air of one run, step by step; a copy goes on with the same gusts.
+/// The air of one run, step by step; a copy continues with the same gusts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Air {
     wind: Wind,
@@ -21,7 +21,7 @@ impl Air {
             gusts: wind.gust.map(|gust| gust.sequence(dt_s)),
             velocity_m_s: wind.velocity_m_s,
         };
-        // no run begins in calm air
+        // a run with gusts does not begin in calm air
         air.advance();
         air
     }
@@ -31,7 +31,7 @@ impl Air {
         self.gusts.is_some()
     }
 
-    /// The air of the step to come.
+    /// The air of the next step.
     pub(super) fn now(&self) -> AirNow {
         AirNow {
             density_kg_m3: self.wind.air_density_kg_m3,
@@ -39,7 +39,7 @@ impl Air {
         }
     }
 
-    /// Moves on by one step.
+    /// Advances the gusts by one step.
     pub(super) fn advance(&mut self) {
         if let Some(gust_m_s) = self.gusts.as_mut().and_then(Iterator::next) {
             self.velocity_m_s = self.wind.air_velocity_m_s(gust_m_s);

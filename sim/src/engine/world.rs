@@ -24,24 +24,24 @@ use crate::model::robot::Robot;
 use crate::model::scene::{BodyKind, Scene, SceneBody};
 use crate::spatial::{Pose, Twist};
 
-/// Where a body of the scene is and how it moves.
+/// Pose and twist of a body of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyState {
-    /// Its frame in the world.
+    /// The pose of its frame in the world.
     pub world_from_body: Pose,
     /// Its motion, world axes, at the origin of its frame.
     pub twist: Twist,
-    /// Whether it rests so long that it is no longer stepped; such a body does not move at all.
+    /// Whether it has rested so long that it is no longer stepped; such a body does not move at all.
     pub sleeps: bool,
 }
 
-/// A body that forces move.
+/// A dynamic body.
 #[derive(Clone, Copy)]
 struct FreeBody {
     /// Its index in the scene.
     index: usize,
     handle: RigidBodyHandle,
-    /// No point of it is farther from its centre of mass \[m\].
+    /// Radius of a sphere about its centre of mass that contains it \[m\].
     radius_m: f64,
 }
 
@@ -56,9 +56,9 @@ pub(crate) struct World {
     obstacles: Vec<ColliderHandle>,
     ground: bool,
     air: Option<Air>,
-    /// Where anything bounces.
+    /// Present if any party has a restitution.
     bounce: Option<Bounce>,
-    /// Joint rates after a bounce, where the arm took part in the step.
+    /// Joint rates after a bounce, if the arm took part in the step.
     bounced_qd: Option<Vec<f64>>,
     dt_s: f64,
     tick: u64,
@@ -68,7 +68,7 @@ impl World {
     /// Puts `scene` and, if `with_arm`, the moving part of `robot` into a world with steps of `dt_s`.
     ///
     /// # Errors
-    /// Shapes or masses the engine cannot use.
+    /// Shapes or masses that the engine cannot use.
     pub(crate) fn new(
         robot: &Robot,
         scene: &Scene,
@@ -129,7 +129,7 @@ impl World {
                 RigidBodyBuilder::dynamic().additional_mass_properties(mass_properties(body)?)
             }
         };
-        // a body that the gusts push may never sleep: it would not feel the next one
+        // a body in gusts must not sleep: it would not react to the next gust
         let restless = body.drag.is_some() && self.air.as_ref().is_some_and(Air::gusts);
         let mut rigid: RigidBody = builder
             .pose(engine_pose(&body.world_from_body))
@@ -195,7 +195,7 @@ impl World {
                 .any(|body| !self.physics.bodies[body.handle].is_sleeping())
     }
 
-    /// Lists what a link could touch, as the world stands.
+    /// Lists the obstacles that a link could touch, at their current poses.
     pub(crate) fn obstacles(&self, list: &mut Vec<Obstacle>) {
         if self.ground {
             list.push(Obstacle::Ground);
@@ -209,12 +209,12 @@ impl World {
         }
     }
 
-    /// The air of the step to come, if there is any.
+    /// The air of the next step, if there is any.
     pub(crate) fn air_now(&self) -> Option<AirNow> {
         self.air.as_ref().map(Air::now)
     }
 
-    /// Lets a step pass in which nothing moves but the air.
+    /// Advances only the air by one step.
     pub(crate) fn rest(&mut self) {
         self.tick += 1;
         if let Some(air) = &mut self.air {
@@ -222,9 +222,9 @@ impl World {
         }
     }
 
-    /// Steps all bodies, the robot from `(q, qd)` under `effort`, all finite and of shape `(n)`, and writes who pressed on whom.
+    /// Steps all bodies, the robot from `(q, qd)` under `effort`, all finite and of shape `(n)`, and writes the contacts.
     ///
-    /// No link travels farther than about `travel_m` in it; without it, the robot can touch nothing and is left out.
+    /// No link travels farther than about `travel_m` in the step; if `None`, the robot can touch nothing and is left out.
     ///
     /// # Errors
     /// The index of a body whose state is no longer finite.
@@ -249,7 +249,7 @@ impl World {
                 let body = &mut self.physics.bodies[*handle];
                 let past = air.velocity_m_s - from_vector(body.linvel());
                 let force = air.drag_n(drag, &from_vector(body.linvel()));
-                // air that stops a body against itself within a step would throw it back
+                // drag strong enough to stop a body within a step would throw it back
                 let most_n = body.mass() * past.norm() / self.dt_s;
                 let force = force * (most_n / force.norm().max(most_n).max(f64::MIN_POSITIVE));
                 body.reset_forces(false);
@@ -305,7 +305,7 @@ impl World {
         self.bounced_qd = after.map(|(_, qd)| qd);
     }
 
-    /// Lets contacts be foreseen as far as the fastest body goes in a step.
+    /// Sets the prediction distance of contacts to the travel of the fastest body in a step.
     fn foresee(&mut self, travel_m: f64) {
         let farthest = self.travel_m().max(travel_m) * engine_settings::PREDICTION_OF_TRAVEL;
         self.physics
@@ -316,7 +316,7 @@ impl World {
         );
     }
 
-    /// About how far the fastest point of a free body, or the origin of a driven one, travels in a step \[m\].
+    /// Approximate travel of the fastest point of a dynamic body, or of the origin of a kinematic one, in a step \[m\].
     pub(crate) fn travel_m(&self) -> f64 {
         let mut farthest = 0.0_f64;
         for body in &self.free {
@@ -333,7 +333,7 @@ impl World {
         farthest
     }
 
-    /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
+    /// The dynamic body whose centre of mass is fastest, with its speed \[m/s\]; `None` if all sleep.
     pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
         let speeds = self.free.iter().filter_map(|body| {
             let rigid = &self.physics.bodies[body.handle];
@@ -342,7 +342,7 @@ impl World {
         speeds.reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
-    /// Whether something moves along a prescribed path.
+    /// Whether any body follows a prescribed motion.
     pub(crate) fn is_driven(&self) -> bool {
         !self.driven.is_empty()
     }
@@ -370,7 +370,7 @@ impl World {
         }
     }
 
-    /// Shows `ray` the bodies of the scene, in its order, and the ground, where they are now.
+    /// Tests `ray` against the bodies of the scene, in its order, and the ground, at their current poses.
     pub(crate) fn meet(&self, ray: &mut Ray) {
         for handle in &self.bodies {
             let body = &self.physics.bodies[*handle];

@@ -1,4 +1,4 @@
-//! The analytic Jacobian: joint velocities to the rates of three angles that state a rotation, instead of an angular velocity.
+//! The analytic Jacobian: maps joint velocities to the rates of three orientation angles instead of an angular velocity.
 
 use nalgebra::{Matrix3, Matrix6xX, Vector3};
 
@@ -7,10 +7,10 @@ use super::jacobian::fill;
 use crate::joint_space::JointPositions;
 use crate::model::robot::{Frame, Robot};
 
-/// The cosine (or sine) below which three angles do not tell their rates apart: 1e-9 rad from the singular angle.
+/// The cosine (or sine) below which the rates of three angles are not unique: 1e-9 rad from the singular angle.
 const SINGULAR: f64 = 1e-9;
 
-/// Three angles that state a rotation.
+/// A representation of a rotation by three angles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Angles {
     /// Roll, pitch, yaw of URDF: `R = Rz(yaw) Ry(pitch) Rx(roll)`, in the order (roll, pitch, yaw). Singular at pitch ±90°.
@@ -19,7 +19,7 @@ pub enum Angles {
     Zyz,
 }
 
-/// Angles without rates: at this rotation two of them turn about the same axis.
+/// Representation singularity: at this rotation two of the angles are about the same axis.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the {angles} rates are not defined at {name} {angle_rad:.6} rad: the first and the third angle turn about one axis there"
@@ -27,7 +27,7 @@ pub enum Angles {
 pub struct SingularAngles {
     angles: &'static str,
     name: &'static str,
-    /// The angle in the middle \[rad\].
+    /// The second angle \[rad\].
     pub angle_rad: f64,
 }
 
@@ -57,10 +57,10 @@ impl Angles {
         }
     }
 
-    /// The matrix that takes an angular velocity in world axes to the rates of the angles of `rotation`.
+    /// The matrix that maps an angular velocity in world axes to the rates of the angles of `rotation`.
     ///
     /// # Errors
-    /// [`SingularAngles`] where there is none.
+    /// [`SingularAngles`] at a representation singularity.
     pub fn rates_from_angular_velocity(
         self,
         rotation: &Matrix3<f64>,
@@ -120,7 +120,7 @@ impl Angles {
 /// rotation \[rad/s\] per unit of joint velocity.
 ///
 /// # Errors
-/// [`SingularAngles`] at a rotation where the angles have no rates.
+/// [`SingularAngles`] at a representation singularity.
 ///
 /// Source: Siciliano et al., *Robotics* (2009), sec. 3.6; the inverse of the rate-to-angular-velocity matrix in closed form.
 pub fn analytic_jacobian(

@@ -1,14 +1,14 @@
-//! How every body moves at `(q, qd)`: its twist, and the acceleration its velocities cause while no joint accelerates.
+//! The motion of every body at `(q, qd)`: its twist, and its acceleration at `qdd = 0`.
 
 use nalgebra::Vector3;
 
-use super::forward::Placed;
+use super::forward::BodyPose;
 use crate::model::robot::{Attachment, Robot};
 
 /// Motion of one body, world axes, reference point at its own origin.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion {
-    pub(crate) placed: Placed,
+    pub(crate) placed: BodyPose,
     /// Angular velocity \[rad/s\].
     pub(crate) w: Vector3<f64>,
     /// Velocity of the origin \[m/s\].
@@ -29,7 +29,7 @@ pub(crate) struct PointMotion {
 
 impl Motion {
     pub(crate) const STILL: Self = Self {
-        placed: Placed::WORLD,
+        placed: BodyPose::WORLD,
         w: Vector3::new(0.0, 0.0, 0.0),
         v: Vector3::new(0.0, 0.0, 0.0),
         dw: Vector3::new(0.0, 0.0, 0.0),
@@ -64,7 +64,7 @@ impl BodyMotions {
     pub(crate) fn update(&mut self, robot: &Robot, q: &[f64], qd: &[f64]) {
         for (i, body) in robot.bodies().iter().enumerate() {
             let parent = body.parent.map_or(Motion::STILL, |p| self.motions[p]);
-            let placed = Placed::on(&parent.placed, body, body.position(q));
+            let placed = BodyPose::on_parent(&parent.placed, body, body.position(q));
             let carried = parent.at(&(placed.position - parent.placed.position));
             let drive = placed.axis() * body.rate(qd);
             let turned = parent.w.cross(&drive);
@@ -88,7 +88,7 @@ impl BodyMotions {
         }
     }
 
-    /// The body that `attachment` is fixed to; the world where it is fixed to none.
+    /// The motion of the body to which `attachment` is fixed, or of the world.
     pub(crate) fn of(&self, attachment: &Attachment) -> Motion {
         attachment.body.map_or(Motion::STILL, |i| self.motions[i])
     }

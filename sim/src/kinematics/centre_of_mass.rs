@@ -1,4 +1,4 @@
-//! Where the mass of the whole robot is.
+//! The centre of mass of the whole robot.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use super::forward::forward_kinematics;
 use crate::joint_space::JointPositions;
 use crate::model::robot::Robot;
 
-/// What mass counts.
+/// Which masses count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counted {
     /// All links.
@@ -16,7 +16,7 @@ pub enum Counted {
 }
 
 impl Counted {
-    /// Mass \[kg\] and first moment in the world \[kg m\] of what counts although no joint moves it.
+    /// Mass \[kg\] and first moment in the world \[kg m\] of the counted links that no joint moves.
     fn still(self, robot: &Robot) -> (f64, Vector3<f64>) {
         let world = robot.world_inertia();
         match self {
@@ -26,7 +26,7 @@ impl Counted {
     }
 }
 
-/// Returns the centre of mass of what is `counted`, in the world \[m\]; none if nothing of it has mass.
+/// Returns the centre of mass of the `counted` links, in the world \[m\]; `None` if they have no mass.
 pub fn centre_of_mass(robot: &Robot, q: &JointPositions, counted: Counted) -> Option<Vector3<f64>> {
     let poses = forward_kinematics(robot, q);
     let (mut mass_kg, mut moment) = counted.still(robot);

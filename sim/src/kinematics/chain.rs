@@ -1,8 +1,8 @@
-//! The joints between the world and one frame, laid out for speed: the frame's pose and Jacobian without the rest of the robot.
+//! The chain of joints between the world and one frame, for speed: the frame's pose and Jacobian without the rest of the robot.
 
 use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 
-use super::forward::Placed;
+use super::forward::BodyPose;
 use crate::model::robot::{Frame, Robot};
 use crate::spatial::{Pose, pose};
 
@@ -20,9 +20,9 @@ struct Segment {
 }
 
 impl Segment {
-    /// [`Placed::on`] with its products written out: the same operations in the same order, and less time.
+    /// [`BodyPose::on_parent`] with its products written out: the same operations in the same order, but faster.
     #[inline(always)]
-    fn place(&self, parent: &Placed, position: f64) -> Placed {
+    fn place(&self, parent: &BodyPose, position: f64) -> BodyPose {
         let r = &parent.world_from_body;
         let p = &self.p_body_in_parent;
         let (x, y, z) = (
@@ -38,7 +38,7 @@ impl Segment {
         let origin = parent.position + reach;
         if self.turns {
             let (s, c) = libm::sincos(position);
-            Placed {
+            BodyPose {
                 world_from_body: Matrix3::new(
                     x.x * c + y.x * s,
                     y.x * c - x.x * s,
@@ -53,7 +53,7 @@ impl Segment {
                 position: origin,
             }
         } else {
-            Placed {
+            BodyPose {
                 world_from_body: Matrix3::from_columns(&[x, y, z]),
                 position: origin + z * position,
             }
@@ -72,14 +72,14 @@ fn turn(r: &Matrix3<f64>, m: &Matrix3<f64>, j: usize) -> Vector3<f64> {
     )
 }
 
-/// The bodies from the world to one frame, and room for the frame's pose and Jacobian at one `q`.
+/// The bodies from the world to one frame, with memory for the frame's pose and Jacobian at one `q`.
 ///
 /// Nothing here allocates after [`Chain::new`]. The pose is bit for bit the one of
 /// [`forward_kinematics`](super::forward_kinematics).
 #[derive(Debug, Clone)]
 pub struct Chain {
     segments: Vec<Segment>,
-    placed: Vec<Placed>,
+    placed: Vec<BodyPose>,
     body_from_frame: Pose,
     p_frame: Vector3<f64>,
     joints: Vec<usize>,
@@ -87,7 +87,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// The chain that carries `frame`; its Jacobian has a column for every entry of `q` that moves the frame, in order.
+    /// The chain that moves `frame`; its Jacobian has a column for every entry of `q` that moves the frame, in order.
     pub fn new(robot: &Robot, frame: &Frame) -> Self {
         let bodies = robot.bodies();
         let mut joints = Vec::new();
@@ -101,7 +101,7 @@ impl Chain {
         Self::with_joints(robot, frame, &joints)
     }
 
-    /// The chain that carries `frame`, with one column for each of the entries of `q` in `joints`, in that order; zero for those
+    /// The chain that moves `frame`, with one column for each of the entries of `q` in `joints`, in that order; zero for those
     /// that do not move the frame.
     ///
     /// # Panics
@@ -128,7 +128,7 @@ impl Chain {
         }
         segments.reverse();
         let mut chain = Self {
-            placed: vec![Placed::WORLD; segments.len()],
+            placed: vec![BodyPose::WORLD; segments.len()],
             segments,
             body_from_frame: frame.attachment.body_from_here,
             p_frame: Vector3::zeros(),
@@ -139,12 +139,12 @@ impl Chain {
         chain
     }
 
-    /// The entries of `q` its columns stand for.
+    /// The entries of `q` to which its columns belong.
     pub fn joints(&self) -> &[usize] {
         &self.joints
     }
 
-    /// The longest the chain can be with its sliding joints at zero: the sum of its links' lengths \[m\].
+    /// Greatest length of the chain with its prismatic joints at zero: the sum of its links' lengths \[m\].
     pub fn length_m(&self) -> f64 {
         let links = self.segments.iter().map(|s| s.p_body_in_parent.norm());
         links.sum::<f64>() + self.body_from_frame.translation.vector.norm()
@@ -155,7 +155,7 @@ impl Chain {
     /// # Panics
     /// If `q` has fewer entries than the robot's [`Robot::n`].
     pub fn update(&mut self, q: &[f64]) -> Pose {
-        let mut parent = Placed::WORLD;
+        let mut parent = BodyPose::WORLD;
         for (segment, placed) in self.segments.iter().zip(&mut self.placed) {
             let position = segment.gear * q[segment.q_index] + segment.offset;
             parent = segment.place(&parent, position);
@@ -205,7 +205,7 @@ mod tests {
     use crate::kinematics::{forward_kinematics, geometric_jacobian};
     use crate::text::Source;
 
-    /// A slider that carries a hinge, whose shadow turns against it at twice the rate; a second arm hangs off the slider.
+    /// A prismatic joint, then a revolute one with a mimic joint of multiplier -2; a second arm on the prismatic joint.
     const SHADOW: &str = r#"
         format = 1
         name = "shadow"

@@ -1,4 +1,4 @@
-//! How the geometric Jacobian changes in time: what a controller needs to turn an acceleration of the tip into one of the joints.
+//! The time derivative of the geometric Jacobian: a controller needs it to turn an acceleration of the tip into joint accelerations.
 
 use nalgebra::{Matrix6xX, Vector6};
 
@@ -9,7 +9,7 @@ use crate::model::robot::{Frame, Robot};
 /// Returns the time derivative of the geometric Jacobian of `frame`, shape `(6, n)`, rows `[linear; angular]`, at `(q, qd)`.
 ///
 /// World axes, like [`geometric_jacobian`](super::geometric_jacobian): the acceleration of the frame's origin \[m/s²\] and its
-/// angular acceleration \[rad/s²\] are `J qdd + dJ/dt qd`. Joints that do not carry the frame have zero columns.
+/// angular acceleration \[rad/s²\] are `J qdd + dJ/dt qd`. Joints that do not move the frame have zero columns.
 ///
 /// Source: `d/dt [z × (p - o); z]` with `dz/dt = w × z`, `w` the angular velocity of the body the joint moves.
 pub fn jacobian_derivative(
@@ -28,7 +28,7 @@ pub fn jacobian_derivative(
     while let Some(i) = next {
         let body = &robot.bodies()[i];
         let motion = motions.body(i);
-        // the joint turns the body about the axis itself, so the body's own turning moves the axis as its parent's does
+        // the joint rotates the body about this axis, so the axis moves with the body as it does with the parent
         let axis = motion.placed.axis() * body.gear;
         let axis_rate = motion.w.cross(&axis);
         let mut column = derivative.column_mut(body.q_index);

@@ -6,22 +6,22 @@ use crate::joint_space::JointPositions;
 use crate::model::robot::{Attachment, Body, Frame, Robot};
 use crate::spatial::{Pose, pose};
 
-/// Where a moving body is: its axes in the world's, and its origin.
+/// Pose of a moving body in the world, with the rotation as a plain matrix, for the recursive algorithms.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Placed {
+pub(crate) struct BodyPose {
     pub(crate) world_from_body: Matrix3<f64>,
     pub(crate) position: Vector3<f64>,
 }
 
-impl Placed {
+impl BodyPose {
     pub(crate) const WORLD: Self = Self {
         world_from_body: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
         position: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// Places `body` on its parent at the joint position `q`.
+    /// The pose of `body` on its `parent` at the joint position `q`.
     #[inline]
-    pub(crate) fn on(parent: &Self, body: &Body, q: f64) -> Self {
+    pub(crate) fn on_parent(parent: &Self, body: &Body, q: f64) -> Self {
         let origin = parent.position + parent.world_from_body * body.p_body_in_parent;
         let still = parent.world_from_body * body.parent_from_body;
         if body.turns {
@@ -51,14 +51,14 @@ impl Placed {
 /// The poses of all frames of a robot in the world, for one `q`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FramePoses {
-    pub(crate) placed: Vec<Placed>,
+    pub(crate) placed: Vec<BodyPose>,
 }
 
 impl FramePoses {
-    /// Room for the poses of `robot`, at `q = 0` until [`FramePoses::update`].
+    /// The poses of `robot` at `q = 0`, to be changed by [`FramePoses::update`].
     pub fn new(robot: &Robot) -> Self {
         let mut poses = Self {
-            placed: vec![Placed::WORLD; robot.bodies().len()],
+            placed: vec![BodyPose::WORLD; robot.bodies().len()],
         };
         poses.update(robot, &vec![0.0; robot.n()]);
         poses
@@ -71,8 +71,8 @@ impl FramePoses {
     pub fn update(&mut self, robot: &Robot, q: &[f64]) {
         assert_eq!(q.len(), robot.n(), "one position per joint that moves");
         for (i, body) in robot.bodies().iter().enumerate() {
-            let parent = body.parent.map_or(Placed::WORLD, |p| self.placed[p]);
-            self.placed[i] = Placed::on(&parent, body, body.position(q));
+            let parent = body.parent.map_or(BodyPose::WORLD, |p| self.placed[p]);
+            self.placed[i] = BodyPose::on_parent(&parent, body, body.position(q));
         }
     }
 
@@ -85,7 +85,7 @@ impl FramePoses {
         match body {
             None => *body_from_here,
             Some(body) => {
-                let Placed {
+                let BodyPose {
                     world_from_body,
                     position,
                 } = self.placed[*body];

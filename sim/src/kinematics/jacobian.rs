@@ -12,7 +12,7 @@ use crate::spatial::Twist;
 /// Returns the geometric Jacobian of `frame`, shape `(6, n)`, rows `[linear; angular]`.
 ///
 /// Rows are the velocity of the frame's origin \[m/s\] and the frame's angular velocity \[rad/s\], both in world axes, per unit of
-/// joint velocity. Joints that do not carry the frame have zero columns. Loses rank where the robot is singular.
+/// joint velocity. Joints that do not move the frame have zero columns. Loses rank in singular configurations.
 pub fn geometric_jacobian(robot: &Robot, q: &JointPositions, frame: &Frame) -> Matrix6xX<f64> {
     let poses = forward_kinematics(robot, q);
     let mut jacobian = Matrix6xX::zeros(robot.n());
@@ -20,7 +20,7 @@ pub fn geometric_jacobian(robot: &Robot, q: &JointPositions, frame: &Frame) -> M
     jacobian
 }
 
-/// Writes the Jacobian of `frame` at `poses` into `jacobian`; the loop of [`geometric_jacobian`] without its allocations.
+/// Writes the Jacobian of `frame` at `poses` into `jacobian`: [`geometric_jacobian`] without allocations.
 ///
 /// # Panics
 /// If `jacobian` has another number of columns than [`Robot::n`].

@@ -1,4 +1,4 @@
-//! Joint positions spread evenly over their ranges: the same sequence every time, with no gaps a random draw would leave.
+//! Joint positions spread evenly over their ranges: always the same low-discrepancy sequence, without the gaps of random samples.
 
 use super::position_range::{PositionRange, position_ranges};
 use crate::model::robot::Robot;
@@ -45,7 +45,7 @@ impl JointSamples {
         }
     }
 
-    /// Begins again with the first sample.
+    /// Restarts with the first sample.
     pub(crate) fn restart(&mut self) {
         self.drawn = 0;
     }

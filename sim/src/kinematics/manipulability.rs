@@ -1,13 +1,13 @@
-//! How well a frame can move: singular values of its Jacobian, Yoshikawa's measure, condition number.
+//! Manipulability of a frame: singular values of its Jacobian, Yoshikawa's measure, condition number.
 
 use nalgebra::Matrix6xX;
 
 use super::singular_values::RowJacobi;
 
-/// Singular values below this part of the largest are rounding.
+/// Singular values below this fraction of the largest are rounding errors.
 const RANK_TOLERANCE: f64 = 1e-12;
 
-/// How well a frame can move in some directions, from its Jacobian there.
+/// Manipulability of a frame in some directions, from its Jacobian.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manipulability {
     singular_values: Vec<f64>,
@@ -22,7 +22,7 @@ pub const ANGULAR: &[usize] = &[3, 4, 5];
 pub const TWIST: &[usize] = &[0, 1, 2, 3, 4, 5];
 
 impl Manipulability {
-    /// Looks at the rows `rows` of `jacobian`, such as [`LINEAR`], or `&[0, 1]` for an arm in the x-y plane.
+    /// Manipulability of the rows `rows` of `jacobian`, such as [`LINEAR`], or `&[0, 1]` for an arm in the x-y plane.
     ///
     /// # Panics
     /// If a row is not below six.
@@ -45,7 +45,7 @@ impl Manipulability {
         &self.singular_values
     }
 
-    /// The smallest singular value: zero at a singular position, and with fewer joints than rows always.
+    /// The smallest singular value: zero in a singular configuration, and always with fewer joints than rows.
     pub fn min_singular_value(&self) -> f64 {
         if self.singular_values.len() < self.rows {
             return 0.0;
@@ -63,8 +63,8 @@ impl Manipulability {
         self.singular_values.iter().product()
     }
 
-    /// Largest by smallest of the [`Manipulability::singular_values`], one or more; none where it is infinite or there is nothing
-    /// to divide.
+    /// Condition number: the ratio of the largest to the smallest of the [`Manipulability::singular_values`], at least 1; `None` if it is
+    /// infinite or there are no singular values.
     pub fn condition(&self) -> Option<f64> {
         let (largest, smallest) = (self.singular_values.first()?, self.singular_values.last()?);
         (*smallest > RANK_TOLERANCE * largest).then(|| largest / smallest)

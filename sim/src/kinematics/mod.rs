@@ -1,6 +1,6 @@
-//! Where frames are ([`forward`], [`chain`] for one of them in a hurry), how they move ([`jacobian`], [`derivative`],
-//! [`analytic`]) and how well ([`manipulability`]), which positions bring them somewhere ([`inverse`]) or close a robot's loops
-//! ([`closure`]); where the mass is ([`centre_of_mass`]) and what is in reach ([`workspace`]).
+//! Kinematics: poses of frames ([`forward`]; [`chain`] for one frame at high speed), their motion ([`jacobian`], [`derivative`],
+//! [`analytic`], [`manipulability`]), inverse kinematics ([`inverse`]), closed loops ([`closure`]), the [`centre_of_mass`] and the
+//! reachable [`workspace`].
 
 pub mod analytic;
 pub(crate) mod body_motion;

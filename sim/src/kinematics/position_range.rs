@@ -1,27 +1,27 @@
-//! The interval that each entry of `q` may be in, the joints that mimic it included, and where to draw samples of it.
+//! The range of each entry of `q`, with the limits of the joints that mimic it, and the range of its samples.
 
 use std::f64::consts::PI;
 
 use crate::model::robot::{Joint, JointKind, Robot};
 
-/// Half the interval that samples of an unlimited sliding joint come from \[m\]: arm's length, for want of anything better.
+/// Half the range of the samples of an unlimited prismatic joint \[m\]: about an arm's length.
 const UNLIMITED_SLIDE_M: f64 = 1.0;
 
-/// The interval an entry of `q` may be in; infinite where it is unlimited.
+/// The range of an entry of `q`; infinite where it is unlimited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PositionRange {
     /// Lowest position \[rad or m\].
     pub lower: f64,
     /// Highest position \[rad or m\].
     pub upper: f64,
-    /// Whether the joint turns (else it slides).
+    /// Whether the joint is revolute (else prismatic).
     pub turns: bool,
-    /// Whether a whole turn of it leaves every body where it is.
+    /// Whether a full turn of it leaves every body in the same pose.
     pub(crate) repeats: bool,
 }
 
 impl PositionRange {
-    /// Whether `position` is inside, both ends included; never for NaN.
+    /// Whether `position` is inside, both ends included; false for NaN.
     pub fn contains(&self, position: f64) -> bool {
         self.lower <= position && position <= self.upper
     }
@@ -32,7 +32,7 @@ impl PositionRange {
         position.max(self.lower).min(self.upper)
     }
 
-    /// A finite interval to draw samples from: the range itself; one turn, or two metres, where a side of it is open.
+    /// A finite range for samples: the range itself or, if one end is unlimited, one turn or two metres.
     pub fn sampled(&self) -> (f64, f64) {
         let half = if self.turns { PI } else { UNLIMITED_SLIDE_M };
         match (self.lower.is_finite(), self.upper.is_finite()) {
@@ -43,8 +43,8 @@ impl PositionRange {
         }
     }
 
-    /// The position that is whole turns away from `position`, inside, and nearest to `wanted`; `position` itself where a turn
-    /// makes a difference.
+    /// The position inside the range that differs from `position` by full turns and is nearest to `wanted`; `position` itself if a full
+    /// turn changes the pose of a body.
     pub(crate) fn nearest_turn(&self, position: f64, wanted: f64) -> f64 {
         const TURN: f64 = 2.0 * PI;
         if !self.repeats {
@@ -64,7 +64,7 @@ impl PositionRange {
     }
 }
 
-/// The ranges of all entries of `q`, shape `(n)`: the joint's own limits, and through their gears those of the joints that mimic it.
+/// The ranges of all entries of `q`, shape `(n)`: the joint's own limits and, divided by their multipliers, those of its mimic joints.
 pub fn position_ranges(robot: &Robot) -> Vec<PositionRange> {
     let mut ranges = vec![
         PositionRange {
@@ -83,7 +83,7 @@ pub fn position_ranges(robot: &Robot) -> Vec<PositionRange> {
         ranges[entry].turns = robot.joints()[joint].kind.turns();
     }
     for (index, joint) in robot.joints().iter().enumerate() {
-        // through the masters of a mimic joint to the entry that drives it; fixed joints lead to none
+        // from a mimic joint through its masters to the entry that drives it; a fixed joint has none
         let (mut gear, mut offset, mut master) = (1.0, 0.0, index);
         while let Some(mimic) = robot.joints()[master].mimic {
             offset += gear * mimic.offset;

@@ -1,6 +1,6 @@
 //! Singular values and left singular vectors of a wide matrix with few rows, by one-sided Jacobi rotations of its rows.
 //!
-//! Small, without LAPACK, and the same bits everywhere; small singular values come out to high relative accuracy.
+//! Without LAPACK, and with the same bits on every platform; small singular values have high relative accuracy.
 //!
 //! Source: Hestenes, *Inversion of matrices by biorthogonalization* (1958); Golub & Van Loan, *Matrix Computations* (2013),
 //! sec. 8.6.3.
@@ -8,12 +8,12 @@
 /// Sweeps over all pairs of rows; ten are enough for any matrix met in practice.
 const SWEEPS: usize = 40;
 
-/// Room for the decomposition `A = V S`, with `V` orthogonal and the rows of `S` orthogonal: row `i` of `S` is the `i`-th singular
-/// value times the `i`-th right singular vector.
+/// The decomposition `A = V S`, with `V` orthogonal and the rows of `S` orthogonal: row `i` of `S` is the `i`-th singular value times
+/// the `i`-th right singular vector. Its memory is reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RowJacobi {
     columns: usize,
-    /// `S`, row by row; in no order.
+    /// `S`, row by row, not sorted.
     scaled: Vec<f64>,
     /// `V`, column by column.
     left: Vec<f64>,
@@ -21,7 +21,7 @@ pub(crate) struct RowJacobi {
 }
 
 impl RowJacobi {
-    /// Decomposes the matrix of `rows` rows whose columns lie one after another in `a`.
+    /// Decomposes the matrix of `rows` rows that `a` holds column by column.
     pub(crate) fn decompose(&mut self, rows: usize, a: &[f64]) {
         let columns = a.len().checked_div(rows).unwrap_or(0);
         self.columns = columns;
@@ -51,7 +51,7 @@ impl RowJacobi {
         }
     }
 
-    /// Turns rows `i > j` in their plane until they are orthogonal; whether there was anything to turn.
+    /// Rotates rows `i > j` in their plane until they are orthogonal; returns whether a rotation was needed.
     fn orthogonalise(&mut self, i: usize, j: usize, rows: usize) -> bool {
         let n = self.columns;
         let (head, tail) = self.scaled.split_at_mut(i * n);
@@ -106,8 +106,8 @@ impl RowJacobi {
         }
     }
 
-    /// Takes from `x` what lies in the row space, singular values up to `fraction` of the largest counting as zero: what is left
-    /// moves no row.
+    /// Projects `x` on the null space, by removing its part in the row space; singular values up to `fraction` of the largest count as
+    /// zero.
     pub(crate) fn project_to_null_space(&self, fraction: f64, x: &mut [f64]) {
         let cutoff = self.cutoff(fraction);
         for (i, &square) in self.squares.iter().enumerate() {
@@ -120,7 +120,7 @@ impl RowJacobi {
         }
     }
 
-    /// The singular values, largest first, as many as the shorter side is long.
+    /// The singular values, largest first, as many as the shorter side of the matrix has entries.
     pub(crate) fn values(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.squares.iter().map(|s| s.sqrt()).collect();
         values.sort_unstable_by(|a, b| b.total_cmp(a));

@@ -1,4 +1,4 @@
-//! What a frame can reach: positions of it at joint positions spread evenly over their ranges.
+//! The workspace of a frame, sampled at joint positions spread evenly over their ranges.
 
 use nalgebra::Vector3;
 
@@ -8,18 +8,18 @@ use super::joint_samples::JointSamples;
 use super::position_range::position_ranges;
 use crate::model::robot::{Frame, Robot};
 
-/// Positions that a frame was found at, in world axes.
+/// Sampled positions of a frame, in world axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workspace {
     points_m: Vec<Vector3<f64>>,
     open: usize,
 }
 
-/// Samples what `frame` can reach: its positions in the world at `count` joint positions spread evenly over their ranges, limits
-/// included; a joint without limits goes round once, or slides one metre either way.
+/// Samples the workspace of `frame`: its positions in the world at `count` joint positions spread evenly over their ranges, limits
+/// included. A joint without limits is sampled over one turn, or over one metre either way.
 ///
-/// The same points every time. A robot with loops is sampled over its independent joints; samples at which its loops cannot be
-/// closed give no point and are counted.
+/// The points are always the same. A robot with loops is sampled over its independent joints; samples at which its loops cannot be
+/// closed give no point, but are counted.
 pub fn sample_workspace(robot: &Robot, frame: &Frame, count: usize) -> Workspace {
     let mut chain = Chain::new(robot, frame);
     let free: Vec<usize> = robot.independent().to_vec();
@@ -55,12 +55,12 @@ impl Workspace {
         &self.points_m
     }
 
-    /// Samples without a point: the loops could not be closed there, or only beyond a limit.
+    /// Number of samples without a point, because the loops could not be closed there or only beyond a limit.
     pub fn open_samples(&self) -> usize {
         self.open
     }
 
-    /// The corners of the smallest upright box around all points \[m\]; none if there are none.
+    /// The corners of the smallest axis-aligned box around all points \[m\]; `None` without points.
     pub fn bounds_m(&self) -> Option<[Vector3<f64>; 2]> {
         let first = *self.points_m.first()?;
         Some(
@@ -70,7 +70,7 @@ impl Workspace {
         )
     }
 
-    /// The greatest distance of a point from `p_centre_in_world` \[m\]; zero if there is none.
+    /// The greatest distance of a point from `p_centre_in_world` \[m\]; zero without points.
     pub fn reach_m(&self, p_centre_in_world: &Vector3<f64>) -> f64 {
         let distances = self.points_m.iter().map(|p| (p - p_centre_in_world).norm());
         distances.fold(0.0, f64::max)
@@ -115,7 +115,7 @@ mod tests {
             (workspace.points_m().len(), workspace.open_samples()),
             (2000, 0)
         );
-        // between the straight arm and the arm bent square, each met to a few parts in a thousand
+        // between the straight arm and the elbow at 90 degrees, each to a few parts in a thousand
         let inner = (0.5_f64 * 0.5 + 0.3 * 0.3).sqrt();
         for p in workspace.points_m() {
             let r = p.norm();

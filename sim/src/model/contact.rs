@@ -1,4 +1,4 @@
-//! Who presses on whom, and how hard: the facts of a contact, whoever computes them.
+//! The data of a contact: its parties, forces and impulses, independent of the engine that computes them.
 
 use nalgebra::Vector3;
 
@@ -24,26 +24,26 @@ impl Party {
     }
 }
 
-/// What two parties did to each other during one step; only pairs that pressed are told.
+/// The contact of two parties during one step; pairs without a force have none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactFact {
-    /// The two, the lesser first.
+    /// Both parties, the lesser first.
     pub parties: [Party; 2],
-    /// Sum of the normal impulses at all points, never negative \[N s\]; over the step's time it is the mean force.
+    /// Sum of the normal impulses at all points, never negative \[N s\]; divided by the step it is the mean force.
     pub impulse_n_s: f64,
     /// Normal impulses on the second party, as a vector in the world \[N s\].
     pub normal_impulse_n_s: Vector3<f64>,
     /// Friction impulses on the second party, as a vector in the world \[N s\]; zero where no party is a link that
-    /// moves, because the engine tells none.
+    /// moves, because the engine does not provide them.
     pub friction_impulse_n_s: Vector3<f64>,
     /// Moment of all these impulses on the second party about the world's origin \[N m s\].
     pub moment_impulse_n_m_s: Vector3<f64>,
     /// Mean normal force over the step \[N\].
     pub force_n: f64,
-    /// How deep the deepest point lies inside the other at the start of the step, 0 if none does \[m\].
+    /// Penetration depth of the deepest point at the start of the step, 0 without penetration \[m\].
     pub depth_m: f64,
-    /// Points that pressed.
+    /// Number of points with a normal force.
     pub points: usize,
-    /// Their centre, weighted by impulse, in the world at the end of the step \[m\].
+    /// Centre of these points, weighted by impulse, in the world at the end of the step \[m\].
     pub p_centre_in_world: Vector3<f64>,
 }

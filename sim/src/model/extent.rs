@@ -1,4 +1,4 @@
-//! How far a shape reaches along axes.
+//! Bounding boxes of shapes.
 
 use nalgebra::Vector3;
 
@@ -27,9 +27,9 @@ impl Solid {
     }
 }
 
-/// Lowest and highest coordinates of a box around `shapes`, along the axes of the frame they are in \[m\]; none where there is no shape.
+/// Lowest and highest coordinates of a box around `shapes`, along the axes of their frame \[m\]; `None` without shapes.
 ///
-/// It is the smallest such box around the boxes of the shapes; a ball that is turned gets a larger one.
+/// It is the smallest such box around the boxes of the shapes; a rotated ball gets a larger one than it needs.
 pub fn box_around(shapes: &[Shape]) -> Option<[Vector3<f64>; 2]> {
     shapes
         .iter()

@@ -1,24 +1,24 @@
-//! Wind that comes and goes: a first-order Markov process drawn from a seed.
+//! Gusts of wind: a first-order Markov process drawn from a seed.
 
 use serde::{Deserialize, Serialize};
 
 use crate::random::SplitMix64;
 
-/// Gusts along the mean wind: normally distributed, of zero mean, forgotten at a given rate.
+/// Gusts along the mean wind: normally distributed with zero mean and an exponentially decaying correlation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gust {
     /// Standard deviation of the speed \[m/s\].
     pub speed_m_s: f64,
     /// Time in which the correlation falls to 1/e \[s\].
     pub correlation_s: f64,
-    /// What the numbers are drawn from.
+    /// Seed of the numbers.
     pub seed: u64,
 }
 
 impl Gust {
-    /// Speeds along the mean wind \[m/s\], one for each step of `step_s` from the start of a run; without end.
+    /// An endless series of speeds along the mean wind \[m/s\], one for each step of `step_s` from the start of a run.
     ///
-    /// The step decides which numbers are drawn, but not their distribution: it is that of the continuous process at any step.
+    /// The step decides which numbers are drawn, but not their distribution, which is that of the continuous process for any step.
     /// A step of zero stays at its first speed.
     ///
     /// Source: Gillespie, "Exact numerical simulation of the Ornstein-Uhlenbeck process and its integral", Phys. Rev. E 54
@@ -35,15 +35,15 @@ impl Gust {
     }
 }
 
-/// Speeds of a [`Gust`], step by step; a copy goes on with the same speeds.
+/// Speeds of a [`Gust`], step by step; a copy continues with the same speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GustSequence {
     numbers: SplitMix64,
-    /// Part of a speed that is still there after one step.
+    /// Correlation of successive speeds: the fraction of a speed that remains after one step.
     kept: f64,
-    /// Standard deviation of what one step adds.
+    /// Standard deviation of the increment of one step \[m/s\].
     fresh_m_s: f64,
-    /// Standard deviation of the first speed, until it is drawn.
+    /// Standard deviation of the first speed, until it is drawn \[m/s\].
     first_m_s: Option<f64>,
     speed_m_s: f64,
 }

@@ -36,7 +36,7 @@ impl Inertia {
         tensor
     }
 
-    /// The same body in the frame `a`, where `a_from_b` places the frame `b` it was given in.
+    /// The same body in the frame `a`; `a_from_b` is the pose of its frame `b`.
     pub fn seen_from(&self, a_from_b: &Pose) -> Self {
         Self {
             mass_kg: self.mass_kg,
@@ -45,7 +45,7 @@ impl Inertia {
         }
     }
 
-    /// Two bodies of one frame as one rigid body.
+    /// Two bodies in the same frame, joined to one rigid body.
     pub fn plus(&self, other: &Self) -> Self {
         let mass_kg = self.mass_kg + other.mass_kg;
         if mass_kg <= 0.0 {
@@ -73,13 +73,13 @@ impl Inertia {
 /// A mesh as a robot or a scene uses it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshSolid {
-    /// The file as the description names it.
+    /// The path of the file, as written in the description.
     pub file: Arc<str>,
     /// Scale of the file's coordinates along x, y, z; already in `mesh`.
     pub scale: [f64; 3],
     /// Its triangles, scaled \[m\].
     pub mesh: Arc<Mesh>,
-    /// Whether it touches others as its convex hull; else as the triangles themselves, which only fixed bodies may.
+    /// Whether contact uses its convex hull; else it uses the triangles themselves, which is possible only for fixed bodies.
     pub convex: bool,
 }
 
@@ -194,8 +194,8 @@ impl Solid {
     }
 }
 
-/// Why a tensor about a centre of mass cannot belong to any body, if it cannot: a negative principal moment, or one larger than
-/// the sum of the other two (the triangle inequality).
+/// The reason why no body can have this tensor about its centre of mass, if there is one: a negative principal moment, or one larger
+/// than the sum of the other two (the triangle inequality).
 pub fn unphysical(tensor: &Symmetric3) -> Option<String> {
     let moments = principal_moments(tensor);
     let slack = 1e-9 * moments[2].abs(); // printed tensors are rounded
@@ -214,10 +214,10 @@ pub fn unphysical(tensor: &Symmetric3) -> Option<String> {
     None
 }
 
-/// The principal moments of an inertia tensor \[kg m²\], least first; not numbers where the tensor is not finite.
+/// The principal moments of an inertia tensor \[kg m²\], least first; NaN where the tensor is not finite.
 pub(crate) fn principal_moments(tensor: &Symmetric3) -> [f64; 3] {
     let full = tensor.to_matrix();
-    // scaled first: neither squares that overflow nor numbers that are none may reach the iteration
+    // scaled first: neither squares that overflow nor NaN may reach the iteration
     let largest = full.amax();
     if largest == 0.0 || !full.iter().all(|x| x.is_finite()) {
         return full.diagonal().map(|x| x * 0.0).into();

@@ -1,4 +1,4 @@
-//! The same robot with something added to it that nobody told its controller: a payload, friction, another damping.
+//! Perturbed models of a robot: with a payload, friction or another damping that its controller does not know.
 
 use nalgebra::Vector3;
 
@@ -7,7 +7,7 @@ use super::robot::{JointKind, Robot};
 use crate::spatial::Symmetric3;
 
 impl Robot {
-    /// The same robot with a point mass fixed to the TCP's link, at the TCP. Shapes stay as they are.
+    /// The same robot with a point mass fixed to the TCP's link, at the TCP. Shapes do not change.
     #[must_use]
     pub fn with_payload(mut self, mass_kg: f64) -> Self {
         let tcp = self.tcp().clone();
@@ -33,7 +33,7 @@ impl Robot {
         self
     }
 
-    /// The same robot with so much more dry friction in every joint that has an entry in `q` \[N m or N\].
+    /// The same robot with additional dry friction in every joint that has an entry in `q` \[N m or N\].
     #[must_use]
     pub fn with_more_friction(mut self, effort: f64) -> Self {
         for j in 0..self.joints.len() {
@@ -70,7 +70,7 @@ mod tests {
     use crate::model::robot::Robot;
     use crate::text::Source;
 
-    /// One link of 1 m and 2 kg turning about y, its centre of mass in the middle and its TCP, at its end, in a frame that is turned.
+    /// One link of 1 m and 2 kg that rotates about y. Its centre of mass is in the middle; its TCP, at the end, has a rotated frame.
     fn pendulum() -> Robot {
         let text = r#"
             format = 1
@@ -114,7 +114,7 @@ mod tests {
         let inertia = effort(&loaded, 1.0, 0.0) - effort(&bare, 1.0, 0.0);
         assert!((inertia - 0.3).abs() < 1e-12, "{inertia}");
         assert!((loaded.mass_kg() - 2.3).abs() < 1e-12);
-        // the link tells the same: (2 * 0.5 + 0.3 * 1) / 2.3
+        // the centre of mass of the link agrees: (2 * 0.5 + 0.3 * 1) / 2.3
         let com = loaded.links()[1].inertia.com_m.x;
         assert!((com - 1.3 / 2.3).abs() < 1e-12, "{com}");
     }

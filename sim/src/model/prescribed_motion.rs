@@ -1,4 +1,4 @@
-//! How a kinematic body moves: a pose and a twist for every time, whatever it touches.
+//! Prescribed motion of a kinematic body: a pose and a twist for every time, unaffected by contact.
 
 use crate::spatial::{Pose, Twist, pose, rotation_exp, rotation_log};
 
@@ -10,32 +10,32 @@ pub struct Motion {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Law {
-    /// One velocity for ever, from the pose at time zero.
+    /// A constant velocity from the pose at time zero.
     Steady {
         world_from_start: Pose,
         twist: Twist,
     },
-    /// In a straight line and at an even pace from each point to the next.
+    /// In a straight line at constant speed from each point to the next.
     Waypoints {
-        /// At least two, times rising.
+        /// At least two, with increasing times.
         points: Vec<Waypoint>,
-        /// From each point but the last to the next.
+        /// The twist from each point but the last to the next.
         twists: Vec<Twist>,
         repeat: bool,
     },
 }
 
-/// A pose with its time.
+/// A pose at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waypoint {
-    /// When the body is there \[s\].
+    /// The time at which the body is there \[s\].
     pub time_s: f64,
-    /// Where.
+    /// The pose of the body.
     pub world_from_body: Pose,
 }
 
 impl Motion {
-    /// Moves from `world_from_start` at time zero with one velocity for ever, in world axes.
+    /// Moves from `world_from_start` at time zero with a constant velocity in world axes.
     pub fn steady(world_from_start: Pose, twist: Twist) -> Self {
         let law = Law::Steady {
             world_from_start,
@@ -44,11 +44,11 @@ impl Motion {
         Self { law }
     }
 
-    /// Moves through `points`: at rest before the first and after the last, or, where `repeat` is set, from the last on to the
-    /// first again. `None` for fewer than two points or times that do not rise.
+    /// Moves through `points`: at rest before the first and after the last or, if `repeat` is set, from the last on to the first again.
+    /// `None` for fewer than two points or times that do not increase.
     ///
-    /// Between two points the origin moves in a straight line and the body turns about one axis, the shorter way, both at an
-    /// even pace. Where it repeats, the last point should be where the first is, or the body jumps.
+    /// Between two points the origin moves in a straight line and the body rotates about one axis by the smaller angle, both at constant
+    /// speed. If the motion repeats, the last pose should equal the first, or the body jumps.
     pub fn through(points: Vec<Waypoint>, repeat: bool) -> Option<Self> {
         let rising = |pair: &[Waypoint]| pair[0].time_s < pair[1].time_s;
         if points.len() < 2 || !points.windows(2).all(rising) {
@@ -63,9 +63,9 @@ impl Motion {
         Some(Self { law })
     }
 
-    /// Where the body is at `time_s`, and how it moves: velocity of its origin and angular velocity, world axes.
+    /// Pose of the body at `time_s`, velocity of its origin and angular velocity, world axes.
     ///
-    /// At a waypoint the velocity is already that of what follows.
+    /// At a waypoint the velocity is that of the following segment.
     pub fn at(&self, time_s: f64) -> (Pose, Twist) {
         match &self.law {
             Law::Steady {
@@ -106,7 +106,7 @@ fn moved(start: &Pose, twist: &Twist, time_s: f64) -> Pose {
     )
 }
 
-/// The velocity that leads from one point to the next.
+/// The constant velocity from one point to the next.
 fn even_pace(from: &Waypoint, to: &Waypoint) -> Twist {
     let time_s = to.time_s - from.time_s;
     let (a, b) = (&from.world_from_body, &to.world_from_body);

@@ -12,11 +12,11 @@ use crate::text::Dimensions;
 /// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
-    /// Turns about its axis, between limits if it has them \[rad\].
+    /// Revolute, between limits if it has them \[rad\].
     Revolute,
-    /// Turns about its axis without end \[rad\].
+    /// Revolute without limits \[rad\].
     Continuous,
-    /// Slides along its axis \[m\].
+    /// Prismatic \[m\].
     Prismatic,
     /// Does not move and has no entry in `q`.
     Fixed,
@@ -33,13 +33,13 @@ impl JointKind {
         }
     }
 
-    /// Whether the joint turns.
+    /// Whether the joint is revolute.
     pub fn turns(self) -> bool {
         matches!(self, Self::Revolute | Self::Continuous)
     }
 }
 
-/// Limits of a joint, SI units of its kind; what is absent is unlimited.
+/// Limits of a joint, in SI units of its kind; `None` means unlimited.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     /// Lowest position \[rad or m\].
@@ -52,18 +52,18 @@ pub struct Limits {
     pub effort: Option<f64>,
 }
 
-/// A joint of the description, fixed ones too.
+/// A joint of the description, including fixed ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Its name.
     pub name: String,
     /// How it moves.
     pub kind: JointKind,
-    /// Index of the link that carries it.
+    /// Index of the parent link.
     pub parent: usize,
-    /// Index of the link it moves.
+    /// Index of the child link.
     pub child: usize,
-    /// Child frame in the parent link at `q = 0`.
+    /// Pose of the child's frame in the parent link at `q = 0`.
     pub parent_from_child: Pose,
     /// Unit axis in the child's frame; zero for a fixed joint.
     pub axis: Vector3<f64>,
@@ -71,15 +71,15 @@ pub struct Joint {
     pub damping: f64,
     /// Dry (Coulomb) friction \[N m or N\].
     pub dry_friction: f64,
-    /// Inertia of the drive as felt at the joint \[kg m² or kg\].
+    /// Inertia of the drive, reflected to the joint \[kg m² or kg\].
     pub armature: f64,
     /// Limits.
     pub limits: Limits,
-    /// The joint that drives it, if it has no entry in `q` of its own.
+    /// The joint that it mimics, if it has no entry in `q` of its own.
     pub mimic: Option<Mimic>,
-    /// Whether no drive acts on it: a joint inside a loop that follows the others.
+    /// Whether it has no drive: a joint in a loop that follows the others.
     pub passive: bool,
-    /// Where it is looked for when loops are first closed \[rad or m\].
+    /// Initial guess of its position when the loops are first closed \[rad or m\].
     pub guess: f64,
 }
 
@@ -88,18 +88,18 @@ pub struct Joint {
 pub struct Mimic {
     /// Index of the master among all joints.
     pub joint: usize,
-    /// Position of this joint per position of the master.
+    /// Position of this joint per unit of the master's position.
     pub multiplier: f64,
-    /// Position of this joint where the master is at zero \[rad or m\].
+    /// Position of this joint with the master at zero \[rad or m\].
     pub offset: f64,
 }
 
-/// What a loop keeps together.
+/// The kinds of joints that close loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoopKind {
-    /// A hinge: one point and the direction of the axis, 5 conditions.
+    /// A hinge: one point and the direction of the axis coincide, 5 constraints.
     Revolute,
-    /// One point: 3 conditions.
+    /// One point coincides: 3 constraints.
     Spherical,
 }
 
@@ -112,8 +112,8 @@ impl LoopKind {
         }
     }
 
-    /// How many conditions it sets, redundant ones too.
-    pub fn conditions(self) -> usize {
+    /// Number of its constraints, including redundant ones.
+    pub fn constraint_count(self) -> usize {
         match self {
             Self::Revolute => 5,
             Self::Spherical => 3,
@@ -121,16 +121,16 @@ impl LoopKind {
     }
 }
 
-/// A joint that closes a chain: two frames that stay together. The axis of a hinge is the `z` of both.
+/// A joint that closes a loop: two frames that stay together. The axis of a hinge is the `z` of both.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loop {
-    /// What it keeps together.
+    /// Its kind.
     pub kind: LoopKind,
     /// Indices of the two links.
     pub links: [usize; 2],
-    /// Where its frame lies in each of the links.
+    /// Pose of its frame in each of the links.
     pub link_from_end: [Pose; 2],
-    /// Where it is fixed, on each side.
+    /// Attachment of its frame on each side.
     pub ends: [Attachment; 2],
 }
 
@@ -139,7 +139,7 @@ pub struct Loop {
 pub struct Shape {
     /// The solid, centred on its own frame.
     pub solid: Solid,
-    /// Where that frame lies in the link.
+    /// Pose of that frame in the link.
     pub link_from_shape: Pose,
 }
 
@@ -163,13 +163,13 @@ pub struct Link {
     pub inertia: Inertia,
     /// Its surface, if described.
     pub contact: Option<Contact>,
-    /// What the air does to it; nothing where it is absent.
+    /// Its air drag, if any.
     pub drag: Option<Drag>,
     /// Where it is fixed.
     pub attachment: Attachment,
 }
 
-/// A frame fixed to a link; every link is also a frame of its own name.
+/// A frame fixed to a link; every link is also a frame with the link's name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Its name.
@@ -180,7 +180,7 @@ pub struct Frame {
     pub attachment: Attachment,
 }
 
-/// Where something is fixed: on a moving body, or on the world where `body` is `None`.
+/// A pose fixed to a moving body, or to the world if `body` is `None`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
     /// Index of the moving body.
@@ -189,20 +189,20 @@ pub struct Attachment {
     pub body_from_here: Pose,
 }
 
-/// All that one joint moves as one rigid body: its child link and what hangs on that by fixed joints.
+/// The rigid body that one joint moves: its child link and all links attached to that by fixed joints.
 ///
 /// The body's frame has its origin on the joint and its `z` along the joint's axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Body {
-    /// The body that carries the joint; `None` for the world. Always of a lower index.
+    /// The parent body, always of a lower index; `None` for the world.
     pub(crate) parent: Option<usize>,
-    /// Whether the joint turns about z (else it slides along z).
+    /// Whether the joint is revolute about z (else prismatic along z).
     pub(crate) turns: bool,
     /// Index of its joint, or of that joint's master, in `q`.
     pub(crate) q_index: usize,
     /// Position of its joint per entry of `q`: 1, or the multiplier of a mimic joint.
     pub(crate) gear: f64,
-    /// Position of its joint where that entry is zero: 0, or the offset of a mimic joint.
+    /// Position of its joint with that entry at zero: 0, or the offset of a mimic joint.
     pub(crate) offset: f64,
     /// Axes of this body in the parent body's axes at `q = 0`.
     pub(crate) parent_from_body: Matrix3<f64>,
@@ -293,7 +293,7 @@ impl Robot {
         self.moving.len()
     }
 
-    /// Its frames: every link, then the named frames of the file.
+    /// Its frames: one for every link, then the named frames of the file.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
@@ -303,7 +303,7 @@ impl Robot {
         self.frames.iter().find(|frame| frame.name == name)
     }
 
-    /// The frame commands and checks refer to: the one called `tcp`, else the last link.
+    /// The frame to which commands and checks refer: the one called `tcp`, else the last link.
     pub fn tcp(&self) -> &Frame {
         self.frame("tcp")
             .unwrap_or_else(|| &self.frames[self.links.len() - 1])
@@ -314,32 +314,32 @@ impl Robot {
         &self.loops
     }
 
-    /// Entries of `q` that are free to choose, in order; all of them where there are no loops.
+    /// Entries of `q` of the independent joints, in order; all of them without loops.
     pub fn independent(&self) -> &[usize] {
         &self.independent
     }
 
-    /// Entries of `q` that follow from the independent ones because loops are closed, in order.
+    /// Entries of `q` of the dependent joints, which follow from the independent ones by loop closure, in order.
     pub fn dependent(&self) -> &[usize] {
         &self.dependent
     }
 
-    /// Positions at which every loop is closed, independent joints at zero; all zeros where there are no loops.
+    /// Configuration with every loop closed and the independent joints at zero; all zeros without loops.
     pub fn home(&self) -> &[f64] {
         &self.home
     }
 
-    /// What it measures with, in file order.
+    /// Its sensors, in file order.
     pub fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    /// What a reader of the description should know, though it is no mistake.
+    /// Warnings: facts that a reader of the description should know although they are not errors.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// Whether every entry of `q` drives one body of a tree: no loop and no mimic joint.
+    /// Whether every entry of `q` moves one body of a tree: no loop and no mimic joint.
     pub(crate) fn is_plain_tree(&self) -> bool {
         self.loops.is_empty() && self.bodies.len() == self.moving.len()
     }
@@ -353,7 +353,7 @@ impl Robot {
         &self.bodies
     }
 
-    /// All that is fixed to the world, as one body in world axes.
+    /// All links that are fixed to the world, as one body in world axes.
     pub(crate) fn world_inertia(&self) -> &Inertia {
         &self.world_inertia
     }
@@ -404,7 +404,7 @@ impl Robot {
     }
 }
 
-/// Whether each link hangs on the joint `joint` of all joints: its child, and what that carries.
+/// For each link, whether it is in the subtree of the joint `joint` (an index among all joints).
 pub(crate) fn carried_by(robot: &Robot, joint: usize) -> Vec<bool> {
     let mut children = vec![Vec::new(); robot.links().len()];
     for joint in robot.joints() {

@@ -1,4 +1,4 @@
-//! The scene as the simulator gets it: bodies with their shapes and starts, gravity, wind and ground.
+//! The scene: bodies with their shapes and initial states, gravity, wind and ground.
 
 use nalgebra::Vector3;
 
@@ -9,7 +9,7 @@ use super::prescribed_motion::Motion;
 use super::robot::{Contact, Shape};
 use crate::spatial::{Pose, Twist};
 
-/// What is around a robot. World axes: z is up.
+/// The surroundings of a robot. World axes: z is up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Its name.
@@ -20,7 +20,7 @@ pub struct Scene {
     pub bodies: Vec<SceneBody>,
 }
 
-/// What acts on everything.
+/// Gravity, air and ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Environment {
     /// Acceleration of free fall, world axes \[m/s²\].
@@ -42,14 +42,14 @@ impl Default for Environment {
     }
 }
 
-/// Air that moves, the same everywhere.
+/// Wind, the same everywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wind {
     /// Its mean velocity, world axes \[m/s\]; zero is still air, which slows bodies down.
     pub velocity_m_s: Vector3<f64>,
     /// Its density \[kg/m³\].
     pub air_density_kg_m3: f64,
-    /// What comes and goes along its direction.
+    /// Gusts along its direction, if any.
     pub gust: Option<Gust>,
 }
 
@@ -70,30 +70,30 @@ impl Wind {
 pub struct SceneBody {
     /// Its name.
     pub name: String,
-    /// What moves it.
+    /// Whether and how it moves.
     pub kind: BodyKind,
     /// Its shapes, in its own frame; at least one.
     pub shapes: Vec<Shape>,
-    /// Its mass properties, in its own frame; none where a body that is not free states none.
+    /// Its mass properties, in its own frame; `None` if a fixed or kinematic body states none.
     pub inertia: Inertia,
     /// Its surface.
     pub contact: Contact,
-    /// Where it starts.
+    /// Its initial pose.
     pub world_from_body: Pose,
-    /// How it starts: velocity of its origin and angular velocity, world axes.
+    /// Its initial twist: velocity of its origin and angular velocity, world axes.
     pub twist: Twist,
-    /// What the air does to it; nothing where it is absent.
+    /// Its air drag, if any.
     pub drag: Option<Drag>,
 }
 
-/// What moves a body.
+/// Whether and how a body moves.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BodyKind {
-    /// Nothing: it stands where it is.
+    /// Fixed to the world.
     Fixed,
-    /// A law, whatever it touches.
+    /// Kinematic: by a prescribed motion, unaffected by contact.
     Kinematic(Motion),
-    /// Forces and contacts.
+    /// Dynamic: by forces and contacts.
     Free,
 }
 

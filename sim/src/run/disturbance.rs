@@ -1,5 +1,5 @@
-//! What stands between the robot and who drives it: noise on the joint sensors, commands that come late, and servos that know another
-//! robot than the one that moves.
+//! Disturbances of a run: noise on the joint sensors, delayed commands, and servos whose nominal model differs from the robot that
+//! moves.
 
 use std::collections::VecDeque;
 
@@ -13,15 +13,15 @@ pub struct Disturbance<'a> {
     pub q_noise: f64,
     /// Standard deviation of the noise on measured joint velocities \[rad/s or m/s\].
     pub qd_noise: f64,
-    /// Where the noise starts: the same seed gives the same noise, whatever is commanded.
+    /// Seed of the noise: the same seed gives the same noise, whatever is commanded.
     pub seed: u64,
-    /// Control periods that pass until a command reaches the servos. The first one is there at once, since there is none before it.
+    /// Control periods until a command reaches the servos. The first command arrives at once, since there is none before it.
     pub delay_periods: u32,
-    /// The robot as the servos know it, for their gravity compensation; the one that moves where it is `None`. Of the same joints.
+    /// The nominal model that the servos use for gravity compensation, with the same joints; `None` for the robot that moves.
     pub known: Option<&'a Robot>,
 }
 
-/// The memory of a disturbance: a copy goes on with the same noise and the same commands under way.
+/// The state of a disturbance: a copy continues with the same noise and the same delayed commands.
 #[derive(Debug, Clone)]
 pub(super) struct Disturbed {
     q_noise: f64,
@@ -30,9 +30,9 @@ pub(super) struct Disturbed {
     delay_periods: usize,
     under_way: VecDeque<Vec<f64>>,
     has_command: bool,
-    /// What the joint sensors tell at the tick \[rad or m\].
+    /// Measured joint positions at the tick \[rad or m\].
     pub(super) q: Vec<f64>,
-    /// What the joint sensors tell at the tick \[rad/s or m/s\].
+    /// Measured joint velocities at the tick \[rad/s or m/s\].
     pub(super) qd: Vec<f64>,
 }
 
@@ -50,15 +50,15 @@ impl Disturbed {
         }
     }
 
-    /// Measures the state: once at every tick at which servos or controller look, so that both see the same numbers.
+    /// Measures the state: once at every tick at which servos or controller sample it, so that both get the same numbers.
     pub(super) fn measure(&mut self, q: &[f64], qd: &[f64]) {
-        for (told, truth, noise) in [
+        for (measured, exact, noise) in [
             (&mut self.q, q, self.q_noise),
             (&mut self.qd, qd, self.qd_noise),
         ] {
-            told.copy_from_slice(truth);
+            measured.copy_from_slice(exact);
             if noise > 0.0 {
-                for value in told {
+                for value in measured {
                     *value += noise * self.numbers.normal();
                 }
             }
@@ -71,7 +71,7 @@ impl Disturbed {
             return;
         }
         if !self.has_command {
-            // it is held until the next one arrives, a delay after that is given
+            // it is held until the next one arrives, one delay after that is commanded
             self.has_command = true;
             self.under_way
                 .extend((0..=self.delay_periods).map(|_| command.to_vec()));

@@ -1,21 +1,21 @@
-//! Motion beyond all reason: a state that is no longer finite, or an energy that no course's arm can have.
+//! When a run diverges: its state is no longer finite, or has an energy that no arm of a course can have.
 //!
-//! A run ends when the kinetic energy of the robot is that of its whole moving mass at [`RUNAWAY_SPEED_M_S`], or a free body of the
-//! scene is that fast. An unstable loop passes it within a fraction of a second, while its numbers can still be told and drawn.
+//! A run ends when the kinetic energy of the robot is that of its whole moving mass at [`RUNAWAY_SPEED_M_S`], or a dynamic body of the
+//! scene is that fast. An unstable loop passes this bound within a fraction of a second, while its numbers can still be shown and plotted.
 
 use crate::dynamics::energy::kinetic_energy_j;
 use crate::model::robot::Robot;
 use crate::step::hybrid::HybridStep;
 
-/// The speed no moving mass reaches in earnest \[m/s\].
+/// A speed that no moving mass reaches in a stable run \[m/s\].
 pub const RUNAWAY_SPEED_M_S: f64 = 1000.0;
 
-/// Joint rates below this are not looked at: no arm with them runs away \[rad/s or m/s\].
+/// Below these joint rates the energy is not checked: no arm diverges at them \[rad/s or m/s\].
 const CALM_RATE: f64 = 100.0;
 
-/// What was lost when a run blew up.
+/// How a run diverged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BlowUp {
+pub enum DivergenceKind {
     /// A joint's position or velocity is no longer finite.
     #[error("the state was no longer finite")]
     NotFinite {
@@ -34,7 +34,7 @@ pub enum BlowUp {
         /// The bound \[J\].
         bound_j: f64,
     },
-    /// A free body is faster than [`RUNAWAY_SPEED_M_S`].
+    /// A dynamic body is faster than [`RUNAWAY_SPEED_M_S`].
     #[error("a body of the scene was as fast as {speed_m_s:.0} m/s")]
     BodyRunaway {
         /// Index of the body in the scene.
@@ -50,7 +50,7 @@ pub enum BlowUp {
     },
 }
 
-/// Looks at every state of a run.
+/// Checks every state of a run for divergence.
 #[derive(Debug, Clone)]
 pub(crate) struct RunawayGuard {
     bound_j: f64,
@@ -59,25 +59,25 @@ pub(crate) struct RunawayGuard {
 impl RunawayGuard {
     pub(crate) fn new(robot: &Robot) -> Self {
         let moving_kg: f64 = robot.bodies().iter().map(|body| body.mass_kg).sum();
-        // a robot of armatures alone has no mass; a gram is less than any arm's
+        // a robot with nothing but armatures has no mass; a gram is less than the mass of any arm
         let mass_kg = moving_kg.max(1e-3);
         Self {
             bound_j: 0.5 * mass_kg * RUNAWAY_SPEED_M_S * RUNAWAY_SPEED_M_S,
         }
     }
 
-    /// What is lost in the state `(q, qd)`, shape `(n)` each, and `scene`, if anything is.
+    /// Whether the state `(q, qd)`, shape `(n)` each, or the state of `scene` has diverged, and how.
     pub(crate) fn check(
         &self,
         robot: &Robot,
         q: &[f64],
         qd: &[f64],
         scene: Option<&HybridStep>,
-    ) -> Option<BlowUp> {
+    ) -> Option<DivergenceKind> {
         let mut fastest = (0, 0.0_f64);
         for (joint, (position, rate)) in q.iter().zip(qd).enumerate() {
             if !(position.is_finite() && rate.is_finite()) {
-                return Some(BlowUp::NotFinite { joint });
+                return Some(DivergenceKind::NotFinite { joint });
             }
             if rate.abs() > fastest.1 {
                 fastest = (joint, rate.abs());
@@ -85,10 +85,10 @@ impl RunawayGuard {
         }
         if fastest.1 > CALM_RATE {
             let kinetic_j = kinetic_energy_j(robot, q, qd);
-            // an energy that is no number is beyond any bound
+            // NaN is beyond any bound
             let bounded = kinetic_j <= self.bound_j;
             if !bounded {
-                return Some(BlowUp::Runaway {
+                return Some(DivergenceKind::Runaway {
                     joint: fastest.0,
                     kinetic_j,
                     bound_j: self.bound_j,
@@ -96,6 +96,6 @@ impl RunawayGuard {
             }
         }
         let (body, speed_m_s) = scene?.fastest_body()?;
-        (speed_m_s > RUNAWAY_SPEED_M_S).then_some(BlowUp::BodyRunaway { body, speed_m_s })
+        (speed_m_s > RUNAWAY_SPEED_M_S).then_some(DivergenceKind::BodyRunaway { body, speed_m_s })
     }
 }

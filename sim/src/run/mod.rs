@@ -6,5 +6,5 @@ mod stepper;
 mod tick_loop;
 
 pub use disturbance::Disturbance;
-pub use divergence::{BlowUp, RUNAWAY_SPEED_M_S};
+pub use divergence::{DivergenceKind, RUNAWAY_SPEED_M_S};
 pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, Setup, run};

@@ -1,6 +1,6 @@
-//! What moves a run on by one step: smooth motion alone, or smooth motion and contact in a scene.
+//! Advances a run by one step: smooth motion alone, or smooth motion and contact in a scene.
 
-use super::divergence::BlowUp;
+use super::divergence::DivergenceKind;
 use super::tick_loop::{RunError, Setup};
 use crate::model::robot::Robot;
 use crate::step::hybrid::{HybridStep, StepError};
@@ -12,10 +12,10 @@ pub(super) enum Stepper {
     InScene(Box<HybridStep>),
 }
 
-/// What came of a step.
-pub(super) enum Moved {
-    On,
-    Lost(BlowUp),
+/// The outcome of a step.
+pub(super) enum StepOutcome {
+    Advanced,
+    Diverged(DivergenceKind),
 }
 
 impl Stepper {
@@ -27,28 +27,30 @@ impl Stepper {
         })
     }
 
-    /// Moves robot and scene on under `effort`, held.
+    /// Advances robot and scene by one step under `effort`, held constant.
     pub(super) fn advance(
         &mut self,
         robot: &Robot,
         effort: &[f64],
         q: &mut [f64],
         qd: &mut [f64],
-    ) -> Result<Moved, RunError> {
+    ) -> Result<StepOutcome, RunError> {
         match self {
             Self::Free(step) => {
                 step.advance(robot, effort, q, qd)?;
-                Ok(Moved::On)
+                Ok(StepOutcome::Advanced)
             }
             Self::InScene(step) => match step.advance(robot, effort, q, qd) {
-                Ok(_) => Ok(Moved::On),
+                Ok(_) => Ok(StepOutcome::Advanced),
                 Err(StepError::Singular(singular)) => Err(singular.into()),
-                Err(StepError::Lost { body }) => Ok(Moved::Lost(BlowUp::InContact { body })),
+                Err(StepError::Lost { body }) => {
+                    Ok(StepOutcome::Diverged(DivergenceKind::InContact { body }))
+                }
             },
         }
     }
 
-    /// The scene as it stands, where there is one.
+    /// The scene in its current state, if there is one.
     pub(super) fn scene(&self) -> Option<&HybridStep> {
         match self {
             Self::Free(_) => None,

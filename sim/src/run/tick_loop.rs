@@ -1,13 +1,13 @@
 //! The tick loop: observe, control, servo, step. Time is counted, never measured.
 //!
-//! At each tick the controller is asked if a control period begins, then the servos if a servo period does; the row is recorded, and the
-//! world moves on to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end.
+//! At each tick the controller is called if a control period begins, then the servos if a servo period does; the row is recorded, and the
+//! state advances to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end.
 
 use nalgebra::Vector3;
 
 use super::disturbance::{Disturbance, Disturbed};
-use super::divergence::{BlowUp, RunawayGuard};
-use super::stepper::{Moved, Stepper};
+use super::divergence::{DivergenceKind, RunawayGuard};
+use super::stepper::{StepOutcome, Stepper};
 use crate::control::servo::{Servo, ServoError, ServoSettings};
 use crate::control::speed_limit::SpeedLimits;
 use crate::dynamics::SingularMassMatrix;
@@ -26,11 +26,11 @@ use crate::ticks::Periods;
 pub struct Setup<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// What is around it; without a scene nothing is, and limits of joint position and speed do not act.
+    /// The scene around the robot. Without one, limits of joint position and speed do not act.
     pub scene: Option<&'a Scene>,
     /// The frame commands and checks refer to.
     pub tcp: &'a Frame,
-    /// The frame in which the TCP is told.
+    /// The frame in which the TCP is reported.
     pub seen_from: &'a Frame,
     /// Step, servo period, control period.
     pub periods: Periods,
@@ -38,7 +38,7 @@ pub struct Setup<'a> {
     pub gravity_m_s2: Vector3<f64>,
     /// The joint servos.
     pub servo: ServoSettings,
-    /// What the robot measures; [`Robot::sensors`], or others in their place.
+    /// The sensors of the run: [`Robot::sensors`], or others in their place.
     pub sensors: Vec<Sensor>,
     /// Positions at tick 0, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct Setup<'a> {
     pub ticks: u64,
 }
 
-/// What the controller sees at the start of a control period.
+/// What the controller gets at the start of a control period.
 #[derive(Debug, Clone, Copy)]
 pub struct Observation<'a> {
     /// The tick.
@@ -63,7 +63,7 @@ pub struct Observation<'a> {
     pub qd: &'a [f64],
     /// Efforts applied in the tick before; zeros at the start \[N m or N\].
     pub effort: &'a [f64],
-    /// The TCP in the frame it is told in.
+    /// The TCP in the frame in which it is reported.
     pub tcp: &'a Pose,
     /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
     pub sensors: &'a [f64],
@@ -106,12 +106,12 @@ pub enum End<E> {
         /// Why.
         why: E,
     },
-    /// The state was lost or grew beyond all reason; rows up to the tick before are recorded.
+    /// The run diverged; rows up to the tick before are recorded.
     Diverged {
-        /// The first tick without a state that can be used.
+        /// The first tick without a usable state.
         tick: u64,
-        /// What was lost.
-        what: BlowUp,
+        /// How it diverged.
+        what: DivergenceKind,
     },
 }
 
@@ -141,7 +141,7 @@ pub struct Run<'a> {
     state: State,
 }
 
-/// All that the ticks to come depend on, save the controller's memory.
+/// All that later ticks depend on, except the controller's memory.
 #[derive(Debug)]
 struct State {
     /// The tick that comes next.
@@ -149,9 +149,9 @@ struct State {
     q: Vec<f64>,
     qd: Vec<f64>,
     command: Vec<f64>,
-    /// What the servos ask for, held between their samples.
+    /// The efforts commanded by the servos, held between their samples.
     driven: Vec<f64>,
-    /// What the motors give of it.
+    /// The efforts that the motors deliver.
     effort: Vec<f64>,
     servo: Servo,
     stepper: Stepper,
@@ -163,7 +163,7 @@ struct State {
     qdd: Vec<f64>,
     guard: RunawayGuard,
     poses: FramePoses,
-    /// What keeps the state from being seen and commands from arriving as they are, where anything does.
+    /// Noise and delay between robot and controller, if any.
     disturbed: Option<Disturbed>,
 }
 
@@ -218,19 +218,19 @@ impl<'a> Run<'a> {
     /// As [`Run::new`].
     ///
     /// # Panics
-    /// As [`Run::new`], and if the known robot has another number of joints than the one that moves.
+    /// As [`Run::new`], and if the nominal model has another number of joints than the robot that moves.
     pub fn disturbed(setup: Setup<'a>, disturbance: &Disturbance<'a>) -> Result<Self, RunError> {
         let n = setup.robot.n();
         let mut run = Self::new(setup)?;
         run.state.disturbed = Some(Disturbed::new(disturbance, n));
         if let Some(known) = disturbance.known {
-            assert_eq!(known.n(), n, "a known robot of the same joints");
+            assert_eq!(known.n(), n, "a nominal model of the same joints");
             run.known = known;
         }
         Ok(run)
     }
 
-    /// What is run.
+    /// The setup of the run.
     pub fn setup(&self) -> &Setup<'a> {
         &self.setup
     }
@@ -240,8 +240,8 @@ impl<'a> Run<'a> {
         self.state.tick
     }
 
-    /// Does one tick: asks `control` for a command if a control period begins, records the row, and moves on. The last tick
-    /// is only recorded; its command would move nothing.
+    /// Runs one tick: calls `control` if a control period begins, records the row, and advances the state. The last tick is only
+    /// recorded, because its command would have no effect.
     ///
     /// Returns how the run ended, once it has.
     ///
@@ -280,7 +280,7 @@ impl<'a> Run<'a> {
         }
         state.effort.copy_from_slice(&state.driven);
         state.sensors.open_motors(&mut state.effort);
-        // where there is a scene, limits act: positions as stops, speeds in the drives
+        // in a scene the limits act: position limits as hard stops, speed limits in the drives
         if self.setup.scene.is_some() {
             state.speed_limits.hold(&state.qd, &mut state.effort);
         }
@@ -301,8 +301,8 @@ impl<'a> Run<'a> {
             .stepper
             .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
         let lost = match moved {
-            Moved::Lost(what) => Some(what),
-            Moved::On => {
+            StepOutcome::Diverged(what) => Some(what),
+            StepOutcome::Advanced => {
                 let scene = state.stepper.scene();
                 state.guard.check(robot, &state.q, &state.qd, scene)
             }
@@ -315,7 +315,7 @@ impl<'a> Run<'a> {
 }
 
 impl State {
-    /// Shows the sensors the tick that has come.
+    /// Samples the sensors at the new tick.
     fn measure(&mut self, setup: &Setup<'_>) {
         if self.sensors.is_empty() {
             return;
@@ -341,10 +341,10 @@ impl State {
         self.sensors.sample(&seen, scene);
     }
 
-    /// Asks `control` for the command of the control period that begins, which reaches the servos as the disturbance lets it.
+    /// Gets from `control` the command of the control period that begins; the disturbance may delay it.
     ///
     /// # Errors
-    /// Why the controller stops the run.
+    /// The controller's reason to stop the run.
     fn ask<E>(
         &mut self,
         setup: &Setup<'_>,
@@ -373,7 +373,7 @@ impl State {
     }
 }
 
-/// Positions and velocities as controller and servos see them: measured under a disturbance, else the true ones.
+/// Positions and velocities for controller and servos: the measured ones under a disturbance, else the true ones.
 fn seen<'s>(
     disturbed: &'s Option<Disturbed>,
     q: &'s [f64],
@@ -387,7 +387,7 @@ fn seen<'s>(
 
 /// Runs `setup` under `control`, which writes the command of each control period, and records every tick.
 ///
-/// `control` is called at every tick that starts a control period, except the last tick, whose command would move nothing.
+/// `control` is called at every tick that starts a control period, except the last tick, whose command would have no effect.
 ///
 /// # Errors
 /// [`RunError`] if the servo settings do not fit the robot, a joint moves no inertia, or robot and scene cannot have contact.

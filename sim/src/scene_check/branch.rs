@@ -1,4 +1,4 @@
-//! The ways in which a robot reaches a place: every distinct answer of inverse kinematics found from starts all over the joint ranges.
+//! The branches in which a robot reaches a point: the distinct solutions of inverse kinematics, from starts spread over the joint ranges.
 
 use nalgebra::Vector3;
 
@@ -8,32 +8,32 @@ use crate::kinematics::position_range::{PositionRange, position_ranges};
 use crate::kinematics::{IkError, IkSettings, IkSolver, Target};
 use crate::model::robot::Robot;
 
-/// Starts beside the robot's own: enough that a branch of an arm with six joints is hardly missed.
+/// Starts in addition to the robot's own: with so many, a branch of an arm with six joints is rarely missed.
 const STARTS: usize = 48;
-/// More branches than this are a continuum, of which these are samples.
+/// More branches than this indicate a continuum of solutions; the branches are then samples of it.
 const MOST_BRANCHES: usize = 16;
-/// Closer than this two answers are one: where an arm is straight its two branches meet, blurred by the tolerance \[rad\], \[m\].
+/// Closer solutions count as one: where an arm is straight its two branches meet, to the tolerance \[rad\], \[m\].
 const SAME: (f64, f64) = (0.05, 0.01);
 
-/// How a place is reached.
+/// Whether and how a point is reached.
 #[derive(Debug)]
 pub(super) enum Reach {
     /// In these branches, at least one, each a `q` of shape `(n)`.
     In(Vec<Vec<f64>>),
-    /// Not at all; this is left at the nearest position found \[m\].
+    /// In none; this is the distance left at the nearest configuration found \[m\].
     Not { residual_m: f64 },
 }
 
-/// Finds the ways of one robot's TCP.
+/// Finds the branches of one robot's TCP.
 pub(super) struct BranchFinder<'r> {
     robot: &'r Robot,
     start_q: &'r [f64],
-    /// Goes from start to start until one arrives.
+    /// Tries start after start until one converges.
     stubborn: IkSolver<'r>,
-    /// Goes from one start alone.
+    /// Tries a single start.
     near: IkSolver<'r>,
     ranges: Vec<PositionRange>,
-    /// Entries of `q` that carry the TCP.
+    /// Entries of `q` that move the TCP.
     carries: Vec<bool>,
 }
 
@@ -93,7 +93,7 @@ impl<'r> BranchFinder<'r> {
                         branches.push(q);
                     }
                 }
-                // a start whose loops cannot be closed is no start
+                // skip a start whose loops cannot be closed
                 Ok(_) | Err(IkError::Loops(_)) => {}
                 Err(error) => return Err(error),
             }
@@ -101,10 +101,10 @@ impl<'r> BranchFinder<'r> {
         Ok(Reach::In(branches))
     }
 
-    /// The position that brings the TCP to `p_in_world` from `q`, close by, and what is left there.
+    /// The configuration near `q` that brings the TCP to `p_in_world`.
     ///
     /// # Errors
-    /// The residual \[m\] where there is none.
+    /// The residual \[m\] if there is none.
     pub(super) fn follow(
         &mut self,
         q: &[f64],
@@ -118,14 +118,14 @@ impl<'r> BranchFinder<'r> {
         }
     }
 
-    /// Entry `entry` of `q`: whether it turns.
+    /// Whether entry `entry` of `q` is of a revolute joint.
     pub(super) fn turns(&self, entry: usize) -> bool {
         self.ranges[entry].turns
     }
 
-    /// `q`, by whole turns, near the start.
+    /// `q` moved by full turns to be near the start.
     fn unwound(&self, mut q: Vec<f64>) -> Vec<f64> {
-        // in a mechanism a turn on may be on another branch
+        // with closed loops, one turn further may be on another branch
         if self.robot.loops().is_empty() {
             for (entry, range) in self.ranges.iter().enumerate() {
                 q[entry] = range.nearest_turn(q[entry], self.start_q[entry]);

@@ -10,22 +10,22 @@ use crate::kinematics::{FramePoses, IkError};
 use crate::model::robot::Robot;
 use crate::model::scene::Scene;
 
-/// Resting on something is no overlap: contact is soft, and people round their numbers \[m\].
+/// A smaller depth does not count as an overlap: contact is soft, and numbers in files are rounded \[m\].
 pub const TOUCH_M: f64 = 1e-4;
 
-/// With more overlaps than this a scene is not let be: it would fly apart, slowly, and say nothing more.
+/// A scene with more overlaps than this is not simulated: it would fly apart slowly and give no more findings.
 const MOST_OVERLAPS: usize = 1000;
 
-/// A robot in a scene, and where its TCP is to come by.
+/// A robot in a scene, and the via points of its TCP.
 #[derive(Debug, Clone)]
 pub struct Work<'a> {
     /// The robot.
     pub robot: &'a Robot,
     /// Where its joints start, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
-    /// Places of the TCP in the world, in their order \[m\].
+    /// Via points of the TCP in the world, in their order \[m\].
     pub via_in_world: Vec<Vector3<f64>>,
-    /// Whether the straight lines between them are meant to be gone; where not, one that is blocked is only a warning.
+    /// Whether the TCP is meant to follow the straight lines between them; if not, a blocked line is only a warning.
     pub in_straight_lines: bool,
 }
 
@@ -35,13 +35,13 @@ pub enum SceneCheckError {
     /// Robot or scene cannot have contact.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// A start or a via point that cannot be asked for.
+    /// A start or a via point that is invalid.
     #[error(transparent)]
     Inverse(#[from] IkError),
 }
 
-/// Checks `scene` by itself or, with `work`, with a robot in it: overlaps at the start first, then what moves by itself, then the
-/// via points and the lines between them. Where more than 1000 pairs of bodies overlap, what moves by itself is not looked at.
+/// Checks `scene` by itself or, with `work`, with a robot in it: first overlaps at the start, then bodies that do not stay at rest,
+/// then the via points and the lines between them. If more than 1000 pairs of bodies overlap, the scene is not simulated.
 ///
 /// # Errors
 /// [`SceneCheckError`] for shapes or masses the contact engine cannot use, and for a start of another shape than `(n)`, with
@@ -70,7 +70,7 @@ pub fn check(scene: &Scene, work: Option<&Work<'_>>) -> Result<Vec<Finding>, Sce
 
 fn overlapping(overlap: Overlap) -> Finding {
     Finding {
-        // the run does not notice where neither gives way
+        // a run shows nothing where neither of the two can move
         severity: if overlap.pushes {
             Severity::Error
         } else {

@@ -1,4 +1,4 @@
-//! What a check of a scene has to tell, as data.
+//! The findings of a scene check, as data.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::model::contact::Party;
 /// How bad a finding is, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// The scene does not do what it says.
+    /// The scene does not work as described.
     Error,
     /// It may not be what was meant.
     Warning,
@@ -17,7 +17,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The word for it.
+    /// Its name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -27,7 +27,7 @@ impl Severity {
     }
 }
 
-/// One thing found.
+/// One finding of a scene check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// How bad it is.
@@ -36,10 +36,10 @@ pub struct Finding {
     pub kind: Kind,
 }
 
-/// What can be found. Bodies, links and joints are told by index; via points count from 0.
+/// The kinds of findings. Bodies, links and joints are given by index; via points count from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
-    /// Two are in each other at the start.
+    /// Two parties overlap at the start.
     Overlap(Overlap),
     /// A joint starts beyond its limits.
     StartBeyondLimit {
@@ -47,10 +47,10 @@ pub enum Kind {
         joint: usize,
         /// Where it starts \[rad or m\].
         position: f64,
-        /// The nearest position it may have \[rad or m\].
+        /// The limit that it exceeds \[rad or m\].
         limit: f64,
     },
-    /// A body's own middle went into something.
+    /// The centre of a body's shape went into something.
     FallsThrough {
         /// The body.
         body: usize,
@@ -59,16 +59,16 @@ pub enum Kind {
         /// When \[s\].
         time_s: f64,
     },
-    /// A body ends lower than what it stood on.
+    /// A body ends lower than its support.
     FallsOff {
         /// The body.
         body: usize,
         /// What was beneath it at the start.
         support: Party,
-        /// How much lower its centre of mass ends than the place beneath it was \[m\].
+        /// How far its centre of mass ends below the point of support \[m\].
         below_m: f64,
     },
-    /// A body falls on at the end, and nothing is beneath it.
+    /// A body still falls at the end, and nothing is beneath it.
     FallsForever {
         /// The body.
         body: usize,
@@ -80,7 +80,7 @@ pub enum Kind {
         /// When \[s\].
         time_s: f64,
     },
-    /// A body does not stay where it is put.
+    /// A body does not stay where it starts.
     Moves {
         /// The body.
         body: usize,
@@ -98,14 +98,14 @@ pub enum Kind {
         /// How fast it turns then \[rad/s\].
         turning_rad_s: f64,
     },
-    /// The TCP does not get to a via point.
+    /// The TCP does not reach a via point.
     ViaUnreachable {
         /// The point.
         point: usize,
         /// What is left at the nearest position found \[m\].
         residual_m: f64,
     },
-    /// A link is in something that does not give way, with the TCP at a via point.
+    /// With the TCP at a via point, a link collides with something that cannot move.
     ViaCollides {
         /// The point.
         point: usize,
@@ -113,38 +113,38 @@ pub enum Kind {
         branches: usize,
         /// How many of them collide.
         colliding: usize,
-        /// The shallowest of their overlaps: what keeps the best of them away.
+        /// The shallowest of their overlaps: the collision of the best branch.
         overlap: Overlap,
     },
-    /// A link touches a free body, with the TCP at a via point.
+    /// With the TCP at a via point, a link touches a dynamic body.
     ViaTouches {
         /// The point.
         point: usize,
         /// Branches that reach it.
         branches: usize,
-        /// How many of them touch, and collide with nothing.
+        /// How many of them touch a dynamic body and collide with nothing.
         touching: usize,
         /// The bodies.
         bodies: Vec<usize>,
     },
     /// The straight line from one via point to the next cannot be followed.
     LineBlocked {
-        /// The point it comes from; it leads to the next.
+        /// The point at which the line starts; it ends at the next point.
         from: usize,
         /// Branches it was followed from.
         branches: usize,
-        /// How many of them do not get along.
+        /// How many of them cannot follow it.
         blocked: usize,
-        /// Where the one that gets farthest of these stops.
+        /// Where the best of these stops.
         stop: LineStop,
     },
-    /// The straight line leads the robot into free bodies.
+    /// The straight line leads the robot into dynamic bodies.
     LineTouches {
-        /// The point it comes from; it leads to the next.
+        /// The point at which the line starts; it ends at the next point.
         from: usize,
         /// Branches it was followed from.
         branches: usize,
-        /// How many of them get along and touch.
+        /// How many of them follow it and touch a dynamic body.
         touching: usize,
         /// The bodies.
         bodies: Vec<usize>,
@@ -172,12 +172,12 @@ impl Kind {
     }
 }
 
-/// Where a robot cannot follow a line any more.
+/// Where a robot stops following a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineStop {
     /// How far along the line \[m\].
     pub along_m: f64,
-    /// The place, in the world \[m\].
+    /// The point, in the world \[m\].
     pub p_in_world: Vector3<f64>,
     /// Why.
     pub cause: LineStopCause,
@@ -186,18 +186,18 @@ pub struct LineStop {
 /// Why a line cannot be followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineStopCause {
-    /// No position within the joint limits is near the one before.
+    /// No configuration within the joint limits is near the one before.
     OutOfReach {
         /// What is left at the nearest position found \[m\].
         residual_m: f64,
     },
-    /// The next position is far from the one before: the robot would have to change its branch.
+    /// The next configuration is far from the one before: the robot would have to change its branch.
     Jumps {
-        /// The joint that would go farthest, by its index in `q`.
+        /// The joint that would move farthest, by its index in `q`.
         joint: usize,
-        /// How far it would go within a step of the line \[rad or m\].
+        /// How far it would move within one sample of the line \[rad or m\].
         by: f64,
     },
-    /// A link is in something that does not give way.
+    /// A link collides with something that cannot move.
     Collides(Overlap),
 }

@@ -1,11 +1,11 @@
-//! What is wrong with a scene before anything runs in it: bodies in each other, bodies that do not stay where they are put, places
-//! a robot cannot get to.
+//! What is wrong with a scene before anything runs in it: bodies that overlap, bodies that do not stay where they start, via points
+//! that a robot cannot reach.
 //!
 //! | file | what it looks at |
 //! |---|---|
-//! | `finding` | [`Finding`]: what there is to tell |
+//! | `finding` | [`Finding`]: what a check can find |
 //! | `settle` | ten seconds of the scene alone |
-//! | `branch` | the ways in which a robot reaches a place |
+//! | `branch` | the branches in which a robot reaches a point |
 //! | `via` | via points, and the straight lines between them |
 //!
 //! Nothing here is random: the same scene has the same findings, in the same order.

@@ -15,37 +15,37 @@ use crate::text::Source;
 const STEP_S: f64 = 1e-3;
 /// Ten seconds of them.
 const TICKS: u64 = 10_000;
-/// What pushes a body up within these ticks is what it stood on at the start.
+/// A party that pushes a body up within these ticks counts as its support at the start.
 const STANDS_TICKS: u64 = 20;
-/// What a body may move before it counts: more than contact gives way, less than one sees \[m\].
+/// A body may move this far: more than the compliance of a contact, less than one sees \[m\].
 const MOVED_M: f64 = 5e-3;
-/// And tilt: a tenth of a quarter turn, and less, is a matter of rounding \[rad\].
+/// A body may tilt this far: 9 degrees, an effect of rounding in the file \[rad\].
 const TILTED_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 /// Slower than this a body is at rest \[m/s\], \[rad/s\].
 const REST: (f64, f64) = (1e-3, 1e-2);
 /// Faster than this, with nothing beneath, a body falls \[m/s\].
 const FALLING_M_S: f64 = 0.1;
-/// The way of a body's middle is looked at in pieces of at least this \[m\]: shorter than any shape is thick.
+/// The path of a shape's centre is checked in pieces of at least this \[m\]: shorter than the thickness of any shape.
 const PIECE_M: f64 = 5e-4;
 
-/// A free body on its way.
+/// A dynamic body as it settles.
 struct Falling {
     body: usize,
     start_com: Vector3<f64>,
     up_in_body: Vector3<f64>,
-    /// What was beneath it at the start, and the place there in that one's own frame.
+    /// What was beneath it at the start, and the point below it in that party's frame.
     support: Option<(Party, Vector3<f64>)>,
-    /// Whether that is what pushed it up first.
-    stands: bool,
-    /// The middles of its shapes where they were last looked at.
+    /// Whether that party pushed it up first.
+    supported: bool,
+    /// The centres of its shapes when they were last checked.
     centres: Vec<Vector3<f64>>,
     lost: bool,
 }
 
-/// Lets the scene be for ten seconds. `layout` becomes that of its end.
+/// Simulates the scene for ten seconds. `layout` becomes that of the end.
 ///
 /// # Errors
-/// Shapes or masses the engine cannot use.
+/// Shapes or masses that the engine cannot use.
 pub(super) fn check(
     scene: &Scene,
     robot: Option<&Robot>,
@@ -65,7 +65,7 @@ pub(super) fn check(
         .map(|(index, body)| Falling::new(index, body, scene, layout, down))
         .collect();
     let mut facts: Vec<ContactFact> = Vec::new();
-    // by the scene's own will, or by what moves so
+    // moved by the scene itself, or by a body that is
     let mut moved: Vec<bool> = scene.bodies.iter().map(|b| is_moved(scene, b)).collect();
     for tick in 1..=TICKS {
         if !world.is_awake() {
@@ -77,14 +77,14 @@ pub(super) fn check(
                 severity: Severity::Error,
                 kind: Kind::FliesApart { body, time_s },
             });
-            // where the others are by now says nothing
+            // the positions of the others mean nothing after that
             return Ok(());
         }
         follow(scene, &world, layout);
         pass_on(scene, &facts, &mut moved);
         if let Some(down) = down.filter(|_| tick <= STANDS_TICKS) {
             for one in &mut falling {
-                one.stand(&facts, &world, &down);
+                one.note_support(&facts, &world, &down);
             }
         }
         for one in &mut falling {
@@ -115,7 +115,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Puts the bodies of `layout` where those of `world` are by now; one that sleeps is where it was.
+/// Moves the bodies of `layout` to their poses in `world`; a sleeping body has not moved.
 fn follow(scene: &Scene, world: &World, layout: &mut Layout) {
     for (index, body) in scene.bodies.iter().enumerate() {
         if !matches!(body.kind, BodyKind::Fixed) {
@@ -127,7 +127,7 @@ fn follow(scene: &Scene, world: &World, layout: &mut Layout) {
     }
 }
 
-/// Marks free bodies that touch one that is moved as moved too.
+/// Marks dynamic bodies that touch a moved one as moved too.
 fn pass_on(scene: &Scene, facts: &[ContactFact], moved: &mut [bool]) {
     for fact in facts {
         if let [Party::Body(first), Party::Body(second)] = fact.parties {
@@ -139,7 +139,7 @@ fn pass_on(scene: &Scene, facts: &[ContactFact], moved: &mut [bool]) {
     }
 }
 
-/// A robot that is nowhere: the engine's world always has one.
+/// A robot without shape or mass: the engine's world always has a robot.
 fn nobody() -> Robot {
     let text = "format = 1\nname = 'nobody'\nlinks = [{ name = 'nobody' }]";
     let file = RobotFile::parse(Source::new("nobody", text));
@@ -164,7 +164,7 @@ impl Falling {
         let start_com = com(body, &body.world_from_body);
         let up = down.map_or_else(Vector3::z, |down| -down);
         let below = down.and_then(|down| layout.below(index, &start_com, &down));
-        // in something already: an overlap, or a ring around a peg
+        // it starts inside something: an overlap, or a ring around a peg
         let below = below.filter(|(_, p_in_world)| *p_in_world != start_com);
         Self {
             body: index,
@@ -182,14 +182,14 @@ impl Falling {
                 };
                 (party, p)
             }),
-            stands: false,
+            supported: false,
             centres: layout.centres_of(index).collect(),
             lost: false,
         }
     }
 
-    /// Takes what pushes it up as what was beneath it, even where its middle is beyond the edge.
-    fn stand(&mut self, facts: &[ContactFact], world: &World, down: &Vector3<f64>) {
+    /// Takes the party that pushes it up as its support, even if its centre is beyond the edge.
+    fn note_support(&mut self, facts: &[ContactFact], world: &World, down: &Vector3<f64>) {
         let me = Party::Body(self.body);
         for fact in facts {
             let [first, second] = fact.parties;
@@ -199,7 +199,7 @@ impl Falling {
                 (true, false) if lift < 0.0 => second,
                 _ => continue,
             };
-            if self.stands || other == Party::Ground {
+            if self.supported || other == Party::Ground {
                 continue;
             }
             let p_in_world = fact.p_centre_in_world;
@@ -213,11 +213,11 @@ impl Falling {
                 Party::Ground | Party::Link(_) => p_in_world,
             };
             self.support = Some((other, p));
-            self.stands = true;
+            self.supported = true;
         }
     }
 
-    /// What the middle of a shape of it went into since it was last looked at.
+    /// What the centre of one of its shapes went into since the last check.
     fn entered(&mut self, layout: &Layout) -> Option<Party> {
         let mut entered = None;
         for (last, now) in self.centres.iter_mut().zip(layout.centres_of(self.body)) {
@@ -241,13 +241,13 @@ impl Falling {
         let down = direction(scene.environment.gravity_m_s2);
         let body = self.body;
         let described = &scene.bodies[body];
-        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        let mut report = |severity, kind| findings.push(Finding { severity, kind });
         let now = com(described, &state.world_from_body);
         let (speed_m_s, turning_rad_s) = (state.twist.linear.norm(), state.twist.angular.norm());
         if let Some(down) = down {
             let falls = !state.sleeps && state.twist.linear.dot(&down) > FALLING_M_S;
             if falls && layout.below(body, &now, &down).is_none() {
-                return tell(Severity::Error, Kind::FallsForever { body });
+                return report(Severity::Error, Kind::FallsForever { body });
             }
             if let Some((support, p)) = self.support
                 && support != Party::Ground
@@ -266,13 +266,13 @@ impl Falling {
                         support,
                         below_m,
                     };
-                    return tell(bad, kind);
+                    return report(bad, kind);
                 }
             }
         }
         let rests = state.sleeps || (speed_m_s <= REST.0 && turning_rad_s <= REST.1);
         if !rests {
-            tell(
+            report(
                 doubtful,
                 Kind::NeverRests {
                     body,
@@ -286,7 +286,7 @@ impl Falling {
         let up_now = state.world_from_body.transform_vector(&self.up_in_body);
         let tilt_rad = libm::atan2(up.cross(&up_now).norm(), up.dot(&up_now));
         if !(distance_m <= MOVED_M && tilt_rad <= TILTED_RAD) {
-            tell(
+            report(
                 doubtful,
                 Kind::Moves {
                     body,
@@ -298,7 +298,7 @@ impl Falling {
     }
 }
 
-/// Whether the scene itself says that this body moves: by its law, by its own start, or by the wind.
+/// Whether the scene itself makes this body move: by a prescribed motion, an initial velocity, or the wind.
 fn is_moved(scene: &Scene, body: &SceneBody) -> bool {
     let still = Vector3::zeros();
     let thrown = body.twist.linear != still || body.twist.angular != still;

@@ -1,4 +1,4 @@
-//! Via points: is each reached, does a link stand in something there, and can the TCP go straight from one to the next?
+//! Via points: is each reachable without collision, and can the TCP follow the straight line from one to the next?
 
 use nalgebra::Vector3;
 
@@ -11,16 +11,16 @@ use crate::model::contact::Party;
 use crate::model::robot::Robot;
 use crate::model::scene::{BodyKind, Scene};
 
-/// How far apart a line is looked at \[m\] ...
+/// Distance between the samples of a line \[m\] ...
 const SAMPLE_M: f64 = 0.01;
-/// ... unless that were more places than this.
+/// ... unless there were more of them than this.
 const MOST_SAMPLES: f64 = 10_000.0;
-/// Past a singular position joints go far: there a piece is halved this often before a branch counts as changed.
+/// Near a singular configuration joints move far: a piece is halved this often before the branch counts as changed.
 const HALVINGS: u32 = 6;
-/// A joint that goes farther than this between two of them has changed its branch \[rad\], \[m\].
+/// A joint that moves farther than this between two samples has changed its branch \[rad\], \[m\].
 const JUMP: (f64, f64) = (0.5, 0.1);
 
-/// Looks at all via points of `work`, and then at the lines between those that can be stood at.
+/// Checks all via points of `work`, and then the lines between those that are reachable.
 pub(super) fn check(
     scene: &Scene,
     work: &Work<'_>,
@@ -54,11 +54,11 @@ pub(super) fn check(
     Ok(())
 }
 
-/// What a position of the robot meets.
-struct Met {
-    /// The deepest overlap with what does not give way.
-    collision: Option<Overlap>,
-    /// Free bodies that are touched.
+/// What the robot collides with in one configuration.
+struct Collisions {
+    /// The deepest overlap with something that cannot move.
+    deepest: Option<Overlap>,
+    /// Dynamic bodies that it touches.
     touched: Vec<usize>,
 }
 
@@ -71,49 +71,51 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    fn meet(&mut self, q: &[f64]) -> Met {
+    fn collisions_at(&mut self, q: &[f64]) -> Collisions {
         self.poses.update(self.robot, q);
         self.layout.place_robot(self.robot, &self.poses);
-        let mut met = Met {
-            collision: None,
+        let mut collisions = Collisions {
+            deepest: None,
             touched: Vec::new(),
         };
         for overlap in self.layout.of_links(TOUCH_M) {
             let [Party::Link(link), other] = overlap.parties else {
                 continue;
             };
-            // what no joint moves was told at the start
+            // a link that no joint moves was reported at the start
             if self.robot.links()[link].attachment.body.is_none() {
                 continue;
             }
             match other {
                 Party::Body(index) if matches!(self.scene.bodies[index].kind, BodyKind::Free) => {
-                    met.touched.push(index);
+                    collisions.touched.push(index);
                 }
                 _ => {
-                    let deepest = met.collision.is_none_or(|c| overlap.depth_m > c.depth_m);
-                    if deepest {
-                        met.collision = Some(overlap);
+                    let is_deeper = collisions
+                        .deepest
+                        .is_none_or(|c| overlap.depth_m > c.depth_m);
+                    if is_deeper {
+                        collisions.deepest = Some(overlap);
                     }
                 }
             }
         }
-        met
+        collisions
     }
 
-    /// The branches of a via point, unless it is out of reach or all of them collide.
+    /// The branches of a via point, unless it is unreachable or all of them collide.
     fn point(
         &mut self,
         point: usize,
         p_in_world: &Vector3<f64>,
         findings: &mut Vec<Finding>,
     ) -> Result<Option<Vec<Vec<f64>>>, IkError> {
-        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        let mut report = |severity, kind| findings.push(Finding { severity, kind });
         let found = match self.finder.reach(p_in_world)? {
             Reach::In(found) => found,
             Reach::Not { residual_m } => {
                 let kind = Kind::ViaUnreachable { point, residual_m };
-                tell(Severity::Error, kind);
+                report(Severity::Error, kind);
                 return Ok(None);
             }
         };
@@ -122,15 +124,15 @@ impl Follower<'_> {
         let (mut colliding, mut touching) = (0, 0);
         let mut bodies = Vec::new();
         for q in &found {
-            let met = self.meet(q);
-            if let Some(overlap) = met.collision {
+            let collisions = self.collisions_at(q);
+            if let Some(overlap) = collisions.deepest {
                 colliding += 1;
                 if shallowest.is_none_or(|s| overlap.depth_m < s.depth_m) {
                     shallowest = Some(overlap);
                 }
-            } else if !met.touched.is_empty() {
+            } else if !collisions.touched.is_empty() {
                 touching += 1;
-                bodies.extend(met.touched);
+                bodies.extend(collisions.touched);
             }
         }
         let all = colliding == branches;
@@ -142,7 +144,7 @@ impl Follower<'_> {
                 colliding,
                 overlap,
             };
-            tell(severity, kind);
+            report(severity, kind);
         }
         if touching > 0 {
             let kind = Kind::ViaTouches {
@@ -151,7 +153,7 @@ impl Follower<'_> {
                 touching,
                 bodies: each_once(bodies),
             };
-            tell(Severity::Note, kind);
+            report(Severity::Note, kind);
         }
         Ok((!all).then_some(found))
     }
@@ -181,7 +183,7 @@ impl Follower<'_> {
                 bodies.extend(touched);
             }
         }
-        let mut tell = |severity, kind| findings.push(Finding { severity, kind });
+        let mut report = |severity, kind| findings.push(Finding { severity, kind });
         if let Some(stop) = farthest {
             let severity = if blocked == branches.len() {
                 all_blocked
@@ -194,7 +196,7 @@ impl Follower<'_> {
                 blocked,
                 stop,
             };
-            tell(severity, kind);
+            report(severity, kind);
         }
         if touching > 0 {
             let kind = Kind::LineTouches {
@@ -203,12 +205,12 @@ impl Follower<'_> {
                 touching,
                 bodies: each_once(bodies),
             };
-            tell(Severity::Note, kind);
+            report(Severity::Note, kind);
         }
         Ok(())
     }
 
-    /// Where the robot stops that follows the line from `q`, if it does, and the free bodies it touches until there.
+    /// Follows the line from `q`: where the robot stops, if it does, and the dynamic bodies it touches before that.
     fn follow(
         &mut self,
         q: &[f64],
@@ -225,9 +227,9 @@ impl Follower<'_> {
             let before = (part - 1.0 / pieces).max(0.0);
             let mut cause = self.go(&mut q, &at(before), &at(part), HALVINGS)?;
             if cause.is_none() {
-                let met = self.meet(&q);
-                cause = met.collision.map(LineStopCause::Collides);
-                touched.extend(met.touched);
+                let collisions = self.collisions_at(&q);
+                cause = collisions.deepest.map(LineStopCause::Collides);
+                touched.extend(collisions.touched);
                 touched = each_once(touched);
             }
             if let Some(cause) = cause {
@@ -242,8 +244,8 @@ impl Follower<'_> {
         Ok((None, touched))
     }
 
-    /// Moves `q`, where the TCP is at `p_from`, to where it is at `p_to`; in smaller pieces, `halvings` times halved, where joints
-    /// go far. What keeps it from there, if anything does.
+    /// Moves `q`, at which the TCP is at `p_from`, until the TCP is at `p_to`; where joints move far, the piece is halved up to
+    /// `halvings` times. Returns what prevents it, if anything does.
     fn go(
         &mut self,
         q: &mut Vec<f64>,

@@ -1,14 +1,14 @@
 //! The step in a scene: our Runge-Kutta step while the robot is free, the contact engine's while something presses on it.
 //!
-//! Every step is first done as if there were no scene. If anything in the scene is awake, or a link may come near anything, the
-//! contact engine steps too, from the same state and under the same efforts. If it then pressed on a link that moves, its state
-//! stands; on all other steps ours does, to the last bit. So free motion keeps fourth order, and motion in contact has the first
-//! order of the engine (semi-implicit Euler in four substeps). Joint limits act as stops in both. The air of a step is the same for
-//! links and bodies; in the engine its drag on links is that at the start of the step, held.
+//! Every step is first computed as if there were no scene. If anything in the scene is awake, or a link may come near anything, the
+//! contact engine steps too, from the same state and under the same efforts. If something pressed on a moving link in it, the
+//! engine's state is kept; on all other steps ours is, to the last bit. So free motion has fourth order, and motion in contact has
+//! the first order of the engine (semi-implicit Euler in four substeps). Joint limits act as hard stops in both. The air of a step is
+//! the same for links and bodies; in the engine the drag on links is held at its value from the start of the step.
 
 use nalgebra::Vector3;
 
-use super::joint_limits::Stops;
+use super::joint_limits::JointLimitConstraints;
 use super::smooth::SmoothStep;
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::{BodyState, Clearance, EngineError, Ray, World};
@@ -17,17 +17,17 @@ use crate::model::contact::{ContactFact, Party};
 use crate::model::robot::Robot;
 use crate::model::scene::Scene;
 
-/// By how much contact may speed up a body within a step, as a factor of the fastest motion; more is a lost touch of one step.
+/// Contact may speed up a body within a step by this factor of the fastest motion; beyond it, the contact engine sees a touch one step late.
 const FORCES_MARGIN: f64 = 2.0;
 
-/// A step that could not be done.
+/// A step that failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// A joint moves no inertia.
     #[error(transparent)]
     Singular(#[from] SingularMassMatrix),
-    /// A body flew apart: its pose or velocity is no longer finite.
-    #[error("the motion of {} is no longer finite; look for overlaps at the start, masses that differ by orders of magnitude, or efforts beyond reason",
+    /// The motion of a body is no longer finite.
+    #[error("the motion of {} is no longer finite; look for overlaps at the start, masses that differ by orders of magnitude, or efforts that are far too large",
         .body.as_ref().map_or_else(|| "a link in contact".to_owned(), |body| format!("body `{body}`")))]
     Lost {
         /// The body of the scene; a link where there is none.
@@ -35,7 +35,7 @@ pub enum StepError {
     },
 }
 
-/// Whose state the robot has after a step.
+/// Which integrator's state the robot has after a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StateFrom {
     /// The smooth step's: nothing pressed on a moving link.
@@ -44,25 +44,25 @@ pub enum StateFrom {
     Contact,
 }
 
-/// What happened in one step.
+/// The contacts and limits that acted in one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepReport {
     /// Whose state the robot has.
     pub state_from: StateFrom,
-    /// Whether the contact engine stepped at all. Where it did not, `contacts` are those of the last step it did: bodies that rest go on pressing as they did.
+    /// Whether the contact engine stepped at all. If not, `contacts` are those of its last step: resting bodies press on as before.
     pub engine_stepped: bool,
-    /// Who pressed on whom, in the order of the parties.
+    /// The contacts, in the order of their parties.
     pub contacts: Vec<ContactFact>,
-    /// The joints that a stop acted on, with its impulse \[N m s or N s\]; empty while the contact engine's state stands.
+    /// The joints on which a position limit acted, with its impulse \[N m s or N s\]; empty when the engine's state is kept.
     pub stops: Vec<(usize, f64)>,
-    /// The joints that stand on a position limit after the step.
+    /// The joints that are on a position limit after the step.
     pub at_limit: Vec<usize>,
 }
 
 /// Steps one robot in one scene.
 pub struct HybridStep {
     smooth: SmoothStep,
-    stops: Stops,
+    stops: JointLimitConstraints,
     clearance: Clearance,
     world: World,
     gravity_m_s2: Vector3<f64>,
@@ -70,7 +70,7 @@ pub struct HybridStep {
     /// Which links move: only what presses on these matters to the robot's state.
     moves: Vec<bool>,
     names: Vec<String>,
-    /// What gravity adds to the way of a free body in one step, generously \[m\].
+    /// Upper bound of what gravity adds to the travel of a dynamic body in one step \[m\].
     falls_m: f64,
     start_q: Vec<f64>,
     start_qd: Vec<f64>,
@@ -97,7 +97,7 @@ impl HybridStep {
         let room = vec![0.0; robot.n()];
         Ok(Self {
             smooth: SmoothStep::new(robot, gravity_m_s2, dt_s),
-            stops: Stops::new(robot),
+            stops: JointLimitConstraints::new(robot),
             world: World::new(robot, scene, &gravity_m_s2, dt_s, clearance.has_shapes())?,
             clearance,
             gravity_m_s2,
@@ -124,9 +124,9 @@ impl HybridStep {
         })
     }
 
-    /// Moves robot and scene on by one step under `effort`, held; `q` and `qd` become the next state. All have shape `(n)`.
+    /// Advances robot and scene by one step under `effort`, held constant; `q` and `qd` become the next state. All have shape `(n)`.
     ///
-    /// A state that is not finite is left to the caller to see, as after the smooth step alone.
+    /// The caller must check that the state is finite, as after the smooth step alone.
     ///
     /// # Errors
     /// [`StepError`]: a joint without inertia, or a body that flew apart.
@@ -253,7 +253,7 @@ impl HybridStep {
         Ok(())
     }
 
-    /// What happened in the last step.
+    /// The report of the last step.
     pub fn report(&self) -> &StepReport {
         &self.report
     }
@@ -276,16 +276,16 @@ impl HybridStep {
         self.air.as_ref()
     }
 
-    /// The free body whose centre of mass is fastest, with its speed \[m/s\]; none where all sleep.
+    /// The dynamic body whose centre of mass is fastest, with its speed \[m/s\]; `None` if all sleep.
     pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
         self.world.fastest_body()
     }
 
-    /// What a ray `from` a point along the unit vector `direction`, both in the world, meets first of the scene's bodies and the
-    /// ground, and how far away \[m\]; nothing beyond `range_m`. The robot is not seen.
+    /// The first of the scene's bodies and the ground that a ray hits, and its distance \[m\]; `None` beyond `range_m`. The ray starts
+    /// at `from` along the unit vector `direction`, both in the world, and ignores the robot.
     ///
-    /// 0 from inside a solid or below the ground. Of things at the same distance the first in the order of [`Party`] is told. The
-    /// answer depends only on where the bodies are, not on whether the engine stepped.
+    /// 0 from inside a solid or below the ground. At equal distances the first in the order of [`Party`] is returned. The result
+    /// depends only on the poses of the bodies, not on whether the engine stepped.
     pub fn cast_ray(
         &self,
         from: &Vector3<f64>,
@@ -297,7 +297,7 @@ impl HybridStep {
         ray.nearest()
     }
 
-    /// Shows `ray` the bodies of the scene and the ground.
+    /// Tests `ray` against the bodies of the scene and the ground.
     pub(crate) fn show(&self, ray: &mut Ray) {
         self.world.meet(ray);
     }

@@ -1,9 +1,9 @@
-//! Joint limits as stops without bounce: what a joint on its limit is held by, and what a joint that runs into it loses.
+//! Joint limits as hard stops without bounce: constraint efforts that hold a joint at its limit, impulses that stop a joint there.
 //!
-//! A joint that rests on its stop gets a held effort, one-sided and decided once a step, as dry friction is. A joint that reaches
-//! its stop within the step is set on it and loses the speed it had into it; the impulse that takes it acts through the mass
-//! matrix, so that the other joints feel it too. Both are found for all joints together by projected Gauss-Seidel. The time
-//! within the step at which a stop is reached is not resolved, which leaves an error of first order in the step, once an impact.
+//! A joint at rest on its limit gets a one-sided constraint effort, computed once a step and held, as dry friction is. A joint that
+//! reaches its limit within the step is set on it and loses its velocity into it; the impulse acts through the mass matrix, so that
+//! the other joints feel it too. Both are found for all joints together by projected Gauss-Seidel. The time of the impact within the
+//! step is not resolved, which leaves an error of first order in the step for each impact.
 //!
 //! Source: Stewart & Trinkle, *An implicit time-stepping scheme for rigid body dynamics* (1996), restricted to joint limits.
 
@@ -17,9 +17,9 @@ use crate::model::robot::Robot;
 /// Sweeps over the joints: on arms, more than enough for rounding.
 const SWEEPS: usize = 40;
 
-/// The stops of one robot, and room to work out what they do.
+/// The position limits of one robot as unilateral constraints, with scratch memory.
 #[derive(Debug, Clone)]
-pub(crate) struct Stops {
+pub(crate) struct JointLimitConstraints {
     ranges: Vec<(f64, f64)>,
     dynamics: ForwardDynamics,
     accelerations: Vec<f64>,
@@ -28,24 +28,24 @@ pub(crate) struct Stops {
     impulses: Vec<f64>,
 }
 
-impl Stops {
-    /// The stops of `robot`: the position limits of its joints and of those that mimic them.
+impl JointLimitConstraints {
+    /// The position limits of the joints of `robot`, and of those that mimic them.
     pub(crate) fn new(robot: &Robot) -> Self {
-        let room = vec![0.0; robot.n()];
+        let zeros = vec![0.0; robot.n()];
         Self {
             ranges: position_ranges(robot)
                 .iter()
                 .map(|range| (range.lower, range.upper))
                 .collect(),
             dynamics: ForwardDynamics::new(robot),
-            accelerations: room.clone(),
-            rates: room.clone(),
-            efforts: room.clone(),
-            impulses: room,
+            accelerations: zeros.clone(),
+            rates: zeros.clone(),
+            efforts: zeros.clone(),
+            impulses: zeros,
         }
     }
 
-    /// Where joint `i` may be at the end of a step that it starts at `q`: a joint that starts outside is not thrown back in.
+    /// The range of joint `i` at the end of a step that starts at `q`; a joint that starts outside its limits is not thrown back in.
     fn range(&self, i: usize, q: f64) -> (f64, f64) {
         let (lower, upper) = self.ranges[i];
         (lower.min(q), upper.max(q))
@@ -55,17 +55,17 @@ impl Stops {
     pub(crate) fn allow(&self, q: &[f64], next_q: &[f64]) -> bool {
         (0..q.len()).all(|i| {
             let (lower, upper) = self.range(i, q[i]);
-            // NaN is for others to report
+            // NaN passes: the guard against divergence reports it
             !(next_q[i] < lower || upper < next_q[i])
         })
     }
 
-    /// The impulses of the last step that a stop acted in, shape `(n)` \[N m s or N s\].
+    /// The impulses of the limits in the last step in which any acted, shape `(n)` \[N m s or N s\].
     pub(crate) fn impulses(&self) -> &[f64] {
         &self.impulses
     }
 
-    /// Adds to `effort` what holds the joints that rest on their stops at `(q, qd)`, decided for a step of `dt_s`.
+    /// Adds to `effort` the constraint efforts of the joints on their limits at `(q, qd)`, for a step of `dt_s`.
     ///
     /// # Errors
     /// [`SingularMassMatrix`] if a joint moves no inertia.
@@ -89,18 +89,18 @@ impl Stops {
         for (rate, (qd, qdd)) in self.rates.iter_mut().zip(accelerated) {
             *rate = qd + dt_s * qdd;
         }
-        let on_stop = self.ranges.iter().zip(q);
-        let signs: Vec<f64> = on_stop.map(|(range, q)| pressed(*range, *q)).collect();
+        let at_limits = self.ranges.iter().zip(q);
+        let signs: Vec<f64> = at_limits.map(|(range, q)| limit_sign(*range, *q)).collect();
         solve(&inverse, dt_s, &signs, &mut self.rates, &mut self.efforts);
-        for (i, held) in self.efforts.iter().enumerate() {
-            effort[i] += held;
-            self.impulses[i] = held * dt_s;
+        for (i, constraint) in self.efforts.iter().enumerate() {
+            effort[i] += constraint;
+            self.impulses[i] = constraint * dt_s;
         }
         Ok(())
     }
 
-    /// Sets joints that a step of others from `q` took beyond their stops back on them, leaves their speeds, and moves the state
-    /// onto the conditions of the robot's loops.
+    /// Sets joints that the engine's step from `q` took beyond their limits back on them without changing their velocities, and moves
+    /// the state onto the loop-closure constraints.
     ///
     /// # Errors
     /// [`SingularMassMatrix`] if a joint moves no inertia.
@@ -124,10 +124,10 @@ impl Stops {
 
     /// Lists the joints that are on a limit or beyond it at `q`.
     pub(crate) fn list_at_limit(&self, q: &[f64], joints: &mut Vec<usize>) {
-        joints.extend((0..q.len()).filter(|&i| pressed(self.ranges[i], q[i]) != 0.0));
+        joints.extend((0..q.len()).filter(|&i| limit_sign(self.ranges[i], q[i]) != 0.0));
     }
 
-    /// Sets the joints that a step from `q` took beyond their stops back on them, and takes their speed into the stop.
+    /// Sets the joints that a step from `q` took beyond their limits back on them, and removes their velocity into the limit.
     pub(crate) fn catch(
         &mut self,
         robot: &Robot,
@@ -152,7 +152,7 @@ impl Stops {
         solve(&inverse, 1.0, &signs, next_qd, &mut self.efforts);
         for i in 0..n {
             self.impulses[i] += self.efforts[i];
-            // the last rounding, so that a joint on its stop rests exactly
+            // removes the last rounding, so that a joint on its limit is exactly at rest
             if signs[i] * next_qd[i] > 0.0 {
                 next_qd[i] = 0.0;
             }
@@ -160,8 +160,8 @@ impl Stops {
     }
 }
 
-/// 1 on the upper stop, -1 on the lower one, 0 off both.
-fn pressed((lower, upper): (f64, f64), q: f64) -> f64 {
+/// 1 at or beyond the upper limit, -1 at or beyond the lower one, 0 between them.
+fn limit_sign((lower, upper): (f64, f64), q: f64) -> f64 {
     if q >= upper {
         1.0
     } else if q <= lower {
@@ -171,7 +171,7 @@ fn pressed((lower, upper): (f64, f64), q: f64) -> f64 {
     }
 }
 
-/// Finds one-sided efforts against `signs` that, held for `dt_s`, leave no joint a rate into its stop.
+/// Finds one-sided efforts against `signs` that, held for `dt_s`, leave no joint a velocity into its limit.
 fn solve(inverse: &DMatrix<f64>, dt_s: f64, signs: &[f64], rates: &mut [f64], efforts: &mut [f64]) {
     for _ in 0..SWEEPS {
         for i in 0..signs.len() {
@@ -180,7 +180,7 @@ fn solve(inverse: &DMatrix<f64>, dt_s: f64, signs: &[f64], rates: &mut [f64], ef
                 continue;
             }
             let wanted = efforts[i] - rates[i] / per_effort;
-            // an upper stop only pushes down, a lower one only up
+            // an upper limit only pushes down, a lower one only up
             let next = if signs[i] > 0.0 {
                 wanted.min(0.0)
             } else {

@@ -1,9 +1,9 @@
-//! The smooth step: classical Runge-Kutta of order four over forward dynamics, effort held over the step; then back onto the loops'
-//! conditions, if the robot has loops.
+//! The smooth step: classical Runge-Kutta of order four over forward dynamics, effort held over the step; then, if the robot has
+//! loops, a projection onto the loop-closure constraints.
 //!
-//! Air, if there is any, is the same all over a step, and drags on the links as they move within it.
+//! The air, if there is any, is constant over a step; its drag follows the motion of the links within the step.
 //!
-//! This is the seam where contact joins: a step takes a state and held efforts and leaves the next state.
+//! [`HybridStep`](super::hybrid::HybridStep) adds contact behind the same interface: a state and held efforts in, the next state out.
 
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ use crate::dynamics::dry_friction::DryFriction;
 use crate::model::air::AirNow;
 use crate::model::robot::Robot;
 
-/// Integrates one robot with a fixed step; all its room is allocated once.
+/// Integrates one robot with a fixed step; its memory is allocated once.
 #[derive(Debug, Clone)]
 pub struct SmoothStep {
     dt_s: f64,
@@ -22,7 +22,7 @@ pub struct SmoothStep {
     dynamics: ForwardDynamics,
     friction: DryFriction,
     drag: LinkDrag,
-    /// The air of the step, if it drags on any link.
+    /// The air of the step, if any link has drag.
     air: Option<AirNow>,
     held: Vec<f64>,
     /// Held effort and drag of one stage.
@@ -54,24 +54,24 @@ impl SmoothStep {
         }
     }
 
-    /// Sets the air of the steps to come; there is none before.
+    /// Sets the air of the following steps; initially there is none.
     pub fn set_air(&mut self, air: Option<AirNow>) {
         self.air = air.filter(|_| self.drag.is_present());
     }
 
-    /// Whether air drags on the robot: there is some, and a link that moves has drag.
+    /// Whether drag acts on the robot: there is air, and a moving link has drag.
     pub fn feels_air(&self) -> bool {
         self.air.is_some()
     }
 
-    /// Adds the efforts of the drag at `(q, qd)` to `effort`; all slices have shape `(n)`. Nothing without air.
+    /// Adds the efforts of the drag at `(q, qd)` to `effort`; all slices have shape `(n)`. Does nothing without air.
     pub fn add_drag(&mut self, robot: &Robot, q: &[f64], qd: &[f64], effort: &mut [f64]) {
         if let Some(air) = &self.air {
             self.drag.add_efforts(robot, q, qd, air, effort);
         }
     }
 
-    /// Moves `(q, qd)` on by one step under `effort`, held; all slices have shape `(n)`. Allocates nothing without dry friction.
+    /// Advances `(q, qd)` by one step under `effort`, held constant; all slices have shape `(n)`. Allocates nothing without dry friction.
     ///
     /// # Errors
     /// [`SingularMassMatrix`] if a joint moves no inertia; the state is then unchanged.
@@ -117,8 +117,8 @@ impl SmoothStep {
         self.dynamics.close_loops(robot, q, qd)
     }
 
-    /// Velocities and accelerations of the four stages; compiled apart with and without air, so that drag costs nothing where there
-    /// is none.
+    /// Velocities and accelerations of the four stages; compiled separately with and without air, so that drag costs nothing without
+    /// air.
     fn stages<const AIR: bool>(
         &mut self,
         robot: &Robot,

@@ -1,4 +1,4 @@
-//! Named numbers and lists of numbers that expressions are over: the dimensions of a robot or a scene, the parameters of a lab.
+//! Named numbers and lists of numbers for expressions: the dimensions of a robot or a scene, the parameters of a lab.
 
 use std::fmt;
 
@@ -113,7 +113,7 @@ impl<'de> Deserialize<'de> for Dimension {
                     match item {
                         Dimension::Number(value) => values.push(value),
                         Dimension::List(_) => {
-                            return Err(de::Error::custom("a list of lists is no dimension"));
+                            return Err(de::Error::custom("a list of lists is not a dimension"));
                         }
                     }
                 }

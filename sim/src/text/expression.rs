@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Dimension, Dimensions, Source};
 
-/// What is wrong with an expression, and at which bytes of it.
+/// An error in an expression, with the bytes that cause it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionProblem {
     /// What is wrong.
@@ -54,10 +54,10 @@ pub fn evaluate_named(
     Ok(value)
 }
 
-/// What an expression may begin with, and must begin with where other texts stand too.
+/// The mark of an expression: optional where only a number is valid, required where a string is valid too.
 pub const MARK: char = '=';
 
-/// The value of the TOML text `typed`, with its mark or without. It stands at `span` of `source`, quotes included.
+/// The value of the TOML string `typed`, with its mark or without. It is at `span` of `source`, quotes included.
 ///
 /// # Errors
 /// Those of [`evaluate`], at bytes of `source`.
@@ -70,7 +70,7 @@ pub fn evaluate_in(
 ) -> Result<f64, ExpressionProblem> {
     let expression = typed.strip_prefix(MARK).unwrap_or(typed);
     evaluate_named(expression, dimensions, noun).map_err(|problem| {
-        // behind the quote; a text that is typed with escapes stands otherwise than it reads
+        // after the quote; a string with escapes has other bytes in the source than it has as text
         let start = span.start + 1;
         let is_as_typed = source.text().get(start..start + typed.len()) == Some(typed);
         let before = start + typed.len() - expression.len();
@@ -83,7 +83,7 @@ pub fn evaluate_in(
     })
 }
 
-const MAX_DEPTH: usize = 64; // parentheses and signs; far above any real dimension, far below the stack
+const MAX_DEPTH: usize = 64; // parentheses and signs: enough for any real expression, and far below the limit of the stack
 
 struct Reader<'a> {
     text: &'a str,
@@ -262,7 +262,7 @@ impl Reader<'_> {
                 let index = self.text[index_start..self.at].parse::<usize>().ok();
                 let index_at = index_start..self.at.max(index_start + 1).min(self.text.len());
                 if !self.take(']') {
-                    return Err(self.stray("expected `]` after a whole index"));
+                    return Err(self.stray("expected `]` after an integer index"));
                 }
                 index
                     .and_then(|i| values.get(i).copied())

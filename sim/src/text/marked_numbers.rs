@@ -1,4 +1,4 @@
-//! TOML in which a text that begins with `=` is an expression: each becomes its number before the tables are read.
+//! TOML in which a string that begins with `=` is an expression: each is replaced by its number before the tables are read.
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
@@ -10,17 +10,17 @@ use super::{Dimensions, Source, TomlRefusal};
 /// Why tables could not be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MarkedNumbersProblem {
-    /// The text is no TOML, or not of these tables.
+    /// The text is not TOML, or does not fit the tables.
     Refused(TomlRefusal),
-    /// An expression has no value; its place is in the source.
+    /// An expression has no value; the error points into the source.
     Expression(ExpressionProblem),
 }
 
-/// Reads the tables of `source`, every `"= expression"` over `named` a number; messages call those values `noun` (`parameter`).
+/// Reads the tables of `source` with every `"= expression"` over `named` as a number; messages call those values `noun` (`parameter`).
 ///
 /// # Errors
-/// An expression that has no value, and what the TOML reader refuses. Where a table stands under a wrong name, that is told rather
-/// than the expressions that miss it.
+/// An expression that has no value, and what the TOML reader refuses. If a table has a wrong name, the error names the table and not the
+/// expressions that refer to it.
 pub fn read_with_marked_numbers<T: DeserializeOwned>(
     source: &Source,
     named: &Dimensions,
@@ -29,7 +29,7 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     let refused = |error: &toml::de::Error| {
         MarkedNumbersProblem::Refused(TomlRefusal::from_error(error, source.text()))
     };
-    // the numbers as texts, in the order in which they are found: the tables borrow from them
+    // the numbers as text, in the order in which they are found: the tables borrow from them
     let mut numbers = Vec::new();
     let mut table = DeTable::parse(source.text()).map_err(|error| refused(&error))?;
     for value in table.get_ref().values() {
@@ -52,7 +52,7 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
 }
 
-/// A key that no table of `T` knows, found with every expression taken for a zero.
+/// An unknown key of the tables of `T`, found by reading every expression as zero.
 fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<toml::de::Error> {
     let mut table = DeTable::parse(source.text()).ok()?;
     let mut zeros = std::iter::repeat("0");
@@ -66,25 +66,27 @@ fn unknown_key<T: DeserializeOwned>(source: &Source) -> Option<toml::de::Error> 
         .then_some(error)
 }
 
-/// What is shown an expression and the value that holds it.
+/// A visitor of an expression and the TOML value that holds it.
 type Visit<'v> = dyn FnMut(&str, &Spanned<DeValue<'_>>) -> Result<(), ExpressionProblem> + 'v;
 
-/// Shows `see` every expression in `value`, in the order of the text, until it refuses one.
+/// Calls `visit` for every expression in `value`, in the order of the text, until it returns an error.
 fn each_expression(
     value: &Spanned<DeValue<'_>>,
-    see: &mut Visit<'_>,
+    visit: &mut Visit<'_>,
 ) -> Result<(), ExpressionProblem> {
     match value.get_ref() {
-        DeValue::String(text) if text.starts_with(MARK) => see(text, value),
-        DeValue::Array(items) => items.iter().try_for_each(|item| each_expression(item, see)),
+        DeValue::String(text) if text.starts_with(MARK) => visit(text, value),
+        DeValue::Array(items) => items
+            .iter()
+            .try_for_each(|item| each_expression(item, visit)),
         DeValue::Table(table) => table
             .values()
-            .try_for_each(|item| each_expression(item, see)),
+            .try_for_each(|item| each_expression(item, visit)),
         _ => Ok(()),
     }
 }
 
-/// Puts `numbers` in the places of the expressions in `value`, in the same order.
+/// Replaces the expressions in `value` by `numbers`, in the same order.
 fn replace<'n>(value: &mut Spanned<DeValue<'n>>, numbers: &mut dyn Iterator<Item = &'n str>) {
     match value.get_mut() {
         DeValue::String(text) if text.starts_with(MARK) => {
@@ -101,9 +103,9 @@ fn replace<'n>(value: &mut Spanned<DeValue<'n>>, numbers: &mut dyn Iterator<Item
     }
 }
 
-/// A number as TOML; a whole one without a point, so that it may stand where a count is asked for.
+/// A number as TOML; an integer without a decimal point, so that it is also valid as a count.
 fn as_toml(number: f64) -> String {
-    // 2^53: above, whole numbers are no longer exact
+    // 2^53: above, integers are no longer exact
     if number.fract().abs() <= 0.0 && number.abs() < 9_007_199_254_740_992.0 {
         format!("{number:.0}")
     } else {

@@ -1,4 +1,4 @@
-//! Text from outside: sources with places, expressions over named numbers, and refusals that point into the text.
+//! Text from outside: sources with positions, expressions over named numbers, and errors that point into the text.
 
 mod dimensions;
 pub mod expression;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 
-/// A text with the name a person knows it by (`robots/rrbot.toml`).
+/// A text and the name under which messages refer to it (`robots/rrbot.toml`).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
     name: Arc<str>,
@@ -21,7 +21,7 @@ impl Source {
         }
     }
 
-    /// The name a person knows the text by.
+    /// The name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -44,13 +44,13 @@ impl Source {
     }
 }
 
-/// What can be wrong with a text of one kind: a short message, a way out, and a code for machines.
+/// An error in a text of one kind: a short message, what to do, and a code for machines.
 pub trait Problem: fmt::Debug + fmt::Display + Send + Sync + 'static {
     /// Stable name of the problem, such as `robot::unknown_link`.
     fn code(&self) -> &'static str;
-    /// What stands under the caret.
+    /// The label under the caret.
     fn label(&self) -> String;
-    /// Something to do, if there is something to say beyond the label.
+    /// What to do, if there is more to say than the label.
     fn help(&self) -> Option<String>;
 }
 
@@ -68,16 +68,16 @@ impl Problem for Box<dyn Problem> {
     }
 }
 
-/// A [`Problem`] with its place in a [`Source`].
+/// A [`Problem`] with its position in a [`Source`].
 #[derive(Debug)]
 pub struct Located<P> {
     /// What is wrong.
     pub problem: P,
-    inner: Box<Place>,
+    inner: Box<SourceExcerpt>,
 }
 
 #[derive(Debug)]
-struct Place {
+struct SourceExcerpt {
     source: Source,
     named: NamedSource<String>,
     at: SourceSpan,
@@ -89,7 +89,7 @@ impl<P> Located<P> {
         let named = NamedSource::new(source.name(), source.text().to_owned());
         Self {
             problem,
-            inner: Box::new(Place {
+            inner: Box::new(SourceExcerpt {
                 source: source.clone(),
                 named,
                 at: (at.start, at.end.saturating_sub(at.start)).into(),
@@ -97,7 +97,7 @@ impl<P> Located<P> {
         }
     }
 
-    /// The same place with the problem said in other words.
+    /// The same position with `problem` replaced by `words(problem)`.
     pub fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
         Located {
             problem: words(self.problem),

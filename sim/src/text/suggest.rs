@@ -1,4 +1,4 @@
-//! The name that a person meant: what is near to what was typed, or the list of what there is.
+//! Suggestions for a mistyped name: the nearest known name, or the list of known names.
 
 /// Names longer than this many bytes are not searched for typos: the distance costs memory by the product of the lengths.
 const LONGEST_TYPO: usize = 200;
@@ -22,7 +22,7 @@ pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<
         .map(|(_, name)| name)
 }
 
-/// "did you mean `x`?" where a near name is known, else the list of all; for help lines about names.
+/// "did you mean `x`?" if a known name is near, else the list of known names; for help lines about names.
 pub fn suggest<'a>(given: &str, what: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.collect();
     match nearest(given, known.iter().copied()) {
@@ -41,7 +41,7 @@ mod tests {
         let known = ["shoulder", "elbow"];
         assert_eq!(nearest("elbwo", known.into_iter()), Some("elbow"));
         assert_eq!(nearest("gripper", known.into_iter()), None);
-        // nor does a name of a size that only a broken file has
+        // a very long name, as in a broken file, gives no suggestion
         let long = "x".repeat(1_000_000);
         assert_eq!(nearest(&long, [long.as_str()].into_iter()), None);
     }

@@ -1,26 +1,26 @@
-//! What the TOML reader refuses, in the words of people who write labs, robots and scenes, and with something to do about it.
+//! Errors of the TOML reader, reworded for authors of labs, robots and scenes, with what to do about them.
 
 use std::ops::Range;
 
 use super::nearest;
 
-/// What the TOML reader refused: its message, where, and something to do.
+/// An error of the TOML reader: its message, its position, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TomlRefusal {
     /// What is wrong.
     pub message: String,
-    /// The nearest name that would have been right, the list of them, or what to write instead.
+    /// The nearest valid name, the list of valid names, or what to write instead.
     pub help: Option<String>,
-    /// The bytes it refused.
+    /// The bytes with the error.
     pub at: Range<usize>,
 }
 
-/// What to do about a mistake of syntax that has no words of its own.
+/// The help for a syntax error without a message of its own.
 const LINES: &str =
-    "a line is `key = value`, a table begins with `[name]`, and texts stand in quotes";
+    "a line is `key = value`, a table begins with `[name]`, and strings are in quotes";
 
 impl TomlRefusal {
-    /// Says the reader's error over `text` in our words.
+    /// Rewords the reader's error about `text`.
     pub fn from_error(error: &toml::de::Error, text: &str) -> Self {
         let at = error.span().unwrap_or(0..0);
         let given = text.get(at.clone()).unwrap_or_default();
@@ -43,7 +43,7 @@ impl TomlRefusal {
 
 type Words = (String, String);
 
-/// A name that is none of those there are: of a key, of a kind that stands as a key, or of a value.
+/// An unknown name: of a key, of a kind that is a key, or of a value.
 fn unknown(message: &str, given: &str) -> Option<Words> {
     let what = if message.starts_with("unknown field") {
         "key"
@@ -64,7 +64,7 @@ fn unknown(message: &str, given: &str) -> Option<Words> {
     Some((format!("unknown {what} `{name}`"), help))
 }
 
-/// A key that is missing, or there twice.
+/// A key that is missing or duplicate.
 fn key(message: &str, given: &str) -> Option<Words> {
     if message == "duplicate key" {
         return Some((
@@ -81,7 +81,7 @@ fn key(message: &str, given: &str) -> Option<Words> {
     Some((format!("the key `{name}` is missing"), help))
 }
 
-/// A value of another type or length than is read.
+/// A value of a wrong type or length.
 fn value(message: &str, given: &str) -> Option<Words> {
     if !message.starts_with("invalid ") {
         return None;
@@ -109,7 +109,7 @@ fn value(message: &str, given: &str) -> Option<Words> {
         "map" => "a table",
         _ => "a value",
     };
-    // what fills lines is shown by the caret alone
+    // a value of several lines is shown by the caret alone
     let shown = if given.len() <= 40 && !given.contains('\n') {
         format!("`{given}` is {kind}")
     } else {
@@ -126,7 +126,7 @@ fn value(message: &str, given: &str) -> Option<Words> {
     Some((format!("{shown}, expected {expected}"), help))
 }
 
-/// The reader's words for what it expected, in ours.
+/// The reader's name of an expected type, reworded.
 fn in_our_words(expected: &str) -> String {
     if expected.starts_with("struct ") || expected == "a map" || expected == "map" {
         return "a table".to_owned();
@@ -142,7 +142,7 @@ fn in_our_words(expected: &str) -> String {
     }
 }
 
-/// A text that is no TOML.
+/// A text that is not TOML.
 fn syntax(message: &str) -> Words {
     let (message, help) = if message.starts_with("invalid basic string") {
         (
@@ -160,7 +160,7 @@ fn syntax(message: &str) -> Words {
     (message.to_owned(), help.to_owned())
 }
 
-/// What to write for a number such as `0,5` that stands as a value just where the reader stopped.
+/// What to write for a number such as `0,5` that is the value at which the reader stopped.
 fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let mut at = at.min(text.len());
     while !text.is_char_boundary(at) {

@@ -9,29 +9,29 @@ use super::trajectory_error::{TrajectoryError, finite, in_range};
 use super::turn::Turn;
 use crate::spatial::{Pose, pose};
 
-/// Flatness below which three points are a line: over half a metre, half a micrometre, which no arm shows; and the least
+/// Flatness below which three points count as a line: half a micrometre over half a metre, which no arm can follow; and the least
 /// distance of two of them, as a fraction of the greatest.
 const FLAT: f64 = 1e-6;
 
-/// How the orientation goes along an arc about an axis.
+/// The orientation along an arc about an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ArcOrientation {
-    /// It stays as it is at the start.
+    /// Constant.
     Kept,
-    /// It turns with the arc, as if fixed to the radius.
+    /// It rotates with the arc, as if fixed to the radius.
     Carried,
-    /// It turns the short way to this `world_from_tcp`.
+    /// It rotates by the smaller angle to this `world_from_tcp`.
     To(Matrix3<f64>),
 }
 
-/// Position on a circle, orientation about one fixed axis, both evenly along the way.
+/// Position on a circle, orientation about one fixed axis, both proportional to the fraction of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
     start_m: Vector3<f64>,
     end_m: Vector3<f64>,
     /// From the centre to the start.
     radius: Vector3<f64>,
-    /// `axis × radius`: the direction of travel at the start, as long as the radius.
+    /// `axis × radius`: the direction of travel at the start, with the length of the radius.
     across: Vector3<f64>,
     axis: Unit<Vector3<f64>>,
     angle_rad: f64,

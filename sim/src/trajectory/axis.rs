@@ -1,13 +1,13 @@
-//! What all trajectories share: the trait, the sample of one axis, limits, and rest outside the motion.
+//! The trait of all trajectories, the sample of one axis, limits, and rest outside the motion.
 
 use super::trajectory_error::{TrajectoryError, finite, in_range, positive_limit};
 
 /// A motion over time with an exact end.
 pub trait Trajectory {
-    /// What is known at one time.
+    /// The state at one time.
     type Sample;
 
-    /// The time from start to end \[s\], in closed form: zero where there is nothing to move.
+    /// The time from start to end \[s\], in closed form; zero if nothing moves.
     fn duration_s(&self) -> f64;
 
     /// The motion at `t_s` \[s\] after its start; at rest at the ends before 0 and after the duration.
@@ -55,7 +55,7 @@ impl Knot {
     }
 }
 
-/// How fast one axis may go and how fast it may change its speed, both ways alike.
+/// Limits of speed and acceleration of one axis, the same in both directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest speed \[rad/s or m/s\].
@@ -73,7 +73,7 @@ impl Limits {
     }
 }
 
-/// [`Limits`] and how fast the acceleration may change.
+/// [`Limits`] of speed and acceleration, and of jerk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JerkLimits {
     /// Largest speed \[rad/s or m/s\].
@@ -84,7 +84,7 @@ pub struct JerkLimits {
     pub jerk: f64,
 }
 
-/// A motion of one axis from rest to rest, as fast as its kind allows under its limits.
+/// A motion of one axis from rest to rest, the fastest of its kind under its limits.
 pub trait RestToRest: Trajectory<Sample = Sample> + Sized {
     /// The limits this kind of motion keeps (to rounding, some 1e-15 of the limit).
     type Limits;

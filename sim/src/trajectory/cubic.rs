@@ -50,7 +50,7 @@ impl Cubic {
         duration_s: f64,
         factors: [f64; 2],
     ) -> Result<Self, TrajectoryError> {
-        // bounds every acceleration on the way
+        // bounds every acceleration of the motion
         let sum = 2.0 * factors[0].abs() + 6.0 * factors[1].abs();
         if duration_s > 0.0 {
             in_range("acceleration", sum / duration_s / duration_s)?;

@@ -14,7 +14,7 @@ use super::trajectory_error::{TrajectoryError, duration_for, positive_limit};
 pub struct JerkLimited {
     start: f64,
     end: f64,
-    /// +1 or -1: the way from `start` to `end`.
+    /// +1 or -1: the direction from `start` to `end`.
     direction: f64,
     jerk: f64,
     acceleration: f64,
@@ -27,17 +27,17 @@ pub struct JerkLimited {
 }
 
 impl JerkLimited {
-    /// The highest speed on the way \[rad/s or m/s\]: the limit, or less on a short way.
+    /// The highest speed of the motion \[rad/s or m/s\]: the limit, or less over a short distance.
     pub fn peak_speed(&self) -> f64 {
         self.speed
     }
 
-    /// The highest acceleration on the way \[rad/s² or m/s²\]: the limit, or less where jerk leaves no time for it.
+    /// The highest acceleration of the motion \[rad/s² or m/s²\]: the limit, or less if the jerk limit prevents reaching it.
     pub fn peak_acceleration(&self) -> f64 {
         self.acceleration
     }
 
-    /// Way, speed and acceleration `t_s` after the start, in the first half; mirrored, before the end.
+    /// Distance, speed and acceleration `t_s` after the start, in the first half; mirrored, before the end.
     fn first_half(&self, t_s: f64) -> (f64, f64, f64) {
         let (j, a, v) = (self.jerk, self.acceleration, self.speed);
         let (jerking, speeding_up) = (self.jerking_s, self.speeding_up_s);
@@ -87,7 +87,7 @@ impl RestToRest for JerkLimited {
         let (jerking_s, speeding_up_s, speed, cruise_s) = if way >= v * speeding_up_s {
             (jerking_s, speeding_up_s, v, way / v - speeding_up_s)
         } else if way >= 2.0 * a * a_over_j * a_over_j {
-            // speeding up takes the time t of t (t - a/j) a = way
+            // speeding up takes the time t with t (t - a/j) a = distance
             let half = 0.5 * a_over_j;
             let speeding_up = half + (half * half + way / a).sqrt();
             (a_over_j, speeding_up, a * (speeding_up - a_over_j), 0.0)

@@ -52,11 +52,11 @@ pub struct JointTrajectory<A> {
 }
 
 impl<A: Trajectory<Sample = Sample>> JointTrajectory<A> {
-    /// Lets all axes start and end together, as late as the slowest.
+    /// Synchronizes all axes: they start and end together, with the duration of the slowest.
     ///
-    /// A faster axis runs its own motion more slowly: with `k` its own duration over the common one, its speed is scaled
-    /// by `k`, its acceleration by `k²` and its jerk by `k³`, so that limits it kept are kept. Velocities at the ends are
-    /// scaled as well: give axes that have such velocities equal durations.
+    /// A faster axis is slowed down: with `k` its own duration over the common one, its speed is scaled by `k`, its acceleration by `k²`
+    /// and its jerk by `k³`, so that it still keeps its limits. Velocities at the ends are scaled as well: give axes with such velocities
+    /// equal durations.
     ///
     /// # Errors
     /// `TooFew` without any axis.
@@ -87,12 +87,12 @@ impl<A: Trajectory<Sample = Sample>> JointTrajectory<A> {
             return axis.at(f64::INFINITY);
         }
         let own_s = axis.duration_s();
-        // the slowest axis keeps its own time; this is also the case where all stand still and both durations are zero
+        // the slowest axis keeps its own time; so do all axes if none moves and all durations are zero
         if own_s >= self.duration_s {
             return axis.at(t_s);
         }
         let k = own_s / self.duration_s;
-        // rounding may not carry it past its end, nor stop short of it; NaN stays NaN
+        // rounding must not move it past its end or leave it short of it; NaN stays NaN
         let own_t_s = if t_s >= self.duration_s || t_s * k > own_s {
             own_s
         } else {

@@ -7,7 +7,7 @@ use super::trajectory_error::{TrajectoryError, finite, in_range};
 use super::turn::Turn;
 use crate::spatial::{Pose, pose};
 
-/// Position on a straight line, orientation about one fixed axis, both evenly along the way.
+/// Position on a straight line, orientation about one fixed axis, both proportional to the fraction of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     start_m: Vector3<f64>,
@@ -16,9 +16,9 @@ pub struct Line {
 }
 
 impl Line {
-    /// The line between two poses, turning the short way (at most half a turn).
+    /// The line between two poses, with a rotation by the smaller angle (at most half a turn).
     ///
-    /// Equal positions make a turn on the spot; equal poses a path without extent.
+    /// Equal positions give a rotation on the spot; equal poses a path without extent.
     ///
     /// # Errors
     /// `NotFinite` and `OutOfRange`.

@@ -2,21 +2,21 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`axis`] | what all trajectories share: the trait, samples, limits |
+//! | [`axis`] | the trait of all trajectories, samples, limits |
 //! | [`cubic`] | positions and velocities at both ends in a given time |
 //! | [`quintic`] | positions, velocities and accelerations at both ends in a given time |
 //! | [`trapezoid`] | rest to rest under limits of speed and acceleration |
 //! | [`jerk_limited`] | rest to rest under limits of speed, acceleration and jerk |
 //! | [`spline`] | via points at given times |
 //! | [`joints`] | several axes that start and end together |
-//! | [`turn`] | orientation about one fixed axis |
+//! | [`turn`] | rotation about one fixed axis |
 //! | [`line`](mod@line), [`arc`] | straight and circular paths in task space |
 //! | [`path`] | a path with a time law: pose, twist and its rate |
-//! | [`TrajectoryError`] | what cannot be planned, with numbers |
+//! | [`TrajectoryError`] | why a trajectory cannot be planned |
 //!
 //! A trajectory lives on the closed interval from 0 to its duration. There the ends are exact to the bit in position, and
 //! acceleration is the limit from inside. Before and after, it holds the end position with velocity and acceleration zero,
-//! also where the velocity asked for at that end is not zero. A time that is NaN gives NaN, never a position.
+//! even if the velocity requested at that end is not zero. A time that is NaN gives NaN, never a position.
 
 pub mod arc;
 pub mod axis;

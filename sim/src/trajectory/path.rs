@@ -1,4 +1,4 @@
-//! A path in task space with a time law: pose, twist and the rate of the twist at every time.
+//! A path in task space with a time law: pose, twist and rate of the twist at every time.
 
 use nalgebra::Vector3;
 
@@ -7,7 +7,7 @@ use super::trajectory_error::TrajectoryError;
 use super::turn::Turn;
 use crate::spatial::{Pose, Twist};
 
-/// A pose on a [`Path`] and how its position changes with the fraction of the path.
+/// A pose on a [`Path`] and the derivatives of its position by the fraction of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
     /// The pose.
@@ -20,16 +20,16 @@ pub struct PathPoint {
 
 /// Geometry in task space, without time, over a fraction from 0 at its start to 1 at its end.
 pub trait Path {
-    /// Length of the way of the position \[m\].
+    /// Length of the path of the position \[m\].
     fn length_m(&self) -> f64;
 
-    /// How the orientation goes.
+    /// The orientation along the path.
     fn turn(&self) -> &Turn;
 
-    /// The point at a fraction; exact at 0 and 1, continued beyond.
+    /// The point at a fraction; exact at 0 and 1, extrapolated beyond.
     fn at(&self, fraction: f64) -> PathPoint;
 
-    /// What a time law runs over, from 0: the length \[m\], or the angle \[rad\] where the position stays.
+    /// The range of a time law, from 0: the length \[m\], or the angle \[rad\] if the position is constant.
     ///
     /// A limit of angular speed `ω` is the limit `ω · extent / angle` for the law; the same holds for acceleration and jerk.
     fn extent(&self) -> f64 {
@@ -58,11 +58,11 @@ pub struct PoseSample {
     pub world_from_tcp: Pose,
     /// Its velocity.
     pub twist: Twist,
-    /// Its acceleration; on an arc with the part towards the centre.
+    /// Its acceleration; on an arc including the centripetal part.
     pub twist_rate: TwistRate,
 }
 
-/// A [`Path`] travelled as a time law for its extent says.
+/// A trajectory: a [`Path`] with a time law over its extent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlongPath<P, L> {
     path: P,
@@ -71,12 +71,12 @@ pub struct AlongPath<P, L> {
 }
 
 impl<P: Path, L: Trajectory<Sample = Sample>> AlongPath<P, L> {
-    /// Travels `path` by `law`, whose position runs from exactly 0 to exactly [`Path::extent`].
+    /// The trajectory along `path` by `law`, whose position runs from exactly 0 to exactly [`Path::extent`].
     ///
-    /// In between the law may leave that range, as a polynomial with velocities at its ends can; the path is then continued.
+    /// In between the law may leave that range, as a polynomial with velocities at its ends can; the path is then extrapolated.
     ///
     /// # Errors
-    /// `LawOffPath` where the law starts or ends elsewhere.
+    /// `LawOffPath` if the law starts or ends elsewhere.
     pub fn new(path: P, law: L) -> Result<Self, TrajectoryError> {
         let extent = path.extent();
         let from = law.at(f64::NEG_INFINITY).position;
@@ -100,8 +100,8 @@ impl<P: Path, L: Trajectory<Sample = Sample>> AlongPath<P, L> {
 }
 
 impl<P: Path, L: RestToRest> AlongPath<P, L> {
-    /// Travels `path` from rest to rest under limits along it: of the speed of the position, of its tangential
-    /// acceleration and jerk, or of their angular kin where the position stays.
+    /// The trajectory along `path` from rest to rest under limits of the speed of the position and of its tangential acceleration and
+    /// jerk, or of their angular counterparts if the position is constant.
     ///
     /// # Errors
     /// What the time law refuses.
@@ -120,7 +120,7 @@ impl<P: Path, L: Trajectory<Sample = Sample>> Trajectory for AlongPath<P, L> {
 
     fn at(&self, t_s: f64) -> PoseSample {
         let law = self.law.at(t_s);
-        // a path without extent is at its end from the beginning
+        // a path without extent is at its end from the start
         let (fraction, rate, rate_of_rate) = if self.extent > 0.0 {
             (
                 law.position / self.extent,

@@ -6,7 +6,7 @@ use super::trajectory_error::{TrajectoryError, duration_for, finite, in_range, p
 /// `10 / √3`: the peak acceleration of a quintic from rest to rest, times `T² / D`.
 const PEAK_ACCELERATION: f64 = 5.773_502_691_896_257;
 
-/// A quintic in time between two full states; from rest to rest it is the path of least jerk.
+/// A quintic in time between two full states; from rest to rest it is the minimum-jerk trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quintic {
     start: Sample,
@@ -60,7 +60,7 @@ impl Quintic {
         duration_s: f64,
         factors: [f64; 3],
     ) -> Result<Self, TrajectoryError> {
-        // bounds every acceleration on the way
+        // bounds every acceleration of the motion
         let sum = 6.0 * factors[0].abs() + 12.0 * factors[1].abs() + 20.0 * factors[2].abs();
         if duration_s > 0.0 {
             in_range("acceleration", sum / duration_s / duration_s)?;

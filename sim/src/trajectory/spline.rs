@@ -4,17 +4,17 @@ use super::axis::{Knot, Sample, Trajectory};
 use super::cubic::Cubic;
 use super::trajectory_error::{TrajectoryError, count, finite, in_range};
 
-/// What a [`Spline`] does at its two ends.
+/// Boundary conditions of a [`Spline`] at its two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SplineEnds {
-    /// Velocities are given \[rad/s or m/s\]; zero twice is from rest to rest.
+    /// Clamped: given velocities \[rad/s or m/s\]; both zero for a motion from rest to rest.
     Clamped {
         /// Velocity at the first point.
         start_velocity: f64,
         /// Velocity at the last point.
         end_velocity: f64,
     },
-    /// Acceleration is zero at both ends; the velocities come out as they do.
+    /// Natural: zero acceleration at both ends; the velocities follow.
     Natural,
 }
 
@@ -26,11 +26,11 @@ impl SplineEnds {
     };
 }
 
-/// A cubic between each two via points, twice continuously differentiable at all of them.
+/// A cubic between each pair of successive via points, twice continuously differentiable at all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
     times_s: Vec<f64>,
-    /// One piece between each two via points: always one less than times, and at least one.
+    /// One cubic between each pair of successive via points: one less than times, and at least one.
     pieces: Vec<Cubic>,
 }
 

@@ -1,6 +1,6 @@
-//! What cannot be planned: the numbers given, and what to give instead.
+//! Errors of trajectory planning: the invalid numbers, and what to give instead.
 
-/// Why a trajectory cannot be made from the numbers given.
+/// Why a trajectory cannot be planned from the given numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum TrajectoryError {
     /// A number is NaN or infinite.
@@ -25,7 +25,7 @@ pub enum TrajectoryError {
         /// The limit given.
         got: f64,
     },
-    /// A result is beyond what a number can hold.
+    /// A result overflows.
     #[error("{what} comes out as {got}: the numbers given are too large or too small to plan with")]
     OutOfRange {
         /// What was computed.
@@ -54,7 +54,7 @@ pub enum TrajectoryError {
     /// Too few points or axes.
     #[error("at least {least} {what} are needed, got {got}")]
     TooFew {
-        /// What there is too little of.
+        /// Points or axes.
         what: &'static str,
         /// How many were given.
         got: usize,
@@ -71,7 +71,7 @@ pub enum TrajectoryError {
         /// The length it must have.
         expected: usize,
     },
-    /// Two of the three points of an arc are one.
+    /// Two of the three points of an arc coincide.
     #[error(
         "{first} and {second} of the arc are {distance_m} m apart, too near to fix a circle: \
          for a full circle give its axis and an angle of 2π"
@@ -149,7 +149,7 @@ pub(super) fn in_range(what: &'static str, got: f64) -> Result<f64, TrajectoryEr
     }
 }
 
-/// Refuses a computed duration that is not finite, or that rounding made zero although there is a way to go.
+/// Refuses a computed duration that is not finite, or that rounding made zero although there is a distance to go.
 pub(super) fn duration_for(way: f64, got_s: f64) -> Result<f64, TrajectoryError> {
     if got_s > 0.0 || way <= 0.0 {
         in_range("duration", got_s)

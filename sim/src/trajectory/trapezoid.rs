@@ -1,4 +1,4 @@
-//! Trapezoid of velocity: from rest to rest under limits of speed and acceleration, a triangle where the way is short.
+//! Trapezoidal velocity profile: from rest to rest under limits of speed and acceleration, a triangle over a short distance.
 
 use super::axis::{Limits, RestToRest, Sample, Trajectory, distance, rest};
 use super::trajectory_error::{TrajectoryError, duration_for, positive_limit};
@@ -8,7 +8,7 @@ use super::trajectory_error::{TrajectoryError, duration_for, positive_limit};
 pub struct Trapezoid {
     start: f64,
     end: f64,
-    /// +1 or -1: the way from `start` to `end`.
+    /// +1 or -1: the direction from `start` to `end`.
     direction: f64,
     speed: f64,
     acceleration: f64,
@@ -22,7 +22,7 @@ impl Trapezoid {
     /// Moves from `start` to `end` \[rad or m\] from rest to rest, slowing down with at most `deceleration` \[rad/s² or
     /// m/s²\].
     ///
-    /// The end time is `v/a + v/d + (D - v²/2a - v²/2d) / v`, where `v` is the speed limit or, on a short way,
+    /// The end time is `v/a + v/d + (D - v²/2a - v²/2d) / v`, where `v` is the speed limit or, over a short distance,
     /// `sqrt(2 D a d / (a + d))`.
     ///
     /// # Errors
@@ -42,7 +42,7 @@ impl Trapezoid {
         } = limits.checked()?;
         let d = positive_limit("deceleration", deceleration)?;
         let way = signed.abs();
-        // the speed sqrt(2 D a d / (a + d)) that a way without cruising reaches, in an order that does not overflow
+        // the peak speed sqrt(2 D a d / (a + d)) of a motion without cruise, in an order that does not overflow
         let harmonic = a.min(d) / (1.0 + a.min(d) / a.max(d));
         let triangle = (2.0 * way).sqrt() * harmonic.sqrt();
         let peak = speed.min(triangle);
@@ -67,7 +67,7 @@ impl Trapezoid {
         })
     }
 
-    /// The highest speed on the way \[rad/s or m/s\]: the limit, or less on a short way.
+    /// The highest speed of the motion \[rad/s or m/s\]: the limit, or less over a short distance.
     pub fn peak_speed(&self) -> f64 {
         self.speed
     }

@@ -1,11 +1,11 @@
-//! Turn: orientation that changes about one axis fixed in the world.
+//! Turn: a rotation about one axis fixed in the world.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::trajectory_error::{TrajectoryError, finite};
 use crate::spatial::{rotation_exp, rotation_log};
 
-/// A rotation from one orientation to another about a fixed axis, evenly along a path.
+/// A rotation from one orientation to another about a fixed axis, proportional to the fraction of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
     start: Matrix3<f64>,
@@ -15,9 +15,9 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// The short way between two orientations `world_from_tcp`, at most half a turn.
+    /// The rotation by the smaller angle between two orientations `world_from_tcp`, at most half a turn.
     ///
-    /// At exactly half a turn both ways are as short; the one [`rotation_log`] names is taken.
+    /// At exactly half a turn both directions are equally short, and the one of [`rotation_log`] is used.
     ///
     /// # Errors
     /// `NotFinite`.
@@ -27,7 +27,7 @@ impl Turn {
         for &element in start.iter().chain(end.iter()) {
             finite("element of a rotation", element)?;
         }
-        // the product with the transpose is the identity to rounding only, and no turn must take no time
+        // the product with the transpose is the identity only to rounding, and no rotation must take no time
         let rotation_vector = if start == end {
             Vector3::zeros()
         } else {

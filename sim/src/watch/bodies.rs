@@ -1,4 +1,4 @@
-//! Where the free bodies of a scene went: moved, toppled, off what they stood on, fallen over which side.
+//! Events of the dynamic bodies of a scene: moved, toppled, left its support, fell over which side.
 
 use nalgebra::Vector3;
 
@@ -12,13 +12,13 @@ use crate::run::Setup;
 use crate::spatial::{Pose, direction};
 use crate::step::hybrid::HybridStep;
 
-/// What pushes a body up by less than this part of its weight does not carry it.
+/// A contact supports a body only if it pushes it up by at least this fraction of the body's weight.
 const LEAST_LIFT: f64 = 0.1;
-/// How far the centre of mass is from its start when a body has moved \[m\].
+/// A body has moved when its centre of mass is this far from its start \[m\].
 const MOVED_M: f64 = 0.005;
-/// Cosine of the tilt at which a body has toppled: 45 degrees.
+/// Cosine of the tilt at which a body counts as toppled: 45 degrees.
 const TOPPLED_COS: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// How far below what it stood on, and below its start, the centre of mass of a fallen body is \[m\].
+/// A body has fallen when its centre of mass is this far below its support and below its start \[m\].
 const FELL_M: f64 = 0.05;
 
 #[derive(Debug, Clone)]
@@ -34,18 +34,18 @@ pub(super) struct BodyWatch<'a> {
 #[derive(Debug, Clone)]
 struct FreeBody {
     index: usize,
-    /// Upward impulse in a step from which something carries it: a tenth of its weight's \[N s\].
+    /// Upward impulse in a step from which something supports it: a tenth of the impulse of its weight \[N s\].
     least_lift_n_s: f64,
-    /// Since when it has been clear of everything.
+    /// The tick since which it has had no contact at all.
     clear_since: Option<u64>,
-    /// Whether it was clear of everything for long enough since it last touched what it stood on.
+    /// Whether it has been without contact for long enough since it last touched its support.
     flew: bool,
     p_com_in_body: Vector3<f64>,
     start_com: Vector3<f64>,
-    /// What pointed up at the start, in the body.
+    /// The direction that pointed up at the start, in the body's frame.
     up_in_body: Vector3<f64>,
     support: Option<Support>,
-    /// Since when nothing has carried it.
+    /// The tick since which nothing has supported it.
     adrift_since: Option<u64>,
     moved: bool,
     toppled: bool,
@@ -53,11 +53,11 @@ struct FreeBody {
     fell: bool,
 }
 
-/// What a body stood on first.
+/// The first support of a body.
 #[derive(Debug, Clone, Copy)]
 struct Support {
     party: Party,
-    /// Height of the place where it stood \[m\].
+    /// Height of the support \[m\].
     height_m: f64,
 }
 
@@ -97,11 +97,11 @@ impl<'a> BodyWatch<'a> {
         }
     }
 
-    pub(super) fn see(
+    pub(super) fn observe(
         &mut self,
         tick: u64,
         step: &HybridStep,
-        tell: &mut impl FnMut(u64, EventKind),
+        emit: &mut impl FnMut(u64, EventKind),
     ) {
         // nothing has been stepped yet: no contact is known
         if tick == 0 {
@@ -120,19 +120,19 @@ impl<'a> BodyWatch<'a> {
             let now = com(&world_from_body, &free.p_com_in_body);
             if !free.moved && (now - free.start_com).norm() >= MOVED_M {
                 free.moved = true;
-                tell(tick, EventKind::Moved { body });
+                emit(tick, EventKind::Moved { body });
             }
             let up_now = world_from_body.transform_vector(&free.up_in_body);
             if !free.toppled && up_now.dot(&self.up) <= TOPPLED_COS {
                 free.toppled = true;
-                tell(tick, EventKind::Toppled { body });
+                emit(tick, EventKind::Toppled { body });
             }
             let contacts = &step.report().contacts;
             let of_body = |fact: &&ContactFact| fact.parties.contains(&Party::Body(body));
             let mut touching = contacts.iter().filter(of_body).peekable();
             if touching.peek().is_some() {
                 free.clear_since = None;
-                // back on what it stood on, wherever that is by now
+                // back on its support, wherever that is by now
                 let home = free.support.map(|support| support.party);
                 free.flew &=
                     !touching.any(|fact| home.is_some_and(|home| fact.parties.contains(&home)));
@@ -148,7 +148,7 @@ impl<'a> BodyWatch<'a> {
                     let since = *free.adrift_since.get_or_insert(tick);
                     if !free.left && tick - since >= self.apart_ticks {
                         free.left = true;
-                        tell(since, EventKind::LeftSupport { body });
+                        emit(since, EventKind::LeftSupport { body });
                     }
                 }
                 (None, None) => {}
@@ -166,13 +166,13 @@ impl<'a> BodyWatch<'a> {
                     seen: seen(&outward, &(centre - self.p_base_in_world), &self.up),
                     outward,
                 });
-                tell(tick, EventKind::BodyFell { body, side });
+                emit(tick, EventKind::BodyFell { body, side });
             }
         }
     }
 }
 
-/// Where the first joint that moves is at the start, in the world: what sides are seen from \[m\].
+/// Position of the first moving joint at the start, in the world \[m\]: near and far sides are relative to it.
 fn base(setup: &Setup<'_>, poses: &FramePoses) -> Vector3<f64> {
     let robot = setup.robot;
     robot
@@ -190,7 +190,7 @@ fn com(world_from_body: &Pose, p_com_in_body: &Vector3<f64>) -> Vector3<f64> {
         .coords
 }
 
-/// What carries `body` most, if anything pushes it up by more than `least_n_s`.
+/// The party that pushes `body` up most, if any does by more than `least_n_s`.
 fn carrier(
     body: usize,
     contacts: &[ContactFact],
@@ -219,7 +219,7 @@ fn carrier(
     carrier
 }
 
-/// Over which side of the box around its support the point `now` lies: the way out, and the middle of the box; none inside it.
+/// The side of the box around its support beyond which the point `now` lies: outward direction and centre of the box; none inside it.
 fn side(
     scene: &Scene,
     step: &HybridStep,
@@ -238,7 +238,7 @@ fn side(
     let mut best: Option<(f64, Vector3<f64>)> = None;
     for axis in 0..3 {
         let unit = world_from_support.transform_vector(&Vector3::ith(axis, 1.0));
-        // top and bottom are no sides
+        // top and bottom do not count as sides
         if unit.dot(up).abs() > TOPPLED_COS {
             continue;
         }
@@ -260,7 +260,7 @@ fn side(
     ))
 }
 
-/// A way out as seen along `away`, from the robot to the support.
+/// The name of an outward direction relative to `away`, the direction from the robot to the support.
 fn seen(outward: &Vector3<f64>, away: &Vector3<f64>, up: &Vector3<f64>) -> SeenSide {
     let ahead = direction(away - up * away.dot(up)).unwrap_or_else(Vector3::x);
     let along = outward.dot(&ahead);
@@ -289,7 +289,7 @@ mod tests {
             (-Vector3::y(), SeenSide::Right),
         ] {
             assert_eq!(seen(&outward, &ahead, &up), side);
-            // the same scene, a quarter turn about the robot
+            // the same scene, rotated by 90 degrees about the robot
             let turned = |v: &Vector3<f64>| Vector3::new(-v.y, v.x, v.z);
             assert_eq!(seen(&turned(&outward), &turned(&ahead), &up), side);
         }

@@ -1,4 +1,4 @@
-//! Who pressed on whom, from when to when, and how hard.
+//! The contacts of a run: their parties, first and last ticks, forces and impulses.
 
 use nalgebra::Vector3;
 
@@ -8,10 +8,10 @@ use crate::step::hybrid::StepReport;
 
 /// One contact of two parties, from its first to its last tick; pauses under 20 ms do not end it.
 ///
-/// A tick tells what happened in the step that ended at it.
+/// The values of a tick are those of the step that ended at it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSpan {
-    /// The two, the lesser first.
+    /// Both parties, the lesser first.
     pub parties: [Party; 2],
     /// The first tick at which they pressed.
     pub first_tick: u64,
@@ -19,18 +19,18 @@ pub struct ContactSpan {
     pub last_tick: u64,
     /// The greatest mean normal force over a step \[N\].
     pub peak_force_n: f64,
-    /// The tick of that.
+    /// The tick of the peak force.
     pub peak_tick: u64,
     /// Sum of the normal impulses, never negative \[N s\].
     pub impulse_n_s: f64,
-    /// How deep one was inside the other at most \[m\].
+    /// Greatest penetration depth \[m\].
     pub depth_m: f64,
     /// Where they first pressed, in the world \[m\].
     pub p_first_in_world: Vector3<f64>,
 }
 
 impl ContactSpan {
-    /// Writes what a digest covers: all of it.
+    /// Feeds all fields to a digest.
     pub(crate) fn digest_into(&self, hasher: &mut blake3::Hasher) {
         for party in self.parties {
             let (kind, index) = party.numbers();
@@ -71,11 +71,11 @@ impl ContactWatch {
         }
     }
 
-    pub(super) fn see(
+    pub(super) fn observe(
         &mut self,
         tick: u64,
         report: &StepReport,
-        tell: &mut impl FnMut(u64, EventKind),
+        emit: &mut impl FnMut(u64, EventKind),
     ) {
         for fact in &report.contacts {
             let parties = fact.parties;
@@ -99,7 +99,7 @@ impl ContactWatch {
                     *index
                 }
                 Err(at) => {
-                    tell(tick, EventKind::Touched { parties });
+                    emit(tick, EventKind::Touched { parties });
                     self.last.insert(at, (parties, self.spans.len()));
                     self.spans.push(begin);
                     self.spans.len() - 1
@@ -152,25 +152,25 @@ mod tests {
     fn a_pause_parts_contacts_and_a_rattle_does_not() {
         let mut watch = ContactWatch::new(20);
         let mut touched = Vec::new();
-        let mut see = |watch: &mut ContactWatch, tick, forces: &[(usize, f64)]| {
-            watch.see(tick, &report(forces), &mut |tick, kind| {
+        let mut observe = |watch: &mut ContactWatch, tick, forces: &[(usize, f64)]| {
+            watch.observe(tick, &report(forces), &mut |tick, kind| {
                 touched.push((tick, kind.name()));
             });
         };
-        see(&mut watch, 5, &[(3, 10.0)]);
-        see(&mut watch, 6, &[]);
-        see(&mut watch, 7, &[(0, 2.0), (3, 30.0)]);
-        see(&mut watch, 8, &[(3, 20.0)]);
+        observe(&mut watch, 5, &[(3, 10.0)]);
+        observe(&mut watch, 6, &[]);
+        observe(&mut watch, 7, &[(0, 2.0), (3, 30.0)]);
+        observe(&mut watch, 8, &[(3, 20.0)]);
         // 20 ticks apart is still the same contact, 21 are not
-        see(&mut watch, 28, &[(0, 1.0), (3, 1.0)]);
+        observe(&mut watch, 28, &[(0, 1.0), (3, 1.0)]);
         let spans = watch.finish();
         assert_eq!(touched, [(5, "touched"), (7, "touched")]);
-        let told: Vec<_> = spans
+        let recorded: Vec<_> = spans
             .iter()
             .map(|span| (span.parties[1], span.first_tick, span.last_tick))
             .collect();
         assert_eq!(
-            told,
+            recorded,
             [
                 (Party::Body(3), 5, 28),
                 (Party::Body(0), 7, 7),

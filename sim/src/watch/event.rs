@@ -21,12 +21,12 @@ pub enum EventKind {
         /// Index of the joint in `q`.
         joint: usize,
     },
-    /// A joint reached a position limit: it stands on the stop, or, where nothing stops it, left its range.
+    /// A joint reached a position limit: it rests on the limit or, in a run without a scene, left its range.
     LimitHit {
         /// Index of the joint in `q`.
         joint: usize,
     },
-    /// In a scene, a joint reached its speed limit: its motor drives it no faster.
+    /// In a scene, a joint reached its speed limit: its motor does not accelerate it further.
     SpeedLimitHit {
         /// Index of the joint in `q`.
         joint: usize,
@@ -35,43 +35,43 @@ pub enum EventKind {
     NearSingular,
     /// Two parties pressed on each other for the first time.
     Touched {
-        /// The two, the lesser first.
+        /// Both parties, the lesser first.
         parties: [Party; 2],
     },
-    /// A free body left the place where it started.
+    /// A dynamic body left its start position.
     Moved {
         /// Index of the body in the scene.
         body: usize,
     },
-    /// What pointed up at a free body no longer does.
+    /// A dynamic body tilted by 45 degrees or more.
     Toppled {
         /// Index of the body in the scene.
         body: usize,
     },
-    /// Nothing carries a free body any more that stood on something.
+    /// A dynamic body lost its support.
     LeftSupport {
         /// Index of the body in the scene.
         body: usize,
     },
-    /// A free body fell below what it stood on.
+    /// A dynamic body fell below its support.
     BodyFell {
         /// Index of the body in the scene.
         body: usize,
-        /// Over which side; none where it fell through, or into, what it stood on.
+        /// The side over which it fell; none where it fell through or into its support.
         side: Option<Side>,
     },
-    /// The state was no longer finite, or grew beyond all reason: the run ends here.
+    /// The simulation diverged: the run ends here.
     Diverged,
     /// The controller stopped the run.
     Stopped,
 }
 
-/// A side of what a body stood on.
+/// A side of the support of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Side {
     /// As seen from the robot's base.
     pub seen: SeenSide,
-    /// The way out over that side, a horizontal unit vector in the world.
+    /// Outward normal of that side, a horizontal unit vector in the world.
     pub outward: Vector3<f64>,
 }
 
@@ -139,7 +139,7 @@ impl EventKind {
         }
     }
 
-    /// Writes what a digest covers: the word, then who and where.
+    /// Feeds a digest: the event's name, then the parties and the side.
     pub(crate) fn digest_into(&self, hasher: &mut blake3::Hasher) {
         let name = self.name();
         hasher.update(&(name.len() as u64).to_le_bytes());

@@ -7,12 +7,12 @@ use crate::model::contact::Party;
 use crate::model::robot::Robot;
 use crate::model::scene::Scene;
 
-/// The names of a run.
+/// The robot, scene and frame whose names appear in sentences.
 #[derive(Debug, Clone, Copy)]
 pub struct Names<'a> {
     /// The robot that moved.
     pub robot: &'a Robot,
-    /// What was around it.
+    /// The scene around it.
     pub scene: Option<&'a Scene>,
     /// The frame in which students work.
     pub seen_from: &'a str,
@@ -40,7 +40,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// What happened, in a sentence without its end.
+    /// The event as a sentence without a full stop.
     pub fn event(&self, kind: &EventKind) -> String {
         match kind {
             EventKind::Saturated { joint } => {
@@ -84,7 +84,7 @@ impl<'a> Names<'a> {
         let Some(frame) = self.robot.frame(self.seen_from) else {
             return String::new();
         };
-        // frames that move have no fixed axes
+        // a moving frame has no fixed axes
         if frame.attachment.body.is_some() {
             return String::new();
         }

@@ -1,10 +1,10 @@
-//! Joints at their limits: of effort, of position and of speed. A joint that comes back within a tenth of a second never left.
+//! Joints at their limits of effort, position and speed. A joint that returns to a limit within 0.1 s makes no new event.
 
 use super::event::EventKind;
 use crate::control::speed_limit::SpeedLimits;
 use crate::run::{Row, Setup};
 
-/// A joint that is away from a limit for longer than this arrives there anew \[s\].
+/// A joint that was away from a limit for longer than this makes a new event when it returns \[s\].
 const AWAY_S: f64 = 0.1;
 
 #[derive(Debug, Clone)]
@@ -34,13 +34,13 @@ impl JointWatch {
         }
     }
 
-    pub(super) fn see(&mut self, row: &Row<'_>, tell: &mut impl FnMut(u64, EventKind)) {
+    pub(super) fn observe(&mut self, row: &Row<'_>, emit: &mut impl FnMut(u64, EventKind)) {
         let standing = row.scene.map_or(&[][..], |scene| &scene.report().at_limit);
         for joint in 0..row.q.len() {
             let (lower, upper) = self.ranges[joint];
             let limit = self.effort_limits[joint];
             let now = [
-                // a limit of zero is a joint without a drive
+                // an effort limit of zero means a joint without a drive
                 limit > 0.0 && row.effort[joint].abs() >= limit,
                 row.q[joint] <= lower || row.q[joint] >= upper || standing.contains(&joint),
                 row.scene.is_some() && self.speed_limits.is_reached(joint, row.qd[joint]),
@@ -55,7 +55,7 @@ impl JointWatch {
                     continue;
                 }
                 if last.is_none_or(|last| row.tick - last > self.away_ticks) {
-                    tell(row.tick, kind);
+                    emit(row.tick, kind);
                 }
                 *last = Some(row.tick);
             }

@@ -1,25 +1,25 @@
-//! Watches a run tick by tick: what happened, who touched whom, where the bodies went.
+//! Watches a run tick by tick for events and contacts.
 //!
 //! | event | when |
 //! |---|---|
-//! | `saturated` | a joint's effort stands at the servo's limit, and did not for 0.1 s before |
-//! | `limit-hit` | a joint stands on a position limit or beyond, and did not for 0.1 s before |
+//! | `saturated` | a joint's effort is at the servo's limit, and was not for 0.1 s before |
+//! | `limit-hit` | a joint is on a position limit or beyond, and was not for 0.1 s before |
 //! | `speed-limit-hit` | in a scene, a joint is as fast as its limit, and was not for 0.1 s before |
 //! | `near-singular` | at a control period the TCP's Jacobian has a condition number of 50 or more, after it was below 40 |
 //! | `touched` | two parties press on each other for the first time in the run |
-//! | `moved` | the centre of mass of a free body is 5 mm or more from its start |
-//! | `toppled` | what pointed up at a free body at the start points 45 degrees or more away from it |
+//! | `moved` | the centre of mass of a dynamic body is 5 mm or more from its start |
+//! | `toppled` | a dynamic body is tilted by 45 degrees or more from its start |
 //! | `left-support` | for 20 ms nothing has pushed the body up with a tenth of its weight or more; the tick is the first of them |
-//! | `body-fell` | its centre of mass is 50 mm below where it stood, and below its start, and it was clear of everything for 20 ms since it last touched that |
+//! | `body-fell` | its centre of mass is 50 mm below its support and below its start, and it had no contact for 20 ms since it last touched the support |
 //!
-//! Of `moved`, `toppled`, `left-support` and `body-fell` the first of each body is told.
+//! `moved`, `toppled`, `left-support` and `body-fell` are reported once for each body.
 
 use super::contacts::ContactSpan;
 use super::event::{Event, EventKind};
 use super::{bodies, contacts, joints, singularity};
 use crate::run::{Row, Setup};
 
-/// Nothing shorter than this parts two contacts, or a body from its support \[s\].
+/// A shorter pause neither separates two contacts nor a body from its support \[s\].
 const APART_S: f64 = 0.02;
 
 /// Watches one run.
@@ -47,21 +47,21 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Looks at one tick; ticks come in order and none is left out.
-    pub fn see(&mut self, row: &Row<'_>) {
+    /// Takes one tick; ticks come in order and none is left out.
+    pub fn observe(&mut self, row: &Row<'_>) {
         let events = &mut self.events;
-        let mut tell = |tick: u64, kind: EventKind| events.push(Event { tick, kind });
-        self.joints.see(row, &mut tell);
+        let mut emit = |tick: u64, kind: EventKind| events.push(Event { tick, kind });
+        self.joints.observe(row, &mut emit);
         if row.tick.is_multiple_of(self.ticks_per_control) {
-            self.singularity.see(row, &mut tell);
+            self.singularity.observe(row, &mut emit);
         }
         if let Some(scene) = row.scene {
-            self.contacts.see(row.tick, scene.report(), &mut tell);
-            self.bodies.see(row.tick, scene, &mut tell);
+            self.contacts.observe(row.tick, scene.report(), &mut emit);
+            self.bodies.observe(row.tick, scene, &mut emit);
         }
     }
 
-    /// What happened, in tick order, and every contact, in the order they began.
+    /// The events in tick order, and the contacts in the order in which they began.
     pub fn finish(mut self) -> (Vec<Event>, Vec<ContactSpan>) {
         self.events.sort_by_key(|event| event.tick);
         (self.events, self.contacts.finish())

@@ -1,13 +1,13 @@
-//! How near the arm is to a position in which its TCP cannot move in some direction.
+//! How near the arm is to a singular configuration, in which its TCP cannot move in some direction.
 
 use super::event::EventKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::manipulability::{LINEAR, Manipulability, TWIST};
 use crate::run::{Row, Setup};
 
-/// Condition number of the Jacobian from which a position counts as near-singular.
+/// Condition number of the Jacobian from which a configuration counts as near-singular.
 const NEAR: f64 = 50.0;
-/// Condition number below which it no longer does: no chatter at the border.
+/// Condition number below which it no longer does: the hysteresis avoids repeated events at the border.
 const CLEAR: f64 = 40.0;
 
 #[derive(Debug, Clone)]
@@ -27,8 +27,9 @@ impl SingularityWatch {
         Self { chain, near: false }
     }
 
-    /// Positions of the TCP count; its turning too where six joints or more can choose it, with rotation weighed by the arm's length.
-    pub(super) fn see(&mut self, row: &Row<'_>, tell: &mut impl FnMut(u64, EventKind)) {
+    /// With fewer than six joints only the linear rows of the Jacobian count; otherwise all rows, the angular ones scaled by the arm's
+    /// length.
+    pub(super) fn observe(&mut self, row: &Row<'_>, emit: &mut impl FnMut(u64, EventKind)) {
         let Some(chain) = &mut self.chain else {
             return;
         };
@@ -48,7 +49,7 @@ impl SingularityWatch {
             .condition()
             .unwrap_or(f64::INFINITY);
         if !self.near && condition >= NEAR {
-            tell(row.tick, EventKind::NearSingular);
+            emit(row.tick, EventKind::NearSingular);
             self.near = true;
         } else if condition < CLEAR {
             self.near = false;

@@ -1,7 +1,7 @@
-//! Diagnosis: does what the student did equal a known mistake where that mistake differs from the truth?
+//! Diagnosis: do the student's answers or run agree with a mutant where that mutant differs from the reference?
 //!
-//! A mistake is named only where it explains everything: the answers agree with it wherever it would show, are right elsewhere,
-//! and agree with no other mistake as well. A wrong diagnosis is worse than none.
+//! A mistake is named only if it explains everything: the answers agree with it wherever it would show, are right elsewhere, and agree
+//! with no other mistake as well. A wrong diagnosis is worse than none.
 
 mod whole_run;
 
@@ -17,12 +17,12 @@ use crate::task::model::{Band, MotionTask};
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
 
-/// Fewer answers that would show a mistake could agree by chance.
-const LEAST_TELLING: usize = 3;
-/// Positions, and Jacobians, of one formula written in two ways differ by rounding only \[m\].
+/// Fewer answers that show a mistake could agree by chance.
+const LEAST_ANSWERS: usize = 3;
+/// Positions and Jacobians computed by the same formula, written in two ways, differ only by rounding \[m\].
 const SAME_POSITION_M: f64 = 1e-6;
 
-/// What one mutant says about the answers.
+/// The agreement of the answers with one mutant.
 struct Agreement<'m> {
     mutant: &'m Mutant,
     agreeing: usize,
@@ -40,7 +40,7 @@ impl Agreement<'_> {
     }
 }
 
-/// The one mistake that explains all, if there is exactly one: of two that do, the one that shows in more answers.
+/// The mistake that explains everything, if exactly one does; of several, the one that shows in more answers.
 fn clear(mut candidates: Vec<Agreement<'_>>) -> Vec<Diagnosis> {
     candidates.retain(|c| c.telling > 0 && c.agreeing == c.telling);
     candidates.sort_by_key(|candidate| std::cmp::Reverse(candidate.telling));
@@ -68,7 +68,7 @@ pub fn function_task<'m>(
                 right_elsewhere &= !is_wrong(student, band);
             }
         }
-        if telling >= LEAST_TELLING && right_elsewhere {
+        if telling >= LEAST_ANSWERS && right_elsewhere {
             candidates.push(Agreement {
                 mutant,
                 agreeing,
@@ -79,7 +79,7 @@ pub fn function_task<'m>(
     clear(candidates)
 }
 
-/// Whether an answer is so far off that it earns nothing: a mistake shows there beyond doubt.
+/// Whether an answer is so far off that it earns nothing: a mistake clearly shows there.
 fn is_wrong(facts: &CaseFacts<'_>, band: Band) -> bool {
     match &facts.error {
         CaseError::Position(error_m) => band.score(*error_m) <= 0.0,
@@ -97,7 +97,7 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
         (Answered::Position(a), Answered::Position(b)) => {
             (a - b).norm() <= SAME_POSITION_M * (1.0 + b.norm())
         }
-        // one branch may be left out: that is another matter, with a check of its own
+        // one branch may be missing: that is a different mistake, with a check of its own
         (Answered::Branches(a), Answered::Branches(b)) => {
             let found = |q: &Vec<f64>| b.iter().any(|other| close(student, q, other));
             a.is_empty() == b.is_empty() && a.iter().all(found)
@@ -109,14 +109,14 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
             .iter()
             .zip(b)
             .all(|(a, b)| relative_error(a, b) <= SAME_POSITION_M),
-        // "not a number" where the mistake gives none either
+        // NaN where the mutant gives NaN too
         (Answered::Invalid(_), Answered::Invalid(_)) => true,
         _ => false,
     }
 }
 
 fn close(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
-    // the same configuration, and the same numbers but for whole circles to rounding
+    // the same configuration: the same numbers up to full turns and rounding
     same_branch(&facts.robot, a, b)
         && a.iter().zip(b).all(|(a, b)| {
             let circle = 2.0 * std::f64::consts::PI;
@@ -125,7 +125,7 @@ fn close(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
         })
 }
 
-/// Compares where the student's run settled with where each mutant's run did.
+/// Compares the positions at which the student's run settled with those of each mutant's run.
 pub fn motion_task<'m>(
     motion: &MotionTask,
     band: Band,
@@ -133,7 +133,7 @@ pub fn motion_task<'m>(
     mutants: impl Iterator<Item = (&'m Mutant, Trace)>,
 ) -> Vec<Diagnosis> {
     let same_m = 5e-4; // a quarter of a narrow band; a servo at rest is far inside it
-    let still_m = 0.01; // an arm that never moved made no mistake in where to go
+    let still_m = 0.01; // an arm that never moved did not go to a wrong position
     let settled = settled_at(motion, student);
     let mut candidates = Vec::new();
     for (mutant, trace) in mutants {
@@ -164,30 +164,30 @@ pub fn motion_task<'m>(
     clear(candidates)
 }
 
-/// Where a run stood stillest in its dwell nearest to each goal, however far that is, and for as long as it remained there.
+/// For each goal, the position at which a run was most nearly at rest, near its dwell that is nearest to the goal.
 fn settled_at(motion: &MotionTask, trace: &Trace) -> Vec<Vector3<f64>> {
-    // where nothing scores, nearer is better
+    // without a score, nearer is better
     let anywhere = Band {
         full: 0.0,
         zero: 0.0,
     };
-    let there_m = 0.02; // a step response swings through this at the end of its settling
-    let beat = 20; // ticks over which stillness is judged
+    let near_m = 0.02; // at the end of its settling, a step response still swings by this much
+    let window = 20; // ticks over which motion is measured
     let dwells = best_dwells(trace, &motion.goals, anywhere);
-    let place = |dwell: &Dwell| {
+    let rest_position = |dwell: &Dwell| {
         let around = trace.tcp_position(dwell.last);
         let visit = (dwell.first..trace.len()).take_while(|&tick| {
-            tick <= dwell.last || (trace.tcp_position(tick) - around).norm() < there_m
+            tick <= dwell.last || (trace.tcp_position(tick) - around).norm() < near_m
         });
         let moved = |tick: usize| {
-            let later = (tick + beat).min(trace.len() - 1);
+            let later = (tick + window).min(trace.len() - 1);
             (trace.tcp_position(later) - trace.tcp_position(tick)).norm()
         };
-        // the last tick has nothing after it and would always be still
+        // the last tick has no tick after it and would always count as still
         let stillest = visit
-            .filter(|&tick| tick + beat < trace.len())
+            .filter(|&tick| tick + window < trace.len())
             .min_by(|&a, &b| moved(a).total_cmp(&moved(b)));
         trace.tcp_position(stillest.unwrap_or(dwell.last))
     };
-    dwells.iter().map(place).collect()
+    dwells.iter().map(rest_position).collect()
 }

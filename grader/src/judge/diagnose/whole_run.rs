@@ -1,12 +1,12 @@
-//! Whether a whole run is that of a known mistake: compared in the joints while the mutant runs, and given up as soon as the two can
+//! Whether a whole run agrees with that of a mutant: compared in the joints while the mutant runs, and given up as soon as the two can
 //! no longer agree.
 //!
 //! Distances are root mean squares over the control ticks of the run. The mutant must differ from the reference solution, and the
-//! student must not differ from the mutant, each at the shift in time that makes it hardest to say so.
+//! student must agree with the mutant, each at the time shift that is least favourable to that conclusion.
 
 use std::cmp::Ordering;
 
-use kinemark_sim::run::BlowUp;
+use kinemark_sim::run::DivergenceKind;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
@@ -15,35 +15,35 @@ use crate::attempt::{Attempt, EndReason, Ended};
 use crate::lab::staff::Mutant;
 use crate::record::grade::Diagnosis;
 
-/// A mutant nearer to the reference solution than this, in the mean over the run, shows too little of its mistake \[rad or m\].
-const LEAST_TELLING: f64 = 0.02;
-/// How far a student may be from a mutant, as a share of that one's distance from the reference solution.
+/// A mutant whose mean distance from the reference solution is less than this shows too little of its mistake \[rad or m\].
+const LEAST_DISTANCE: f64 = 0.02;
+/// How far a student may be from a mutant, as a fraction of the mutant's distance from the reference solution.
 const SHARE: f64 = 0.02;
-/// How far a student may always be from a mutant: a servo's lag differs by more for other gains \[rad or m\].
+/// How far a student may always be from a mutant; other gains change a servo's lag by more than this \[rad or m\].
 const FLOOR: f64 = 1e-3;
-/// A distance from the reference solution counts no more than this, so that one moment cannot excuse the others \[rad or m\].
+/// Distances from the reference solution are capped at this, so that one moment cannot dominate the others \[rad or m\].
 const MOST: f64 = 1.0;
-/// How much earlier or later a student may do the same \[s\].
+/// How much earlier or later a student may make the same motion \[s\].
 const MOST_SHIFT_S: f64 = 0.1;
-/// An arm that moves less, or is commanded nothing, makes no mistake that could be told from any other \[rad or m\].
+/// An arm that moves less than this, or is commanded nothing, shows no mistake that differs from others \[rad or m\].
 const STILL: f64 = 0.01;
-/// Calls of `control` between two looks at a mutant's run.
-const CALLS_A_LOOK: u64 = 5;
+/// Calls of `control` between two comparisons with a mutant's run.
+const CALLS_PER_COMPARISON: u64 = 5;
 
 /// A student's run, and the reference solution's of the same task.
 #[derive(Debug, Clone, Copy)]
 pub struct Compared<'t> {
-    /// The student's.
+    /// The student's run.
     pub student: &'t Trace,
     /// Why it ended early, and when.
     pub ended: Option<&'t Ended>,
-    /// The reference solution's, which came to its end.
+    /// The reference solution's run, which reached its end.
     pub reference: &'t Trace,
     /// The periods of both.
     pub periods: Periods,
 }
 
-/// The one known mistake whose run is the student's, if there is exactly one. `stopped` is told of each that stops on the way.
+/// The mutant whose run agrees with the student's, if exactly one does. `stopped` is called for each mutant that stops early.
 pub fn whole_run<'m, 'l>(
     compared: Compared<'_>,
     mutants: impl Iterator<Item = (&'m Mutant, Session<'l>)>,
@@ -58,29 +58,29 @@ pub fn whole_run<'m, 'l>(
             telling: agreement.telling,
         })
     });
-    // a second one ends the search: of two that fit, neither is told
+    // a second match ends the search: then neither is reported
     match (found.next(), found.next()) {
         (Some(only), None) => vec![only],
         _ => Vec::new(),
     }
 }
 
-/// How many calls of `control` show the mistake, of those in which it would show.
+/// The number of calls of `control` that show the mistake, among those in which it would show.
 struct Agreement {
     agreeing: u32,
     telling: u32,
 }
 
 impl Compared<'_> {
-    /// Runs a mutant as long as it can agree with the student.
+    /// Runs a mutant for as long as it can still agree with the student.
     fn with(&self, mut mutant: Session<'_>, stopped: &dyn Fn(Option<&Ended>)) -> Option<Agreement> {
         let mut sums = Sums::new(self);
-        let look = CALLS_A_LOOK * u64::from(self.periods.ticks_per_control.get());
+        let interval = CALLS_PER_COMPARISON * u64::from(self.periods.ticks_per_control.get());
         let most_ticks = self.student.len() as u64 + self.most_shift_ticks() + 1;
         while !mutant.is_over() && mutant.tick() <= most_ticks {
-            mutant.advance_to(mutant.tick() + look);
+            mutant.advance_to(mutant.tick() + interval);
             stopped(mutant.ended());
-            sums.see(self, mutant.so_far(), usize::MAX);
+            sums.add_ticks(self, mutant.so_far(), usize::MAX);
             if !sums.can_agree() {
                 return None;
             }
@@ -89,7 +89,7 @@ impl Compared<'_> {
             return None;
         }
         let mutant = mutant.finish();
-        sums.see(self, &mutant.recorded, usize::MAX);
+        sums.add_ticks(self, &mutant.recorded, usize::MAX);
         let shift = sums.agrees()?;
         let ends_alike = same_end(self.ended, mutant.ended.as_ref(), self.most_shift_ticks());
         (ends_alike && !is_still(&mutant)).then(|| self.agreement(&mutant.recorded, shift))
@@ -98,15 +98,15 @@ impl Compared<'_> {
     fn agreement(&self, mutant: &Trace, shift: i64) -> Agreement {
         let (mut agreeing, mut telling) = (0, 0);
         for row in 0..self.rows(mutant) {
-            let (Some(apart), Some(told)) = (
+            let (Some(from_student), Some(from_reference)) = (
                 self.distance(self.student, mutant, row, shift),
                 self.distance(self.reference, mutant, row, 0),
             ) else {
                 continue;
             };
-            if told > LEAST_TELLING {
+            if from_reference > LEAST_DISTANCE {
                 telling += 1;
-                agreeing += u32::from(apart < 0.5 * told);
+                agreeing += u32::from(from_student < 0.5 * from_reference);
             }
         }
         Agreement { agreeing, telling }
@@ -129,7 +129,8 @@ impl Compared<'_> {
         (MOST_SHIFT_S / self.periods.step_s).round() as u64
     }
 
-    /// Distance in the joints of `other`, `shift` control ticks later, from a control tick of the mutant; none where `other` has none.
+    /// The distance in the joints between a control tick of the mutant and the one `shift` ticks later in `other`; `None` if `other` has
+    /// no such tick.
     fn distance(&self, other: &Trace, mutant: &Trace, row: usize, shift: i64) -> Option<f64> {
         let there = usize::try_from(row as i64 + shift).ok()?;
         if there >= self.rows(other) {
@@ -162,15 +163,17 @@ impl Sum {
     }
 }
 
-/// What is known of a mutant's run so far, at each shift from the earliest to the latest.
+/// Sums over a mutant's run so far, at each shift from the earliest to the latest.
 struct Sums {
-    /// From the student.
-    apart: Vec<Sum>,
-    /// From the reference solution.
-    told: Vec<Sum>,
+    /// Squared distances from the student.
+    from_student: Vec<Sum>,
+    /// Squared distances from the reference solution.
+    from_reference: Vec<Sum>,
     most_shift: i64,
+    /// Control ticks of the student's run.
     rows: usize,
-    seen: usize,
+    /// Control ticks that are summed already.
+    summed: usize,
 }
 
 impl Sums {
@@ -178,11 +181,11 @@ impl Sums {
         let most_shift = compared.most_shift();
         let none = vec![Sum::default(); 2 * most_shift as usize + 1];
         Self {
-            apart: none.clone(),
-            told: none,
+            from_student: none.clone(),
+            from_reference: none,
             most_shift,
             rows: compared.rows(compared.student),
-            seen: 0,
+            summed: 0,
         }
     }
 
@@ -190,63 +193,65 @@ impl Sums {
         -self.most_shift..=self.most_shift
     }
 
-    /// Adds the control ticks of the mutant's run that are new, up to the first `most`.
-    fn see(&mut self, compared: &Compared<'_>, mutant: &Trace, most: usize) {
+    /// Adds the new control ticks of the mutant's run, up to the first `most`.
+    fn add_ticks(&mut self, compared: &Compared<'_>, mutant: &Trace, most: usize) {
         let until = compared.rows(mutant).min(self.rows).min(most);
-        for row in self.seen..until {
+        for row in self.summed..until {
             for (i, shift) in self.shifts().enumerate() {
-                self.apart[i].add(compared.distance(compared.student, mutant, row, shift));
-                let told = compared.distance(compared.reference, mutant, row, shift);
-                self.told[i].add(told.map(|told| told.min(MOST)));
+                self.from_student[i].add(compared.distance(compared.student, mutant, row, shift));
+                let distance = compared.distance(compared.reference, mutant, row, shift);
+                self.from_reference[i].add(distance.map(|distance| distance.min(MOST)));
             }
         }
-        self.seen = until.max(self.seen);
+        self.summed = until.max(self.summed);
     }
 
-    /// The square of the mean distance at which a student still agrees, for a mean square from the reference solution.
-    fn tolerance(told: f64) -> f64 {
-        (FLOOR * FLOOR).max(SHARE * SHARE * told)
+    /// The mean square up to which a student agrees, for a mean square from the reference solution.
+    fn tolerance(from_reference: f64) -> f64 {
+        (FLOOR * FLOOR).max(SHARE * SHARE * from_reference)
     }
 
-    /// Whether the run can still end in agreement: even if the mutant were far from the reference solution, and the student where
-    /// the mutant is, through all of the rest.
+    /// Whether the runs can still agree: in the most favourable case, in which the mutant is far from the reference solution and the
+    /// student is at the mutant for the rest of the run.
     fn can_agree(&self) -> bool {
-        let rest = self.rows - self.seen;
-        let told = self.shifts().zip(&self.told).map(|(shift, sum)| {
+        let rest = self.rows - self.summed;
+        let sums = self.shifts().zip(&self.from_reference);
+        let from_reference = sums.map(|(shift, sum)| {
             let rows = self.rows.saturating_sub(shift.unsigned_abs() as usize);
             (sum.squares + rest as f64 * MOST * MOST) / rows.max(1) as f64
         });
-        let tolerance = Self::tolerance(told.fold(f64::INFINITY, f64::min));
-        self.apart
+        let tolerance = Self::tolerance(from_reference.fold(f64::INFINITY, f64::min));
+        self.from_student
             .iter()
             .any(|sum| sum.squares <= tolerance * self.rows as f64)
     }
 
-    /// The shift at which the student agrees best, if the mutant is telling and the student agrees.
+    /// The shift at which the student agrees best, if the mutant shows its mistake and the student agrees.
     fn agrees(&self) -> Option<i64> {
-        let told = self.told.iter().map(Sum::mean);
-        let told = told.fold(f64::INFINITY, f64::min);
+        let from_reference = self.from_reference.iter().map(Sum::mean);
+        let from_reference = from_reference.fold(f64::INFINITY, f64::min);
         let compared = self
             .shifts()
-            .zip(&self.apart)
+            .zip(&self.from_student)
             .filter(|(_, sum)| sum.count > 0);
-        // of shifts that are equal the smallest
-        let (shift, apart) = compared.min_by(|a, b| {
+        // the smallest among equal shifts
+        let (shift, from_student) = compared.min_by(|a, b| {
             let by_distance = a.1.mean().total_cmp(&b.1.mean());
             by_distance.then_with(|| a.0.abs().cmp(&b.0.abs()))
         })?;
-        let is_telling = told >= LEAST_TELLING * LEAST_TELLING;
-        (is_telling && apart.mean() <= Self::tolerance(told)).then_some(shift)
+        let shows_mistake = from_reference >= LEAST_DISTANCE * LEAST_DISTANCE;
+        let agrees = from_student.mean() <= Self::tolerance(from_reference);
+        (shows_mistake && agrees).then_some(shift)
     }
 }
 
-/// Whether two runs came to their ends, or diverged in the same way at nearly the same time.
+/// Whether both runs reached their ends, or diverged in the same way at nearly the same time.
 fn same_end(student: Option<&Ended>, mutant: Option<&Ended>, most_ticks: u64) -> bool {
     match (student, mutant) {
         (None, None) => true,
         (Some(student), Some(mutant)) => match (&student.why, &mutant.why) {
             (EndReason::Diverged { what: a, .. }, EndReason::Diverged { what: b, .. }) => {
-                student.at.abs_diff(mutant.at) <= most_ticks && same_loss(a, b)
+                student.at.abs_diff(mutant.at) <= most_ticks && same_divergence(a, b)
             }
             _ => false,
         },
@@ -254,18 +259,23 @@ fn same_end(student: Option<&Ended>, mutant: Option<&Ended>, most_ticks: u64) ->
     }
 }
 
-/// Whether the same was lost first.
-fn same_loss(a: &BlowUp, b: &BlowUp) -> bool {
+/// Whether two runs diverged at the same joint or body, and in the same way.
+fn same_divergence(a: &DivergenceKind, b: &DivergenceKind) -> bool {
     match (a, b) {
-        (BlowUp::NotFinite { joint: a }, BlowUp::NotFinite { joint: b })
-        | (BlowUp::Runaway { joint: a, .. }, BlowUp::Runaway { joint: b, .. }) => a == b,
-        (BlowUp::BodyRunaway { body: a, .. }, BlowUp::BodyRunaway { body: b, .. }) => a == b,
-        (BlowUp::InContact { body: a }, BlowUp::InContact { body: b }) => a == b,
+        (DivergenceKind::NotFinite { joint: a }, DivergenceKind::NotFinite { joint: b })
+        | (DivergenceKind::Runaway { joint: a, .. }, DivergenceKind::Runaway { joint: b, .. }) => {
+            a == b
+        }
+        (
+            DivergenceKind::BodyRunaway { body: a, .. },
+            DivergenceKind::BodyRunaway { body: b, .. },
+        ) => a == b,
+        (DivergenceKind::InContact { body: a }, DivergenceKind::InContact { body: b }) => a == b,
         _ => false,
     }
 }
 
-/// Whether an arm stayed where it began, or was commanded nothing.
+/// Whether an arm did not move from its start, or was commanded nothing.
 fn is_still(run: &Attempt<Trace>) -> bool {
     let trace = &run.recorded;
     if trace.is_empty() {
@@ -275,7 +285,7 @@ fn is_still(run: &Attempt<Trace>) -> bool {
     let moved = (0..trace.len()).any(|tick| {
         let pairs = trace.q.at(tick).iter().zip(start);
         pairs.map(|(q, start)| (q - start).abs()).any(|moved| {
-            // a number that is none has moved as well
+            // NaN counts as moved
             moved.partial_cmp(&STILL) != Some(Ordering::Less)
         })
     });
@@ -308,7 +318,7 @@ mod tests {
         let mut sums = Sums::new(&compared);
         let mut lost = None;
         for row in 0..compared.rows(mutant) {
-            sums.see(&compared, mutant, row + 1);
+            sums.add_ticks(&compared, mutant, row + 1);
             if lost.is_none() && !sums.can_agree() {
                 lost = Some(row);
             }
@@ -347,7 +357,7 @@ mod tests {
     fn a_run_that_left_the_students_is_given_up_early() {
         let reference = trace(step(0.2, 1.0));
         let (_, lost) = compared(&trace(step(0.2, 1.0)), &trace(step(0.2, -1.0)), &reference);
-        // 0.08 rad² are left to it, which some 0.1 rad for ten control ticks use up
+        // 0.08 rad² remain, which about 0.1 rad for ten control ticks use up
         assert!(lost < Some(45), "{lost:?}");
     }
 
@@ -363,7 +373,7 @@ mod tests {
     #[test]
     fn runaways_are_the_same_where_the_same_was_lost_at_the_same_time() {
         let lost = |tick, joint| {
-            let what = BlowUp::Runaway {
+            let what = DivergenceKind::Runaway {
                 joint,
                 kinetic_j: 2e6,
                 bound_j: 1e6,

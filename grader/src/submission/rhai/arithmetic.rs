@@ -1,7 +1,7 @@
-//! Operators: numbers behave as numbers, vectors and matrices go element by element.
+//! Operators: on numbers, and element by element on vectors and matrices.
 //!
-//! Whole numbers stay whole where the result is whole and fits, else they become floats; nothing overflows. Division by
-//! zero gives an infinity or NaN, as IEEE 754 says, and an answer that holds one is refused by whoever asked for it.
+//! Integers give an integer if the result is one and fits, else a float; nothing overflows. Division by zero gives an infinity or NaN,
+//! as IEEE 754 says; the grader refuses an answer that contains one.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -22,7 +22,7 @@ struct Operator {
     symbol: &'static str,
     verb: &'static str,
     joiner: &'static str,
-    /// The exact result, if it is whole and fits.
+    /// The exact result, if it is an integer that fits.
     whole: fn(INT, INT) -> Option<INT>,
     float: fn(f64, f64) -> f64,
 }
@@ -122,7 +122,7 @@ pub(super) fn register(library: &mut Library) {
         "!",
         &[TypeId::of::<Dynamic>()],
         |_, arguments| match arguments[0].as_bool() {
-            Ok(truth) => Ok((!truth).into()),
+            Ok(boolean) => Ok((!boolean).into()),
             Err(_) => Err(fault(format!(
                 "`!` takes true or false, got {}",
                 describe(arguments[0])
@@ -169,7 +169,7 @@ fn register_comparisons(library: &mut Library) {
     }
 }
 
-/// Operators other languages have under another meaning, and those of bits, which a controller has no use for.
+/// Operators with another meaning in other languages, and bitwise operators, which a controller does not need.
 fn register_refusals(library: &mut Library) {
     let any = [TypeId::of::<Dynamic>(); 2];
     for (symbol, message, help) in [
@@ -286,7 +286,7 @@ fn matrix_product(meter: &Meter, a: &Operand, b: &Operand) -> Result<Option<Dyna
     })
 }
 
-/// `+` with a string on either side joins texts; everything else that gets here is refused.
+/// `+` with a string on either side joins strings; all other operands are refused.
 fn join_text(
     meter: &Meter,
     operator: Operator,

@@ -1,4 +1,4 @@
-//! What a script has used up, and what it printed and plotted.
+//! The meter of a script: used budgets, and printed and plotted output.
 
 use std::cell::{Cell, RefCell};
 
@@ -6,9 +6,9 @@ use rhai::Position;
 
 use super::copies;
 use super::mistake::Problem;
-use crate::submission::controller::{Budget, Budgets, Place, Said};
+use crate::submission::controller::{Budget, Budgets, Said, SourcePosition};
 
-/// A built-in that walks over elements costs one operation for this many of them, which takes it about as long.
+/// A built-in that processes elements is charged one operation for this many of them, which takes about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
 
 /// Copies of vectors are charged this often, in operations.
@@ -20,19 +20,19 @@ pub(super) struct Meter {
     budgets: Budgets,
     /// Operations of the calls before this one.
     spent: Cell<u64>,
-    /// What this call may use.
+    /// Operations that this call may use.
     allowed: Cell<u64>,
-    /// The engine's count, which goes on from call to call.
+    /// The engine's count, which continues from call to call.
     counted: Cell<u64>,
-    /// That count when this call began.
+    /// The engine's count when this call began.
     counted_before: Cell<u64>,
-    /// What built-ins charged in this call beyond that.
+    /// Operations charged by built-ins in this call, in addition to the engine's count.
     charged: Cell<u64>,
     /// The budget that ran out first.
     exhausted: Cell<Option<Budget>>,
-    /// Where a built-in or an operator was last called.
+    /// Position of the last call of a built-in or an operator.
     position: Cell<Position>,
-    /// Where the first result of this call came from that is not a number.
+    /// Origin of the first NaN of this call.
     not_a_number: RefCell<Option<String>>,
     log: RefCell<Vec<String>>,
     log_lines: Cell<u64>,
@@ -68,7 +68,7 @@ impl Meter {
         self.allowed.set(left.min(self.budgets.operations_per_call));
         self.counted_before.set(self.counted.get());
         self.charged.set(0);
-        // what another script on this thread copied, or this one between calls, is not of this call
+        // discard copies by another script on this thread, or by this one between calls
         copies::take();
         self.exhausted.set(None);
         self.not_a_number.take();
@@ -82,7 +82,7 @@ impl Meter {
         used
     }
 
-    /// Takes over the engine's count; false if that is more than the call may use.
+    /// Updates the engine's count; false if the call has used more than it may.
     pub(super) fn count(&self, counted: u64) -> bool {
         self.counted.set(counted);
         if (counted - self.counted_before.get()).is_multiple_of(COPIES_EVERY) {
@@ -141,7 +141,7 @@ impl Meter {
         }
     }
 
-    /// Adds a line to the log. Beyond the most that are kept it only says so, once: what a student looks at must not end the run.
+    /// Adds a line to the log. Above the maximum it only adds a note, once: printing must not end the run.
     pub(super) fn print(&self, line: String) {
         let most = self.budgets.log_lines;
         let printed = self.log_lines.get().saturating_add(1);
@@ -149,12 +149,12 @@ impl Meter {
         if printed <= most {
             self.log.borrow_mut().push(line);
         } else if printed == most + 1 {
-            let told = format!("more than {most} lines are printed: the rest is not kept");
-            self.log.borrow_mut().push(told);
+            let note = format!("more than {most} lines are printed: the rest is not kept");
+            self.log.borrow_mut().push(note);
         }
     }
 
-    /// Adds a value to a signal; beyond the most that are kept it only says so, once.
+    /// Adds a value to a signal. Above the maximum it only adds a note to the log, once.
     pub(super) fn plot(&self, name: String, value: f64) {
         let most = self.budgets.plot_samples;
         let plotted = self.plot_samples.get().saturating_add(1);
@@ -162,12 +162,12 @@ impl Meter {
         if plotted <= most {
             self.plots.borrow_mut().push((name, value));
         } else if plotted == most + 1 {
-            let told = format!("more than {most} values are plotted: the rest is not kept");
-            self.log.borrow_mut().push(told);
+            let note = format!("more than {most} values are plotted: the rest is not kept");
+            self.log.borrow_mut().push(note);
         }
     }
 
-    /// Remembers the first result of a call that is not a number.
+    /// Remembers the first NaN of a call.
     pub(super) fn note_not_a_number(&self, words: impl FnOnce() -> String) {
         let mut noted = self.not_a_number.borrow_mut();
         if noted.is_none() {
@@ -177,14 +177,14 @@ impl Meter {
         }
     }
 
-    /// Adds to the log where an answer that is not a number may come from.
+    /// Adds the likely origin of a NaN answer to the log.
     pub(super) fn log_not_a_number(&self) {
         if let Some(note) = self.not_a_number.take() {
             self.log.borrow_mut().push(note);
         }
     }
 
-    /// Hands over what was printed and plotted since the last time.
+    /// Takes the output since the last time.
     pub(super) fn take_output(&self) -> Said {
         Said {
             log: self.log.take(),
@@ -197,13 +197,13 @@ impl Meter {
         self.exhausted.get()
     }
 
-    /// Remembers where a built-in is called, because the engine counts some operations without a place.
+    /// Remembers the position of a built-in's call, because the engine counts some operations without a position.
     pub(super) fn at(&self, position: Position) {
         self.position.set(position);
     }
 
-    /// Where a built-in was last called.
-    pub(super) fn last_place(&self) -> Option<Place> {
+    /// Position of the last call of a built-in.
+    pub(super) fn last_place(&self) -> Option<SourcePosition> {
         place(self.position.get())
     }
 
@@ -242,9 +242,9 @@ impl Meter {
     }
 }
 
-/// The engine's position as a place in the file.
-pub(super) fn place(position: Position) -> Option<Place> {
-    Some(Place {
+/// The engine's position as one in the submission.
+pub(super) fn place(position: Position) -> Option<SourcePosition> {
+    Some(SourcePosition {
         line: position.line()?,
         column: position.position().unwrap_or(1),
     })

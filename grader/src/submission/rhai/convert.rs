@@ -1,4 +1,4 @@
-//! Values across the seam.
+//! Conversion of values between the grader and the script language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -10,7 +10,7 @@ use crate::submission::controller::{
     Budget, Observation, Opening, Reads, RobotFacts, SensorFacts, Value,
 };
 
-/// What a function returned; at most a list's budget of values in all.
+/// The return value of a function, with at most a list's budget of values in all.
 pub(super) fn to_value(meter: &Meter, value: &Dynamic) -> Result<Value, Problem> {
     let mut taken = 0;
     convert(meter, value, &mut taken)
@@ -51,8 +51,8 @@ fn convert(meter: &Meter, value: &Dynamic, taken: &mut usize) -> Result<Value, P
         )
     } else if let Ok(text) = value.as_immutable_string_ref() {
         Value::Text(text.to_string())
-    } else if let Ok(truth) = value.as_bool() {
-        Value::Boolean(truth)
+    } else if let Ok(boolean) = value.as_bool() {
+        Value::Boolean(boolean)
     } else if let Ok(character) = value.as_char() {
         Value::Text(character.to_string())
     } else if value.is_unit() {
@@ -80,7 +80,7 @@ pub(super) fn is_finite(value: &Value) -> bool {
 pub(super) fn to_dynamic(value: &Value) -> Dynamic {
     match value {
         Value::Nothing => Dynamic::UNIT,
-        Value::Boolean(truth) => (*truth).into(),
+        Value::Boolean(boolean) => (*boolean).into(),
         Value::Number(number) => (*number).into(),
         Value::Text(text) | Value::Other(text) => text.as_str().into(),
         Value::List(elements) => {
@@ -113,7 +113,7 @@ pub(super) fn robot(facts: &RobotFacts) -> Dynamic {
         .iter()
         .map(|(name, value)| (name.as_str().into(), to_dynamic(value)))
         .collect();
-    // after the dimensions, so that none of these can be hidden by one
+    // inserted after the dimensions, so that no dimension can hide them
     let names: Array = facts
         .joint_names
         .iter()
@@ -128,7 +128,7 @@ pub(super) fn robot(facts: &RobotFacts) -> Dynamic {
     Dynamic::from_map(map)
 }
 
-/// The map `observation` before the first tick: what does not change in a task.
+/// The map `observation` before the first tick, with the values that are constant in a task.
 pub(super) fn observation_template(opening: &Opening) -> Map {
     let mut map = Map::new();
     map.insert("task".into(), opening.task.as_str().into());

@@ -1,7 +1,7 @@
-//! Counts copies of values the engine makes without saying so.
+//! Counts copies of values that the engine makes without counting them.
 //!
-//! A list of a thousand vectors is copied in one of the engine's operations, a thousand times as long as that should take. The
-//! copy of each vector is ours to make, so it is counted here and charged a little later.
+//! The engine copies a list of a thousand vectors in one operation, although this takes a thousand times as long. The copy of each
+//! vector is our code, so it is counted here and charged a little later.
 
 use std::cell::Cell;
 

@@ -1,4 +1,4 @@
-//! The language: what is in it and, by leaving it out, what is not.
+//! The language: an engine with exactly the features that it has.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -14,19 +14,19 @@ use super::mistake::raise;
 use super::{arithmetic, linear, list, math, output};
 use crate::submission::controller::{Budgets, Grant};
 
-/// What variables stand for that no function declares.
+/// Values of variables that no function declares.
 #[derive(Default)]
 pub(super) struct Globals {
     /// Constants, built-in and of the file, filled as its top level runs.
     pub(super) constants: RefCell<BTreeMap<String, Dynamic>>,
-    /// Arguments of the call to come, each moved out when it is read.
+    /// Arguments of the next call, each moved out when it is read.
     pub(super) arguments: [Cell<Dynamic>; 2],
 }
 
 /// The variables through which a call reads its arguments; a script that uses one finds nothing in it.
 pub(super) const ARGUMENTS: [&str; 2] = ["argument_0_of_the_call", "argument_1_of_the_call"];
 
-/// What can be reached by name although nothing registers it.
+/// Names that work although nothing registers them.
 const DISABLED: [&str; 8] = [
     "eval",
     "Fn",
@@ -61,9 +61,9 @@ pub(super) fn build(
     for symbol in DISABLED {
         engine.disable_symbol(symbol);
     }
-    // the optimiser would calculate `1 / 2` and `2.0 ** 0.5` by rules of its own
+    // the optimiser would compute `1 / 2` and `2.0 ** 0.5` by its own rules
     engine.set_optimization_level(rhai::OptimizationLevel::None);
-    // these rules of its own compare floats with a tolerance and take powers from the platform
+    // its fast operators compare floats with a tolerance and use the platform's powers
     engine.set_fast_operators(false);
     engine.set_fail_on_invalid_map_property(true);
     engine.set_allow_anonymous_fn(false);

@@ -1,8 +1,8 @@
-//! Names and signs that people bring from MATLAB, Python and C, and what to write here.
+//! Names and signs from MATLAB, Python and C, and what to write instead.
 
 use kinemark_sim::text::nearest;
 
-/// Functions of other languages, and what to write here.
+/// Functions of other languages, and what to write instead.
 const FUNCTIONS: &[(&str, &str)] = &[
     ("arctan2", "write atan2(y, x)"),
     ("arctan", "write atan(x)"),
@@ -99,7 +99,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("reduce", "write a `for` loop"),
 ];
 
-/// Variables of other languages, and what to write here.
+/// Variables of other languages, and what to write instead.
 const VARIABLES: &[(&str, &str)] = &[
     (
         "np",
@@ -131,7 +131,7 @@ const VARIABLES: &[(&str, &str)] = &[
     ),
 ];
 
-/// Words of other languages' syntax, and what to write here.
+/// Words of other languages' syntax, and what to write instead.
 const SYNTAX: &[(&str, &str)] = &[
     ("and", "write && for \"and\""),
     ("or", "write || for \"or\""),
@@ -155,7 +155,7 @@ const SYNTAX: &[(&str, &str)] = &[
     ("from", "everything there is, is built in"),
 ];
 
-/// Signs of other languages' syntax, and what to write here.
+/// Signs of other languages' syntax, and what to write instead.
 const SIGNS: &[(&str, &str)] = &[
     (".*", "write *: vectors multiply element by element"),
     ("./", "write /: vectors divide element by element"),
@@ -234,7 +234,7 @@ pub(super) fn syntax(line: &str, column: usize) -> Option<String> {
 /// Words that a line begins with.
 const KEYWORDS: [&str; 8] = ["fn", "let", "const", "if", "for", "while", "return", "else"];
 
-/// The keyword that a line's first word is nearly, where the parser stopped at its second one.
+/// The keyword that is nearest to a line's first word, if the parser stopped at its second word.
 pub(super) fn near_keyword(line: &str, column: usize) -> Option<String> {
     let before: String = line.chars().take(column.saturating_sub(1)).collect();
     let word = before.trim();

@@ -1,5 +1,5 @@
-//! What a task grants: functions of `robot` that ask Kinemark's own model of it. The map `robot` holds none of them, so that it can
-//! be kept in `this` like any other map.
+//! Granted functions: functions of `robot` that query Kinemark's own model. The map `robot` does not contain them, so that it can be
+//! kept in `this` like any other map.
 
 use std::any::TypeId;
 use std::cell::RefCell;
@@ -24,7 +24,7 @@ use crate::task::jacobian::jacobian_in;
 use crate::task::model::Rows;
 use crate::task::tcp::tcp_in;
 
-/// The robot that granted functions ask, made again only for other dimensions.
+/// The robot that granted functions query, built again only for other dimensions.
 #[derive(Debug)]
 pub(super) struct Model {
     file: RobotFile,
@@ -60,7 +60,7 @@ impl Model {
         })
     }
 
-    /// From now on the robot is that of `facts`.
+    /// Sets the robot to that of `facts`.
     pub(super) fn is_now(&self, facts: &RobotFacts) -> Result<(), Stop> {
         let mut current = self.current.borrow_mut();
         if current.0 != facts.dimensions {
@@ -81,7 +81,10 @@ impl Model {
             .is_ok_and(|map| map.contains_key("joint_names") && map.contains_key("lower"));
         if !is_robot {
             return Err(fault_with_help(
-                format!("`{name}` is asked of the robot, got {}", describe(of[0])),
+                format!(
+                    "`{name}` is a function of the robot, got {}",
+                    describe(of[0])
+                ),
                 format!("write robot.{name}(q)"),
             ));
         }
@@ -130,7 +133,7 @@ impl Model {
     }
 }
 
-/// Operations that a call is charged: about what it takes next to a step of a script, the same wherever the arm stands.
+/// Operations charged for a call: about its time in steps of a script, the same in every configuration.
 fn cost(grant: Grant, joints: usize) -> u64 {
     let joints = joints as u64;
     match grant {
@@ -143,7 +146,7 @@ fn cost(grant: Grant, joints: usize) -> u64 {
 fn built(file: &RobotFile, facts: &RobotFacts) -> Result<Robot, Stop> {
     let number = |value: &Value| match value {
         Value::Number(number) => *number,
-        // a dimension is numbers; building refuses what is not
+        // dimensions are numbers; building the robot refuses invalid ones
         _ => f64::NAN,
     };
     let dimensions: Vec<(String, Dimension)> = facts

@@ -1,11 +1,11 @@
-//! What to say about names nobody knows: the nearest known one, and where it is to be found.
+//! Messages about unknown names: the nearest known name, and where it is defined.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::foreign;
 use crate::submission::controller::Grant;
 
-/// Everything that has a name in one submission.
+/// All names of one submission.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     /// Built-in functions, with their numbers of parameters.
@@ -22,19 +22,19 @@ pub(super) struct Names {
     pub(super) observation: BTreeSet<String>,
     /// Keys of `robot`.
     pub(super) robot: BTreeSet<String>,
-    /// Parameters that stand for the observation, whatever the file calls them.
+    /// Names of the parameters that hold the observation.
     pub(super) observation_parameters: BTreeSet<String>,
-    /// Keys of `observation.target`, where it is a map.
+    /// Keys of `observation.target`, if it is a map.
     pub(super) target: BTreeSet<String>,
-    /// Parameters that stand for the robot.
+    /// Names of the parameters that hold the robot.
     pub(super) robot_parameters: BTreeSet<String>,
-    /// Keys of what a function of the lab's own is given.
+    /// Keys of the input of the lab's own function.
     pub(super) given: BTreeSet<String>,
-    /// Parameters that stand for that.
+    /// Names of the parameters that hold this input.
     pub(super) given_parameters: BTreeSet<String>,
 }
 
-/// What a submission's functions are called with.
+/// The parameters of a submission's functions.
 pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
     ("forward_kinematics", &["robot", "q"]),
     ("inverse_kinematics", &["robot", "position"]),
@@ -183,7 +183,7 @@ impl Names {
         }
     }
 
-    /// What to do when the function a task calls is missing.
+    /// The help for a missing function that a task calls.
     pub(super) fn missing(&self, name: &str, parameters: &[&str]) -> Option<String> {
         let wanted = format!("{name}({})", parameters.join(", "));
         if let Some((_, got)) = self.functions.iter().find(|(known, _)| known == name) {
@@ -209,7 +209,7 @@ impl Names {
     }
 }
 
-/// Says that an index is past the end of the variable `name`.
+/// The message for an index past the end of the variable `name`.
 pub(super) fn past_the_end(index: usize, length: usize, name: &str) -> Words {
     const JOINT_VECTORS: [&str; 6] = ["q", "qd", "effort", "lower", "upper", "joint_names"];
     let message = match length.checked_sub(1) {
@@ -240,17 +240,17 @@ fn arguments_words(count: usize) -> String {
     }
 }
 
-/// The known name that is a slip of the keyboard away, the first of equals.
+/// The known name that a typo could have made `name` from; the first among equally near ones.
 fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let slips = 1 + name.chars().count() / 5;
     let lower = name.to_lowercase();
     known
-        // one letter is a slip away from every other
+        // a single letter is near to every other
         .filter(|known| *known != name && known.len() > 1 && name.len() > 1)
         .map(|known| {
             let known_lower = known.to_lowercase();
             let shared = lower.chars().zip(known_lower.chars());
-            // of equally near names the one that begins alike
+            // among equally near names, prefer one with the same first letter
             let unlike = lower.len() - shared.take_while(|(a, b)| a == b).count().min(lower.len());
             ((strsim::osa_distance(&lower, &known_lower), unlike), known)
         })

@@ -1,4 +1,4 @@
-//! Where built-ins are registered: each gets the meter and its arguments by reference.
+//! Registration of built-ins; each gets the meter, and its arguments by reference.
 
 use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};

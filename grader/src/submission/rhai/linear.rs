@@ -1,4 +1,4 @@
-//! Making, indexing and solving with vectors and matrices.
+//! Built-ins of linear algebra: construction, indexing and solving.
 
 use std::any::TypeId;
 use std::ops;
@@ -105,7 +105,7 @@ fn register_products(library: &mut Library) {
                 az * bx - ax * bz,
                 ax * by - ay * bx,
             ]))),
-            // the turn from one to the other in the plane
+            // the z component of the cross product in the plane
             ([ax, ay], [bx, by]) => Ok((ax * by - ay * bx).into()),
             _ => Err(fault(format!(
                 "`cross` takes vectors of 3, or of 2, got vectors of {}",
@@ -283,7 +283,7 @@ fn register_indexing(library: &mut Library) {
 
 fn get_element(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem> {
     let Some(vector) = arguments[0].read_lock::<Vector>() else {
-        return Err(fault("this is no vector"));
+        return Err(fault("this is not a vector"));
     };
     if let Some(range) = range(arguments[1]) {
         let part = vector.elements().get(range.clone()).ok_or_else(|| {
@@ -306,10 +306,10 @@ fn set_element(_: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Probl
     let constant = arguments[0].is_read_only();
     let index = {
         let Some(vector) = arguments[0].read_lock::<Vector>() else {
-            return Err(fault("this is no vector"));
+            return Err(fault("this is not a vector"));
         };
         let index = index(arguments[1], vector.len(), "vector", "elements")?;
-        // the engine also writes back what it only read, `V[0].abs()`: that changes nothing
+        // the engine also writes back a value that it only read, as in `V[0].abs()`: that changes nothing
         if vector.elements()[index].to_bits() == value.to_bits() {
             return Ok(Dynamic::UNIT);
         }
@@ -339,7 +339,7 @@ fn set_row(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Probl
         return Err(if constant {
             constant_fault()
         } else {
-            fault("this is no matrix")
+            fault("this is not a matrix")
         });
     };
     meter.charge(matrix.columns())?;
@@ -365,7 +365,7 @@ fn constant_fault() -> Problem {
     fault_with_help("a constant cannot change", "copy it with `let` first")
 }
 
-/// The index a value is; counting starts at 0 and never from the end.
+/// A value as an index; counting starts at 0 and never from the end.
 pub(super) fn index(
     value: &Dynamic,
     length: usize,
@@ -404,13 +404,13 @@ fn past_the_end(index: usize, length: usize, container: &str, parts: &str) -> Pr
     })
 }
 
-/// The range of indices a value is.
+/// A value as a range of indices.
 fn range(value: &Dynamic) -> Option<ops::Range<usize>> {
     let range = Range::of(value)?;
     Some(usize::try_from(range.from).ok()?..usize::try_from(range.to).ok()?)
 }
 
-/// The rule for a list, which the engine indexes itself as long as the index is inside.
+/// The error for an index of a list, which the engine indexes itself as long as the index is inside.
 pub(super) fn list_index_fault(list: &Array, index: INT) -> Problem {
     match usize::try_from(index) {
         Ok(index) => past_the_end(index, list.len(), "list", "elements"),

@@ -1,4 +1,4 @@
-//! Lists, maps and texts: a small selection, each charged by what it walks over.
+//! Built-ins of lists, maps and strings, charged by the number of elements that they process.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -287,7 +287,7 @@ fn with_map(
     Ok(Dynamic::from_array(list(map)))
 }
 
-/// Whether a list holds a value, a map a key, or a string a string; what `in` asks.
+/// Whether a list contains a value, a map a key, or a string a string: the operator `in`.
 fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem> {
     let (container, wanted) = (&*arguments[0], &*arguments[1]);
     if let Ok(map) = container.as_map_ref() {
@@ -318,7 +318,7 @@ fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Prob
     Ok(false.into())
 }
 
-/// Refuses a value that takes up more of a budget of size than there is, vectors included, which the engine does not count.
+/// Refuses a value beyond a budget of size, including its vectors, which the engine does not count.
 pub(super) fn check_size(meter: &Meter, value: &Dynamic) -> Result<(), Problem> {
     let mut weight = Weight::default();
     weight.add(value);
@@ -327,7 +327,7 @@ pub(super) fn check_size(meter: &Meter, value: &Dynamic) -> Result<(), Problem> 
     meter.within(Budget::TextSize, weight.bytes)
 }
 
-/// How much a copy of a value copies; vectors are shared.
+/// The cost of a copy of a value; vectors are shared.
 pub(super) fn size(value: &Dynamic) -> usize {
     let mut weight = Weight::default();
     weight.add(value);
@@ -342,7 +342,7 @@ struct Weight {
     numbers: usize,
     /// Entries of maps.
     entries: usize,
-    /// Bytes of texts.
+    /// Bytes of strings.
     bytes: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Functions of numbers, which go element by element over vectors and matrices; all from `libm`.
+//! Functions of numbers, applied element by element to vectors and matrices; all from `libm`.
 
 use std::any::TypeId;
 use std::f64::consts::{PI, TAU};
@@ -14,7 +14,7 @@ use super::words::{self, describe};
 type Unary = fn(f64) -> f64;
 type Binary = fn(f64, f64) -> f64;
 
-/// The numbers for which a function has no real value, and in words those for which it has one.
+/// A test for numbers without a real result, and the valid numbers in words.
 type Domain = Option<(fn(f64) -> bool, &'static str)>;
 
 const UNIT_INTERVAL: Domain = Some((|x| x.abs() > 1.0, "a number from -1 to 1"));
@@ -43,7 +43,7 @@ const UNARY: &[(&str, Unary, Domain)] = &[
     ("quintic_rate", quintic_rate, None),
 ];
 
-/// Functions of one number that give whole numbers for whole numbers.
+/// Functions of one number that give integers for integers.
 const ROUNDING: &[(&str, Unary)] = &[
     ("abs", f64::abs),
     ("sign", sign),
@@ -77,7 +77,7 @@ pub(super) fn register(library: &mut Library) {
     for &(name, function) in ROUNDING {
         let apply = move |meter: &Meter, arguments: &mut [&mut Dynamic]| {
             let result = each(meter, name, function, None, arguments[0])?;
-            // a rounded number counts and indexes, so it is a whole one if it fits
+            // a rounded number is used as a count or an index, so it becomes an integer if it fits
             let keeps_fraction = matches!(name, "abs" | "sign") && !arguments[0].is_int();
             match as_whole(&result) {
                 Some(whole) if !keeps_fraction => Ok(Dynamic::from_int(whole)),
@@ -224,7 +224,7 @@ fn each_pair(
     if let (Ok(a), Ok(b)) = (left.as_int(), right.as_int()) {
         let result = function(a as f64, b as f64);
         return Ok(match as_whole(&result.into()) {
-            // `max(1, 2)` is whole, `hypot(3, 4)` may be
+            // `max(1, 2)` is an integer, `hypot(3, 4)` may be one
             Some(whole) => Dynamic::from_int(whole),
             None => result.into(),
         });
@@ -259,7 +259,7 @@ fn each_pair(
     }
 }
 
-/// The angle in (-π, π] that differs by whole turns.
+/// The angle in (-π, π] that differs by full turns.
 fn wrap_pi(angle: f64) -> f64 {
     if angle > -PI && angle <= PI {
         return angle;

@@ -1,34 +1,34 @@
-//! From what stops the engine to what a student reads: plain words, the place, something to do.
+//! Turns the engine's errors into messages for students: plain words, the position, what to do.
 
 use rhai::{Dynamic, EvalAltResult, LexError, ParseError, ParseErrorType, Position};
 
 use super::budget::{Meter, place};
 use super::foreign;
 use super::hints::{self, Names};
-use crate::submission::controller::{Budget, Mistake, Place, Stop};
+use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
-/// What to do about a fraction as an index.
+/// The help for a fraction as an index.
 const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
 
-/// Why a built-in has no result.
+/// The reason why a built-in has no result.
 #[derive(Debug)]
 pub(super) enum Problem {
-    /// The student asked for what cannot be.
+    /// An error of the student.
     Fault(Fault),
-    /// A budget ran out, the meter knows which; a script cannot catch this.
+    /// A budget ran out; the meter knows which one. A script cannot catch this.
     Exhausted,
 }
 
-/// A mistake without its place, which only the engine knows.
+/// An error without its position, which only the engine knows.
 #[derive(Debug, Clone)]
 pub(super) struct Fault {
     pub(super) message: String,
     pub(super) help: Option<String>,
-    /// An index and the length it is past, where the name of the variable would help; only the source has it.
+    /// An index and the length that it exceeds, if the message should name the variable, which only the source does.
     pub(super) past_the_end: Option<(usize, usize)>,
 }
 
-/// A fault with nothing to do about it but what the message says.
+/// A fault without help.
 pub(super) fn fault(message: impl Into<String>) -> Problem {
     Problem::Fault(Fault {
         message: message.into(),
@@ -37,7 +37,7 @@ pub(super) fn fault(message: impl Into<String>) -> Problem {
     })
 }
 
-/// A fault with something to do.
+/// A fault with help.
 pub(super) fn fault_with_help(message: impl Into<String>, help: impl Into<String>) -> Problem {
     Problem::Fault(Fault {
         message: message.into(),
@@ -54,20 +54,20 @@ pub(super) fn raise(problem: Problem, position: Position) -> Box<EvalAltResult> 
     })
 }
 
-/// What the words of a mistake are made from.
+/// The context for the message of an error.
 pub(super) struct Context<'a> {
     pub(super) source: &'a str,
     pub(super) meter: &'a Meter,
     pub(super) names: &'a Names,
-    /// Where the function that was called begins.
-    pub(super) beginning: Option<Place>,
+    /// The position where the called function begins.
+    pub(super) beginning: Option<SourcePosition>,
 }
 
 impl Context<'_> {
-    /// Says why the file is no program.
+    /// Explains why the file does not compile.
     pub(super) fn parsing(&self, error: &ParseError) -> Stop {
         let ParseError(kind, position) = error;
-        // the engine's end of the file is a line after the last
+        // the engine reports the end of the file as a line after the last
         let place = place(*position)
             .filter(|place| self.line(place.line).is_some())
             .or_else(|| self.end_of_source());
@@ -85,14 +85,14 @@ impl Context<'_> {
         }
     }
 
-    /// Says why the run ended.
+    /// Explains why the run ended.
     // long: one arm per error of the engine: a table, and as long as the engine has errors
     pub(super) fn running(&self, error: &EvalAltResult) -> Stop {
         let mut inner = error;
         while let EvalAltResult::ErrorInFunctionCall(_, _, nested, _) = inner {
             inner = nested;
         }
-        // the engine puts the place of the call in the place of a limit that was reached inside
+        // the engine reports the position of the call for a limit that was reached inside
         let own_place = (!inner.is_system_exception()).then(|| place(inner.position()));
         let place = own_place
             .flatten()
@@ -177,7 +177,7 @@ impl Context<'_> {
         })
     }
 
-    fn over(&self, budget: Budget, place: Option<Place>) -> Stop {
+    fn over(&self, budget: Budget, place: Option<SourcePosition>) -> Stop {
         Stop::OverBudget {
             budget,
             limit: self.meter.limit(budget),
@@ -186,7 +186,7 @@ impl Context<'_> {
     }
 
     /// A built-in's fault, or what the student's own `throw` carries.
-    fn thrown(&self, thrown: &Dynamic, place: Option<Place>) -> (String, Option<String>) {
+    fn thrown(&self, thrown: &Dynamic, place: Option<SourcePosition>) -> (String, Option<String>) {
         let Some(fault) = thrown.read_lock::<Fault>() else {
             let text = super::words::show_briefly(thrown);
             return (format!("the script threw: {text}"), None);
@@ -197,8 +197,8 @@ impl Context<'_> {
         (fault.message.clone(), fault.help.clone())
     }
 
-    /// The name before the `[` or `.` at or before a place: `q` of `q[2]`.
-    fn owner_of(&self, place: Option<Place>) -> Option<String> {
+    /// The name before the `[` or `.` at or before a position: `q` of `q[2]`.
+    fn owner_of(&self, place: Option<SourcePosition>) -> Option<String> {
         let place = place?;
         let before: Vec<char> = self.line(place.line)?.chars().take(place.column).collect();
         let separator = before.iter().rposition(|&c| c == '[' || c == '.')?;
@@ -215,15 +215,19 @@ impl Context<'_> {
         self.source.lines().nth(number.checked_sub(1)?)
     }
 
-    fn end_of_source(&self) -> Option<Place> {
+    fn end_of_source(&self) -> Option<SourcePosition> {
         let line = self.source.lines().count().max(1);
-        Some(Place {
+        Some(SourcePosition {
             line,
             column: self.line(line).map_or(1, |text| text.chars().count() + 1),
         })
     }
 
-    fn parse_words(&self, kind: &ParseErrorType, place: Option<Place>) -> (String, Option<String>) {
+    fn parse_words(
+        &self,
+        kind: &ParseErrorType,
+        place: Option<SourcePosition>,
+    ) -> (String, Option<String>) {
         let line = place.and_then(|place| self.line(place.line)).unwrap_or("");
         let foreign = place.and_then(|place| foreign::syntax(line, place.column));
         let at = place.and_then(|place| line.chars().nth(place.column.checked_sub(1)?));
@@ -258,17 +262,9 @@ impl Context<'_> {
                 Some("an element of a matrix is m[row][column]".to_owned()),
             ),
             ParseErrorType::MissingToken(token, what) if token == "," => {
-                let closing = if what.contains("array") {
-                    "]"
-                } else if what.contains("map") {
-                    "}"
-                } else {
-                    ")"
-                };
-                (
-                    format!("a `{closing}` or a `,` is missing before this"),
-                    None,
-                )
+                let closing = closing_bracket(what);
+                let message = format!("a `{closing}` or a `,` is missing before this");
+                (message, None)
             }
             ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | "]" | "}") => {
                 (format!("a `{token}` is missing before this"), None)
@@ -293,7 +289,7 @@ impl Context<'_> {
                 Some("remove or rename one of them".to_owned()),
             ),
             ParseErrorType::WrongFnDefinition => (
-                "a function stands inside another function or block".to_owned(),
+                "a function is inside another function or block".to_owned(),
                 Some("move it to the top level of the file; is a `}` missing above?".to_owned()),
             ),
             other => (plain(&other.to_string()), None),
@@ -302,7 +298,18 @@ impl Context<'_> {
     }
 }
 
-/// Keeps a message readable when a name or text in it is endless.
+/// The bracket that closes what the engine was reading, from its description of that.
+fn closing_bracket(what: &str) -> &'static str {
+    if what.contains("array") {
+        "]"
+    } else if what.contains("map") {
+        "}"
+    } else {
+        ")"
+    }
+}
+
+/// Shortens a message with a very long name or string in it.
 fn shortened(text: String) -> String {
     const LONGEST: usize = 400;
     if text.chars().count() <= LONGEST {
@@ -321,7 +328,7 @@ fn size_budget(what: &str) -> Budget {
     }
 }
 
-/// The engine's sentence as a fragment of ours: `Expecting '(' ...` becomes ``expecting `(` ...``.
+/// The engine's sentence as a lowercase fragment: `Expecting '(' ...` becomes ``expecting `(` ...``.
 fn plain(text: &str) -> String {
     let text = text
         .split(" (line ")

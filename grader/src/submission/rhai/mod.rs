@@ -1,4 +1,4 @@
-//! A student's code, run here behind the [`Controller`](crate::submission::controller::Controller) seam.
+//! The script language: runs a student's code as a [`Controller`](crate::submission::controller::Controller).
 //!
 //! The language is Rhai without clocks, files, modules, randomness, closures and `eval`, with vectors and matrices as types
 //! and every transcendental function from `libm`. `docs/script-language.md` is its reference. What the code may use up is

@@ -1,4 +1,4 @@
-//! What a value of the language is to arithmetic; a list of numbers is a vector, a list of rows is a matrix.
+//! Values of the language as operands: a list of numbers is a vector, a list of rows is a matrix.
 
 use rhai::{Array, Dynamic, INT};
 
@@ -6,7 +6,7 @@ use super::mistake::{Problem, fault, fault_with_help};
 use super::vector::{Matrix, Vector};
 use super::words::describe;
 
-/// A value as arithmetic sees it.
+/// A value as an operand of arithmetic.
 #[derive(Debug, Clone)]
 pub(super) enum Operand {
     Int(INT),
@@ -67,7 +67,7 @@ impl Operand {
         }
     }
 
-    /// How many elements arithmetic walks over.
+    /// The number of elements that arithmetic processes.
     pub(super) fn elements(&self) -> usize {
         match self {
             Self::Int(_) | Self::Float(_) | Self::Other => 1,
@@ -77,7 +77,7 @@ impl Operand {
     }
 }
 
-/// The number a value is, whole or not.
+/// A value as a number, integer or not.
 pub(super) fn as_number(value: &Dynamic) -> Option<f64> {
     value
         .as_float()
@@ -117,13 +117,13 @@ pub(super) fn matrix(function: &str, value: &Dynamic) -> Result<Matrix, Problem>
     }
 }
 
-/// The integer a value is: `2` and `2.0`, not `2.5`.
+/// A value as an integer: `2` and `2.0`, not `2.5`.
 pub(super) fn as_whole(value: &Dynamic) -> Option<INT> {
     if let Ok(whole) = value.as_int() {
         return Some(whole);
     }
     let number = value.as_float().ok()?;
-    // beyond 2^53 neighbours of a float are not integers any more
+    // beyond 2^53 not every integer is a float
     (number.fract().abs() == 0.0 && number.abs() <= 9_007_199_254_740_992.0)
         .then_some(number as INT)
 }

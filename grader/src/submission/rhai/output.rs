@@ -1,4 +1,4 @@
-//! What a script says: `print` adds a line to the log, `plot` a value to a signal of the report.
+//! The output of a script: `print` adds a line to the log, `plot` adds a value to a signal of the report.
 
 use rhai::{Dynamic, ImmutableString};
 
@@ -8,7 +8,7 @@ use super::mistake::{Problem, fault};
 use super::operand::Operand;
 use super::words::{describe, show};
 
-/// So that a name fits a legend, and fifty thousand of them fit in memory.
+/// Longest name of a signal, so that it fits a legend, and fifty thousand of them fit in memory.
 const LONGEST_SIGNAL_NAME: usize = 64;
 
 /// `print(a, b, ...)` takes up to this many.
@@ -58,8 +58,8 @@ fn plot(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem>
             }
         }
         operand => match operand.number().or_else(|| {
-            let truth = arguments[1].as_bool().ok()?;
-            Some(f64::from(u8::from(truth)))
+            let boolean = arguments[1].as_bool().ok()?;
+            Some(f64::from(u8::from(boolean)))
         }) {
             Some(value) => meter.plot(name.to_string(), value),
             None => {

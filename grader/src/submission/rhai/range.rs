@@ -1,4 +1,4 @@
-//! Ranges of whole numbers, `0..n` and `0..=n`.
+//! Ranges of integers, `0..n` and `0..=n`.
 
 use std::ops;
 
@@ -6,7 +6,7 @@ use rhai::{Dynamic, INT};
 
 use super::copies;
 
-/// The whole numbers from one up to, but not with, another.
+/// The integers from a start up to, but without, an end.
 #[derive(Debug)]
 pub(super) struct Range {
     pub(super) from: INT,
@@ -24,7 +24,7 @@ impl Clone for Range {
 }
 
 impl Range {
-    /// The range a value is: one of ours, or one of the engine's, which it makes of literals in an index or argument.
+    /// A value as a range: one of ours, or one of the engine's, which it makes from literals in an index or argument.
     pub(super) fn of(value: &Dynamic) -> Option<Self> {
         if let Some(range) = value.read_lock::<Self>() {
             return Some(range.clone());

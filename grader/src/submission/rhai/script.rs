@@ -20,10 +20,10 @@ use crate::submission::controller::{
     Stop, Value,
 };
 
-/// The stack a thread needs on which scripts run.
+/// The stack size of a thread that runs scripts.
 ///
-/// The engine calls itself for functions within functions and expressions within expressions. The deepest script the default
-/// budgets allow takes 4 MiB of it in an optimised build and several times as much in one that is not.
+/// The engine is recursive in nested functions and expressions. The deepest script that the default budgets allow needs 4 MiB in an
+/// optimised build, and several times as much in a debug build.
 pub const STACK_BYTES: usize = 32 << 20;
 
 /// A script that has been read and may be called.
@@ -37,15 +37,15 @@ pub struct ScriptController {
     run: Run,
     task: String,
     robot: CachedRobot,
-    /// What granted functions ask, where any is granted.
+    /// The robot model of granted functions, if any is granted.
     model: Option<Rc<Model>>,
     observation: Map,
     sensors: Vec<SensorFacts>,
     /// One statement for each function that may be called: `memory.control(argument)`.
     ///
-    /// A method call, because that is how the engine gives a function its `this`.
+    /// A method call, because the engine gives only methods a `this`.
     statements: BTreeMap<String, AST>,
-    /// The function of the lab's own that is called, where one is.
+    /// The lab's own function that is called, if any.
     free: Option<String>,
 }
 
@@ -53,14 +53,14 @@ pub struct ScriptController {
 struct Run {
     global: GlobalRuntimeState,
     caches: Caches,
-    /// Holds [`MEMORY`].
+    /// The scope with the variable [`MEMORY`].
     scope: Scope<'static>,
 }
 
 /// The variable that is `this` in a call: a map that is kept between calls.
 const MEMORY: &str = "memory";
 
-/// The map `robot`, made again only for another robot.
+/// The map `robot`, created again only for another robot.
 struct CachedRobot {
     facts: RobotFacts,
     map: Dynamic,
@@ -83,11 +83,11 @@ impl CachedRobot {
 }
 
 impl ScriptController {
-    /// Reads a script and runs what stands outside of its functions.
+    /// Compiles a script and runs its statements outside of functions.
     ///
     /// # Errors
-    /// [`Stop::DidNotBuild`] if it is no program, [`Stop::OverBudget`] if it is too long or too deep, and whatever its top level
-    /// runs into.
+    /// [`Stop::DidNotBuild`] if it does not compile, [`Stop::OverBudget`] if it is too long or too deep, and any stop of its top-level
+    /// statements.
     pub fn open(opening: &Opening) -> Result<Self, Stop> {
         let budgets = &opening.budgets;
         if opening.source.len() as u64 > budgets.source_bytes {
@@ -118,7 +118,7 @@ impl ScriptController {
             .map(|map| map.keys().map(ToString::to_string).collect())
             .unwrap_or_default();
 
-        // an editor's mark of the encoding, which nobody sees
+        // a byte order mark, which editors do not show
         let source = opening.source.trim_start_matches('\u{feff}');
         let context = Context {
             source,
@@ -172,7 +172,7 @@ impl ScriptController {
         self.meter.start();
         let mut scope = Scope::new();
         for statement in self.ast.statements() {
-            // a constant is found in the scope, and the value of a bare expression is of no use
+            // constants are in the scope; the value of a bare expression is not used
             let _ = self
                 .engine
                 .eval_statements_raw(
@@ -199,7 +199,7 @@ impl ScriptController {
         Ok(())
     }
 
-    /// What words are made from, for a run of `function` or of the top level.
+    /// The context for messages about a run of `function` or of the top level.
     fn context(&self, function: Option<&str>) -> Context<'_> {
         let body = function.and_then(|name| {
             let parameters = self.parameters_of(name).len();
@@ -216,7 +216,7 @@ impl ScriptController {
         }
     }
 
-    /// What the grader calls a function with; nothing for a function it does not call.
+    /// The parameters of a function that the grader calls; empty for others.
     fn parameters_of(&self, name: &str) -> &'static [&'static str] {
         match &self.free {
             Some(free) if free == name => &FREE_PARAMETERS,
@@ -252,12 +252,12 @@ impl ScriptController {
         convert::to_value(&self.meter, &value).map_err(|problem| self.after_call(name, problem))
     }
 
-    /// Holds `this` to the budgets of size as a whole, vectors included.
+    /// Checks the budgets of size for `this` as a whole, including its vectors.
     fn check_memory(&self, name: &str) -> Result<(), Stop> {
         let memory = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
         if !memory.is_map() {
             return Err(Stop::Crashed(Mistake {
-                message: "`this` is no map any more".to_owned(),
+                message: "`this` is not a map any more".to_owned(),
                 place: None,
                 help: Some("keep values under names: this.count = 0".to_owned()),
             }));
@@ -265,13 +265,13 @@ impl ScriptController {
         list::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
     }
 
-    /// What a problem with the answer or `this` of `function` stops.
+    /// The stop for a problem with the answer or `this` of `function`.
     fn after_call(&self, function: &str, problem: Problem) -> Stop {
         let error: Box<EvalAltResult> = raise(problem, Position::NONE);
         self.context(Some(function)).running(&error)
     }
 
-    /// The stop for a function that is not there, or has other parameters; none if it need not be there.
+    /// The stop for a function that is missing or has other parameters; `None` if it is optional.
     fn missing(&self, name: &str) -> Option<Stop> {
         let parameters = self.parameters_of(name);
         let has_namesake = self.names.functions.iter().any(|(known, _)| known == name);
@@ -373,10 +373,10 @@ fn call_statements(
         .collect()
 }
 
-/// What a function of the lab's own is called with.
+/// The parameters of the lab's own function.
 const FREE_PARAMETERS: [&str; 1] = ["given"];
 
-/// Why no function of a lab's own can be called `name`; `None` where one can.
+/// Why a lab's own function cannot have the name `name`; `None` if it can.
 pub fn refused_name(name: &str) -> Option<&'static str> {
     let first = name.starts_with(|c: char| c.is_ascii_lowercase());
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
@@ -398,7 +398,7 @@ pub fn refused_name(name: &str) -> Option<&'static str> {
     }
 }
 
-/// What the grader calls a function with; nothing for a function it does not call.
+/// The parameters of a function that the grader calls; empty for others.
 fn entry_parameters(name: &str) -> &'static [&'static str] {
     ENTRY_POINTS
         .iter()
@@ -406,7 +406,7 @@ fn entry_parameters(name: &str) -> &'static [&'static str] {
         .map_or(&[], |(_, parameters)| parameters)
 }
 
-/// Refuses what the engine would run with another meaning than the student's.
+/// Refuses code that the engine would run with another meaning than the student's.
 fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
     let mut slips = Vec::new();
     ast.walk(&mut |path| {
@@ -431,7 +431,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
         }
         true
     });
-    // the first in the file, because the engine keeps functions in an order of its own
+    // the first in the file, because the engine has its own order of functions
     let first = slips
         .into_iter()
         .min_by_key(|(place, ..)| place.map(|place| (place.line, place.column)));
@@ -445,7 +445,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
     }
 }
 
-/// Notes what the file declares.
+/// Records the declarations of the file.
 fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
     for function in ast.iter_functions() {
         let parameters: Vec<String> = function.params.iter().map(ToString::to_string).collect();

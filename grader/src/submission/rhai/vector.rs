@@ -1,7 +1,7 @@
 //! Vectors and matrices as values of the language.
 //!
-//! Both share their elements until one is changed, so that handing them around costs the same for any size. Sums run in the
-//! order of the elements, because the platform's kernels fuse and reorder and so give other bits.
+//! Copies share their elements until one is changed, so that passing them costs the same for any size. Sums run in the order of the
+//! elements, because the platform's kernels fuse and reorder and so give other bits.
 
 use std::rc::Rc;
 
@@ -33,7 +33,7 @@ impl Vector {
         self.0.len()
     }
 
-    /// The elements, to change; copied first if another value shares them.
+    /// The elements for modification; copied first if another value shares them.
     pub(super) fn elements_mut(&mut self) -> &mut [f64] {
         Rc::make_mut(&mut self.0).as_mut_slice()
     }
@@ -77,7 +77,7 @@ impl Matrix {
         Self(Rc::new(DMatrix::from_fn(rows, columns, element)))
     }
 
-    /// Makes a matrix of rows, all of the same length.
+    /// A matrix from rows, all of the same length.
     pub(super) fn from_rows(rows: &[Vector]) -> Option<Self> {
         let columns = rows.first()?.len();
         rows.iter()
@@ -141,7 +141,7 @@ impl Matrix {
             .collect()
     }
 
-    /// Solves `self · X = right` for a square matrix; none if it is singular to working precision.
+    /// Solves `self · X = right` for a square matrix; `None` if it is singular to working precision.
     ///
     /// Gaussian elimination with partial pivoting. A pivot below `n ε` of the largest element counts as zero.
     pub(super) fn solve(&self, right: &Self) -> Option<Self> {
@@ -241,7 +241,7 @@ impl IntoIterator for Matrix {
     }
 }
 
-/// Goes over a vector without a copy of it.
+/// An iterator over a vector without a copy of it.
 #[derive(Debug)]
 pub(super) struct Elements {
     vector: Vector,
@@ -258,7 +258,7 @@ impl Iterator for Elements {
     }
 }
 
-/// Goes over the rows of a matrix, each made when it is needed.
+/// An iterator over the rows of a matrix, each created when it is needed.
 #[derive(Debug)]
 pub(super) struct Rows {
     matrix: Matrix,

@@ -9,14 +9,14 @@ use super::mistake::{Fault, Problem};
 use super::vector::{Matrix, Vector};
 use crate::submission::controller::Budget;
 
-/// What a value is: `the number 2`, `a vector of 3`.
+/// A value in words: `the number 2`, `a vector of 3`.
 pub(super) fn describe(value: &Dynamic) -> String {
     if let Ok(whole) = value.as_int() {
         format!("the number {whole}")
     } else if let Ok(float) = value.as_float() {
         format!("the number {}", number(float))
-    } else if let Ok(truth) = value.as_bool() {
-        truth.to_string()
+    } else if let Ok(boolean) = value.as_bool() {
+        boolean.to_string()
     } else if value.is_unit() {
         "nothing `()`".to_owned()
     } else if let Ok(text) = value.as_immutable_string_ref() {
@@ -36,7 +36,7 @@ pub(super) fn describe(value: &Dynamic) -> String {
     }
 }
 
-/// The name of what else there is in the language.
+/// The names of the other types of the language.
 pub(super) fn kind(value: &Dynamic) -> &'static str {
     if value.is_fnptr() {
         "a function"
@@ -97,8 +97,8 @@ fn write_value(
         let _ = write!(text, "{whole}");
     } else if let Ok(float) = value.as_float() {
         text.push_str(&number(float));
-    } else if let Ok(truth) = value.as_bool() {
-        let _ = write!(text, "{truth}");
+    } else if let Ok(boolean) = value.as_bool() {
+        let _ = write!(text, "{boolean}");
     } else if let Ok(content) = value.as_immutable_string_ref() {
         write_text(text, &content, quoted);
     } else if let Some(vector) = value.read_lock::<Vector>() {

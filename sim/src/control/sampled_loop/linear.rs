@@ -10,7 +10,7 @@ use crate::joint_space::JointPositions;
 use crate::kinematics::closure::{Closure, independent_motions};
 use crate::model::robot::Robot;
 
-/// Robots with more independent joints are not analysed: the work grows with the third power.
+/// Robots with more independent joints are not analysed: the cost grows with the third power.
 const MOST_JOINTS: usize = 40;
 
 /// Half the distance over which gravity's slope is taken \[rad or m\]: truncation O(h²) and round-off O(ε/h) meet near it.
@@ -19,14 +19,14 @@ const SLOPE_STEP: f64 = 1e-5;
 /// The robot near one position, by its `k` independent joints.
 pub(super) struct Linear<'a> {
     settings: &'a ServoSettings,
-    /// How all joints move per independent one, shape `(n, k)`.
+    /// Rates of all joints per unit rate of each independent one, shape `(n, k)`.
     motions: DMatrix<f64>,
     mass: DMatrix<f64>,
     inverse_mass: DMatrix<f64>,
     /// Which joints have a drive.
     driven: Vec<bool>,
     damping: DMatrix<f64>,
-    /// Slope of the effort that holds the robot.
+    /// Slope of the gravity efforts.
     stiffness: DMatrix<f64>,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Linear<'a> {
             viscous[body.q_index] += body.gear * body.gear * body.damping;
         }
         let stiffness = match settings.mode {
-            Mode::Position => holding_slope(robot, gravity_m_s2, q, &motions)?,
+            Mode::Position => gravity_slope(robot, gravity_m_s2, q, &motions)?,
             _ => DMatrix::zeros(k, k),
         };
         Some(Self {
@@ -71,7 +71,7 @@ impl<'a> Linear<'a> {
         })
     }
 
-    /// How many of the state's parts the robot moves: `T q̇`, in position mode after `q`.
+    /// Number of states of the robot itself: `T q̇`, and in position mode also `q`.
     fn moving(&self) -> usize {
         match self.settings.mode {
             Mode::Position => 2 * self.mass.nrows(),
@@ -79,11 +79,11 @@ impl<'a> Linear<'a> {
         }
     }
 
-    /// How the robot moves over a period while the effort is held; `None` if not finite.
+    /// The robot discretized over a period with zero-order hold of the effort; `None` if not finite.
     ///
-    /// Time counts in periods, which keeps all parts of the state alike in size: the matrix takes `[q, T q̇, τ]` to the next sample,
+    /// Time is in units of the period `T`, which keeps all states at a similar scale: the matrix maps `[q, T q̇, τ]` to the next sample,
     /// in velocity mode without `q`.
-    pub(super) fn held(&self, period_s: f64) -> Option<Held> {
+    pub(super) fn discretize(&self, period_s: f64) -> Option<DiscretePlant> {
         let (k, moving, t) = (self.mass.nrows(), self.moving(), period_s);
         let rate = moving - k;
         let mut flow: DMatrix<f64> = DMatrix::zeros(moving + k, moving + k);
@@ -102,20 +102,24 @@ impl<'a> Linear<'a> {
                 flow[(i, rate + i)] = 1.0;
             }
         }
-        Some(Held {
+        Some(DiscretePlant {
             motion: exponential(&flow)?,
             period_s,
         })
     }
 
-    /// The matrix that takes the state of robot and servos from one sample to the next under `gains`; `None` if not finite.
+    /// The transition matrix of robot and servos from one sample to the next under `gains`; `None` if not finite.
     ///
-    /// The state is what moves, then, where they are used, the measurement before and the sum of errors, all \[rad or m\].
-    pub(super) fn transition(&self, held: &Held, gains: &[Gains]) -> Option<DMatrix<f64>> {
-        let Held {
+    /// The state holds those of the robot, then, if used, the previous measurement and the sum of errors, all \[rad or m\].
+    pub(super) fn transition(
+        &self,
+        plant: &DiscretePlant,
+        gains: &[Gains],
+    ) -> Option<DMatrix<f64>> {
+        let DiscretePlant {
             motion,
             period_s: t,
-        } = held;
+        } = plant;
         let (k, moving) = (self.mass.nrows(), self.moving());
         let reduced = |pick: fn(&Gains) -> f64| {
             let drives = gains.iter().zip(&self.driven);
@@ -129,7 +133,7 @@ impl<'a> Linear<'a> {
         let differences = self.settings.derivative != Derivative::Velocity
             && self.settings.gains.iter().any(|gains| gains.kd != 0.0);
 
-        // places in the state; what is measured comes first in both modes, and a sum that nothing uses would add a root at one
+        // indices in the state; the measurement comes first in both modes, and an unused sum would add an eigenvalue of one
         let (rate, before) = (moving - k, moving);
         let sum = if differences { moving + k } else { moving };
         let summed = |j: &usize| ki.column(*j).iter().any(|x| *x != 0.0);
@@ -183,7 +187,7 @@ impl<'a> Linear<'a> {
         finite.then_some(transition)
     }
 
-    /// Which independent joint has the largest share of kinetic energy in a mode, whose columns are states.
+    /// The independent joint with the largest share of kinetic energy in a mode, whose columns are states.
     pub(super) fn largest_share(&self, mode: &DMatrix<f64>) -> usize {
         let k = self.mass.nrows();
         let rate = self.moving() - k;
@@ -204,13 +208,13 @@ impl<'a> Linear<'a> {
     }
 }
 
-/// The motion of a robot from one sample to the next.
-pub(super) struct Held {
+/// A robot's discrete-time motion from one sample to the next, under held effort.
+pub(super) struct DiscretePlant {
     motion: DMatrix<f64>,
     period_s: f64,
 }
 
-/// `Bᵀ diag(values) B`: what acts on each joint, as the independent ones feel it.
+/// `Bᵀ diag(values) B`: joint-wise values mapped to the independent joints.
 fn by_independent(motions: &DMatrix<f64>, values: &[f64]) -> DMatrix<f64> {
     let k = motions.ncols();
     DMatrix::from_fn(k, k, |i, j| {
@@ -220,9 +224,9 @@ fn by_independent(motions: &DMatrix<f64>, values: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// The slope of the effort on the independent joints that holds the robot against gravity, shape `(k, k)`, with the loops closed
-/// on both sides of `q`; `None` where they do not close.
-fn holding_slope(
+/// The slope of the gravity efforts on the independent joints, shape `(k, k)`, with the loops closed on both sides of `q`; `None` if
+/// they do not close.
+fn gravity_slope(
     robot: &Robot,
     gravity_m_s2: &Vector3<f64>,
     q: &[f64],

@@ -1,4 +1,4 @@
-//! The loop-closure constraints at one state: what they are off by, their slope, their bias, and the rates they allow.
+//! The loop-closure constraints at one state: their residual, Jacobian and bias, and the joint rates that they allow.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -7,25 +7,29 @@ use super::loop_error::LoopError;
 use crate::kinematics::body_motion::{BodyMotions, Motion};
 use crate::model::robot::{Loop, LoopKind, Robot};
 
-/// Dependent joints do not follow from the others where the weakest of their motions is this part of the strongest: accelerations
-/// would lose all digits soon after.
+/// Below this ratio of the smallest to the largest pivot, the dependent joints do not follow from the others: a little further,
+/// accelerations would lose all their digits.
 const DETERMINED: f64 = 1e-5;
 
-/// The conditions of all loops of one robot at one state.
+/// The loop-closure constraints of one robot at one state.
 #[derive(Debug, Clone)]
 pub(crate) struct Closure {
     motions: BodyMotions,
-    /// What each condition is off by \[m, then 1\].
+    /// Residual of each constraint \[m for positions, 1 for directions\].
     pub(crate) residual: DVector<f64>,
-    /// Slope of the conditions, shape (conditions, n).
+    /// Jacobian of the constraints, shape `(constraints, n)`.
     pub(crate) jacobian: DMatrix<f64>,
-    /// Their second time derivative at `qdd = 0`.
+    /// Their second time derivative at `qdd = 0` (the bias).
     pub(crate) bias: DVector<f64>,
 }
 
 impl Closure {
     pub(crate) fn new(robot: &Robot) -> Self {
-        let rows = robot.loops().iter().map(|l| l.kind.conditions()).sum();
+        let rows = robot
+            .loops()
+            .iter()
+            .map(|l| l.kind.constraint_count())
+            .sum();
         Self {
             motions: BodyMotions::new(robot),
             residual: DVector::zeros(rows),
@@ -34,14 +38,14 @@ impl Closure {
         }
     }
 
-    /// Evaluates all conditions at `(q, qd)`.
+    /// Evaluates all constraints at `(q, qd)`.
     pub(crate) fn update(&mut self, robot: &Robot, q: &[f64], qd: &[f64]) {
         self.motions.update(robot, q, qd);
         self.jacobian.fill(0.0);
         let mut row = 0;
         for closing in robot.loops() {
             self.one(robot, closing, row);
-            row += closing.kind.conditions();
+            row += closing.kind.constraint_count();
         }
     }
 
@@ -84,7 +88,7 @@ impl Closure {
                 let body = &robot.bodies()[i];
                 let placed = &self.motions.body(i).placed;
                 let axis = placed.axis() * (body.gear * sign);
-                // turning the first frame also turns the axes that the way is seen in: both sides meet in the second point
+                // rotating the first frame also rotates the axes of the residual: so the lever arms of both sides end in the second point
                 let column = if body.turns {
                     axis.cross(&(p2.position - placed.position))
                 } else {
@@ -107,7 +111,7 @@ impl Closure {
         self.jacobian.select_columns(which)
     }
 
-    /// The largest gap \[m\] and angle \[rad\] of any loop; infinite where an axis points the wrong way.
+    /// The largest gap \[m\] and angle \[rad\] of any loop; infinite where an axis points in the opposite direction.
     pub(super) fn errors(&self, robot: &Robot) -> (f64, f64) {
         let (mut gap, mut angle, mut row) = (0.0_f64, 0.0_f64, 0);
         for closing in robot.loops() {
@@ -124,7 +128,7 @@ impl Closure {
                     angle = std::f64::consts::PI;
                 }
             }
-            row += closing.kind.conditions();
+            row += closing.kind.constraint_count();
         }
         (gap, angle)
     }
@@ -135,8 +139,8 @@ impl Closure {
         self.errors(robot).0
     }
 
-    /// Sets the dependent entries of `rates` to what the independent ones and `given` cause: `J rates + given = 0`, at the state
-    /// of the last update. Exact where the loops determine the dependent joints.
+    /// Sets the dependent entries of `rates` from the independent ones and `given`, so that `J rates + given = 0` at the state of the
+    /// last update. Exact where the loops determine the dependent joints.
     ///
     /// # Errors
     /// [`LoopError::Singular`] where they do not.

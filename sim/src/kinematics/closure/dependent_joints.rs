@@ -1,4 +1,4 @@
-//! The choice of the dependent joints of a robot with loops, where its description leaves it open, and its home.
+//! The choice of the dependent joints of a robot with loops, if its description does not make it, and its home configuration.
 
 use nalgebra::DVector;
 
@@ -24,7 +24,7 @@ pub(crate) fn dependents(robot: &Robot) -> Result<Dependents, LoopError> {
         .collect();
     if !marked.is_empty() {
         if let Err(open) = closure.newton(robot, &marked, &mut home) {
-            // too few marked joints cannot close what all could
+            // with too few passive joints the loops may stay open although all joints together could close them
             let mut all = robot.home().to_vec();
             closure.newton(robot, &(0..n).collect::<Vec<_>>(), &mut all)?;
             closure.update(robot, &all, &vec![0.0; n]);

@@ -1,4 +1,4 @@
-//! From one closed position to another: Newton's steps at a position, and the way there in small steps along the tangent.
+//! From one closed configuration to another: Newton iteration at one configuration, and continuation in small steps along the tangent.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,19 +11,19 @@ use crate::model::robot::Robot;
 /// Greatest step of an independent joint while its loop is followed \[rad or m\].
 const FOLLOW_STEP: f64 = 0.05;
 
-/// Loops are followed no further from where they start: 100 turns \[rad or m\].
+/// Loops are followed at most this far from their start: 100 turns \[rad or m\].
 pub(super) const FURTHEST: f64 = 630.0;
 
 /// Halvings of a step before a target is given up.
 const HALVINGS: u32 = 12;
 
-/// Newton steps for one position; it converges quadratically or not at all.
+/// Newton steps for one configuration; the iteration converges quadratically or not at all.
 const NEWTON_STEPS: usize = 30;
 
-/// Steps of the search for the least gap; it serves a message only.
+/// Steps of the search for the least gap, which is only used in messages.
 const NEAREST_STEPS: usize = 200;
 
-/// A gap that this search brings below this is none: it converges slowly where loops just touch \[m or rad\].
+/// A gap below this counts as closed in this search, which converges slowly where a loop can only just be closed \[m or rad\].
 const ONCE_CLOSED: f64 = 1e-8;
 
 impl Closure {
@@ -40,7 +40,7 @@ impl Closure {
             self.update(robot, q, &still);
             let (gap_m, angle_rad) = self.errors(robot);
             let worst = gap_m.max(angle_rad);
-            // on to rounding: the next step would not help
+            // converged to rounding: the next step would not help
             if worst <= CLOSED && (worst <= 1e-15 || worst >= 0.5 * before) {
                 return Ok(());
             }
@@ -64,9 +64,9 @@ impl Closure {
         }
     }
 
-    /// Brings the loops as near to closed as the joints `free` can, from `q`; returns the gap \[m\] and the angle \[rad\] left there.
+    /// Closes the loops as far as the joints `free` can, from `q`; returns the remaining gap \[m\] and angle \[rad\].
     ///
-    /// Source: Levenberg and Marquardt's damping, raised until a step lessens the conditions' squares.
+    /// Source: Levenberg-Marquardt damping, increased until a step reduces the squared residual of the constraints.
     fn nearest(&mut self, robot: &Robot, free: &[usize], q: &mut [f64]) -> (f64, f64) {
         let still = vec![0.0; robot.n()];
         self.update(robot, q, &still);
@@ -101,8 +101,8 @@ impl Closure {
         self.errors(robot)
     }
 
-    /// Follows the loops from the closed position `q` to the independent positions `target`, shape `(independent)`; `q` is then
-    /// the closed position there.
+    /// Follows the loops from the closed configuration `q` to the independent positions `target`, shape `(independent)`; `q` is then
+    /// the closed configuration there.
     pub(crate) fn follow(
         &mut self,
         robot: &Robot,
@@ -111,16 +111,20 @@ impl Closure {
     ) -> Result<(), LoopError> {
         let independent = robot.independent();
         let start: Vec<f64> = independent.iter().map(|&i| q[i]).collect();
-        let far = start
-            .iter()
-            .zip(target)
-            .map(|(a, b)| (b - a).abs())
-            .fold(0.0, |far: f64, way| if way <= far { far } else { way });
+        let far =
+            start
+                .iter()
+                .zip(target)
+                .map(|(a, b)| (b - a).abs())
+                .fold(
+                    0.0,
+                    |far: f64, distance| if distance <= far { far } else { distance },
+                );
         if far.is_nan() || far > FURTHEST {
             return Err(LoopError::TooFar { far });
         }
         let longest = 1.0 / (far / FOLLOW_STEP).ceil().max(1.0);
-        // halved so often, the way is at its end: what is done then no longer grows
+        // after so many halvings the path ends here: the fraction done no longer grows
         let shortest = longest / f64::from(1_u32 << HALVINGS);
         let (mut done, mut step) = (0.0_f64, longest);
         let mut trial = q.to_vec();
@@ -163,10 +167,10 @@ impl Closure {
         Ok(())
     }
 
-    /// Why `target` was not reached from the last closed position `q` on the way there.
+    /// Why `target` was not reached, given the last closed configuration `q` on the way there.
     fn blocked(&mut self, robot: &Robot, target: &[f64], q: &[f64]) -> LoopError {
         let mut least = (f64::INFINITY, f64::INFINITY);
-        // by the dependent joints as they are, or as they are at home
+        // from the current dependent positions, or from those at home
         for from in [q, robot.home()] {
             let mut there = from.to_vec();
             for (&i, position) in robot.independent().iter().zip(target) {
@@ -185,7 +189,7 @@ impl Closure {
         }
     }
 
-    /// Rates of the dependent joints while the independent ones go from `start` to `target` in unit time.
+    /// Rates of the dependent joints while the independent ones move from `start` to `target` in unit time.
     fn tangent(&mut self, robot: &Robot, q: &[f64], start: &[f64], target: &[f64]) -> DVector<f64> {
         let mut qd = vec![0.0; robot.n()];
         for (k, &i) in robot.independent().iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Rank and least squares by column-pivoted QR, where conditions may say the same twice.
+//! Rank and least squares by column-pivoted QR, for constraints that may be redundant.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Columns weaker than this part of the strongest have no say.
+/// Pivots below this fraction of the largest count as zero.
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
 
 pub(super) fn rank(matrix: &DMatrix<f64>) -> usize {
@@ -20,7 +20,7 @@ pub(super) fn rank_within(matrix: &DMatrix<f64>, tolerance: f64) -> usize {
         .count()
 }
 
-/// The smallest `x` or near it that brings `a x` nearest to `b`; directions without a say stay zero.
+/// A least-squares solution `x` of `a x = b` with nearly the smallest norm; directions with a zero pivot stay zero.
 pub(super) fn least_squares(a: DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let (rows, columns) = a.shape();
     let qr = a.col_piv_qr();

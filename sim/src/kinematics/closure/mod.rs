@@ -1,14 +1,14 @@
-//! Closed loops: how far they are from closed, the positions that close them, and the velocities they allow.
+//! Loop closure: the residual of closed loops, the configurations that close them, and the joint velocities they allow.
 //!
-//! A loop keeps two frames together. With `d` the way from the first origin to the second, its conditions are `d = 0` in the axes
-//! of the first frame, and for a hinge also `z2·x1 = 0` and `z2·y1 = 0`. A planar loop in space has conditions that say nothing
-//! new; they are carried along and dropped by rank.
+//! A loop keeps two frames together. With `d` the vector from the first origin to the second, its constraints are `d = 0` in the axes
+//! of the first frame, and for a hinge also `z2·x1 = 0` and `z2·y1 = 0`. A planar loop in space has redundant constraints; they are
+//! kept and dropped by rank.
 //!
-//! Independent joints are chosen by the description (`passive` marks the others) or, where it is silent, by rank: the later joint
-//! of a loop is dependent. Dependent positions are followed from [`Robot::home`] in small steps along the tangent, so that a
-//! mechanism stays on its branch, also through a flat position it can pass; nothing here guesses a branch.
+//! Independent joints are chosen by the description (`passive` marks the others) or else by rank: the later joint of a loop is
+//! dependent. Dependent positions are followed from [`Robot::home`] in small steps along the tangent, so that a mechanism stays on its
+//! branch, also through a flat configuration that it can pass; nothing here guesses a branch.
 //!
-//! Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), ch. 8; redundant conditions by column-pivoted QR.
+//! Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), ch. 8; redundant constraints by column-pivoted QR.
 
 mod constraints;
 mod dependent_joints;
@@ -23,14 +23,14 @@ pub(crate) use self::dependent_joints::{Dependents, dependents};
 pub use self::loop_error::LoopError;
 use crate::model::robot::Robot;
 
-/// A position counts as closed below this gap \[m\], and angle \[rad\].
+/// A configuration counts as closed below this gap \[m\] and angle \[rad\].
 pub const CLOSED: f64 = 1e-10;
 
 /// The whole of `q`, shape `(n)`, that closes the loops of `robot` at the independent positions, followed from [`Robot::home`];
-/// `independent` itself where there are no loops.
+/// `independent` itself without loops.
 ///
 /// # Errors
-/// [`LoopError::Open`] where the mechanism does not reach that far, [`LoopError::Singular`] where it stands flat,
+/// [`LoopError::Open`] if the mechanism cannot reach these positions, [`LoopError::Singular`] in a flat configuration,
 /// [`LoopError::TooFar`] beyond 630 rad or m.
 ///
 /// # Panics
@@ -49,7 +49,7 @@ pub fn closed_positions(robot: &Robot, independent: &[f64]) -> Result<Vec<f64>, 
     Ok(q)
 }
 
-/// The largest gap of any loop of `robot` at `q`, shape `(n)` \[m\]; zero where there are no loops.
+/// The largest gap of any loop of `robot` at `q`, shape `(n)` \[m\]; zero without loops.
 pub fn loop_gap_m(robot: &Robot, q: &[f64]) -> f64 {
     if robot.loops().is_empty() {
         return 0.0;
@@ -58,7 +58,7 @@ pub fn loop_gap_m(robot: &Robot, q: &[f64]) -> f64 {
 }
 
 /// All joint velocities, shape `(n)`, that keep the loops closed while the independent joints move at `independent`; `q` is the
-/// closed position, shape `(n)`.
+/// closed configuration, shape `(n)`.
 ///
 /// # Errors
 /// [`LoopError::Singular`] where the loops do not determine the dependent joints.
@@ -80,7 +80,7 @@ pub fn closed_velocities(
 }
 
 /// All joint accelerations, shape `(n)`, that keep the loops closed while the independent joints accelerate at `independent`; `q`
-/// and `qd` are the closed position and its velocity, shape `(n)`.
+/// and `qd` are the closed configuration and its velocity, shape `(n)`.
 ///
 /// # Errors
 /// [`LoopError::Singular`] where the loops do not determine the dependent joints.
@@ -103,8 +103,8 @@ pub fn closed_accelerations(
     Ok(accelerations)
 }
 
-/// How all joints move per unit of each independent one, shape `(n, independent)`, at the closed position `q`, shape `(n)`: the
-/// identity where there are no loops.
+/// Rates of all joints per unit rate of each independent one, shape `(n, independent)`, in the closed configuration `q`, shape `(n)`:
+/// the identity without loops.
 ///
 /// # Errors
 /// [`LoopError::Singular`] where the loops do not determine the dependent joints.
@@ -127,7 +127,7 @@ pub fn independent_motions(robot: &Robot, q: &[f64]) -> Result<DMatrix<f64>, Loo
     Ok(motions)
 }
 
-/// Values of the independent joints at their places in `q`, zeros elsewhere.
+/// Values of the independent joints at their entries of `q`, zeros elsewhere.
 fn spread(robot: &Robot, independent: &[f64]) -> Vec<f64> {
     assert_eq!(
         independent.len(),

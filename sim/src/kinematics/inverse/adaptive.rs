@@ -1,43 +1,43 @@
-//! One start of damped least squares whose damping follows the error: strong far away and where the target is out of reach, vanishing
-//! at the solution, where the steps become Newton's.
+//! One start of damped least squares with damping by the error: strong far from the target and for unreachable targets, vanishing at
+//! the solution, where the steps become Newton's.
 //!
 //! Source: Sugihara, *Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method* (2011), eq. 18, without its
 //! constant bias; joint limits inside the step.
 
-use super::ik_step::StepRoom;
+use super::ik_step::StepScratch;
 use super::system::{Residual, System};
 use crate::kinematics::position_range::PositionRange;
 
 /// Damping `λ²` per half square of the error.
 const DAMPING_PER_OBJECTIVE: f64 = 0.1;
 
-/// Damping at the solution: far below any singular value worth having, far above rounding.
+/// Damping at the solution: far below any relevant singular value, far above rounding.
 const LEAST_DAMPING: f64 = 1e-12;
 
-/// Greatest change of a joint in one step \[rad or m\]: beyond it, the slope says nothing about the way.
+/// Greatest change of a joint in one step \[rad or m\]: beyond it, the linearization is useless.
 const LARGEST_STEP: f64 = 1.0;
 
-/// A start is given up if the objective has not come down to this part of itself ...
+/// A start is given up if the objective has not fallen to this fraction ...
 const PROGRESS: f64 = 0.5;
 /// ... in this many steps.
 const PATIENCE: usize = 5;
 
-/// Factor of the damping after a step that made it worse, undone by steps that do not; for starts that are not given up.
+/// Factor of the damping after a step that increases the objective, undone by steps that reduce it; for starts that are not given up.
 const CAUTION: f64 = 4.0;
 
-/// Least factor of the damping of such starts: where something is left for good, damping by the error alone would creep.
+/// Least factor of the damping of such starts: where a residual remains, damping by the error alone would converge too slowly.
 const LEAST_CAUTION: f64 = 1e-6;
 
-/// Factor beyond which steps are too small to change anything.
+/// Above this factor the steps are too small to change anything.
 const MOST_CAUTION: f64 = 1e12;
 
-/// Steps beyond the tolerance, while each still gains: quadratic convergence makes rounding of 1e-5 in two.
+/// Further steps within the tolerance, while each still improves: quadratic convergence reduces 1e-5 to rounding in two.
 const POLISH_STEPS: usize = 3;
 
 /// An objective that further steps would not improve: errors near 1e-11.
 const POLISHED: f64 = 1e-22;
 
-/// What one start is allowed and asked for.
+/// Budget, limits and tolerances of one start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rules<'a> {
     pub(super) steps: usize,
@@ -48,10 +48,10 @@ pub(super) struct Rules<'a> {
     pub(super) impatient: bool,
 }
 
-/// Goes from `q` towards the targets; `q` is then the best position met, and what is left there is returned with the steps taken.
+/// Iterates from `q` towards the targets; `q` is then the best configuration found. Returns its residual and the number of steps.
 pub(super) fn descend(
     system: &mut System<'_>,
-    room: &mut StepRoom,
+    scratch: &mut StepScratch,
     rules: &Rules<'_>,
     q: &mut [f64],
     best: &mut [f64],
@@ -81,7 +81,7 @@ pub(super) fn descend(
             break;
         }
         for (k, &i) in system.unknowns.iter().enumerate() {
-            (room.down[k], room.up[k]) = match rules.limits {
+            (scratch.down[k], scratch.up[k]) = match rules.limits {
                 None => (-LARGEST_STEP, LARGEST_STEP),
                 Some(limits) => (
                     (limits[i].lower - q[i]).clamp(-LARGEST_STEP, 0.0),
@@ -90,10 +90,10 @@ pub(super) fn descend(
             };
         }
         let damping = caution * (DAMPING_PER_OBJECTIVE * residual.objective + LEAST_DAMPING);
-        if !room.damped(&system.jacobian, &system.error, damping, true) {
+        if !scratch.damped(&system.jacobian, &system.error, damping, true) {
             break;
         }
-        if !system.advance(&room.step, rules.limits, q) {
+        if !system.advance(&scratch.step, rules.limits, q) {
             break;
         }
         steps += 1;
@@ -105,7 +105,7 @@ pub(super) fn descend(
         } else if polished > 0 || !residual.objective.is_finite() {
             break;
         } else if !rules.impatient {
-            // overshot, as happens where the target is out of reach: back, and on more carefully
+            // overshot, as happens with an unreachable target: back, and on with more damping
             caution *= CAUTION;
             if caution > MOST_CAUTION {
                 break;

@@ -1,12 +1,12 @@
 //! Several tips in order: groups of goals, each with its own joints and method, that may share joints.
 //!
-//! Goals of one group are solved together. Groups are solved one after another, each from where the one before left off; a later
-//! one may undo what an earlier one did if they share joints. Where earlier ones have to stand, [`solve_by_priority`] lets later
-//! ones move only in the null space of those before.
+//! Goals of one group are solved together. Groups are solved one after another, each from the solution of the one before; a later one
+//! may undo the solution of an earlier one if they share joints. [`solve_by_priority`] prevents that: later groups move only in the
+//! null space of those before.
 
 use super::adaptive::Rules;
-use super::ik_step::StepRoom;
-use super::null_space::{Wish, follow};
+use super::ik_step::StepScratch;
+use super::null_space::{SecondaryTask, follow};
 use super::query::check_goals;
 use super::system::System;
 use super::{Goal, IkAnswer, IkError, IkSettings, IkSolver};
@@ -23,7 +23,7 @@ pub struct Group<'f> {
     pub settings: IkSettings,
 }
 
-/// The position found for several groups, and what is left of each there.
+/// The configuration found for several groups, and the residual of each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroupsAnswer {
     /// The joint positions, shape `(n)` \[rad or m\].
@@ -37,7 +37,7 @@ pub struct GroupsAnswer {
 /// Solves `groups` one after another from `q0`, shape `(n)`.
 ///
 /// # Errors
-/// [`IkError`] for a question that cannot be asked.
+/// [`IkError`] for an invalid query.
 pub fn solve_in_turn(
     robot: &Robot,
     groups: &[Group<'_>],
@@ -54,7 +54,7 @@ pub fn solve_in_turn(
         q.clone_from(&answer.q);
         answers.push(answer);
     }
-    // a later group may have moved what an earlier one placed
+    // a later group may have moved the frames of an earlier one
     for (answer, solver) in answers.iter_mut().zip(&mut solvers) {
         let residual = solver.system.place(&q);
         answer.reached = solver.reached(&residual);
@@ -69,14 +69,14 @@ pub fn solve_in_turn(
     })
 }
 
-/// Solves `levels` of goals by priority from `q0`, shape `(n)`: the first as if it were alone, each further one as well as it can be
-/// while all before stay within tolerance. All levels move the same joints: those of `settings`, or all that carry a frame asked for.
+/// Solves `levels` of goals by priority from `q0`, shape `(n)`: the first as if it were alone, each further one as well as possible
+/// while all before stay within tolerance. All levels move the same joints: those of `settings`, or all that move a frame of a goal.
 ///
-/// A level that cannot be reached comes as near as it can and does not hold back those after it. If the first is not reached, the
-/// others stay where that leaves them.
+/// A level that cannot be reached comes as near as possible and does not constrain those after it. If the first is not reached, the
+/// others are not improved.
 ///
 /// # Errors
-/// [`IkError`] for a question that cannot be asked.
+/// [`IkError`] for an invalid query.
 pub fn solve_by_priority(
     robot: &Robot,
     levels: &[Vec<Goal<'_>>],
@@ -91,14 +91,14 @@ pub fn solve_by_priority(
     }
     let joints = match &settings.chain {
         Some(chain) => chain.clone(),
-        None => carrying(robot, levels),
+        None => joints_of(robot, levels),
     };
     let alone = IkSettings {
         chain: Some(joints.clone()),
         posture: None,
         ..settings.clone()
     };
-    // all at once first: if that arrives nothing is left to choose, and if not it leads to where little is
+    // all at once first: if that converges the result meets all levels, and if not it is a good start for the first
     let all: Vec<Goal<'_>> = levels.iter().flatten().copied().collect();
     let together = IkSolver::new(robot, &all, alone.clone())?.solve(q0)?;
     let answer = IkSolver::new(robot, first, alone)?.solve(&together.q)?;
@@ -106,29 +106,29 @@ pub fn solve_by_priority(
     let rules: Rules<'_> = settings.rules(&ranges, false);
     let stacked = |goals: &[Goal<'_>]| {
         let system = System::new(robot, goals, Some(&joints), settings.error_clamp, true);
-        let room = StepRoom::new(system.rows(), system.unknowns.len());
-        (system, room)
+        let scratch = StepScratch::new(system.rows(), system.unknowns.len());
+        (system, scratch)
     };
     let mut q = answer.q.clone();
     let mut held = first.clone();
     let mut iterations = vec![together.iterations + answer.iterations];
     for level in later {
-        let (mut system, mut room) = stacked(&held);
-        let (mut wished, mut wished_room) = stacked(level);
-        let wish = Wish::System(&mut wished, &mut wished_room);
-        iterations.push(follow(&mut system, &mut room, &rules, wish, &mut q));
-        let residual = wished.place(&q);
+        let (mut system, mut scratch) = stacked(&held);
+        let (mut lower, mut lower_scratch) = stacked(level);
+        let secondary = SecondaryTask::System(&mut lower, &mut lower_scratch);
+        iterations.push(follow(&mut system, &mut scratch, &rules, secondary, &mut q));
+        let residual = lower.place(&q);
         if residual.within(settings.tolerance_m, settings.tolerance_rad) {
             held.extend(level);
         }
     }
     if let Some(posture) = &settings.posture {
-        let (mut system, mut room) = stacked(&held);
+        let (mut system, mut scratch) = stacked(&held);
         follow(
             &mut system,
-            &mut room,
+            &mut scratch,
             &rules,
-            Wish::Posture(posture),
+            SecondaryTask::Posture(posture),
             &mut q,
         );
     }
@@ -153,8 +153,8 @@ pub fn solve_by_priority(
     })
 }
 
-/// The joints that carry a frame of any goal, each once and in order.
-fn carrying(robot: &Robot, levels: &[Vec<Goal<'_>>]) -> Vec<usize> {
+/// The joints that move a frame of any goal, each once and in order.
+fn joints_of(robot: &Robot, levels: &[Vec<Goal<'_>>]) -> Vec<usize> {
     let goals = levels.iter().flatten();
     let mut all: Vec<usize> = goals
         .flat_map(|goal| Chain::new(robot, goal.frame).joints().to_vec())

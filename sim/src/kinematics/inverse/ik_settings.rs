@@ -1,4 +1,4 @@
-//! How a question of inverse kinematics is answered: the method, its budgets, tolerances, limits, posture and joints.
+//! Settings of inverse kinematics: the method, its budgets, tolerances, limits, posture and joints.
 
 use super::IkError;
 use super::adaptive::Rules;
@@ -6,67 +6,66 @@ use super::query::check_positions;
 use crate::kinematics::position_range::PositionRange;
 use crate::model::robot::Robot;
 
-/// The most steps one question may ask for: `max_iterations` times starts.
+/// Upper bound of the steps of one query: `max_iterations` times the number of starts.
 pub const MOST_ITERATIONS: usize = 1_000_000;
 
-/// How joint positions are looked for.
+/// The numerical method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// Damped least squares with damping by the error, from several starts.
     Auto,
     /// Full steps of the pseudo-inverse; singular values below 1e-10 of the largest count as zero.
     PseudoInverse,
-    /// Full steps `Jᵀ (J Jᵀ + λ² 1)⁻¹ e` of damped least squares; with the damping `λ`, or one that follows the error.
+    /// Full steps `Jᵀ (J Jᵀ + λ² 1)⁻¹ e` of damped least squares, with a constant damping `λ` or with damping by the error.
     DampedLeastSquares {
-        /// The damping `λ` \[m and rad per joint velocity\]; none to adapt it.
+        /// The damping `λ` \[m and rad per joint velocity\]; `None` to adapt it.
         damping: Option<f64>,
     },
-    /// The pseudo-inverse, and where it does not arrive damped least squares from the same start.
+    /// The pseudo-inverse, and if it does not converge, damped least squares from the same start.
     Fallback {
-        /// The damping `λ` of the second; none to adapt it.
+        /// The damping `λ` of the second; `None` to adapt it.
         damping: Option<f64>,
     },
 }
 
-/// The longest error that one step looks at; a far target is approached in pieces.
+/// Error clamping: the largest error that one step uses, so that a distant target is approached in pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorClamp {
-    /// Longest way \[m\].
+    /// Largest distance \[m\].
     pub distance_m: f64,
-    /// Largest turn \[rad\].
+    /// Largest angle \[rad\].
     pub angle_rad: f64,
 }
 
-/// Joint positions to stay near where the targets leave a choice.
+/// A posture: joint positions to approach in the null space of the targets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Posture {
     /// The positions, shape `(n)` \[rad or m\].
     pub q: Vec<f64>,
-    /// The fraction of the way to them that one step makes, 0 to 1.
+    /// Gain: the fraction of the difference that one step removes, 0 to 1.
     pub gain: f64,
 }
 
-/// How a question is answered. The default is [`Method::Auto`] within joint limits.
+/// Settings of a query. The default is [`Method::Auto`] within joint limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IkSettings {
-    /// How joint positions are looked for.
+    /// The numerical method.
     pub method: Method,
-    /// Steps from one start.
+    /// Maximum number of steps from one start.
     pub max_iterations: usize,
-    /// Further starts of [`Method::Auto`]; the other methods have one start.
+    /// Number of further starts of [`Method::Auto`]; the other methods have a single start.
     pub restarts: usize,
-    /// How far from the target counts as arrived \[m\].
+    /// Tolerance of the position \[m\].
     pub tolerance_m: f64,
-    /// How far from the target's orientation counts as arrived \[rad\].
+    /// Tolerance of the orientation \[rad\].
     pub tolerance_rad: f64,
-    /// Whether joints stay within their limits. [`Method::Auto`] plans for them, the others stop joints there.
+    /// Whether joints stay within their limits. [`Method::Auto`] considers them in each step; the others clamp joints at them.
     pub respect_limits: bool,
-    /// The longest error one step looks at.
+    /// Error clamping, if any.
     pub error_clamp: Option<ErrorClamp>,
-    /// Where to stay near, as far as the targets leave a choice.
+    /// The posture to approach in the null space of the targets, if any.
     pub posture: Option<Posture>,
-    /// The entries of `q` that may move; all that carry a frame asked for, if none are named. Dependent joints of loops always
-    /// follow.
+    /// The entries of `q` that may move; `None` for all that move a frame of a goal. Dependent joints of loops always follow.
     pub chain: Option<Vec<usize>>,
 }
 
@@ -139,7 +138,7 @@ impl IkSettings {
         Ok(())
     }
 
-    /// What one start is allowed and asked for.
+    /// Budget, limits and tolerances of one start.
     pub(super) fn rules<'a>(&self, ranges: &'a [PositionRange], impatient: bool) -> Rules<'a> {
         Rules {
             steps: self.max_iterations,

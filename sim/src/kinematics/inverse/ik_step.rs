@@ -1,24 +1,24 @@
 //! One step of the joints towards a target: damped least squares inside bounds, or the pseudo-inverse.
 //!
 //! With `J` of few rows and any number of columns, the damped step is `Jᵀ (J Jᵀ + λ² 1)⁻¹ e`: a small symmetric system, solved by
-//! LDLᵀ. A joint that the step would take beyond its bound stops at it, and the others make up for what it does not do.
+//! LDLᵀ. A joint that the step would take beyond its bound is clamped there, and the others compensate.
 //!
 //! Source: Buss, *Introduction to inverse kinematics* (2009), eq. 11 and sec. 6.
 
 use crate::kinematics::singular_values::RowJacobi;
 
-/// Singular values below this part of the largest have no say in a pseudo-inverse.
+/// Singular values below this fraction of the largest count as zero in a pseudo-inverse.
 pub(super) const PSEUDO_INVERSE_CUTOFF: f64 = 1e-10;
 
-/// Times a step is solved anew because joints met their bounds.
+/// Number of times a step is solved again because joints reached their bounds.
 const BOUND_ROUNDS: usize = 4;
 
-/// Room for one step; nothing is allocated once it has the size of the system.
+/// Scratch memory of one step; nothing is allocated once it has the size of the system.
 #[derive(Debug, Clone, Default)]
-pub(super) struct StepRoom {
+pub(super) struct StepScratch {
     /// The step of each unknown \[rad or m\].
     pub(super) step: Vec<f64>,
-    /// How far each unknown may go down and up; not consulted unless asked.
+    /// Bounds of the step of each unknown, negative and positive; used only by a bounded step.
     pub(super) down: Vec<f64>,
     pub(super) up: Vec<f64>,
     stopped: Vec<bool>,
@@ -28,7 +28,7 @@ pub(super) struct StepRoom {
     pub(super) decomposition: RowJacobi,
 }
 
-impl StepRoom {
+impl StepScratch {
     pub(super) fn new(rows: usize, unknowns: usize) -> Self {
         Self {
             step: vec![0.0; unknowns],
@@ -42,8 +42,8 @@ impl StepRoom {
         }
     }
 
-    /// Sets `step` to the damped step for the error `e`, `damping` being `λ²`; inside `down` and `up` if `bounded`. False where
-    /// there is none: without damping at a singular position, or without numbers.
+    /// Sets `step` to the damped step for the error `e`, with `damping` as `λ²`; inside `down` and `up` if `bounded`. Returns false if
+    /// there is none: in a singular configuration without damping, or with NaN.
     pub(super) fn damped(
         &mut self,
         jacobian: &[f64],
@@ -125,7 +125,7 @@ impl StepRoom {
         true
     }
 
-    /// Sets `step` to the pseudo-inverse times the error `e`; the decomposition stays for the null space.
+    /// Sets `step` to the pseudo-inverse times the error `e`; keeps the decomposition for projections on the null space.
     pub(super) fn pseudo_inverse(&mut self, jacobian: &[f64], e: &[f64]) {
         self.step.fill(0.0);
         self.decomposition.decompose(e.len(), jacobian);
@@ -152,7 +152,7 @@ fn solve_symmetric(n: usize, a: &mut [f64], b: &mut [f64]) -> bool {
             }
             b[i] -= l * b[j];
         }
-        // the column stays unscaled for the rows above; its own unknown waits for the way back
+        // the column stays unscaled for the rows above; its own unknown is finished in the back substitution
         b[j] *= inverse;
         for i in j + 1..n {
             a[i * n + j] *= inverse;
@@ -190,28 +190,28 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_at_its_bound_leaves_the_way_to_the_others() {
+    fn other_joints_compensate_for_a_joint_at_its_bound() {
         // x + y = 2 with x at most 0.5
-        let mut room = StepRoom::new(1, 2);
-        room.up[0] = 0.5;
-        assert!(room.damped(&[1.0, 1.0], &[2.0], 0.0, true));
-        assert_eq!(room.step, [0.5, 1.5]);
-        assert!(room.damped(&[1.0, 1.0], &[2.0], 0.0, false));
-        assert_eq!(room.step, [1.0, 1.0]);
+        let mut scratch = StepScratch::new(1, 2);
+        scratch.up[0] = 0.5;
+        assert!(scratch.damped(&[1.0, 1.0], &[2.0], 0.0, true));
+        assert_eq!(scratch.step, [0.5, 1.5]);
+        assert!(scratch.damped(&[1.0, 1.0], &[2.0], 0.0, false));
+        assert_eq!(scratch.step, [1.0, 1.0]);
         // damping 2 halves what two joints of slope one do
-        assert!(room.damped(&[1.0, 1.0], &[2.0], 2.0, false));
-        assert_eq!(room.step, [0.5, 0.5]);
+        assert!(scratch.damped(&[1.0, 1.0], &[2.0], 2.0, false));
+        assert_eq!(scratch.step, [0.5, 0.5]);
     }
 
     #[test]
     fn the_pseudo_inverse_is_the_damped_step_without_damping() {
         let jacobian = [1.0, 0.2, -0.3, 0.5, 0.1, 0.9, 0.4, 0.4, 0.4, -0.6, 0.7, 0.2];
         let e = [0.3, -0.1, 0.8];
-        let mut room = StepRoom::new(3, 4);
-        assert!(room.damped(&jacobian, &e, 0.0, false));
-        let damped = room.step.clone();
-        room.pseudo_inverse(&jacobian, &e);
-        for (a, b) in damped.iter().zip(&room.step) {
+        let mut scratch = StepScratch::new(3, 4);
+        assert!(scratch.damped(&jacobian, &e, 0.0, false));
+        let damped = scratch.step.clone();
+        scratch.pseudo_inverse(&jacobian, &e);
+        for (a, b) in damped.iter().zip(&scratch.step) {
             assert!((a - b).abs() < 1e-14);
         }
     }

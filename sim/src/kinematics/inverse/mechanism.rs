@@ -1,17 +1,17 @@
-//! Robots with loops: the unknowns are the independent joints, and the others follow so that every position on the way is closed.
+//! Robots with loops: the unknowns are the independent joints, and the dependent ones follow so that every iterate is closed.
 
 use crate::kinematics::closure::{CLOSED, Closure, LoopError};
 use crate::kinematics::position_range::PositionRange;
 use crate::model::robot::Robot;
 
-/// Halvings of a step that the mechanism cannot make, or that takes a dependent joint beyond its limit.
+/// Halvings of a step that the mechanism cannot follow, or that takes a dependent joint beyond its limit.
 const HALVINGS: u32 = 20;
 
-/// The closed loops of one robot, and how its joints move with the unknowns.
+/// The closed loops of one robot, and the rates of its joints per unknown.
 #[derive(Debug, Clone)]
 pub(super) struct Mechanism {
     closure: Closure,
-    /// For each unknown, the rates of all joints while it moves at unit rate.
+    /// For each unknown, the rates of all joints per unit of its rate.
     tangents: Vec<Vec<f64>>,
     target: Vec<f64>,
     trial: Vec<f64>,
@@ -29,9 +29,9 @@ impl Mechanism {
         }
     }
 
-    /// Brings `q` onto the loops at its own independent positions: on the branch it is on if it is closed, else from home.
+    /// Closes the loops of `q` at its own independent positions: on its branch if it is closed already, else from home.
     pub(super) fn close(&mut self, robot: &Robot, q: &mut [f64]) -> Result<(), LoopError> {
-        // as the files of people round it
+        // closed to the rounding of a number in a file
         const NEARLY: f64 = 1e6 * CLOSED;
         if self.closure.gap_m(robot, q) <= NEARLY
             && self.closure.newton(robot, robot.dependent(), q).is_ok()
@@ -47,7 +47,7 @@ impl Mechanism {
         Ok(())
     }
 
-    /// How all joints move with each of the `unknowns` at the closed position `q`.
+    /// Rates of all joints per unit rate of each of the `unknowns`, in the closed configuration `q`.
     pub(super) fn differentiate(
         &mut self,
         robot: &Robot,
@@ -67,8 +67,8 @@ impl Mechanism {
         &self.tangents[unknown]
     }
 
-    /// Moves the closed position `q` by `step` of the `unknowns`, or by as large a part of it as the loops and the dependent
-    /// joints' `limits` let it; false if by none.
+    /// Moves the closed configuration `q` by `step` of the `unknowns`, or by as large a part of it as the loops and the dependent
+    /// joints' `limits` allow; false if they allow none.
     pub(super) fn advance(
         &mut self,
         robot: &Robot,
@@ -93,7 +93,7 @@ impl Mechanism {
             let inside = |trial: &[f64]| {
                 limits.is_none_or(|limits| {
                     robot.dependent().iter().all(|&i| {
-                        // a start beyond a limit may come back
+                        // from beyond a limit, motion towards it is allowed
                         limits[i].contains(trial[i])
                             || (trial[i] - limits[i].clamp(trial[i])).abs()
                                 <= (q[i] - limits[i].clamp(q[i])).abs()

@@ -1,11 +1,11 @@
 //! Inverse kinematics: joint positions that bring frames to their targets, for any chain, by iteration with fixed budgets.
 //!
-//! [`inverse_kinematics`] answers one question; [`IkSolver`] keeps its room for many; [`groups`] solves for several tips in order.
-//! A target out of reach is answered with the best position found and what is left there, not with an error.
+//! [`inverse_kinematics`] answers one query; [`IkSolver`] keeps its memory for many; [`groups`] solves for several tips in order. For an
+//! unreachable target the result is the best configuration found with its residual, not an error.
 //!
-//! [`Method::Auto`] goes by damped least squares that adapts to the error, inside the joint limits, from the start given and then
-//! from positions spread over the joint ranges, until one arrives. The other methods are those of the textbooks, one start each.
-//! Nothing is random and nothing looks at a clock: the same question has the same answer, bit for bit.
+//! [`Method::Auto`] uses damped least squares with damping by the error, inside the joint limits, from the given start and then from
+//! starts spread over the joint ranges, until one converges. The other methods are those of the textbooks, with one start each. Nothing
+//! is random and nothing reads a clock: the same query has the same answer, bit for bit.
 
 mod adaptive;
 pub mod groups;

@@ -1,24 +1,24 @@
-//! Moving in the null space: a second wish is followed as far as frames that have arrived stay where they are.
+//! Secondary tasks in the null space of a first system that is within its tolerance.
 //!
-//! Each step is `J⁺ e + N d`, with `N = 1 - J⁺ J` of the first system and `d` the step of the wish, after which the first system is
-//! brought back within its tolerance. A step that does not come nearer to the wish is halved.
+//! Each step is `J⁺ e + N d`, with `N = 1 - J⁺ J` of the first system and `d` the step of the secondary task; then the first system is
+//! brought back within its tolerance. A step that does not improve the secondary task is halved.
 //!
 //! Source: Nakamura, Hanafusa & Yoshikawa, *Task-priority based redundancy control of robot manipulators* (1987), eqs. 5 and 9.
 
 use super::Posture;
 use super::adaptive::{Rules, descend};
-use super::ik_step::StepRoom;
+use super::ik_step::StepScratch;
 use super::system::System;
 use crate::kinematics::position_range::PositionRange;
 
-/// Singular values of the first system below this part of the largest do not hold the second back; larger than for a
-/// pseudo-inverse, since a step along them would move the frames all the same.
+/// Singular values of the first system below this fraction of the largest count as zero in the null-space projection. It is larger than
+/// for a pseudo-inverse: a direction that is nearly in the null space is usable too.
 const NULL_SPACE_CUTOFF: f64 = 1e-6;
 
-/// The part of a wish that has to be gained for a step to be worth it.
+/// Least relative improvement of the secondary task's objective for the iteration to go on.
 const WORTHWHILE: f64 = 1e-6;
 
-/// An objective that needs no further step.
+/// An objective below this needs no further step.
 const FULFILLED: f64 = 1e-22;
 
 /// Halvings of a step before it is given up.
@@ -30,16 +30,16 @@ const RETURN_STEPS: usize = 10;
 /// Greatest change of a joint in one step \[rad or m\].
 const LARGEST_STEP: f64 = 0.3;
 
-/// What is wanted beside the first system.
-pub(super) enum Wish<'a, 'r> {
+/// A task of lower priority than the first system.
+pub(super) enum SecondaryTask<'a, 'r> {
     /// Joints near given positions.
     Posture(&'a Posture),
     /// Other frames at their targets.
-    System(&'a mut System<'r>, &'a mut StepRoom),
+    System(&'a mut System<'r>, &'a mut StepScratch),
 }
 
-impl Wish<'_, '_> {
-    /// What is to become small.
+impl SecondaryTask<'_, '_> {
+    /// The objective to minimize.
     fn objective(&mut self, unknowns: &[usize], q: &[f64]) -> f64 {
         match self {
             Self::Posture(posture) => {
@@ -50,11 +50,11 @@ impl Wish<'_, '_> {
         }
     }
 
-    /// The step wanted at `q`, after the first system's own `step`; in its null space.
+    /// Adds to the first system's `step` the step of this task at `q`, projected on the null space; false if there is none.
     fn add_step(
         &mut self,
         unknowns: &[usize],
-        first: &StepRoom,
+        first: &StepScratch,
         held: &[bool],
         q: &[f64],
         step: &mut [f64],
@@ -82,14 +82,14 @@ impl Wish<'_, '_> {
                     *step += pull;
                 }
             }
-            Self::System(system, room) => {
+            Self::System(system, scratch) => {
                 let objective = system.place(q).objective;
                 if system.differentiate(q).is_err() {
                     return false;
                 }
                 let rows = system.rows();
                 hold(&mut system.jacobian, rows, held);
-                // what the first step already does for these frames is no longer asked
+                // the first system's step already reduces part of the error
                 for (column, step) in system.jacobian.chunks_exact(rows).zip(step.iter()) {
                     for (e, slope) in system.error.iter_mut().zip(column) {
                         *e -= slope * step;
@@ -106,10 +106,10 @@ impl Wish<'_, '_> {
                     }
                 }
                 let damping = 0.1 * objective + 1e-9;
-                if !room.damped(&system.jacobian, &system.error, damping, false) {
+                if !scratch.damped(&system.jacobian, &system.error, damping, false) {
                     return false;
                 }
-                for (step, more) in step.iter_mut().zip(&room.step) {
+                for (step, more) in step.iter_mut().zip(&scratch.step) {
                     *step += more;
                 }
             }
@@ -118,13 +118,13 @@ impl Wish<'_, '_> {
     }
 }
 
-/// Goes on from `q`, where `system` is within tolerance, towards `wish`; `q` stays within tolerance and inside the limits. Returns the
-/// steps taken. Nothing happens where `system` is not within tolerance.
+/// Improves `secondary` from `q`, with `system` within its tolerance and the joints inside the limits throughout. Returns the number of
+/// steps. Does nothing if `system` is not within its tolerance at `q`.
 pub(super) fn follow(
     system: &mut System<'_>,
-    room: &mut StepRoom,
+    scratch: &mut StepScratch,
     rules: &Rules<'_>,
-    mut wish: Wish<'_, '_>,
+    mut secondary: SecondaryTask<'_, '_>,
     q: &mut [f64],
 ) -> usize {
     let unknowns = system.unknowns.clone();
@@ -137,7 +137,7 @@ pub(super) fn follow(
         ..*rules
     };
     let mut steps = 0;
-    let mut objective = wish.objective(&unknowns, q);
+    let mut objective = secondary.objective(&unknowns, q);
     while steps < rules.steps && objective > FULFILLED {
         let residual = system.place(q);
         if !residual.within(rules.tolerance_m, rules.tolerance_rad)
@@ -146,7 +146,7 @@ pub(super) fn follow(
             break;
         }
         steps += 1;
-        if !step_inside(system, room, rules.limits, &mut wish, q, &mut step) {
+        if !step_inside(system, scratch, rules.limits, &mut secondary, q, &mut step) {
             return steps;
         }
         let largest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
@@ -159,11 +159,11 @@ pub(super) fn follow(
             if !system.advance(&scaled, rules.limits, &mut trial) {
                 continue;
             }
-            let (residual, _) = descend(system, room, &back, &mut trial, &mut spare);
+            let (residual, _) = descend(system, scratch, &back, &mut trial, &mut spare);
             if !residual.within(rules.tolerance_m, rules.tolerance_rad) {
                 continue;
             }
-            let now = wish.objective(&unknowns, &trial);
+            let now = secondary.objective(&unknowns, &trial);
             if now < objective {
                 nearer = now <= (1.0 - WORTHWHILE) * objective;
                 objective = now;
@@ -179,24 +179,24 @@ pub(super) fn follow(
 }
 
 /// Writes the step of both systems at `q`, where the first is differentiated, such that no joint at a limit goes beyond it. Returns
-/// whether the wish has a step.
+/// whether the secondary task has a step.
 fn step_inside(
     system: &mut System<'_>,
-    room: &mut StepRoom,
+    scratch: &mut StepScratch,
     limits: Option<&[PositionRange]>,
-    wish: &mut Wish<'_, '_>,
+    secondary: &mut SecondaryTask<'_, '_>,
     q: &[f64],
     step: &mut [f64],
 ) -> bool {
     let rows = system.rows();
     let unknowns = &system.unknowns;
-    // joints held at a limit take no part, in either system: found by trying, as the step decides which
+    // joints at a limit are locked in both systems; which ones depends on the step, so this is an iteration
     let mut held = vec![false; unknowns.len()];
     for _ in 0..=unknowns.len().min(8) {
         hold(&mut system.jacobian, rows, &held);
-        room.pseudo_inverse(&system.jacobian, &system.error);
-        step.copy_from_slice(&room.step);
-        if !wish.add_step(unknowns, room, &held, q, step) {
+        scratch.pseudo_inverse(&system.jacobian, &system.error);
+        step.copy_from_slice(&scratch.step);
+        if !secondary.add_step(unknowns, scratch, &held, q, step) {
             return false;
         }
         let mut met = false;
@@ -220,7 +220,7 @@ fn step_inside(
     true
 }
 
-/// Takes the joints that are held out of a stacked Jacobian.
+/// Sets the columns of locked joints in a stacked Jacobian to zero.
 fn hold(jacobian: &mut [f64], rows: usize, held: &[bool]) {
     for (column, held) in jacobian.chunks_exact_mut(rows).zip(held) {
         if *held {

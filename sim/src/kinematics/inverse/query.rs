@@ -1,4 +1,4 @@
-//! The question of inverse kinematics and its answer: goals, what was found, and what cannot be asked.
+//! A query of inverse kinematics: its goals, its answer, and the errors of invalid queries.
 
 use super::{IkSettings, IkSolver, MOST_ITERATIONS, Target};
 use crate::kinematics::closure::LoopError;
@@ -11,32 +11,32 @@ pub struct Goal<'f> {
     pub frame: &'f Frame,
     /// Where it should be.
     pub target: Target,
-    /// How much its error counts beside those of other goals; 1 if in doubt.
+    /// Weight of its error relative to those of other goals; 1 if in doubt.
     pub weight: f64,
 }
 
-/// The position found and what is left there.
+/// The configuration found and its residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IkAnswer {
     /// The joint positions, shape `(n)` \[rad or m\]; entries outside the chain are those of the start.
     pub q: Vec<f64>,
     /// Whether every frame is within tolerance of its target.
     pub reached: bool,
-    /// The largest distance left \[m\]; zero where no position was asked for.
+    /// The largest remaining distance \[m\]; zero without a target position.
     pub residual_m: f64,
-    /// The largest angle left \[rad\]; zero where no orientation was asked for.
+    /// The largest remaining angle \[rad\]; zero without a target orientation.
     pub residual_rad: f64,
-    /// Steps made, all starts together.
+    /// Number of steps, all starts together.
     pub iterations: usize,
 }
 
-/// A question that cannot be asked. A target out of reach is none of these.
+/// An invalid query. An unreachable target is not an error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IkError {
-    /// Another number of values than the robot has joints.
+    /// A list with a wrong number of values.
     #[error("{what} has {found} values, but the robot has {expected} joints that move")]
     JointCount {
-        /// What has them.
+        /// Name of the list.
         what: &'static str,
         /// Joints that move.
         expected: usize,
@@ -51,18 +51,18 @@ pub enum IkError {
         /// Joints that move.
         count: usize,
     },
-    /// A value that is no number, or not one that makes sense.
+    /// A value that is not finite or out of range.
     #[error("{what} must be {expected}")]
     Value {
         /// Which value.
         what: &'static str,
-        /// What it has to be.
+        /// Its allowed range.
         expected: &'static str,
     },
-    /// Nothing to reach.
+    /// A query without a goal.
     #[error("there is no target: name a frame and where it should be")]
     NoGoal,
-    /// Too much to do.
+    /// More iterations than allowed.
     #[error(
         "{iterations} iterations from {starts} starts are more than {MOST_ITERATIONS} in all; ask for fewer"
     )]
@@ -77,10 +77,10 @@ pub enum IkError {
     Loops(#[from] LoopError),
 }
 
-/// Answers one question: joint positions that bring `frame` of `robot` to `target`, looked for from `q0`, shape `(n)`.
+/// Answers one query: joint positions that bring `frame` of `robot` to `target`, searched from `q0`, shape `(n)`.
 ///
 /// # Errors
-/// [`IkError`] for a question that cannot be asked; never for a target out of reach.
+/// [`IkError`] for an invalid query; never for an unreachable target.
 pub fn inverse_kinematics(
     robot: &Robot,
     frame: &Frame,

@@ -1,8 +1,8 @@
-//! One question after another about the same frames: the starts, the method, and what is made of where they end.
+//! A solver for many queries about the same frames: its starts, its method, and the choice of the answer.
 
 use super::adaptive::descend;
-use super::ik_step::StepRoom;
-use super::null_space::{Wish, follow};
+use super::ik_step::StepScratch;
+use super::null_space::{SecondaryTask, follow};
 use super::query::{check_goals, check_positions};
 use super::system::{Residual, System};
 use super::{Goal, IkAnswer, IkError, IkSettings, Method, Target, textbook};
@@ -10,14 +10,14 @@ use crate::kinematics::joint_samples::JointSamples;
 use crate::kinematics::position_range::{PositionRange, position_ranges};
 use crate::model::robot::Robot;
 
-/// How many times the steps of one start the best of them may go on where none has arrived.
-const LAST_WAY: usize = 10;
+/// If no start converges, the best one continues for this many times the steps of one start.
+const LAST_ITERATIONS_FACTOR: usize = 10;
 
-/// Answers many questions about the same frames; all goals are solved together, as one stacked system.
+/// Answers many queries about the same frames; all goals are solved together, as one stacked system.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'r> {
     pub(super) system: System<'r>,
-    room: StepRoom,
+    scratch: StepScratch,
     settings: IkSettings,
     ranges: Vec<PositionRange>,
     samples: JointSamples,
@@ -28,10 +28,10 @@ pub struct IkSolver<'r> {
 }
 
 impl<'r> IkSolver<'r> {
-    /// Makes room to bring the frames of `goals` to their targets together.
+    /// A solver for the frames of `goals`, with its memory.
     ///
     /// # Errors
-    /// [`IkError`] for goals or settings that make no sense.
+    /// [`IkError`] for invalid goals or settings.
     pub fn new(
         robot: &'r Robot,
         goals: &[Goal<'_>],
@@ -54,7 +54,7 @@ impl<'r> IkSolver<'r> {
         );
         let ranges = position_ranges(robot);
         Ok(Self {
-            room: StepRoom::new(system.rows(), system.unknowns.len()),
+            scratch: StepScratch::new(system.rows(), system.unknowns.len()),
             samples: JointSamples::over(&ranges, &system.unknowns),
             drawn: vec![0.0; system.unknowns.len()],
             q: vec![0.0; robot.n()],
@@ -66,10 +66,10 @@ impl<'r> IkSolver<'r> {
         })
     }
 
-    /// Asks goal `goal` for another target, which must be of the same kind.
+    /// Sets another target of goal `goal`, which must be of the same kind.
     ///
     /// # Errors
-    /// [`IkError::Value`] for a target of another kind or without finite numbers.
+    /// [`IkError::Value`] for a target of another kind or with numbers that are not finite.
     ///
     /// # Panics
     /// If there is no goal of that index.
@@ -81,9 +81,9 @@ impl<'r> IkSolver<'r> {
         })
     }
 
-    /// Looks for the positions from `q0`, shape `(n)`.
+    /// Searches for the joint positions from `q0`, shape `(n)`.
     ///
-    /// With [`IkSettings::respect_limits`] a start beyond the limits begins at them; joints that do not move keep their entry.
+    /// With [`IkSettings::respect_limits`] a start beyond the limits is clamped to them; joints that do not move keep their entry.
     ///
     /// # Errors
     /// [`IkError::JointCount`], [`IkError::Value`] for a `q0` without finite numbers, [`IkError::Loops`] for one whose independent
@@ -149,12 +149,12 @@ impl<'r> IkSolver<'r> {
         }
         self.q.copy_from_slice(&self.best);
         if !self.reached(&least) {
-            // nothing arrives: make the most of the best, which takes long where much is left
+            // no start converged: improve the best one, which takes many steps with a large residual
             let mut rules = self.settings.rules(&self.ranges, false);
-            rules.steps = rules.steps.saturating_mul(LAST_WAY);
+            rules.steps = rules.steps.saturating_mul(LAST_ITERATIONS_FACTOR);
             let (residual, steps) = descend(
                 &mut self.system,
-                &mut self.room,
+                &mut self.scratch,
                 &rules,
                 &mut self.q,
                 &mut self.spare,
@@ -170,7 +170,7 @@ impl<'r> IkSolver<'r> {
         self.answer_nearest(q0, residual, iterations)
     }
 
-    /// The answer from `self.q`: by whole turns near the posture or else `q0`, then on to the posture.
+    /// The answer from `self.q`: moved by full turns to be near the posture or else `q0`, then improved towards the posture.
     fn answer_nearest(
         &mut self,
         q0: &[f64],
@@ -178,7 +178,7 @@ impl<'r> IkSolver<'r> {
         mut iterations: usize,
     ) -> IkAnswer {
         let near = self.settings.posture.as_ref().map_or(q0, |p| &p.q);
-        // in a mechanism a turn on may be on another branch
+        // with closed loops, one turn further may be on another branch
         if self.system.robot.loops().is_empty() {
             let mut turned = false;
             for &i in &self.system.unknowns {
@@ -199,9 +199,9 @@ impl<'r> IkSolver<'r> {
         {
             iterations += follow(
                 &mut self.system,
-                &mut self.room,
+                &mut self.scratch,
                 &self.settings.rules(&self.ranges, false),
-                Wish::Posture(posture),
+                SecondaryTask::Posture(posture),
                 &mut self.q,
             );
             residual = self.system.place(&self.q);
@@ -213,7 +213,7 @@ impl<'r> IkSolver<'r> {
         let rules = self.settings.rules(&self.ranges, false);
         let (residual, iterations) = textbook::iterate(
             &mut self.system,
-            &mut self.room,
+            &mut self.scratch,
             &rules,
             damping,
             self.settings.posture.as_ref(),
@@ -227,7 +227,7 @@ impl<'r> IkSolver<'r> {
         let rules = self.settings.rules(&self.ranges, impatient);
         descend(
             &mut self.system,
-            &mut self.room,
+            &mut self.scratch,
             &rules,
             &mut self.q,
             &mut self.spare,

@@ -11,7 +11,7 @@ use crate::kinematics::position_range::PositionRange;
 use crate::model::robot::Robot;
 use crate::spatial::Pose;
 
-/// The shortest length that errors are measured against \[m\], for chains without any.
+/// Lower bound of the length that scales errors \[m\], for chains of no length.
 const SHORTEST_M: f64 = 1e-3;
 
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ struct Task {
     chain: Chain,
     target: Target,
     weight: f64,
-    /// Where its rows start.
+    /// Index of its first row.
     first: usize,
     pose: Pose,
 }
@@ -31,14 +31,14 @@ impl Task {
     }
 }
 
-/// How far all frames are from their targets.
+/// The residual of all frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Residual {
     /// The largest distance \[m\].
     pub(super) distance_m: f64,
     /// The largest angle \[rad\].
     pub(super) angle_rad: f64,
-    /// Half the square of the weighted error: what the solve makes small.
+    /// Half the square of the weighted error, which the solver minimizes.
     pub(super) objective: f64,
 }
 
@@ -55,22 +55,22 @@ impl Residual {
 pub(super) struct System<'r> {
     pub(super) robot: &'r Robot,
     tasks: Vec<Task>,
-    /// Entries of `q` that the solve moves.
+    /// Entries of `q` that the solver moves.
     pub(super) unknowns: Vec<usize>,
     rows: usize,
-    /// The weighted error, clamped if asked.
+    /// The weighted error, clamped if the settings say so.
     pub(super) error: Vec<f64>,
-    /// Its slope, one column after another.
+    /// Its Jacobian, column by column.
     pub(super) jacobian: Vec<f64>,
-    /// Weight of a metre where a radian weighs one.
+    /// Weight of a metre relative to a radian.
     per_metre: f64,
     clamp: Option<ErrorClamp>,
     mechanism: Option<Mechanism>,
 }
 
 impl<'r> System<'r> {
-    /// Stacks `goals` over the entries `joints` of `q`, or over all that move a frame of theirs. Dependent joints of loops are
-    /// never unknowns. With `balanced`, an error of one chain length weighs like one radian; else metres and radians count alike.
+    /// Stacks `goals` over the entries `joints` of `q`, or over all that move one of their frames. Dependent joints of loops are
+    /// never unknowns. With `balanced`, an error of one chain length has the weight of one radian; else one metre has.
     pub(super) fn new(
         robot: &'r Robot,
         goals: &[Goal<'_>],
@@ -127,7 +127,7 @@ impl<'r> System<'r> {
         self.rows
     }
 
-    /// Asks goal `index` for another target of the same kind.
+    /// Sets another target, of the same kind, of goal `index`.
     pub(super) fn set_target(&mut self, index: usize, target: Target) -> bool {
         let task = &mut self.tasks[index];
         let same = task.target.asks() == target.asks();
@@ -137,7 +137,7 @@ impl<'r> System<'r> {
         same
     }
 
-    /// Brings `q` onto the robot's loops, if it has any.
+    /// Closes the robot's loops at `q`, if it has any.
     pub(super) fn close(&mut self, q: &mut [f64]) -> Result<(), LoopError> {
         match &mut self.mechanism {
             Some(mechanism) => mechanism.close(self.robot, q),
@@ -145,7 +145,7 @@ impl<'r> System<'r> {
         }
     }
 
-    /// Moves all chains to `q` and writes the error there.
+    /// Moves all chains to `q` and computes the error there.
     pub(super) fn place(&mut self, q: &[f64]) -> Residual {
         let mut residual = Residual {
             distance_m: 0.0,
@@ -189,7 +189,7 @@ impl<'r> System<'r> {
         residual
     }
 
-    /// Writes the slope of the error at the last [`System::place`], which was at `q`.
+    /// Computes the Jacobian of the error at the `q` of the last [`System::place`].
     ///
     /// # Errors
     /// [`LoopError::Singular`] where the loops do not determine the dependent joints.
@@ -234,8 +234,7 @@ impl<'r> System<'r> {
         Ok(())
     }
 
-    /// Moves `q` by `step` of the unknowns; dependent joints follow, as far as loops and `limits` let them. False if nothing moved
-    /// for that reason.
+    /// Moves `q` by `step` of the unknowns; dependent joints follow, as far as loops and `limits` allow. False if they allow no motion.
     pub(super) fn advance(
         &mut self,
         step: &[f64],
@@ -258,7 +257,7 @@ impl<'r> System<'r> {
     }
 }
 
-/// The length of `v`, also where its square overflows.
+/// The length of `v`, correct even if its square overflows.
 fn length(v: &Vector3<f64>) -> f64 {
     let length = v.norm();
     if length.is_finite() {
@@ -268,7 +267,7 @@ fn length(v: &Vector3<f64>) -> f64 {
     largest * (v / largest).norm()
 }
 
-/// `v`, of length `length`, or as much of it as is not longer than `longest`.
+/// `v`, which has the length `length`, shortened to at most `longest`.
 fn shortened(v: Vector3<f64>, length: f64, longest: f64) -> Vector3<f64> {
     if length > longest {
         v * (longest / length)

@@ -1,4 +1,4 @@
-//! What a frame is asked for: a place, an orientation, both, or a place and one direction; and how far a pose is from it.
+//! Targets of a frame: a position, an orientation, both, or a position and one direction; and the error of a pose.
 
 use nalgebra::{Matrix3, Unit, Vector3};
 
@@ -7,29 +7,29 @@ use crate::spatial::{Pose, rotation_log};
 /// Where a frame should be, in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target {
-    /// The frame's origin there \[m\]; its orientation is free.
+    /// Position of the frame's origin \[m\]; its orientation is free.
     Position(Vector3<f64>),
     /// Origin and orientation: `world_from_frame`.
     Pose(Pose),
     /// The frame's orientation, `world_from_frame`; its origin is free.
     Rotation(Matrix3<f64>),
-    /// The frame's origin there, and an axis of it along a direction of the world; turning about that axis is free.
+    /// Position of the frame's origin and direction of one of its axes; rotation about that axis is free.
     Axis {
         /// Position of the frame's origin \[m\].
         position_m: Vector3<f64>,
         /// The axis, fixed in the frame.
         axis_in_frame: Unit<Vector3<f64>>,
-        /// Where it should point.
+        /// Its target direction in the world.
         direction_in_world: Unit<Vector3<f64>>,
     },
 }
 
-/// How far a frame is from its target, world axes.
+/// The error of a frame relative to its target, world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PoseError {
-    /// The way to go \[m\]; zero where the position is free.
+    /// Translation to the target \[m\]; zero if the position is free.
     pub(super) linear: Vector3<f64>,
-    /// The turn to make, axis times angle \[rad\]; zero where the orientation is free.
+    /// Rotation to the target, axis times angle \[rad\]; zero if the orientation is free.
     pub(super) angular: Vector3<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Target {
         }
     }
 
-    /// Whether it says something about the position, and about the orientation.
+    /// Whether it constrains the position, and whether it constrains the orientation.
     pub(super) fn asks(&self) -> (bool, bool) {
         match self {
             Self::Position(_) => (true, false),
@@ -63,7 +63,7 @@ impl Target {
         }
     }
 
-    /// The way from `world_from_frame` to the target: `[p_t - p; log(R_t Rᵀ)]`, or the smallest turn that brings the axis there.
+    /// The error of `world_from_frame`: `[p_t - p; log(R_t Rᵀ)]`, or the smallest rotation that aligns the axis.
     #[inline]
     pub(super) fn error(&self, world_from_frame: &Pose) -> PoseError {
         let p = &world_from_frame.translation.vector;
@@ -93,7 +93,7 @@ impl Target {
         }
     }
 
-    /// The direction about which turning is free, world axes; for an axis target only.
+    /// The direction about which rotation is free, world axes; for an axis target only.
     pub(super) fn free_axis(&self, world_from_frame: &Pose) -> Option<Vector3<f64>> {
         match self {
             Self::Axis { axis_in_frame, .. } => {
@@ -104,8 +104,8 @@ impl Target {
     }
 }
 
-/// Axis times angle \[rad\] of the smallest turn from the unit vector `from` to the unit vector `to`; from opposite ones half a turn
-/// about any axis across them.
+/// Axis times angle \[rad\] of the smallest rotation from the unit vector `from` to the unit vector `to`; between opposite vectors half
+/// a turn about any perpendicular axis.
 fn smallest_turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     let across = from.cross(to);
     let (sine, cosine) = (across.norm(), from.dot(to));

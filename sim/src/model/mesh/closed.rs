@@ -1,15 +1,15 @@
-//! Whether triangles bound a solid: every directed edge has exactly one opposite, and where that fails.
+//! Whether triangles bound a solid: every directed edge has exactly one opposite edge; and where not, which edges are wrong.
 
 use super::mesh_problem::MeshProblem;
 use super::surface::Mesh;
 
-/// How many edges or triangles a message names.
+/// Number of edges or triangles that a message names.
 const NAMED: usize = 3;
 
-/// One use of an edge: its vertices, the smaller first, the triangle, and whether that one runs from the smaller to the larger.
+/// One use of an edge: its vertices, the smaller index first, the triangle, and whether the triangle runs from the smaller to the larger.
 type Use = (u32, u32, u32, bool);
 
-/// Checks that every edge has two triangles, wound against each other along it.
+/// Checks that every edge has two triangles, which run along it in opposite directions.
 pub(super) fn check(mesh: &Mesh) -> Result<(), MeshProblem> {
     let uses = uses_by_edge(mesh);
     let mut leaky = Named::default();
@@ -40,7 +40,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), MeshProblem> {
     Ok(())
 }
 
-/// All uses, those of one edge next to one another, in the order of the vertices: so that messages never vary.
+/// All uses of edges, sorted by vertices: the uses of one edge are adjacent, and messages do not vary.
 fn uses_by_edge(mesh: &Mesh) -> Vec<Use> {
     let mut uses: Vec<Use> = Vec::with_capacity(3 * mesh.triangles().len());
     for (t, &[a, b, c]) in mesh.triangles().iter().enumerate() {
@@ -76,7 +76,7 @@ impl Named {
     }
 }
 
-/// Tells the triangles to flip, the fewer of each shell, in a mesh whose every edge has two triangles.
+/// The triangles to flip, the smaller group of each shell, in a mesh whose every edge has two triangles.
 fn flipped(mesh: &Mesh, uses: &[Use]) -> MeshProblem {
     let count = mesh.triangles().len();
     // neighbours over each edge, and whether they agree
@@ -89,7 +89,7 @@ fn flipped(mesh: &Mesh, uses: &[Use]) -> MeshProblem {
             neighbours[b].push((a, agree));
         }
     }
-    // walk each shell from its first triangle, turning whoever disagrees with the one it was reached from
+    // traverse each shell from its first triangle, and flip every triangle that disagrees with the one before it
     let mut turned: Vec<Option<bool>> = vec![None; count];
     let mut to_flip: Vec<usize> = Vec::new();
     for start in 0..count {
@@ -98,9 +98,9 @@ fn flipped(mesh: &Mesh, uses: &[Use]) -> MeshProblem {
         }
         turned[start] = Some(false);
         let mut shell = vec![(start, false)];
-        let mut walked = 0;
-        while let Some(&(t, t_turned)) = shell.get(walked) {
-            walked += 1;
+        let mut visited = 0;
+        while let Some(&(t, t_turned)) = shell.get(visited) {
+            visited += 1;
             for &(other, agree) in &neighbours[t] {
                 let should = t_turned == agree;
                 match turned[other] {
@@ -128,7 +128,7 @@ fn flipped(mesh: &Mesh, uses: &[Use]) -> MeshProblem {
     }
 }
 
-/// The shells of the mesh, triangles that hang together by vertices: for each triangle the number of its shell, and how many.
+/// The shells of the mesh, which are sets of triangles connected by vertices: the shell of each triangle, and the number of shells.
 ///
 /// Shells are numbered by their first triangles.
 pub(super) fn shells(mesh: &Mesh) -> (Vec<u32>, usize) {
@@ -156,7 +156,7 @@ pub(super) fn shells(mesh: &Mesh) -> (Vec<u32>, usize) {
 
 fn root(parent: &mut [u32], mut v: u32) -> u32 {
     while parent[v as usize] != v {
-        // halve the way for the next one
+        // path halving, for the next search
         parent[v as usize] = parent[parent[v as usize] as usize];
         v = parent[v as usize];
     }

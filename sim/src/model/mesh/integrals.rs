@@ -1,8 +1,8 @@
-//! Volume, centre of mass and inertia of the solid inside a closed mesh, exact but for rounding.
+//! Volume, centre of mass and inertia of the solid inside a closed mesh, exact except for rounding.
 //!
 //! Every triangle spans a signed tetrahedron with a reference point; moments of the solid are sums of theirs. The reference is
-//! the middle of the bounds for the centre of mass, and then the centre of mass itself, so that no digits are lost however
-//! far from the origin the mesh lies.
+//! the middle of the bounds for the centre of mass, and then the centre of mass itself, so that no digits are lost in a mesh far from
+//! the origin.
 //!
 //! Source: Tonon, *Explicit exact formulas for the 3-D tetrahedron inertia tensor* (2005), as polynomial sums over corners.
 
@@ -74,7 +74,7 @@ pub(super) fn of_unit_density(mesh: &Mesh) -> Result<Inertia, MeshProblem> {
     })
 }
 
-/// The same body, as many times as dense.
+/// The same body with its density multiplied by a factor.
 pub(super) fn multiplied(unit: &Inertia, factor: f64) -> Result<Inertia, MeshProblem> {
     let i = unit.about_com_kg_m2;
     finite(Inertia {

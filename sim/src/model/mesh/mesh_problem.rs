@@ -1,10 +1,10 @@
-//! Everything that can be wrong with a mesh, in words for the person who exported it.
+//! Errors of meshes, worded for the person who exported the mesh.
 
 use std::fmt;
 
 use super::surface::MAX_TRIANGLES;
 
-/// Where in a mesh file.
+/// A position in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// Offset from the start of a binary file.
@@ -22,11 +22,11 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with a mesh. Coordinates are those the mesh holds: the file's own until it is scaled.
+/// An error of a mesh. Coordinates are those of the mesh: those in the file until it is scaled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message says what its variant is")]
 pub enum MeshProblem {
-    #[error("`{name}` is no mesh format this version reads")]
+    #[error("`{name}` is not a mesh format that this version reads")]
     UnknownFormat { name: String },
     #[error("the mesh file is empty")]
     Empty,
@@ -114,7 +114,7 @@ pub enum MeshProblem {
 }
 
 impl MeshProblem {
-    /// Something to do, if there is something to say beyond the message.
+    /// What to do, if there is more to say than the message.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::UnknownFormat { .. } => "known here: .stl (binary or text), .obj",
@@ -162,7 +162,7 @@ fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-/// Seven significant digits: all that single precision tells apart, and none of its noise.
+/// Seven significant digits: all that single precision resolves, without its noise.
 fn coordinate(x: f64) -> String {
     let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
     format!("{rounded:?}")

@@ -9,7 +9,7 @@ use crate::model::inertia::Inertia;
 /// Most triangles a mesh may have, before or after welding; a file of 100 MB.
 pub(crate) const MAX_TRIANGLES: usize = 2_000_000;
 
-/// A surface of triangles; its vertices are finite when read, distinct, each used, in the order of their first use.
+/// A surface of triangles. Its vertices are finite when read, distinct, all used, and in the order of their first use.
 ///
 /// Corners are counter-clockwise seen from outside. Coordinates are in the axes of the file, in metres once scaled.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +29,8 @@ impl Mesh {
         &self.triangles
     }
 
-    /// The same mesh with each axis multiplied by its factor; a mirror image (a negative product) is wound anew, so that
-    /// what was outside stays outside.
+    /// The same mesh with each axis multiplied by its factor; the triangles of a mirror image (a negative product) are reversed, so that
+    /// they still face outwards.
     ///
     /// A factor of zero makes a flat mesh, which has vertices that coincide and no inertia.
     pub fn scaled(&self, scale: [f64; 3]) -> Self {
@@ -118,10 +118,10 @@ fn positive(what: &'static str, unit: &'static str, found: f64) -> Result<(), Me
 /// The least and the greatest coordinate along each axis.
 pub(crate) type Bounds = ([f64; 3], [f64; 3]);
 
-/// The bounds of no point at all.
+/// The bounds of an empty set of points.
 pub(crate) const EMPTY: Bounds = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
 
-/// The bounds of what `bounds` holds and the point.
+/// The bounds extended to contain the point.
 pub(crate) fn widened((mut low, mut high): Bounds, p: &[f64; 3]) -> Bounds {
     for axis in 0..3 {
         low[axis] = low[axis].min(p[axis]);
@@ -133,7 +133,7 @@ pub(crate) fn widened((mut low, mut high): Bounds, p: &[f64; 3]) -> Bounds {
 /// Makes a mesh of corners as a file gives them, one triangle after another.
 #[derive(Default)]
 pub(crate) struct Welder {
-    // only looked up, never walked: its order decides nothing
+    // only looked up, never iterated: its order has no effect
     index_of: HashMap<[u64; 3], u32>,
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,

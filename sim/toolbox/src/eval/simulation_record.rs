@@ -108,7 +108,7 @@ pub(super) struct Sampler<'a> {
 impl Recorder for Sampler<'_> {
     fn row(&mut self, row: Row<'_>) {
         if let Some(watch) = &mut self.watch {
-            watch.see(&row);
+            watch.observe(&row);
         }
         if !row.tick.is_multiple_of(self.stride) {
             return;

@@ -1,7 +1,7 @@
 //! What goes into a call and comes out of it, and what stays between calls.
 
 use super::{answer, assert_values, numbers, observation, opening, robot, run, stop};
-use crate::submission::controller::{Call, Controller, Mistake, Place, Stop, Value};
+use crate::submission::controller::{Call, Controller, Mistake, SourcePosition, Stop, Value};
 use crate::submission::rhai::ScriptController;
 
 #[test]
@@ -92,7 +92,7 @@ fn constants_are_seen_in_functions_and_variables_are_not() {
         mistake,
         Mistake {
             message: "variable `kp` is not known here".into(),
-            place: Some(Place { line: 3, column: 3 }),
+            place: Some(SourcePosition { line: 3, column: 3 }),
             help: Some("a `let` outside of a function is not seen inside: write const kp = ..., or keep it in `this`".into()),
         }
     );

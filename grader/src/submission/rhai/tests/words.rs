@@ -1,7 +1,7 @@
 //! What a student reads when something is wrong.
 
 use super::{answer, assert_words, numbers, stop};
-use crate::submission::controller::{Place, Stop};
+use crate::submission::controller::{SourcePosition, Stop};
 
 #[test]
 fn the_place_is_that_of_the_innermost_mistake() {
@@ -9,7 +9,7 @@ fn the_place_is_that_of_the_innermost_mistake() {
     let Stop::Crashed(mistake) = stop(source) else {
         panic!("no crash");
     };
-    assert_eq!(mistake.place, Some(Place { line: 3, column: 5 }));
+    assert_eq!(mistake.place, Some(SourcePosition { line: 3, column: 5 }));
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn mistakes_are_told_with_names_values_and_a_way_out() {
         ),
         (
             "this = 5; 1",
-            "`this` is no map any more | keep values under names: this.count = 0",
+            "`this` is not a map any more | keep values under names: this.count = 0",
         ),
         (
             "clamp(1, 2, 0)",
@@ -215,7 +215,7 @@ fn of_two_slips_the_first_in_the_file_is_told() {
     };
     assert_eq!(
         mistake.place,
-        Some(Place {
+        Some(SourcePosition {
             line: 1,
             column: 13
         })
