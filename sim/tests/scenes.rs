@@ -552,7 +552,7 @@ fn messages_say_what_was_given_and_what_to_do() {
     assert_eq!(
         problem(&ball(&[("inertia", "{ mass_kg = 0 }")])),
         (
-            "free body `ball` needs a positive mass, got 0.0 kg".to_owned(),
+            "dynamic body `ball` needs a positive mass, got 0.0 kg".to_owned(),
             "a body without mass cannot be moved by forces; make it `fixed` or `kinematic`"
                 .to_owned()
         )

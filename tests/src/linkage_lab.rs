@@ -67,7 +67,7 @@ fn a_linkage_starts_closed_where_its_file_has_it() {
 #[test]
 fn a_start_with_an_open_loop_is_refused_with_the_start_that_closes_it() {
     // with all joints at zero the rod ends 0.5 m from where the rocker does
-    let open = "a loop of robot `fourbar` stands open by 0.5000 m";
+    let open = "a loop of robot `fourbar` is open by 0.5000 m";
     let closed = "b, c follow from a";
     let beyond = "start_rad = [0, 1.319, 0.3]";
     let start = "start_rad = [0, 1.319, -0.0421]";

@@ -115,7 +115,7 @@ fn who_follows_the_path_as_asked_has_full_marks() {
         assert!(plot.contains(words), "no {words:?}");
     }
     let page = lab.written("report.html");
-    assert!(page.contains("under disturbances, mean of 4 rungs"));
+    assert!(page.contains("under disturbances, mean of 4 levels"));
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn a_path_or_a_ladder_that_cannot_be_is_refused_at_its_place() {
             "name = \"late\"",
             "name = \"noise\"",
             "lab::duplicate",
-            "rung `noise`",
+            "level `noise`",
         ),
         (
             "q_rad = 1e-4, qd_rad_s = 1e-2",

@@ -179,7 +179,7 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
             "body = \"can\", side",
             "body = \"shelf\", side",
             "lab::body_falls",
-            "is not free",
+            "is not dynamic",
         ),
         ("side = \"far\"", "side = \"top\"", "lab::toml", "far"),
         (
@@ -234,7 +234,7 @@ fn a_check_of_what_cannot_be_is_refused_at_its_place() {
             "until = \"fall\", body = \"can\"",
             "until = \"fall\", body = \"shelf\"",
             "lab::body_falls",
-            "is not free",
+            "is not dynamic",
         ),
         (
             "until = \"fall\", body = \"can\"",

@@ -60,7 +60,7 @@ problems! {
             "lab::robustness", "robot `{robot}` has no damping that could be multiplied", "changes nothing",
             "add dry friction instead, such as `friction_n_m = 0.3`";
         Nothing { rung: String }:
-            "lab::robustness", "rung `{rung}` changes nothing", "this rung",
+            "lab::robustness", "level `{rung}` changes nothing", "this level",
             "give it `noise`, `delay_ms`, `payload_kg`, `friction_n_m` or `damping`";
     }
 }

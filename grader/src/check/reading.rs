@@ -106,8 +106,8 @@ problems! {
             "lab::unknown_body", "scene `{scene}` has no body `{body}`", "not a body of this scene",
             near(body, "bodies", known);
         CannotFall { body: String, free: Vec<String> }:
-            "lab::body_falls", "body `{body}` cannot fall: it is not free", "not a free body",
-            near(body, "free bodies", free);
+            "lab::body_falls", "body `{body}` cannot fall: it is not dynamic", "not a dynamic body",
+            near(body, "dynamic bodies", free);
         NoPaths { path: String }:
             "lab::unknown_path", "this task has no path `{path}`", "not a path of [tasks.motion.paths]",
             format!("add a table: [tasks.motion.paths] with `{path} = {{ points_m = [[..], [..]], trim_m = 0.05 }}`");
@@ -118,7 +118,7 @@ problems! {
             "lab::path", "path `{path}` has segments 1 to {count}, got {segment}", "not a segment of this path",
             "leave `segment` out to have the worst one counted";
         NotWholeSteps { time_s: f64, step_s: f64 }:
-            "lab::periods", "{time_s} s is not a whole number of physics steps of {step_s} s", "does not divide";
+            "lab::periods", "{time_s} s is not an integer multiple of the physics step of {step_s} s", "does not divide";
         LongerThanRun { time_s: f64 }:
             "lab::periods", "{time_s} s is longer than the run", "longer than the run";
     }

@@ -289,7 +289,7 @@ problems! {
             "give { from, to, step } for one number, and a list of such tables for a list";
         Steps { from: f64, to: f64, step: f64 }:
             "lab::variants",
-            "from {from} to {to} is not a whole number of steps of {step}, or none, or more than {MOST_STEPS}", "these steps",
+            "from {from} to {to} is not 1 to {MOST_STEPS} steps of {step}", "these steps",
             "write such as { from = 2.9, to = 3.1, step = 0.01 }";
     }
 }

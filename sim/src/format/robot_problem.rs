@@ -75,7 +75,7 @@ impl Problem for RobotProblem {
             Self::Loop { .. } => "this loop".to_owned(),
             Self::TwoParents { .. } => "the second joint that moves it".to_owned(),
             Self::RootIsChild { .. } => "the root".to_owned(),
-            Self::Detached { .. } => "hangs in the air".to_owned(),
+            Self::Detached { .. } => "not connected to the root link".to_owned(),
             Self::Cycle { .. } => "this joint".to_owned(),
             Self::Limit { .. } => "this limit".to_owned(),
             Self::Own { label, .. } => label.clone(),

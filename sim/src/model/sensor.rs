@@ -24,7 +24,7 @@ pub struct Sensor {
     pub noise: f64,
     /// Values are rounded to whole multiples of this, halves away from zero; 0 for none.
     pub quantisation: f64,
-    /// How much later a value arrives than it is taken \[s\]; a whole number of physics steps.
+    /// How much later a value arrives than it is taken \[s\]; an integer number of physics steps.
     pub delay_s: f64,
     /// Values taken each second \[Hz\]; one each physics step where it is absent.
     pub rate_hz: Option<f64>,

@@ -250,21 +250,21 @@ mod tests {
                 delay_s: 0.0042,
                 ..sensor()
             }),
-            "sensor `example`: a delay of 0.0042 s is not a whole number of physics steps of 0.001 s; the nearest is 0.004 s"
+            "sensor `example`: a delay of 0.0042 s is not an integer multiple of the physics step of 0.001 s; the nearest is 0.004 s"
         );
         assert_eq!(
             new(Sensor {
                 rate_hz: Some(300.0),
                 ..sensor()
             }),
-            "sensor `example`: at 300 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 333.3333333333333 Hz"
+            "sensor `example`: at 300 Hz, the time between values is not an integer multiple of the physics step of 0.001 s; the nearest rate is 333.3333333333333 Hz"
         );
         assert_eq!(
             new(Sensor {
                 rate_hz: Some(5000.0),
                 ..sensor()
             }),
-            "sensor `example`: at 5000 Hz, values are not a whole number of physics steps of 0.001 s apart; the nearest rate is 1000 Hz"
+            "sensor `example`: at 5000 Hz, the time between values is not an integer multiple of the physics step of 0.001 s; the nearest rate is 1000 Hz"
         );
         assert_eq!(
             new(Sensor {

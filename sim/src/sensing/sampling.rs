@@ -17,7 +17,7 @@ use crate::step::hybrid::HybridStep;
 pub enum SensorError {
     /// A delay between two steps.
     #[error(
-        "sensor `{sensor}`: a delay of {delay_s} s is not a whole number of physics steps of {step_s} s; the nearest is {nearest_s} s"
+        "sensor `{sensor}`: a delay of {delay_s} s is not an integer multiple of the physics step of {step_s} s; the nearest is {nearest_s} s"
     )]
     Delay {
         /// The sensor.
@@ -43,7 +43,7 @@ pub enum SensorError {
     },
     /// Values that would fall between two steps.
     #[error(
-        "sensor `{sensor}`: at {rate_hz} Hz, values are not a whole number of physics steps of {step_s} s apart; the nearest rate is {nearest_hz} Hz"
+        "sensor `{sensor}`: at {rate_hz} Hz, the time between values is not an integer multiple of the physics step of {step_s} s; the nearest rate is {nearest_hz} Hz"
     )]
     Rate {
         /// The sensor.

@@ -16,7 +16,7 @@ problems! {
     enum PartyProblem {
         NeverPress { first: String, second: String, why: &'static str }:
             "lab::contact_impulse", "no contact of `{first}` and `{second}` can be: {why}", "this one with the other",
-            "name the arm and a body, or a free body and another";
+            "name the arm and a body, or a dynamic body and another";
         NoGround { scene: String }:
             "lab::unknown_party", "scene `{scene}` has no ground", "not in this scene",
             "give the scene a `ground` in [environment]";

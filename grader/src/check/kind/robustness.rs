@@ -90,8 +90,8 @@ pub(crate) struct Robustness {
 impl MotionCheck for Robustness {
     fn bounds(&self) -> [String; 2] {
         [
-            format!("\"{}\" in full on every rung", self.sweep.repeated),
-            "nothing on any rung".to_owned(),
+            format!("\"{}\" in full at every level", self.sweep.repeated),
+            "nothing at any level".to_owned(),
         ]
     }
 
@@ -147,7 +147,7 @@ fn judge(sweep: &Sweep, outcomes: &[LevelOutcome], time_s: impl Fn(u64) -> f64) 
         ))
     });
     let quantity = format!(
-        "\"{}\" under disturbances, mean of {} rungs",
+        "\"{}\" under disturbances, mean of {} levels",
         sweep.repeated,
         scores.len()
     );

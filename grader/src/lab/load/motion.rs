@@ -32,9 +32,9 @@ problems! {
     /// What is wrong with a motion task.
     enum MotionProblem {
         Periods { error: String }:
-            "lab::periods", "{error}", "does not divide", "each period is a whole number of the one before";
+            "lab::periods", "{error}", "does not divide", "each period must be an integer multiple of the one before";
         NotWholeSteps { what: &'static str, time_s: f64, step_s: f64 }:
-            "lab::periods", "{what} of {time_s} s is not a whole number of physics steps of {step_s} s", "does not divide",
+            "lab::periods", "{what} of {time_s} s is not an integer multiple of the physics step of {step_s} s", "does not divide",
             format!("write a multiple of {step_s} s");
         TooLong { what: &'static str, time_s: f64, step_s: f64 }:
             "lab::periods", "{what} of {time_s} s has more than {MOST_TICKS} physics steps of {step_s} s", "too long",
@@ -49,7 +49,7 @@ problems! {
         Sensor { error: String }:
             "lab::sensor", "{error}", "in this task";
         OpenLoop { robot: String, gap_m: f64, help: String }:
-            "lab::start", "a loop of robot `{robot}` stands open by {gap_m:.4} m at this start",
+            "lab::start", "a loop of robot `{robot}` is open by {gap_m:.4} m at this start",
             "not a place where the robot can be", help;
         NoInertia { robot: String, link: String, joint: String }:
             "lab::no_inertia", "robot `{robot}` cannot be simulated: link `{link}` has no inertia that its joint `{joint}` could move",

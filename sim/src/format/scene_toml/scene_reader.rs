@@ -171,7 +171,8 @@ impl Resolver<'_> {
             (_, Some(motion)) => {
                 let problem = SceneProblem::Motion {
                     message: format!("only a kinematic body has a motion, and `{name}` is none"),
-                    help: "make it `kinematic`; a free body may start with a `velocity`".to_owned(),
+                    help: "make it `kinematic`; a dynamic body may start with a `velocity`"
+                        .to_owned(),
                 };
                 return self.err(motion.span(), problem);
             }
@@ -180,7 +181,9 @@ impl Resolver<'_> {
         };
         if let (Some(velocity), false) = (&table.velocity, body_type == BodyType::Free) {
             let problem = SceneProblem::Motion {
-                message: format!("only a free body starts with a velocity, and `{name}` is none"),
+                message: format!(
+                    "only a dynamic body can start with a velocity, and `{name}` is not dynamic"
+                ),
                 help: "a kinematic body moves by its `motion`, a fixed one not at all".to_owned(),
             };
             return self.err(velocity.span(), problem);
@@ -249,7 +252,7 @@ impl Resolver<'_> {
                 return Ok(Inertia::zero());
             }
             let problem = SceneProblem::Mass {
-                message: format!("free body `{name}` has no mass"),
+                message: format!("dynamic body `{name}` has no mass"),
                 help: "add `inertia = { mass_kg = 0.4 }`, or a `density_kg_m3`, or make it `fixed`"
                     .to_owned(),
             };
@@ -274,13 +277,15 @@ impl Resolver<'_> {
         let mass = inertia.mass_kg;
         if !(mass > 0.0 && mass.is_finite()) {
             return refuse(
-                format!("free body `{name}` needs a positive mass, got {mass:?} kg"),
+                format!("dynamic body `{name}` needs a positive mass, got {mass:?} kg"),
                 "a body without mass cannot be moved by forces; make it `fixed` or `kinematic`",
             );
         }
         if mass > MOST_MASS_KG {
             return refuse(
-                format!("free body `{name}` has a mass of {mass:e} kg, at most {MOST_MASS_KG:e}"),
+                format!(
+                    "dynamic body `{name}` has a mass of {mass:e} kg, at most {MOST_MASS_KG:e}"
+                ),
                 "what is heavier than all else stands still anyway; make it `fixed`",
             );
         }
@@ -288,7 +293,7 @@ impl Resolver<'_> {
         if !(least > LEAST_MOMENT * greatest && greatest.is_finite()) {
             return refuse(
                 format!(
-                    "free body `{name}` has no moment of inertia about some axis: {least:.3e} kg m² beside {greatest:.3e}"
+                    "dynamic body `{name}` has no moment of inertia about some axis: {least:.3e} kg m², against {greatest:.3e}"
                 ),
                 "give it thickness: each principal moment must be positive",
             );
@@ -305,7 +310,7 @@ impl Resolver<'_> {
         let name = table.name.get_ref();
         if *table.kind.get_ref() != BodyType::Free {
             let problem = SceneProblem::Motion {
-                message: format!("air moves only free bodies, and `{name}` is none"),
+                message: format!("air moves only dynamic bodies, and `{name}` is not dynamic"),
                 help: "leave `drag` out".to_owned(),
             };
             return self.err(drag.span(), problem);

@@ -128,7 +128,7 @@ fn face<'a>(
 fn corner(word: &[u8], line: usize, vertices: &[[f64; 3]]) -> Result<[f64; 3], MeshProblem> {
     let syntax = || MeshProblem::Syntax {
         line,
-        expected: "a corner `v`, `v/vt`, `v//vn` or `v/vt/vn` of whole numbers",
+        expected: "a corner `v`, `v/vt`, `v//vn` or `v/vt/vn` of integers",
         found: shown(word),
     };
     let text = std::str::from_utf8(word).map_err(|_| syntax())?;

@@ -266,7 +266,7 @@ impl Simulate {
             whole_ratio(longer_s, shorter_s).ok_or_else(|| {
                 Refusal::new(
                     Code::BadPeriod,
-                    format!("`{longer}` of {longer_s} s is not a whole number of `{shorter}` of {shorter_s} s"),
+                    format!("`{longer}` of {longer_s} s is not an integer multiple of `{shorter}` of {shorter_s} s"),
                 )
             })
         };
