@@ -1,18 +1,21 @@
 //! Where the mass of the whole robot is, and how the joints move it.
 
 use nalgebra::{Matrix3xX, Vector3};
+use serde::Deserialize;
 
 use super::forward::forward_kinematics;
 use crate::joint_space::JointPositions;
 use crate::model::robot::Robot;
 
 /// What mass counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Counted {
-    /// All links.
-    WholeRobot,
     /// The links that joints move; those fixed to the world are left out, as Pinocchio does.
+    #[serde(rename = "moving")]
     MovingLinks,
+    /// All links.
+    #[serde(rename = "all")]
+    WholeRobot,
 }
 
 impl Counted {

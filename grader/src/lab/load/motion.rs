@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::{Reader, numbers};
-use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
+use crate::lab::file::{MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::record::quantity::trimmed;
 use crate::task::model::{MotionGoal, MotionTask};
 use crate::task::problem::{LabError, LabProblem};
@@ -298,7 +298,7 @@ impl Reader<'_> {
 
     fn servo(
         &self,
-        mode: ModeName,
+        mode: Mode,
         table: &ServoTable,
         at: Range<usize>,
     ) -> Result<ServoSettings, LabError> {
@@ -342,20 +342,10 @@ impl Reader<'_> {
             effort_limit,
             integral_limit: spread(&table.integral_limit, "integral_limit", f64::INFINITY)?,
         };
-        let mode = match mode {
-            ModeName::Position => Mode::Position,
-            ModeName::Velocity => Mode::Velocity,
-            ModeName::Effort => Mode::Effort,
-        };
-        let derivative = match table.derivative {
-            Some(DerivativeName::Error) => Derivative::Error,
-            Some(DerivativeName::Velocity) => Derivative::Velocity,
-            Some(DerivativeName::Measurement) | None => Derivative::Measurement,
-        };
         ServoSettings::new(
             self.robot,
             mode,
-            derivative,
+            table.derivative.unwrap_or(Derivative::Measurement),
             &gains,
             table.gravity_compensation,
         )
