@@ -16,13 +16,13 @@ pub mod html;
 pub mod log;
 mod measured;
 pub mod moment;
-mod number;
 pub mod output;
 mod palette;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod replay;
+mod shown_unit;
 mod solid;
 mod standing;
 pub mod storyboard;

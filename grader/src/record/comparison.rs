@@ -1,12 +1,13 @@
 //! A comparison of two graded submissions as data: what each check earned, and where the motions first part.
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::watch::event::EventKind;
 use serde::Serialize;
 
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TaskRun};
-use crate::record::quantity::{difference_of_points, seconds};
+use crate::record::quantity::difference_of_points;
 use crate::record::verdict::Verdict;
 
 /// The format and its version.

@@ -1,9 +1,9 @@
 //! From what a submission returned to what was asked for: shape and finiteness, or words for what came instead.
 
 use kinemark_sim::text::Dimension;
+use kinemark_sim::text::number::trimmed;
 use nalgebra::Vector3;
 
-use crate::record::quantity::trimmed;
 use crate::submission::controller::Value;
 
 /// A position: three finite numbers \[m\].

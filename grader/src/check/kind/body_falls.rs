@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::trace::Trace;
 use kinemark_sim::watch::event::{EventKind, SeenSide};
 use schemars::JsonSchema;
@@ -21,7 +22,7 @@ use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
 use crate::record::grade::Evidence;
 use crate::record::names::Names;
-use crate::record::quantity::{seconds, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::{Fall, TouchingParty};

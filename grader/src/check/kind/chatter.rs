@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::seconds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -18,7 +19,6 @@ use crate::check::finding::Finding;
 use crate::check::joint_effort::applied;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
-use crate::record::quantity::seconds;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 

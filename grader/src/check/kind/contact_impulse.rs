@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::text::{Problem, suggest};
 use kinemark_sim::watch::ContactSpan;
 use schemars::JsonSchema;
@@ -19,7 +20,6 @@ use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
 use crate::record::graded::Curve;
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::scene::LabScene;

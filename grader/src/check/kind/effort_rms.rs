@@ -5,6 +5,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::trimmed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -15,7 +16,6 @@ use crate::check::finding::Finding;
 use crate::check::joint_effort::{JointEffort, applied};
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
-use crate::record::quantity::trimmed;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::seconds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,7 +12,6 @@ use crate::check::facts::MotionFacts;
 use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::{MotionTable, lacks_goals};
-use crate::record::quantity::seconds;
 use crate::task::model::{Band, MotionTask};
 use crate::task::problem::LabError;
 

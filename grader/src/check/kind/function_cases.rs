@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::significant;
 use kinemark_sim::text::{Problem, suggest};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,7 +20,7 @@ use crate::check::contract::{CheckKind, FunctionCheck};
 use crate::check::finding::Finding;
 use crate::check::reading::FunctionReading;
 use crate::check::registry::FunctionTable;
-use crate::record::quantity::{significant, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::{Band, Function, Given};
 use crate::task::problem::LabError;
 

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::metres;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,7 +19,6 @@ use crate::check::contract::{CheckKind, FunctionCheck};
 use crate::check::finding::Finding;
 use crate::check::reading::FunctionReading;
 use crate::check::registry::FunctionTable;
-use crate::record::quantity::metres;
 use crate::task::model::{Band, Function};
 use crate::task::problem::LabError;
 

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::trimmed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,7 +17,7 @@ use crate::check::contract::{CheckKind, FunctionCheck};
 use crate::check::finding::Finding;
 use crate::check::reading::FunctionReading;
 use crate::check::registry::FunctionTable;
-use crate::record::quantity::{trimmed, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::jacobian;
 use crate::task::model::{Band, Function};
 use crate::task::problem::LabError;

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{seconds, trimmed};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,7 +14,6 @@ use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
 use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::joint_units::JointUnits;
 use crate::task::model::Band;
 use crate::task::problem::LabError;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{seconds, trimmed};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,7 +12,6 @@ use crate::check::facts::MotionFacts;
 use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::joint_units::JointUnits;
 use crate::task::model::Band;
 use crate::task::problem::LabError;

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{metres, trimmed};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,7 +17,6 @@ use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::{MotionTable, lacks_goals};
 use crate::record::grade::Evidence;
-use crate::record::quantity::{metres, trimmed};
 use crate::task::model::{Band, MotionTask};
 use crate::task::problem::LabError;
 

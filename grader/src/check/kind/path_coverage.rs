@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::{list, metres};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -18,7 +19,7 @@ use crate::check::reading::{InTask, NumberAt};
 use crate::check::registry::MotionTable;
 use crate::check::road;
 use crate::record::grade::Evidence;
-use crate::record::quantity::{list, metres, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::{PathToFollow, Shares};

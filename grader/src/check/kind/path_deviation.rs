@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, seconds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -18,7 +19,6 @@ use crate::check::registry::MotionTable;
 use crate::check::road::{self, Driven};
 use crate::record::grade::Evidence;
 use crate::record::graded::Curve;
-use crate::record::quantity::{list, metres, seconds};
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::PathToFollow;

@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, seconds, trimmed};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -25,7 +26,7 @@ use crate::check::registry::MotionTable;
 use crate::check::road::{self, Driven};
 use crate::record::grade::Evidence;
 use crate::record::graded::{Curve, StepBackdrop};
-use crate::record::quantity::{list, metres, seconds, trimmed, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::PathToFollow;

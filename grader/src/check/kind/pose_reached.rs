@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, seconds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,7 +17,6 @@ use crate::check::reading::InTask;
 use crate::check::registry::{MotionTable, lacks_goals};
 use crate::record::grade::Evidence;
 use crate::record::graded::Curve;
-use crate::record::quantity::{list, metres, seconds};
 use crate::task::model::{Band, MotionTask};
 use crate::task::problem::LabError;
 

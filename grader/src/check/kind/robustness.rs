@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::text::{Problem, suggest};
 use kinemark_sim::ticks::whole_ratio;
 use schemars::JsonSchema;
@@ -18,7 +19,7 @@ use crate::check::finding::Finding;
 use crate::check::reading::{InTask, NumberAt};
 use crate::check::registry::MotionTable;
 use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, trimmed, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 

@@ -14,6 +14,7 @@ use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::trimmed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -26,7 +27,6 @@ use crate::check::registry::MotionTable;
 use crate::check::step_keys::{OfName, StepResponse, step_table};
 use crate::check::step_response::{Loss, Measured, Response, SETTLED};
 use crate::record::grade::Evidence;
-use crate::record::quantity::trimmed;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::seconds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -15,7 +16,7 @@ use crate::check::registry::MotionTable;
 use crate::check::step_keys::{StepResponse, step_table};
 use crate::check::step_response::{Loss, Measured, Response, SETTLED};
 use crate::record::grade::Evidence;
-use crate::record::quantity::{seconds, with_unit};
+use crate::record::quantity::with_unit;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::trace::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,7 +19,6 @@ use crate::check::facts::MotionFacts;
 use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::{SpeedAt, TouchingParty};

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::{list, metres, seconds};
 use kinemark_sim::watch::event::{Event, EventKind};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -19,7 +20,6 @@ use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::MotionTable;
 use crate::check::road;
-use crate::record::quantity::{list, metres, seconds};
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::{PathToFollow, Until};

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::{metres, seconds};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,7 +21,6 @@ use crate::check::finding::Finding;
 use crate::check::reading::InTask;
 use crate::check::registry::{MotionTable, lacks_goals};
 use crate::record::graded::TcpPath;
-use crate::record::quantity::{metres, seconds};
 use crate::task::model::{Band, MotionGoal, MotionTask};
 use crate::task::problem::LabError;
 

@@ -10,13 +10,13 @@ use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::model::sensor::{Sensor, replaced};
 use kinemark_sim::sensing::Sensors;
 use kinemark_sim::step::hybrid::HybridStep;
+use kinemark_sim::text::number::trimmed;
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::{Reader, numbers};
 use crate::lab::file::{MotionTable, NumberAt, PerJoint, ServoTable};
-use crate::record::quantity::trimmed;
 use crate::task::model::{MotionGoal, MotionTask};
 use crate::task::problem::{LabError, LabProblem};
 use crate::task::scene::LabScene;
