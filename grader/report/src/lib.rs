@@ -12,6 +12,7 @@ pub mod brief_page;
 pub mod compare_text;
 pub(crate) mod goal;
 pub mod html;
+mod initial_contact;
 #[cfg(feature = "log")]
 pub mod log;
 mod measured;
@@ -24,7 +25,6 @@ pub mod png;
 pub mod replay;
 mod shown_unit;
 mod solid;
-mod standing;
 pub mod storyboard;
 pub mod text;
 pub mod visible;

@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use kinemark_toolbox::robot_convert::{Converted, robot_file};
 
-use crate::disk::plain;
 use crate::failure::Failure;
 use crate::output;
 use crate::robot_source::{self, RobotArgs};
@@ -54,12 +53,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     match &args.out {
         None => output::print(&toml)?,
-        Some(out) => output::write_file(out, toml.as_bytes()).map_err(|error| {
-            Failure::fault(
-                format!("`{}` cannot be written: {}", out.display(), plain(&error)),
-                "choose another path with --out",
-            )
-        })?,
+        Some(out) => {
+            output::write_file(out, toml.as_bytes(), "choose another path with --out")?;
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

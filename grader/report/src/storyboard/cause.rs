@@ -5,8 +5,8 @@ use kinemark_sim::text::number::seconds;
 use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 
+use crate::initial_contact::is_initial;
 use crate::moment::{first_loss_of, has_lost, lost_points};
-use crate::standing::stand;
 use kinemark_grader::record::grade::{CheckGrade, Divergence, TaskGrade};
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::{points, with_unit};
@@ -105,7 +105,7 @@ pub(super) fn causes(run: &TaskRun, grade: &TaskGrade) -> Vec<Cause> {
             continue;
         }
         pairs.push(contact.parties);
-        if stand(contact.parties, contact.first_tick, run) {
+        if is_initial(contact.parties, contact.first_tick, run) {
             continue;
         }
         let arm = contact.parties.iter().any(|p| matches!(p, Party::Link(_)));
