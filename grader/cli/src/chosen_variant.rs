@@ -9,7 +9,8 @@ use kinemark_grader::task::problem::LoadError;
 
 use crate::disk::{self, Folder};
 use crate::failure::Failure;
-use crate::staff_folder::StaffArgs;
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffArgs};
 
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
@@ -22,12 +23,26 @@ pub(crate) struct VariantArgs {
     pub(crate) student: Option<String>,
 }
 
+/// Where a lab comes from: its folder, its variant, and the course staff's part.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct LabArgs {
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+    #[command(flatten)]
+    pub(crate) variant: VariantArgs,
+    #[command(flatten)]
+    pub(crate) staff: StaffArgs,
+}
+
 /// A variant is a few lines.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// The lab that is meant, and a sentence where nobody said so.
+/// The lab that is meant, with what it was read from.
 pub(crate) struct Chosen {
     pub(crate) lab: Lab,
+    pub(crate) files: Box<dyn Files>,
+    /// The course staff's part.
+    pub(crate) reference: Option<Folder>,
     /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
 }
@@ -36,39 +51,48 @@ pub(crate) struct Chosen {
 ///
 /// # Errors
 /// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
-pub(crate) fn choose(
+pub(crate) fn choose(name: &str, args: &LabArgs, beside: Option<&Path>) -> Result<Chosen, Failure> {
+    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
+    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
+    let (lab, note) = variant_of(name, files.as_ref(), reference.as_ref(), args, beside)?;
+    Ok(Chosen {
+        lab,
+        files,
+        reference,
+        note,
+    })
+}
+
+/// The lab in its variant, and which that is where the command named none.
+fn variant_of(
     name: &str,
     files: &dyn Files,
     reference: Option<&Folder>,
-    args: &VariantArgs,
-    staff: &StaffArgs,
+    LabArgs { variant, staff, .. }: &LabArgs,
     beside: Option<&Path>,
-) -> Result<Chosen, Failure> {
+) -> Result<(Lab, Option<String>), Failure> {
     let lab = Lab::load(files, name)?;
     let found = beside.map(|submission| submission.with_file_name(VARIANT_FILE));
     // whatever it is: what is no file is refused below, and not passed over
     let found = found.filter(|path| path.symlink_metadata().is_ok());
-    if let Some(student) = &args.student {
-        let variant = of_student(&lab, reference, staff, student)?;
+    if let Some(student) = &variant.student {
+        let own = of_student(&lab, reference, staff, student)?;
         let unused = found.map(|found| {
             format!(
                 "using the variant of student {student}; {} is not used",
                 found.display()
             )
         });
-        return Ok(Chosen {
-            lab: Lab::load_variant(files, name, Some(&variant))?,
-            note: unused,
-        });
+        return Ok((Lab::load_variant(files, name, Some(&own))?, unused));
     }
-    let (path, note) = match (&args.variant, &found) {
+    let (path, note) = match (&variant.variant, &found) {
         (Some(given), _) => (given, None),
         (None, Some(found)) => {
             disk::refuse_link(found)?;
             let note = format!("using the variant in {}", found.display());
             (found, Some(note))
         }
-        (None, None) => return Ok(Chosen { lab, note: None }),
+        (None, None) => return Ok((lab, None)),
     };
     let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)
         .map_err(|error| Failure::from(LoadError::from(error)))?;
@@ -77,7 +101,7 @@ pub(crate) fn choose(
         let shown = path.display().to_string();
         refuse_forged(&chosen, files, reference, staff, &shown)?;
     }
-    Ok(Chosen { lab: chosen, note })
+    Ok((chosen, note))
 }
 
 /// Refuses a variant that names a student and holds other numbers than the salt gives; `shown` is its file for people.
@@ -108,7 +132,8 @@ pub(crate) fn refuse_forged(
             "`{shown}` is not the variant of student `{student}`: the course's salt gives other parameters"
         ),
         &format!(
-            "grade with `--student {student}`, or write the file again: `kinemark lab variant {name} --student {student} --out FILE`"
+            "grade with `--student {student}`, or write the file again: \
+             `kinemark lab variant {name} --student {student} --out FILE`"
         ),
     ))
 }

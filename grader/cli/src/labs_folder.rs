@@ -68,6 +68,21 @@ pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<Path
     }
 }
 
+/// A text that every lab has: `starter.rhai` or `brief.md`.
+pub(crate) fn text(files: &dyn Files, lab: &str, name: &str) -> Result<String, Failure> {
+    match files.read(&format!("{lab}/{name}")) {
+        Ok(Some(text)) => Ok(text),
+        Ok(None) => Err(Failure::broken(
+            format!("lab `{lab}` has no {name}"),
+            "a lab needs a starter.rhai and a brief.md beside its lab.toml",
+        )),
+        Err(why) => Err(Failure::broken(
+            format!("{lab}/{name}: {why}"),
+            "save it as UTF-8 text",
+        )),
+    }
+}
+
 /// A `labs` folder with a robots folder in it, here or above: another project's `labs` is none.
 fn found_upwards() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;

@@ -58,8 +58,19 @@ pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
     }
 }
 
-/// Writes a file whole: to a temporary file beside it, then renamed.
-pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// Writes a file whole, or says why not and what helps.
+pub(crate) fn write_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
+    write_whole(path, bytes).map_err(|error| unwritten(path, &error, help))
+}
+
+/// Why there is no file or folder at `path`.
+pub(crate) fn unwritten(path: &Path, error: &std::io::Error, help: &str) -> Failure {
+    let message = format!("`{}` cannot be written: {}", path.display(), plain(error));
+    Failure::fault(message, help)
+}
+
+/// Writes to a temporary file beside `path`, then renames it.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

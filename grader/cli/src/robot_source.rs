@@ -257,7 +257,8 @@ fn mesh_candidates(
         return Ok(candidates);
     }
     Err(format!(
-        "no package `{package}` with this file was found around the URDF, and no `{}`; give the package's folder: --package {package}=DIR",
+        "no package `{package}` with this file was found around the URDF, and no `{}`; \
+         give the package's folder: --package {package}=DIR",
         folder.join(inside).display()
     ))
 }

@@ -91,10 +91,10 @@ impl Concerns {
             real(&args.submission)?,
             real(&args.submission.with_file_name(VARIANT_FILE))?,
         ];
-        if let Some(variant) = &args.variant.variant {
+        if let Some(variant) = &args.from.variant.variant {
             files.push(real(variant)?);
         }
-        let (_, labs) = labs_folder::open(&args.labs_folder)?;
+        let (_, labs) = labs_folder::open(&args.from.labs_folder)?;
         let mut trees = Vec::new();
         // any other text names no folder of the labs; grading says so
         let mut parts = Path::new(&args.lab).components();
@@ -105,7 +105,7 @@ impl Concerns {
         if let (Some(labs), true) = (&labs, is_name) {
             let parts = ["robots", "scenes", &args.lab];
             trees.extend(parts.map(|part| labs.join(part)));
-            if let Some(reference) = staff_folder::open(&args.staff, Some(labs))? {
+            if let Some(reference) = staff_folder::open(&args.from.staff, Some(labs))? {
                 trees.push(reference.path().join(&args.lab));
             }
         }

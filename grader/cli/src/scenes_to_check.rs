@@ -7,8 +7,8 @@ use kinemark_grader::lab::{Lab, TaskWork};
 use kinemark_grader::task::scene::scene_names;
 use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::metres;
 use kinemark_sim::text::suggest;
-use kinemark_toolbox::number::metres;
 use kinemark_toolbox::scene_check::{ArmInScene, SceneToCheck};
 
 use crate::commands::scene_check::Args;

@@ -2,6 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use kinemark_grader::audit;
+use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::task::files::Files;
+
 use crate::disk::Folder;
 use crate::failure::Failure;
 
@@ -66,4 +70,17 @@ pub(crate) fn open(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folde
         let plain = folder.strip_prefix(".").map(Path::to_owned);
         Folder::new(plain.unwrap_or(folder))
     }))
+}
+
+/// The staff's part of a lab, whose code works; none where there is no reference solution.
+pub(crate) fn staff(
+    reference: &dyn Files,
+    lab: &Lab,
+    salt: Option<&str>,
+) -> Result<Option<Staff>, Failure> {
+    let staff = Staff::load(reference, lab, salt)?;
+    if let Some(staff) = &staff {
+        audit::staff_code(lab, staff)?;
+    }
+    Ok(staff)
 }

@@ -1,12 +1,13 @@
 //! A comparison as text for a terminal.
 
+use kinemark_sim::text::number::{metres, seconds};
 use owo_colors::OwoColorize as _;
 
 use super::visible::visible;
 use kinemark_grader::record::comparison::{Comparison, MotionComparison, Pair, SideRecord};
 use kinemark_grader::record::comparison::{JOINT_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use kinemark_grader::record::grade::Outcome;
-use kinemark_grader::record::quantity::{difference_of_points, metres, points, seconds};
+use kinemark_grader::record::quantity::{difference_of_points, points};
 
 /// Renders a comparison.
 pub fn text(comparison: &Comparison) -> String {

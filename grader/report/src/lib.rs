@@ -12,19 +12,19 @@ pub mod brief_page;
 pub mod compare_text;
 pub(crate) mod goal;
 pub mod html;
+mod initial_contact;
 #[cfg(feature = "log")]
 pub mod log;
 mod measured;
 pub mod moment;
-mod number;
 pub mod output;
 mod palette;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod replay;
+mod shown_unit;
 mod solid;
-mod standing;
 pub mod storyboard;
 pub mod text;
 pub mod visible;

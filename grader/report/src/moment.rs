@@ -1,10 +1,10 @@
 //! Moments of a run: the part of an address after the page, by which a report's replay goes there, and where points were lost first.
 
+use kinemark_sim::text::number::trimmed;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Grade, Instant, Outcome, Stopped, TaskGrade};
-use kinemark_grader::record::quantity::trimmed;
 
 /// What does not stand for itself in a part of an address (RFC 3986, section 2.3).
 pub const ADDRESS_PART: &AsciiSet = &NON_ALPHANUMERIC

@@ -11,13 +11,13 @@ use std::fmt::Write as _;
 use kinemark_sim::model::scene::BodyKind;
 
 /// A colour with its meaning.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Colour {
-    /// On a light ground; also the key of the style sheet, so no two are equal.
+    /// On a light ground; also the key of the style sheet, so no two in [`ALL`] are equal.
     pub(crate) light: (u8, u8, u8),
     dark: (u8, u8, u8),
     /// Dashes in the units of a picture, where the line is dashed.
-    dashes: Option<&'static str>,
+    pub(crate) dashes: Option<&'static str>,
 }
 
 const fn colour(light: (u8, u8, u8), dark: (u8, u8, u8)) -> Colour {
@@ -28,11 +28,9 @@ const fn colour(light: (u8, u8, u8), dark: (u8, u8, u8)) -> Colour {
     }
 }
 
-/// The same colour as a dashed line: one step of blue apart, which no eye tells.
+/// The same colour as a dashed line.
 const fn dashed(solid: Colour, dashes: &'static str) -> Colour {
-    let (r, g, b) = solid.light;
     Colour {
-        light: (r, g, b ^ 1),
         dashes: Some(dashes),
         ..solid
     }
@@ -156,22 +154,8 @@ pub(crate) mod log {
     pub(crate) const REFERENCE_ARM: [f64; 4] = [0.8, 0.47, 0.65, 0.35];
 }
 
-const ALL: [Colour; 15] = [
-    PAPER,
-    INK,
-    MUTED,
-    FRAME,
-    GRID,
-    BLUE,
-    VERMILLION,
-    GREEN,
-    PURPLE,
-    PURPLE_DASHED,
-    GREEN_DASHED,
-    VERMILLION_DASHED,
-    MUTED_DASHED,
-    AMBER,
-    RED,
+const ALL: [Colour; 11] = [
+    PAPER, INK, MUTED, FRAME, GRID, BLUE, VERMILLION, GREEN, PURPLE, AMBER, RED,
 ];
 
 /// A colour as pictures write it.
@@ -179,22 +163,16 @@ pub(crate) fn hex((r, g, b): (u8, u8, u8)) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
-/// The style sheet of plots: fonts, dashes, and the dark ground.
+/// The style sheet of plots: fonts, and the dark ground.
 pub(crate) fn plot_css() -> String {
     let mut css = String::from(
         ".plot text{font-family:system-ui,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;\
          font-variant-numeric:tabular-nums}.plot path{stroke-linejoin:round}",
     );
-    for colour in ALL {
-        if let Some(dashes) = colour.dashes {
-            let key = hex(colour.light);
-            // writing into a string cannot fail
-            let _ = write!(css, ".plot [stroke=\"{key}\"]{{stroke-dasharray:{dashes}}}");
-        }
-    }
     css.push_str("@media screen and (prefers-color-scheme:dark){");
     for colour in ALL {
         let (key, dark) = (hex(colour.light), hex(colour.dark));
+        // writing into a string cannot fail
         let _ = write!(
             css,
             ".plot [stroke=\"{key}\"]{{stroke:{dark}}}.plot [fill=\"{key}\"]{{fill:{dark}}}"

@@ -4,6 +4,7 @@
 
 use std::fmt::Write as _;
 
+use kinemark_sim::text::number::seconds;
 use owo_colors::OwoColorize as _;
 
 use super::measured::Measured;
@@ -12,7 +13,7 @@ use super::visible::visible;
 use kinemark_grader::record::grade::{
     CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
 };
-use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_grader::record::quantity::points;
 use kinemark_grader::record::verdict::Verdict;
 
 /// Renders `grade`.

@@ -3,9 +3,9 @@
 use kinemark_sim::control::{Mode, SampledLoop};
 use kinemark_sim::diagnosis::Cause;
 use kinemark_sim::run::DivergenceKind;
+use kinemark_sim::text::number::trimmed;
 
 use crate::record::names::Names;
-use crate::record::quantity::trimmed;
 use crate::task::model::MotionTask;
 
 /// What a student can do about a servo.

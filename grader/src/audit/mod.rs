@@ -8,6 +8,7 @@ mod staff_code;
 mod variants;
 
 use kinemark_sim::text::Source;
+use kinemark_sim::text::number::{metres, seconds};
 use serde::Serialize;
 
 use crate::judge::grade;
@@ -17,7 +18,7 @@ use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::staff::{Mutant, Staff};
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TcpPath};
-use crate::record::quantity::{metres, points, seconds};
+use crate::record::quantity::points;
 use crate::record::verdict::Verdict;
 use crate::submission::host::InProcess;
 

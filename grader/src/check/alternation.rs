@@ -4,9 +4,9 @@
 //! range there is more than 1 % of its greatest size, each sample overcorrects the one before.
 
 use kinemark_sim::control::Mode;
+use kinemark_sim::text::number::trimmed;
 
 use super::facts::MotionFacts;
-use crate::record::quantity::trimmed;
 
 /// Fewer samples say nothing.
 const LEAST_SAMPLES: usize = 6;

@@ -157,7 +157,7 @@ pub(super) fn distinct_texts(write: impl Fn(usize) -> (String, String)) -> (Stri
 mod tests {
     use super::distinct_texts;
     use crate::check::function_cases::written;
-    use crate::record::quantity::trimmed;
+    use kinemark_sim::text::number::trimmed;
 
     #[test]
     fn near_numbers_are_written_so_that_they_differ() {

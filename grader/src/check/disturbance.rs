@@ -1,11 +1,11 @@
 //! The levels of a robustness sweep: disturbances under which a motion is run again, as a lab file states them and in words.
 
+use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::ticks::whole_ratio;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::reading::{At, MotionReading};
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::problem::{LabError, problems};
 
 /// Control periods by which a command may be late.

@@ -1,5 +1,6 @@
 //! The one import of a kind's file: what a table is read with, and what a judgement is made of.
 
+pub(super) use kinemark_sim::text::number::{list, metres, seconds, trimmed};
 pub(super) use schemars::JsonSchema;
 pub(super) use serde::Deserialize;
 
@@ -15,7 +16,7 @@ pub(super) use super::signal::{Statistic, greatest};
 pub(super) use crate::attempt::answers::{Answered, CaseError, CaseFacts};
 pub(super) use crate::record::grade::Evidence;
 pub(super) use crate::record::graded::Curve;
-pub(super) use crate::record::quantity::{list, metres, seconds, trimmed, with_unit};
+pub(super) use crate::record::quantity::with_unit;
 pub(super) use crate::task::joint_units::JointUnits;
 pub(super) use crate::task::model::{Band, Function, MotionTask};
 pub(super) use crate::task::problem::{LabError, near, problems};

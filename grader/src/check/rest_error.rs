@@ -4,9 +4,9 @@
 use kinemark_sim::control::Mode;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
+use kinemark_sim::text::number::trimmed;
 
 use super::step_response::Response;
-use crate::record::quantity::trimmed;
 
 /// Efforts below this are no reason for an error \[N m or N\].
 const LEAST_EFFORT: f64 = 1e-6;

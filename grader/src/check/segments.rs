@@ -1,8 +1,9 @@
 //! The segments of a path that a check looks at: all of them, of which the worst counts, or one.
 
+use kinemark_sim::text::number::list;
+
 use super::reading::{At, MotionReading};
 use super::signal::greatest;
-use crate::record::quantity::list;
 use crate::task::model::Band;
 use crate::task::problem::LabError;
 use crate::task::watched::PathToFollow;

@@ -7,6 +7,7 @@
 //! the final value than a share of the step, have no step response: they earn nothing.
 
 use kinemark_sim::control::linear_step::Fed;
+use kinemark_sim::text::number::{seconds, trimmed};
 
 use super::alternation;
 use super::facts::MotionFacts;
@@ -14,7 +15,6 @@ use super::finding::{Finding, curve};
 use super::step_keys::StepResponse;
 use crate::record::grade::Evidence;
 use crate::record::graded::{Curve, StepBackdrop};
-use crate::record::quantity::{seconds, trimmed};
 use crate::task::model::Band;
 
 /// A step is at least this share of the way to the target.

@@ -1,6 +1,7 @@
 //! Compares two graded submissions of one lab: the points of each check, and the first difference of their motions.
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, trimmed};
 
 use crate::judge::divergence;
 use crate::lab::Lab;
@@ -11,7 +12,6 @@ use crate::record::comparison::{
 };
 use crate::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use crate::record::graded::{GradedRun, TaskRun};
-use crate::record::quantity::{list, metres, trimmed};
 
 /// One of the two submissions.
 #[derive(Debug, Clone, Copy)]

@@ -1,13 +1,13 @@
 //! The cases of a function task in the record: visible ones with their numbers, hidden ones by class.
 
 use kinemark_sim::text::Dimension;
+use kinemark_sim::text::number::{list, lists, trimmed};
 
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
 use crate::attempt::measure::as_slice;
 use crate::check::function_cases::written;
 use crate::lab::Lab;
 use crate::record::grade::{CaseGrade, HiddenClass};
-use crate::record::quantity::{list, lists, trimmed};
 use crate::task::model::{Band, Given};
 use crate::task::tcp::tcp_in;
 

@@ -4,13 +4,13 @@
 //! runs that lost points, as the moment to look at first.
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, trimmed};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
 use crate::record::comparison::{JOINT_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use crate::record::grade::Divergence;
 use crate::record::graded::TcpPath;
-use crate::record::quantity::{list, metres, trimmed};
 
 /// Compares two runs of the same task by joints and TCP, up to the end of the shorter one.
 pub fn from_run(

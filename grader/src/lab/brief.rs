@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use kinemark_sim::text::expression::evaluate_named;
+use kinemark_sim::text::number::trimmed;
 
 use super::model::Lab;
-use crate::record::quantity::{points, trimmed};
+use crate::record::quantity::points;
 
 /// The line before the table.
 pub const BEGIN: &str = "<!-- grading: begin -->";

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use kinemark_sim::control::{Derivative, Mode};
 use kinemark_sim::sensor::SensorTable;
 use serde::Deserialize;
 use toml::Spanned;
@@ -92,7 +93,7 @@ pub(super) struct CaseTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionTable {
-    pub(super) mode: ModeName,
+    pub(super) mode: Mode,
     pub(super) scene: Option<Spanned<SceneTable>>,
     pub(super) duration_s: NumberAt,
     pub(super) physics_step_ms: Option<NumberAt>,
@@ -111,14 +112,6 @@ pub(super) struct MotionTable {
     pub(super) paths: BTreeMap<Spanned<String>, PathTable>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum ModeName {
-    Position,
-    Velocity,
-    Effort,
-}
-
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GoalTable {
@@ -132,19 +125,11 @@ pub(super) struct ServoTable {
     pub(super) kp: Option<PerJoint>,
     pub(super) ki: Option<PerJoint>,
     pub(super) kd: Option<PerJoint>,
-    pub(super) derivative: Option<DerivativeName>,
+    pub(super) derivative: Option<Derivative>,
     pub(super) effort_limit: Option<PerJoint>,
     pub(super) integral_limit: Option<PerJoint>,
     #[serde(default)]
     pub(super) gravity_compensation: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum DerivativeName {
-    Error,
-    Measurement,
-    Velocity,
 }
 
 /// One number for all joints, or one per joint.

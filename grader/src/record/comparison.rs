@@ -1,12 +1,13 @@
 //! The record of a comparison of two graded submissions: the points of each check, and the first difference of the motions.
 
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::watch::event::EventKind;
 use serde::Serialize;
 
 use crate::record::grade::{Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TaskRun};
-use crate::record::quantity::{difference_of_points, seconds};
+use crate::record::quantity::difference_of_points;
 use crate::record::verdict::Verdict;
 
 /// The format and its version.

@@ -1,9 +1,9 @@
 //! Parses the return value of a submission: checks its shape and finiteness, or describes the invalid value.
 
 use kinemark_sim::text::Dimension;
+use kinemark_sim::text::number::trimmed;
 use nalgebra::Vector3;
 
-use crate::record::quantity::trimmed;
 use crate::submission::controller::Value;
 
 /// A position: three finite numbers \[m\].

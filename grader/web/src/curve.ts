@@ -6,6 +6,8 @@ export interface Piece {
   readonly y: Float64Array;
   /** Whether it is a band, from the lowest value to the highest. */
   readonly band: boolean;
+  /** The dashes of a stroke, if it has some. */
+  readonly dashes: string | null;
 }
 
 /** What is read at a place: the upper and the lower end, as heights in units of the picture, y downwards. */
@@ -15,7 +17,7 @@ export type Span = readonly [top: number, bottom: number];
 const BESIDE = 0.5;
 
 /** The pieces of a path; where it is no path of steps, none. */
-export function pieces(d: string, band: boolean): Piece[] {
+export function pieces(d: string, band: boolean, dashes: string | null = null): Piece[] {
   if (!/^m[-\d m]*z?$/.test(d)) return [];
   let atX = 0;
   let atY = 0;
@@ -28,7 +30,7 @@ export function pieces(d: string, band: boolean): Piece[] {
       x[i] = atX += Number(steps[2 * i]);
       y[i] = atY += Number(steps[2 * i + 1]);
     }
-    return { x, y, band };
+    return { x, y, band, dashes };
   });
 }
 
@@ -38,12 +40,18 @@ export function drawn(svg: SVGSVGElement): Map<string, Piece[]> {
   for (const path of svg.querySelectorAll("path")) {
     const stroke = path.getAttribute("stroke");
     const colour = (stroke ?? path.getAttribute("fill") ?? "").toUpperCase();
-    const found = pieces(path.getAttribute("d") ?? "", stroke === null);
+    const found = pieces(path.getAttribute("d") ?? "", stroke === null, path.getAttribute("stroke-dasharray"));
     const known = all.get(colour);
     if (known) known.push(...found);
     else all.set(colour, found);
   }
   return all;
+}
+
+/** The pieces of a line of this colour and these dashes; a band has none. */
+export function ofLine(all: ReadonlyMap<string, readonly Piece[]> | null, colour: string, dashes: string | null): readonly Piece[] {
+  const known = all?.get(colour.toUpperCase()) ?? [];
+  return known.filter((piece) => piece.band || piece.dashes === dashes);
 }
 
 /** The pieces that lie in a box (left, top, right, bottom); `slack` is how far a point may lie outside. */

@@ -2,7 +2,7 @@
 
 import type { Cursor } from "./cursor";
 import { drawing, element } from "./dom";
-import { drawn, inside, spanAt, type Piece } from "./curve";
+import { drawn, inside, ofLine, spanAt, type Piece } from "./curve";
 import { listen } from "./keys";
 import { words } from "./reading";
 import { seconds } from "./words";
@@ -11,6 +11,8 @@ import type { World } from "./world";
 interface Series {
   readonly name: string;
   readonly colour: string;
+  /** The dashes of its line, as `stroke-dasharray`. */
+  readonly dashes?: string;
   /** How far above or below what is drawn a value may lie, in units of the picture. */
   readonly off?: number;
   /** How far a band reaches beyond its values, in units of the picture. */
@@ -279,7 +281,7 @@ export class Plot {
     const x = this.across(panel, t);
     return panel.series.flatMap((series) => {
       let curve = this.curves.get(series);
-      if (!curve) this.curves.set(series, (curve = inside(this.paths?.get(series.colour.toUpperCase()) ?? [], panel.box, this.unit())));
+      if (!curve) this.curves.set(series, (curve = inside(ofLine(this.paths, series.colour, series.dashes ?? null), panel.box, this.unit())));
       const span = spanAt(curve, x, series.pad ?? 0);
       if (!span) return [];
       const text = words(scale, span, { off: series.off ?? 1, cut: series.cut });
@@ -298,7 +300,7 @@ export class Plot {
     const head = element("p", { class: "replay-when" }, element("b", {}, seconds(t, this.stepS)));
     if (name) head.append(" ", element("bdi", { class: "quiet" }, String(name)));
     const lines = rows.map(({ panel, series, text }) => {
-      const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3" }));
+      const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3", "stroke-dasharray": String(series.dashes ?? "none") }));
       const told = name || !panel.name ? String(series.name) : `${panel.name}: ${series.name}`;
       return element("p", {}, swatch, element("bdi", {}, told), element("span", {}, text));
     });

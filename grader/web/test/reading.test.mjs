@@ -19,7 +19,7 @@ const { LIGHT, DARK } = await load("theme.ts");
 const { hull } = await load("hull.ts");
 const { pitchFor } = await load("pitch.ts");
 const { moment, fixed } = await load("words.ts");
-const { pieces, inside, spanAt } = await load("curve.ts");
+const { pieces, inside, ofLine, spanAt } = await load("curve.ts");
 const { words, rounded } = await load("reading.ts");
 const { bones } = await load("bones.ts");
 const { hidden } = await load("ghosts.ts");
@@ -268,6 +268,12 @@ test("a drawn line is read where it is, a jump as from where to where, a band as
   assert.deepEqual(inside(lines, [0, 0, 100, 100], 1).length, 2);
   assert.deepEqual(inside(band, [0, 0, 100, 50], 1), []);
   assert.deepEqual(pieces("M0 0L5 5", false), []);
+  // a limit of the same colour is dashed, and no part of the line
+  const limit = pieces("m0 5 40 0", false, "60 35");
+  const all = new Map([["#C65200", [...lines, ...band, ...limit]]]);
+  assert.deepEqual(ofLine(all, "#c65200", null), [...lines, ...band]);
+  assert.deepEqual(ofLine(all, "#C65200", "60 35"), [...band, ...limit]);
+  assert.deepEqual(ofLine(all, "#006CAE", null), []);
 });
 
 test("what is read claims no more than the drawing tells", () => {

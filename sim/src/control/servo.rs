@@ -6,13 +6,15 @@
 //! the joint velocity. In effort mode the command itself takes the place of the PID.
 
 use nalgebra::Vector3;
+use serde::Deserialize;
 
 use crate::dynamics::rnea::Rnea;
 use crate::kinematics::closure::independent_motions;
 use crate::model::robot::Robot;
 
 /// What a command means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Mode {
     /// Joint positions \[rad or m\].
     Position,
@@ -34,7 +36,8 @@ impl Mode {
 }
 
 /// Where the derivative term takes its rate from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Derivative {
     /// Backward difference of the error: kicks when the command jumps.
     Error,

@@ -1,6 +1,7 @@
 //! The analytic Jacobian: maps joint velocities to the rates of three orientation angles instead of an angular velocity.
 
 use nalgebra::{Matrix3, Matrix6xX, Vector3};
+use serde::Deserialize;
 
 use super::forward::forward_kinematics;
 use super::jacobian::fill;
@@ -11,9 +12,11 @@ use crate::model::robot::{Frame, Robot};
 const SINGULAR: f64 = 1e-9;
 
 /// A representation of a rotation by three angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Angles {
     /// Roll, pitch, yaw of URDF: `R = Rz(yaw) Ry(pitch) Rx(roll)`, in the order (roll, pitch, yaw). Singular at pitch ±90°.
+    #[serde(rename = "rpy")]
     RollPitchYaw,
     /// Euler angles `R = Rz(phi) Ry(theta) Rz(psi)`, in the order (phi, theta, psi). Singular at theta 0 and 180°.
     Zyz,

@@ -1,18 +1,21 @@
 //! The centre of mass of the whole robot.
 
 use nalgebra::Vector3;
+use serde::Deserialize;
 
 use super::forward::forward_kinematics;
 use crate::joint_space::JointPositions;
 use crate::model::robot::Robot;
 
 /// Which masses count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Counted {
-    /// All links.
-    WholeRobot,
     /// The links that joints move; those fixed to the world are left out, as Pinocchio does.
+    #[serde(rename = "moving")]
     MovingLinks,
+    /// All links.
+    #[serde(rename = "all")]
+    WholeRobot,
 }
 
 impl Counted {

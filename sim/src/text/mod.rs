@@ -1,8 +1,10 @@
-//! Text from outside: sources with positions, expressions over named numbers, and errors that point into the text.
+//! Text from outside: sources with positions, expressions over named numbers, and errors that point into the text; and numbers in
+//! text for people.
 
 mod dimensions;
 pub mod expression;
 mod marked_numbers;
+pub mod number;
 mod source;
 mod suggest;
 mod toml_refusal;

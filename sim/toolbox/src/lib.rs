@@ -10,11 +10,9 @@
 //! | [`eval`] | requests and answers: kinematics, dynamics, trajectories, simulation |
 //! | [`scene_check`] | what is wrong with a scene, as text and as JSON |
 //! | [`styled_text`] | text with emphasis, which a terminal or a page shows in its own way |
-//! | [`number`] | numbers as people read them |
 
 pub mod eval;
 mod joint_names;
-pub mod number;
 pub mod robot_convert;
 pub mod robot_show;
 pub mod scene_check;

@@ -2,7 +2,6 @@
 
 mod eval_answers;
 mod eval_errors;
-mod eval_requests;
 mod texts;
 
 use kinemark_sim::format::{ReadOptions, detect};

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
@@ -15,9 +14,8 @@ use kinemark_grader::task::files::Files;
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_sim::text::Source;
 
-use crate::chosen_variant::{self, Chosen, VariantArgs};
+use crate::chosen_variant::{self, LabArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
-use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, report_folder};
@@ -58,11 +56,7 @@ pub(crate) struct Args {
     #[arg(long, conflicts_with = "practice")]
     pub(crate) ghost: bool,
     #[command(flatten)]
-    pub(crate) labs_folder: LabsFolderArgs,
-    #[command(flatten)]
-    pub(crate) variant: VariantArgs,
-    #[command(flatten)]
-    pub(crate) staff: StaffArgs,
+    pub(crate) from: LabArgs,
 }
 
 /// A submission larger than this is not read; its own budget, which is counted, is far below.
@@ -125,18 +119,10 @@ pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
 /// Reads what was named, and grades.
 pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     refuse_pixels_without_png(args)?;
-    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, mut note } = chosen_variant::choose(
-        &args.lab,
-        files.as_ref(),
-        reference.as_ref(),
-        &args.variant,
-        &args.staff,
-        Some(&args.submission),
-    )?;
-    let staff = match &reference {
-        Some(reference) => staff_of(reference, &lab, args)?,
+    let chosen = chosen_variant::choose(&args.lab, &args.from, Some(&args.submission))?;
+    let (lab, mut note) = (chosen.lab, chosen.note);
+    let staff = match &chosen.reference {
+        Some(reference) => staff_of(reference, &lab, &args.from.staff)?,
         None => None,
     };
     if args.ghost && staff.is_none() {
@@ -212,12 +198,9 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
     lines.collect()
 }
 
-fn staff_of(reference: &dyn Files, lab: &Lab, args: &Args) -> Result<Option<Staff>, Failure> {
-    let staff = Staff::load(reference, lab, args.staff.salt.as_deref())?;
-    if let Some(staff) = &staff {
-        audit::staff_code(lab, staff)?;
-    }
-    if staff.is_none() && args.staff.reference.is_some() {
+fn staff_of(reference: &dyn Files, lab: &Lab, args: &StaffArgs) -> Result<Option<Staff>, Failure> {
+    let staff = staff_folder::staff(reference, lab, args.salt.as_deref())?;
+    if staff.is_none() && args.reference.is_some() {
         return Err(Failure::usage(
             format!(
                 "{} has no solution for lab `{}`",

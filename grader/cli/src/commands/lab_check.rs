@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
-use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt, staff_code};
+use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::submission::rhai::STACK_BYTES;
@@ -24,7 +24,8 @@ use crate::{interrupt, output};
 /// Check a lab: its starter loses points, its reference solution gets full marks, and every mutant loses points and is named
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  kinemark lab check 02-jacobian-velocity --variants 200\n\n\
+    after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  \
+    kinemark lab check 02-jacobian-velocity --variants 200\n\n\
     A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which shows in 30 % of a function \
     task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     let staff = |salt: Option<&str>| {
-        let staff = Staff::load(&reference, &lab, salt)?.ok_or_else(|| {
+        staff_folder::staff(&reference, &lab, salt)?.ok_or_else(|| {
             Failure::usage(
                 format!(
                     "{} has no solution for lab `{}`",
@@ -73,28 +74,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                 ),
                 "write solution.rhai there, or give another folder with --reference DIR",
             )
-        })?;
-        staff_code(&lab, &staff)?;
-        Ok::<_, Failure>(staff)
+        })
     };
     let own = staff(None)?;
-    let path = format!("{}/starter.rhai", lab.name);
-    let starter = match files.read(&path) {
-        Ok(Some(text)) => Source::new("starter.rhai", text),
-        Ok(None) => {
-            return Err(Failure::broken(
-                format!("lab `{}` has no starter.rhai", lab.name),
-                "write the file that students begin with, beside lab.toml",
-            ));
-        }
-        Err(why) => {
-            return Err(Failure::broken(
-                format!("{path}: {why}"),
-                "save it as UTF-8 text",
-            ));
-        }
-    };
-
+    let starter = labs_folder::text(files.as_ref(), &lab.name, "starter.rhai")?;
+    let starter = Source::new("starter.rhai", starter);
     let path = format!("{}/brief.md", lab.name);
     let brief = files
         .read(&path)
@@ -182,7 +166,8 @@ fn text(audit: &Audit) -> String {
     if !audit.rooms.is_empty() {
         let _ = writeln!(
             out,
-            "\nmargins of the reference in its bands over the variants (0 %: at the edge of full marks, 100 %: a band's width inside)"
+            "\nmargins of the reference in its bands over the variants (0 %: at the edge of full marks, \
+             100 %: a band's width inside)"
         );
     }
     for room in &audit.rooms {

@@ -8,7 +8,6 @@ use kinemark_grader::lab::{Lab, Variant};
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
-use crate::disk::plain;
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs};
@@ -19,7 +18,8 @@ use crate::{chosen_variant, output};
 #[command(
     after_help = "Examples:\n  kinemark lab variant 04-knock-with-velocity --student s1234567\n  \
     kinemark lab variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
-    Needs the course's salt: from the course staff's hidden.toml, or --salt. The same salt, lab and student give the same variant everywhere.\n\
+    Needs the course's salt: from the course staff's hidden.toml, or --salt. The same salt, lab and student give the same \
+    variant everywhere.\n\
     Exit codes: 0 done, 2 usage, 3 the lab is broken, 4 the file cannot be written."
 )]
 pub(crate) struct Args {
@@ -65,12 +65,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                 "name another file, or replace it with --force",
             ));
         }
-        output::write_file(path, variant.text().as_bytes()).map_err(|error| {
-            Failure::fault(
-                format!("`{}` cannot be written: {}", path.display(), plain(&error)),
-                "choose another path with --out",
-            )
-        })?;
+        let help = "choose another path with --out";
+        output::write_file(path, variant.text().as_bytes(), help)?;
     }
     match (args.json, &args.out) {
         (true, _) => output::print_json(&printed(&args.lab, &args.student, &variant))?,

@@ -8,12 +8,9 @@ use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_report::brief_page::brief_page;
 use serde::Serialize;
 
-use crate::chosen_variant::{self, Chosen, VariantArgs};
-use crate::disk::plain;
+use crate::chosen_variant::{self, Chosen, LabArgs};
 use crate::failure::Failure;
-use crate::labs_folder::{self, LabsFolderArgs};
-use crate::output;
-use crate::staff_folder::{self, StaffArgs};
+use crate::{labs_folder, output};
 
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
@@ -29,11 +26,7 @@ pub(crate) struct Args {
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
-    pub(crate) labs_folder: LabsFolderArgs,
-    #[command(flatten)]
-    pub(crate) variant: VariantArgs,
-    #[command(flatten)]
-    pub(crate) staff: StaffArgs,
+    pub(crate) from: LabArgs,
 }
 
 #[derive(Serialize)]
@@ -44,28 +37,9 @@ struct Written {
 
 /// Writes the folder.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
-    let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let Chosen { lab, .. } = chosen_variant::choose(
-        &args.lab,
-        files.as_ref(),
-        reference.as_ref(),
-        &args.variant,
-        &args.staff,
-        None,
-    )?;
+    let Chosen { lab, files, .. } = chosen_variant::choose(&args.lab, &args.from, None)?;
     let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
-    let read = |name: &str| match files.read(&format!("{}/{name}", lab.name)) {
-        Ok(Some(text)) => Ok(text),
-        Ok(None) => Err(Failure::broken(
-            format!("lab `{}` has no {name}", lab.name),
-            "a lab needs a starter.rhai and a brief.md beside its lab.toml",
-        )),
-        Err(why) => Err(Failure::broken(
-            format!("{name}: {why}"),
-            "save it as UTF-8 text",
-        )),
-    };
+    let read = |name: &str| labs_folder::text(files.as_ref(), &lab.name, name);
     let brief = with_numbers(&with_grading(&read("brief.md")?, &lab), &lab).map_err(|why| {
         Failure::broken(
             format!("brief.md: {why}"),
@@ -92,15 +66,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "name another folder, or move your work away first: nothing is overwritten",
         ));
     }
-    let failed = |path: &PathBuf, error: &std::io::Error| {
-        Failure::fault(
-            format!("`{}` cannot be written: {}", path.display(), plain(error)),
-            "choose another folder",
-        )
-    };
-    std::fs::create_dir_all(&dir).map_err(|error| failed(&dir, &error))?;
+    let help = "choose another folder";
+    std::fs::create_dir_all(&dir).map_err(|error| output::unwritten(&dir, &error, help))?;
     for (path, text) in &written {
-        output::write_file(path, text.as_bytes()).map_err(|error| failed(path, &error))?;
+        output::write_file(path, text.as_bytes(), help)?;
     }
     let paths: Vec<PathBuf> = written.into_iter().map(|(path, _)| path).collect();
     if args.json {

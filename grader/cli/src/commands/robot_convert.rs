@@ -8,7 +8,6 @@ use kinemark_sim::format::detect;
 use kinemark_sim::text::Source;
 use kinemark_toolbox::robot_convert::{Converted, converted};
 
-use crate::disk::plain;
 use crate::failure::Failure;
 use crate::output;
 use crate::robot_source::{self, RobotArgs};
@@ -68,12 +67,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     match &args.out {
         None => output::print(&text)?,
-        Some(out) => output::write_file(out, text.as_bytes()).map_err(|error| {
-            Failure::fault(
-                format!("`{}` cannot be written: {}", out.display(), plain(&error)),
-                "choose another path with --out",
-            )
-        })?,
+        Some(out) => {
+            output::write_file(out, text.as_bytes(), "choose another path with --out")?;
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

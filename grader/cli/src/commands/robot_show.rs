@@ -10,11 +10,10 @@ use crate::robot_source::{self, RobotArgs};
 
 /// Show a robot: its links and joints as a tree, totals, loops, frames and warnings
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  kinemark robot show rrbot\n  kinemark robot show panda.urdf --package franka_description=../franka\n  \
+#[command(after_help = "Examples:\n  kinemark robot show rrbot\n  \
+    kinemark robot show panda.urdf --package franka_description=../franka\n  \
     kinemark robot show RzRyRz --base 2 --links \"0,0,4; 3,0,0; 1,0,0\"\n\n\
-    Exit codes: 0 shown, 2 usage, 3 the robot is broken."
-)]
+    Exit codes: 0 shown, 2 usage, 3 the robot is broken.")]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,

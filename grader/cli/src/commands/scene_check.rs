@@ -17,13 +17,13 @@ use crate::scenes_to_check::scenes_to_check;
 
 /// Check a scene: overlaps at the start, bodies that do not rest, waypoints that are unreachable or in collision
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  kinemark scene check shelf-and-can\n  kinemark scene check my-scene.toml --robot rrbot --start 1.57,0\n  \
-    kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  kinemark scene check labs/03-knock-with-position/lab.toml\n\n\
+#[command(after_help = "Examples:\n  kinemark scene check shelf-and-can\n  \
+    kinemark scene check my-scene.toml --robot rrbot --start 1.57,0\n  \
+    kinemark scene check shelf-and-can --robot rrbot --via \"1.5,0.8,0.05; 1.4,1.3,0.05\"\n  \
+    kinemark scene check labs/03-knock-with-position/lab.toml\n\n\
     With --via, the robot must reach each point with no link in a fixed or kinematic body or in the ground, and follow the \
     straight lines between them. A lab has its own robot, starts and goals. See docs/scenes.md.\n\
-    Exit codes: 0 no errors (warnings and notes may be), 1 errors, 2 usage, 3 the scene, robot or lab is broken."
-)]
+    Exit codes: 0 no errors (warnings and notes may be), 1 errors, 2 usage, 3 the scene, robot or lab is broken.")]
 pub(crate) struct Args {
     /// A scene file, the name of a scene of the labs, or a lab: its name, its folder or its lab.toml
     pub(crate) scene: PathBuf,

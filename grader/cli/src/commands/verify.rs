@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::audit;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
+use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_report::output::{Manifest, Pixels, digest};
@@ -80,11 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                         &args.staff,
                         VARIANT_FILE,
                     )?;
-                    let staff = Staff::load(&reference, &lab, args.staff.salt.as_deref())?;
-                    if let Some(staff) = &staff {
-                        audit::staff_code(&lab, staff)?;
-                    }
-                    staff
+                    staff_folder::staff(&reference, &lab, args.staff.salt.as_deref())?
                 }
                 None => None,
             }

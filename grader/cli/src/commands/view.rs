@@ -11,7 +11,8 @@ use crate::{interrupt, output};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n\n\
-    Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points of each.\n\
+    Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points \
+    of each.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder has no report, 4 the port cannot be used."
 )]
 pub(crate) struct Args {

@@ -6,9 +6,10 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use kinemark_grader::record::grade::Grade;
-use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_grader::record::quantity::points;
 use kinemark_report::moment::{FirstLoss, first_loss};
 use kinemark_report::visible::visible;
+use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
 use super::grade::{self, Work};

@@ -101,7 +101,10 @@ pub(super) fn page(folder: &Path) -> String {
                             }
                         }
                         @if more > 0 {
-                            p { "and " (more) " more: `kinemark view` lists " (MOST_REPORTS) "; give it the folder of one of them" }
+                            p {
+                                "and " (more) " more: `kinemark view` lists " (MOST_REPORTS)
+                                "; give it the folder of one of them"
+                            }
                         }
                     }
                 }

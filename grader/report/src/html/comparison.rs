@@ -1,5 +1,6 @@
 //! A comparison as a page: the points of both, both arms in one replay, what differs over time.
 
+use kinemark_sim::text::number::seconds;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::figure::figure;
@@ -15,7 +16,7 @@ use kinemark_grader::record::comparison::{
 };
 use kinemark_grader::record::grade::Outcome;
 use kinemark_grader::record::graded::GradedRun;
-use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_grader::record::quantity::points;
 
 /// The page of a comparison of `a` and `b`, whose runs were made again. The same two give the same bytes.
 pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> String {

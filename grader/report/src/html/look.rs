@@ -1,5 +1,6 @@
 //! Where to look first: what cost points first, in a few words, with a link to its moment.
 
+use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
 use super::head::anchor;
@@ -7,7 +8,7 @@ use super::viewer::seek;
 use super::{foreign, prose};
 use crate::moment::{first_loss, last_before};
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
-use kinemark_grader::record::quantity::{points, seconds};
+use kinemark_grader::record::quantity::points;
 
 /// A card that tells what cost points first; nothing where nothing did, or where nothing is decided.
 pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup {

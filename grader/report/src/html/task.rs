@@ -1,5 +1,6 @@
 //! One task: what stopped it, what the mistake may be, every check with its evidence, cases, plots, and what was printed.
 
+use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
 use super::figure::figure;
@@ -16,7 +17,7 @@ use kinemark_grader::record::grade::{
     CheckGrade, Diagnosis, Divergence, Outcome, Stopped, TaskGrade, TaskKind,
 };
 use kinemark_grader::record::graded::TaskRun;
-use kinemark_grader::record::quantity::{seconds, with_unit};
+use kinemark_grader::record::quantity::with_unit;
 use kinemark_grader::record::verdict::Verdict;
 
 /// The section of a task.

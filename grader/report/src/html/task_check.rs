@@ -1,5 +1,6 @@
 //! A check of a task: what it measured, its evidence, and what to do next.
 
+use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
 use super::band::{gauge, measure_text, outcome};
@@ -11,7 +12,7 @@ use crate::plot::Plot;
 use crate::text::untold;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Outcome, TaskKind};
-use kinemark_grader::record::quantity::{seconds, with_unit};
+use kinemark_grader::record::quantity::with_unit;
 
 /// A check, with the picture of what it judged beside it.
 pub(super) fn checked(

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::task_check::is_of_hidden_run;
 use super::task_shown::TaskShown;
 use super::{foreign, prose};
-use crate::standing::stands;
+use crate::initial_contact::begins_initial;
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::{
     CaseGrade, ContactRecord, EventRecord, HiddenClass, LogEntry, TaskGrade, TaskKind,
@@ -105,7 +105,7 @@ pub(super) fn events(events: &[EventRecord], of: &TaskShown<'_>) -> Markup {
             .trace
             .events
             .iter()
-            .filter(|event| stands(&event.kind, event.tick, run));
+            .filter(|event| begins_initial(&event.kind, event.tick, run));
         standing
             .map(|event| (event.tick, names.event(&event.kind)))
             .collect()

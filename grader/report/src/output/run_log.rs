@@ -1,8 +1,7 @@
 //! The log of each motion task as MCAP, and a layout to open it with.
 
 use super::material::{Material, OutFile, OutputError};
-use super::record;
-use super::table::{Output, always};
+use super::table::{Output, RECORD_FILE, always};
 use crate::log::{Attachment, layout, mcap};
 
 /// The log, in the task's folder.
@@ -24,7 +23,7 @@ fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
         let attachments = [
             ("robot.toml", "application/toml", sources.robot),
             ("lab.toml", "application/toml", sources.lab),
-            (record::FILE, "application/json", material.record.as_str()),
+            (RECORD_FILE, "application/json", material.record.as_str()),
             (LAYOUT, "application/json", layout.as_str()),
         ]
         .map(|(name, media_type, text)| Attachment {

@@ -1,7 +1,20 @@
 //! The table of outputs: what a report folder is made of, in the order in which it is written.
 
+use serde::Serialize;
+
 use super::material::{Material, OutFile, OutputError};
-use super::{ReportRequest, lab_copies, page, plot_pixels, plots, record, storyboards, submission};
+use super::{ReportRequest, storyboards};
+
+/// The grade record; a folder that has it claims to be a report.
+pub const RECORD_FILE: &str = "grade.json";
+/// The page for people.
+pub const PAGE_FILE: &str = "report.html";
+/// The copy of the submission.
+pub const SUBMISSION_FILE: &str = "submission.rhai";
+/// The folder of the copies of lab, robot and scenes.
+pub const LAB_FOLDER: &str = "lab";
+/// The folder of the plots.
+const PLOT_FOLDER: &str = "plots";
 
 /// One output: a row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -16,12 +29,62 @@ pub struct Output {
 
 /// All outputs; `report.json`, which lists their files, is made last of all ([`super::Manifest`]).
 pub const OUTPUTS: &[Output] = &[
-    record::OUTPUT,
-    page::OUTPUT,
-    submission::OUTPUT,
-    lab_copies::OUTPUT,
-    plots::OUTPUT,
-    plot_pixels::OUTPUT,
+    Output {
+        // what `kinemark grade --json` prints
+        name: "grade record",
+        is_requested: always,
+        files: |material| Ok(vec![OutFile::new(RECORD_FILE, material.record.as_bytes())]),
+    },
+    Output {
+        // with replay and plots inside
+        name: "page",
+        is_requested: always,
+        files: |material| {
+            let page = crate::html::html(material.graded, material.plots());
+            Ok(vec![OutFile::new(PAGE_FILE, page)])
+        },
+    },
+    Output {
+        // graded again by `kinemark verify` and `kinemark compare`
+        name: "submission",
+        is_requested: always,
+        files: |material| {
+            let submission = material.sources.submission;
+            Ok(vec![OutFile::new(SUBMISSION_FILE, submission)])
+        },
+    },
+    Output {
+        // in the shape of a folder of labs
+        name: "lab",
+        is_requested: always,
+        files: |material| {
+            let copies = material.sources.lab_files.iter();
+            let copies = copies.map(|(path, bytes)| {
+                OutFile::new(format!("{LAB_FOLDER}/{path}"), bytes.as_slice())
+            });
+            Ok(copies.collect())
+        },
+    },
+    Output {
+        name: "plots",
+        is_requested: always,
+        files: |material| {
+            let plots = material.captioned_plots();
+            let drawn = |(name, svg)| OutFile::new(format!("{PLOT_FOLDER}/{name}.svg"), svg);
+            Ok(plots.map(drawn).collect())
+        },
+    },
+    Output {
+        name: "plots in pixels",
+        is_requested: |request| request.png,
+        files: |material| {
+            let drawn = |(name, svg): (&str, String)| {
+                let pixels = material.pixels_of(&svg)?;
+                Ok(OutFile::pixels(format!("{PLOT_FOLDER}/{name}.png"), pixels))
+            };
+            material.captioned_plots().map(drawn).collect()
+        },
+    },
     storyboards::OUTPUT,
     #[cfg(feature = "log")]
     super::run_log::OUTPUT,
@@ -44,6 +107,14 @@ pub fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
         }
     }
     Ok(files)
+}
+
+/// A value as JSON, in lines a person can read, with a line end.
+///
+/// # Errors
+/// [`OutputError::Json`] where the value has no JSON form.
+pub fn json(value: &impl Serialize) -> Result<String, OutputError> {
+    Ok(serde_json::to_string_pretty(value)? + "\n")
 }
 
 #[cfg(test)]

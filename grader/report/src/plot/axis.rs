@@ -1,6 +1,6 @@
 //! Axes: a range that holds the data, and round ticks in it.
 
-use crate::number::{exponent, power_of_ten};
+use kinemark_sim::text::number::{exponent, power_of_ten};
 
 /// How numbers lie along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,14 +2,15 @@
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::model::robot::Joint;
+use kinemark_sim::text::number::typeset;
 use kinemark_sim::trace::Signal;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};
 use super::signals::{MOST_PANELS, end_s, line, time_s, timeline, values};
 use super::timeline::{Line, Panel, Timeline};
-use crate::number::{joined, significant};
 use crate::palette::{BLUE, RED, VERMILLION, VERMILLION_DASHED};
+use crate::shown_unit::joined;
 use crate::visible::shortened;
 use kinemark_grader::record::graded::TaskRun;
 
@@ -81,12 +82,10 @@ pub(super) fn joints(run: &TaskRun, of: Of) -> Vec<Timeline> {
         if has_levels {
             legend.push(Entry::new(Swatch::Line(VERMILLION_DASHED), "limit"));
         }
-        if panels.iter().any(|panel| {
-            panel
-                .lines
-                .iter()
-                .any(|line| line.colour.light == RED.light)
-        }) {
+        if panels
+            .iter()
+            .any(|panel| panel.lines.iter().any(|line| line.colour == RED))
+        {
             legend.push(Entry::new(Swatch::Line(RED), "at the limit"));
         }
         let title = match chunks.len() {
@@ -112,7 +111,7 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
         if of == Of::Efforts {
             let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
             if let Some(greatest) = cut(&mut command, 1.5 * limit) {
-                let told = joined(&significant(greatest, 3), unit);
+                let told = joined(&typeset(greatest, 3), unit);
                 heading.push_str(&format!(" \u{2013} commands up to ±{told} are cut off"));
             }
         }
@@ -147,7 +146,7 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
                 levels.clear();
                 heading.push_str(&format!(
                     " \u{2013} limit ±{}, far outside",
-                    joined(&significant(limit, 4), unit)
+                    joined(&typeset(limit, 4), unit)
                 ));
             }
             lines.extend(

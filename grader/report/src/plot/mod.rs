@@ -138,7 +138,7 @@ mod tests {
 
     use super::reading::tests::Reader;
     use super::*;
-    use crate::palette::{BLUE, MUTED_DASHED, PURPLE_DASHED};
+    use crate::palette::{BLUE, MUTED_DASHED, PURPLE_DASHED, hex};
     use kinemark_grader::record::graded::{Curve, StepBackdrop};
     use kinemark_grader::record::sample;
 
@@ -466,8 +466,11 @@ mod tests {
         }
         // the run, the prediction and the target are three lines of different looks
         for colour in [BLUE, PURPLE_DASHED, MUTED_DASHED] {
-            let (r, g, b) = colour.light;
-            let key = format!("stroke=\"#{r:02X}{g:02X}{b:02X}\"");
+            let dashes = colour
+                .dashes
+                .map(|dashes| format!("dasharray=\"{dashes}\" stroke-"));
+            let dashes = dashes.unwrap_or_default();
+            let key = format!("stroke=\"{}\" stroke-{dashes}width", hex(colour.light));
             assert!(plot.svg.matches(&key).count() >= 2, "{key}");
         }
     }

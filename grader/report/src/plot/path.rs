@@ -2,6 +2,7 @@
 
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::spatial::Pose;
+use kinemark_sim::text::number::seconds;
 use nalgebra::Vector3;
 
 use super::axis::Axis;
@@ -19,7 +20,6 @@ use crate::palette::{
 };
 use crate::visible::shortened;
 use kinemark_grader::record::graded::{Goal, TaskRun};
-use kinemark_grader::record::quantity::seconds;
 use kinemark_grader::record::quantity::with_unit;
 
 /// A goal's circle smaller than this needs a close look \[px\].

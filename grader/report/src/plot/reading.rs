@@ -7,7 +7,7 @@ use super::course::Course;
 use super::plane::Plane;
 use super::timeline::Panel;
 use super::view::View;
-use crate::palette::{Colour, MUTED_DASHED, RED, hex};
+use crate::palette::{MUTED_DASHED, RED, hex};
 use crate::visible::visible;
 
 /// One pair of axes; places are in units of the picture, y downwards.
@@ -20,8 +20,8 @@ pub(super) enum Axes {
     Plane(InPlane),
 }
 
-/// Axes over time. A line of a series is every path of its colour that lies in the box: drawn, or, where the values go up and down
-/// faster than can be seen, a filled band from the lowest to the highest.
+/// Axes over time. A line of a series is every path of its colour and dashes that lies in the box: drawn, or, where the values go up
+/// and down faster than can be seen, a filled band from the lowest to the highest.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct OverTime {
     /// Left, top, right, bottom.
@@ -44,6 +44,9 @@ pub(super) struct OverTime {
 struct Series {
     name: String,
     colour: String,
+    /// The dashes of the line, if it has some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dashes: Option<&'static str>,
     /// How far above or below what is drawn a value may lie, in units of the picture.
     off: f64,
     /// How far a band reaches beyond its lowest and its highest value, in units of the picture.
@@ -91,17 +94,19 @@ impl Axes {
     ) -> Self {
         let mut series: Vec<Series> = Vec::new();
         for (line, course) in panel.lines.iter().zip(courses) {
-            let key = hex(line.colour.light);
-            // where the effort stands at its limit and how far other goals are cannot be told from marks of that colour
-            let is_read = |colour: Colour| ![RED.light, MUTED_DASHED.light].contains(&colour.light);
-            if is_read(line.colour) && series.iter().all(|known| known.colour != key) {
+            let (colour, dashes) = (hex(line.colour.light), line.colour.dashes);
+            let mut known = series.iter();
+            let is_new = known.all(|known| known.colour != colour || known.dashes != dashes);
+            // marks look like where the effort stands at its limit, and like how far other goals are
+            if is_new && ![RED, MUTED_DASHED].contains(&line.colour) {
                 let told = legend.iter().find(|entry| match entry.swatch {
-                    Swatch::Line(colour) => colour.light == line.colour.light,
+                    Swatch::Line(colour) => colour == line.colour,
                     _ => false,
                 });
                 series.push(Series {
                     name: visible(told.map_or("value", |entry| &entry.text)).into_owned(),
-                    colour: key,
+                    colour,
+                    dashes,
                     off: course.off + ROUNDING,
                     pad: half_width(line.width),
                     cut: line.cut,
@@ -204,7 +209,8 @@ pub(super) mod tests {
             let paths = paths.flat_map(|line| {
                 let of = |name: &str| between(line, &format!(" {name}=\""), "\"");
                 let is_band = of("fill") == Some(colour);
-                let is_its = is_band || of("stroke") == Some(colour);
+                let is_dashed_alike = of("stroke-dasharray") == series["dashes"].as_str();
+                let is_its = is_band || of("stroke") == Some(colour) && is_dashed_alike;
                 let parts = of("d").filter(|_| is_its).map_or_else(Vec::new, parts);
                 parts.into_iter().map(move |path| (path, is_band))
             });

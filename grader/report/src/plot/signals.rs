@@ -1,16 +1,17 @@
 //! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
 use kinemark_sim::control::Mode;
+use kinemark_sim::text::number::typeset;
 use kinemark_sim::watch::event::EventKind;
 
 use super::axis::{Axis, extent};
 use super::canvas::{Entry, Swatch};
 use super::timeline::{Line, MOST_POINTS, Panel, Timeline};
 use crate::goal::{current_goal, distances_m};
-use crate::number::{joined, shown_unit, significant};
 use crate::palette::{
     BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, PURPLE_DASHED, VERMILLION_DASHED,
 };
+use crate::shown_unit::{joined, shown_unit};
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::graded::{Curve, Goal, StepBackdrop, TaskRun};
 
@@ -94,7 +95,7 @@ pub(super) fn values(lines: &[Line]) -> impl Iterator<Item = f64> + '_ {
 
 /// Words of a band's two lines.
 fn band_entries(full: Option<f64>, zero: Option<f64>, unit: &str, scale: f64) -> Vec<Entry> {
-    let told = |value: f64| joined(&significant(value * scale, 4), unit);
+    let told = |value: f64| joined(&typeset(value * scale, 4), unit);
     let mut entries = Vec::new();
     if let Some(full) = full {
         entries.push(Entry::new(
@@ -230,7 +231,7 @@ fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
         entries.push(Entry::new(Swatch::Line(PURPLE_DASHED), "linear prediction"));
     }
     if let Some(target) = step.target {
-        let target = joined(&significant(target * scale, 4), unit);
+        let target = joined(&typeset(target * scale, 4), unit);
         let target = format!("target {target}");
         entries.push(Entry::new(Swatch::Line(MUTED_DASHED), target));
     }

@@ -100,6 +100,22 @@ impl SvgBackend {
     fn colour(&self) -> String {
         hex(self.pen.light)
     }
+
+    /// What is drawn with the pen: an area, or its edge.
+    fn fill_and_stroke(&self, fill: bool) -> String {
+        if fill {
+            return format!(" fill=\"{}\" stroke=\"none\"", self.colour());
+        }
+        format!(" fill=\"none\"{}", self.stroke())
+    }
+
+    /// The pen's colour and dashes for a line.
+    fn stroke(&self) -> String {
+        let colour = self.colour();
+        let dashes = self.pen.dashes;
+        let dashes = dashes.map(|dashes| format!(" stroke-dasharray=\"{dashes}\""));
+        format!(" stroke=\"{colour}\"{}", dashes.unwrap_or_default())
+    }
 }
 
 /// How much it covers, unless that is all.
@@ -108,15 +124,6 @@ fn opacity(colour: BackendColor) -> String {
         format!(" opacity=\"{}\"", colour.alpha)
     } else {
         String::new()
-    }
-}
-
-/// Fill and stroke of an area or of its edge.
-fn filled(colour: &str, fill: bool) -> (&str, &str) {
-    if fill {
-        (colour, "none")
-    } else {
-        ("none", colour)
     }
 }
 
@@ -161,10 +168,9 @@ impl DrawingBackend for SvgBackend {
         }
         let (x, y) = upper_left;
         let (width, height) = (bottom_right.0 - x, bottom_right.1 - y);
-        let (colour, opacity) = (self.colour(), opacity(style));
-        let (fill, stroke) = filled(&colour, fill);
+        let look = opacity(style) + self.fill_and_stroke(fill).as_str();
         self.element(&format!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{opacity} fill=\"{fill}\" stroke=\"{stroke}\""
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{look}"
         ));
         Ok(())
     }
@@ -178,9 +184,9 @@ impl DrawingBackend for SvgBackend {
             return Ok(());
         }
         let look = format!(
-            " fill=\"none\"{} stroke=\"{}\" stroke-width=\"{}\"",
+            " fill=\"none\"{}{} stroke-width=\"{}\"",
             opacity(style.color()),
-            self.colour(),
+            self.stroke(),
             style.stroke_width()
         );
         self.path(look, path.into_iter(), false);
@@ -210,11 +216,10 @@ impl DrawingBackend for SvgBackend {
         if style.color().alpha == 0.0 {
             return Ok(());
         }
-        let (colour, opacity) = (self.colour(), opacity(style.color()));
-        let (fill, stroke) = filled(&colour, fill);
+        let look = opacity(style.color()) + self.fill_and_stroke(fill).as_str();
         let width = style.stroke_width();
         self.element(&format!(
-            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{opacity} fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"{width}\""
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{look} stroke-width=\"{width}\""
         ));
         Ok(())
     }
@@ -268,7 +273,7 @@ mod tests {
     use plotters::style::Color as _;
 
     use super::*;
-    use crate::palette::{BLUE, GREEN};
+    use crate::palette::{BLUE, GREEN, GREEN_DASHED};
 
     fn line(alpha: f64) -> ShapeStyle {
         ShapeStyle {
@@ -292,13 +297,17 @@ mod tests {
         svg.with(BLUE)
             .draw_path([(1, 1), (2, 2)], &line(1.0))
             .unwrap();
+        svg.with(GREEN_DASHED)
+            .draw_path([(1, 1), (2, 2)], &line(1.0))
+            .unwrap();
         svg.draw_rect((1, 2), (4, 6), &line(0.0), true).unwrap();
         assert_eq!(
             svg.finish(),
             "<path fill=\"none\" stroke=\"#006CAE\" stroke-width=\"20\" d=\"m10 20 20-15 0 2m-30-7 1-1\"/>\n\
              <path opacity=\"0.2\" fill=\"#006CAE\" d=\"m1 1 1 0 0 1z\"/>\n\
              <path fill=\"none\" stroke=\"#007E5C\" stroke-width=\"20\" d=\"m1 1 1 1\"/>\n\
-             <path fill=\"none\" stroke=\"#006CAE\" stroke-width=\"20\" d=\"m1 1 1 1\"/>\n</svg>\n"
+             <path fill=\"none\" stroke=\"#006CAE\" stroke-width=\"20\" d=\"m1 1 1 1\"/>\n\
+             <path fill=\"none\" stroke=\"#007E5C\" stroke-dasharray=\"60 35\" stroke-width=\"20\" d=\"m1 1 1 1\"/>\n</svg>\n"
         );
     }
 

@@ -1,5 +1,7 @@
 //! Pictures over time: panels below each other with one time axis, a legend above, nothing on top of the data.
 
+use kinemark_sim::text::number::seconds;
+
 use super::Head;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, UNITS, WIDTH, picture};
@@ -7,7 +9,6 @@ use super::course::{Course, Point, courses};
 use super::reading::Axes;
 use crate::palette::{Colour, FRAME, GRID, MUTED, MUTED_DASHED, RED};
 use crate::visible::shortened;
-use kinemark_grader::record::quantity::seconds;
 
 /// A line over time.
 pub(super) struct Line {

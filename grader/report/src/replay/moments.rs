@@ -3,8 +3,8 @@
 use kinemark_sim::watch::event::{Event, EventKind};
 use serde::Serialize;
 
+use crate::initial_contact::begins_initial;
 use crate::moment::has_lost;
-use crate::standing::stands;
 use crate::visible::shortened;
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
@@ -80,7 +80,7 @@ pub(super) fn events(run: &TaskRun, task: Option<&TaskGrade>) -> Vec<EventMark> 
     let mut breaches = breaches(task);
     let room = MOST_EVENTS - breaches.len();
     let (mut all, mut saturated) = (0, 0);
-    let news = |event: &&Event| !stands(&event.kind, event.tick, run);
+    let news = |event: &&Event| !begins_initial(&event.kind, event.tick, run);
     let kept = run.trace.events.iter().filter(news).filter(|event| {
         let counts = !matches!(event.kind, EventKind::Saturated { .. });
         saturated += usize::from(!counts);

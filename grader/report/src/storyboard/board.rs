@@ -1,17 +1,19 @@
 //! The whole picture: title, panels in rows, a caption with its link under each, and the legend.
 
+use kinemark_sim::text::number::trimmed;
+
 use super::camera::Camera;
 use super::scenery::Scenery;
 use super::svg::{Anchor, Svg, escaped, text_width, wrapped};
 use super::view::View;
 use super::{COLUMNS, GAP, MARGIN, PANEL, Panel, WIDTH};
 use crate::moment::{fragment, of_task};
-use crate::number::significant;
 use crate::palette::{BLUE, Colour, GREEN, INK, MUTED, PAPER, PURPLE, RED, VERMILLION, hex};
 use crate::visible::shortened;
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
-use kinemark_grader::record::quantity::{points, trimmed};
+use kinemark_grader::record::quantity::points;
+use kinemark_sim::text::number::typeset;
 
 /// Size of captions and height of their lines \[px\].
 const WORDS: f64 = 12.0;
@@ -218,7 +220,7 @@ impl Board<'_> {
         if self.panels.iter().any(|p| p.moment.touch_m.is_some()) {
             entry(svg, "contact", RED, "", true);
         }
-        let step = significant(self.view.grid_m(), 3);
+        let step = typeset(self.view.grid_m(), 3);
         let words = format!("grid {step}\u{a0}m");
         svg.text(
             &words,

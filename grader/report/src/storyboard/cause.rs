@@ -1,14 +1,15 @@
 //! What a storyboard may tell of a run: where points were lost, what was touched, goals, events, and where it left the reference.
 
 use kinemark_sim::model::contact::Party;
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 
+use crate::initial_contact::is_initial;
 use crate::moment::{first_loss_of, has_lost, lost_points};
-use crate::standing::stand;
 use kinemark_grader::record::grade::{CheckGrade, Divergence, TaskGrade};
 use kinemark_grader::record::graded::TaskRun;
-use kinemark_grader::record::quantity::{points, seconds, with_unit};
+use kinemark_grader::record::quantity::{points, with_unit};
 
 /// Where points were lost first, before everything.
 const FIRST_LOSS: f64 = 1e6;
@@ -104,7 +105,7 @@ pub(super) fn causes(run: &TaskRun, grade: &TaskGrade) -> Vec<Cause> {
             continue;
         }
         pairs.push(contact.parties);
-        if stand(contact.parties, contact.first_tick, run) {
+        if is_initial(contact.parties, contact.first_tick, run) {
             continue;
         }
         let arm = contact.parties.iter().any(|p| matches!(p, Party::Link(_)));

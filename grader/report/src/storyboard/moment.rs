@@ -1,6 +1,7 @@
 //! The moments of a run that a storyboard shows: its start and end, where points were lost, the most telling between, and others
 //! evenly in time and along the way.
 
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::watch::event::EventKind;
 use nalgebra::Vector3;
 
@@ -8,10 +9,10 @@ use super::cause::{Cause, causes};
 use super::target::{Target, targets};
 use crate::goal::current_goal;
 use crate::moment::last_before;
-use crate::number::significant;
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
-use kinemark_grader::record::quantity::{seconds, with_unit};
+use kinemark_grader::record::quantity::with_unit;
+use kinemark_sim::text::number::typeset;
 
 /// Moments of a storyboard.
 const MOMENTS: usize = 6;
@@ -214,7 +215,7 @@ fn whereabouts(run: &TaskRun, targets: &[Target], tick: usize) -> Option<String>
     }
     let shown = [p.x, p.y, p.z].map(|x| {
         // a thousandth of a millimetre is noise here
-        significant((x * 1e4).round() / 1e4, 4)
+        typeset((x * 1e4).round() / 1e4, 4)
     });
     Some(format!("TCP at ({}) m", shown.join(", ")))
 }

@@ -4,9 +4,10 @@
 //! The relative error of an entry is `|a - e| / |e|`, for a list in the Euclidean norm; where `e` is zero it is `|a|`. An entry that
 //! is missing, of the wrong shape or not finite scores 0.
 
+use kinemark_sim::text::number::significant;
+
 use crate::attempt::measure::as_slice;
 use crate::check::prelude::*;
-use crate::record::quantity::significant;
 use crate::task::model::Given;
 
 /// The keys.

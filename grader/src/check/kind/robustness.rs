@@ -66,7 +66,7 @@ impl MotionTable for Table {
             return reading.refuse(SweepProblem::Levels { count });
         }
         let names = self.rungs.iter().map(|level| &*level.get_ref().name);
-        reading.report.unique("rung", names)?;
+        reading.report.unique("level", names)?;
         let levels = self.rungs.iter().map(|level| level.read(reading));
         Ok(Robustness {
             name: reading.check.to_owned(),

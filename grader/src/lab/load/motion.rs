@@ -11,13 +11,13 @@ use kinemark_sim::sensing::Sensors;
 use kinemark_sim::sensor::read_all;
 use kinemark_sim::step::hybrid::HybridStep;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::number::trimmed;
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::{Reader, numbers};
-use crate::lab::file::{DerivativeName, ModeName, MotionTable, NumberAt, PerJoint, ServoTable};
-use crate::record::quantity::trimmed;
+use crate::lab::file::{MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::task::model::{MotionGoal, MotionTask};
 use crate::task::problem::{LabError, problems};
 use crate::task::scene::LabScene;
@@ -290,7 +290,7 @@ impl Reader<'_> {
 
     fn servo(
         &self,
-        mode: ModeName,
+        mode: Mode,
         table: &ServoTable,
         at: Range<usize>,
     ) -> Result<ServoSettings, LabError> {
@@ -330,20 +330,10 @@ impl Reader<'_> {
             effort_limit,
             integral_limit: spread(&table.integral_limit, "integral_limit", f64::INFINITY)?,
         };
-        let mode = match mode {
-            ModeName::Position => Mode::Position,
-            ModeName::Velocity => Mode::Velocity,
-            ModeName::Effort => Mode::Effort,
-        };
-        let derivative = match table.derivative {
-            Some(DerivativeName::Error) => Derivative::Error,
-            Some(DerivativeName::Velocity) => Derivative::Velocity,
-            Some(DerivativeName::Measurement) | None => Derivative::Measurement,
-        };
         ServoSettings::new(
             self.robot,
             mode,
-            derivative,
+            table.derivative.unwrap_or(Derivative::Measurement),
             &gains,
             table.gravity_compensation,
         )

@@ -10,17 +10,17 @@ use kinemark_sim::kinematics::closure::{
 use kinemark_sim::model::robot::Robot;
 
 use super::number_fields::Numbers;
-use super::refusal::{Code, Refusal};
+use super::refusal::{Code, Refusal, refuse};
 use crate::joint_names::joint_names;
 
-impl From<&LoopError> for Refusal {
-    fn from(error: &LoopError) -> Self {
+impl From<LoopError> for Refusal {
+    fn from(error: LoopError) -> Self {
         let code = match error {
             LoopError::Open { .. } | LoopError::Apart => Code::OpenLoop,
             LoopError::TooFar { .. } => Code::OutOfRange,
             LoopError::PassiveCount { .. } | LoopError::Singular => Code::Singular,
         };
-        Self::new(code, error.to_string())
+        Self::new(code, error)
     }
 }
 
@@ -37,7 +37,7 @@ fn over_all(
         return Ok(values.to_vec());
     }
     if values.len() == k {
-        return follow(values).map_err(|error| Refusal::from(&error));
+        return follow(values).map_err(Refusal::from);
     }
     let independent = if k < n {
         let names = joint_names(robot, robot.independent());
@@ -46,14 +46,14 @@ fn over_all(
         String::new()
     };
     let found = values.len();
-    Err(Refusal::new(
+    refuse(
         Code::WrongLength,
         format!("`{name}` has {found} numbers, the robot has {n} joints that move{independent}"),
-    ))
+    )
 }
 
 /// Positions of all joints; loops closed where only the independent ones are given.
-pub(crate) fn positions(robot: &Robot, name: &str, q: &Numbers) -> Result<JointPositions, Refusal> {
+pub(super) fn positions(robot: &Robot, name: &str, q: &Numbers) -> Result<JointPositions, Refusal> {
     over_all(robot, name, q, |independent| {
         closed_positions(robot, independent)
     })
@@ -61,7 +61,7 @@ pub(crate) fn positions(robot: &Robot, name: &str, q: &Numbers) -> Result<JointP
 }
 
 /// Velocities of all joints at `q`.
-pub(crate) fn velocities(
+pub(super) fn velocities(
     robot: &Robot,
     name: &str,
     q: &JointPositions,
@@ -74,7 +74,7 @@ pub(crate) fn velocities(
 }
 
 /// Accelerations of all joints at `(q, qd)`.
-pub(crate) fn accelerations(
+pub(super) fn accelerations(
     robot: &Robot,
     name: &str,
     (q, qd): (&JointPositions, &JointVelocities),
@@ -87,7 +87,7 @@ pub(crate) fn accelerations(
 }
 
 /// Efforts, or commands, of all joints: zero at dependent joints where only the independent ones are given.
-pub(crate) fn efforts(
+pub(super) fn efforts(
     robot: &Robot,
     name: &str,
     effort: &Numbers,
@@ -99,7 +99,7 @@ pub(crate) fn efforts(
 }
 
 /// Values of the independent joints, zeros at the dependent ones.
-pub(crate) fn zeros_elsewhere(robot: &Robot, independent: &[f64]) -> Vec<f64> {
+pub(super) fn zeros_elsewhere(robot: &Robot, independent: &[f64]) -> Vec<f64> {
     let mut all = vec![0.0; robot.n()];
     for (&i, value) in robot.independent().iter().zip(independent) {
         all[i] = *value;
@@ -108,7 +108,7 @@ pub(crate) fn zeros_elsewhere(robot: &Robot, independent: &[f64]) -> Vec<f64> {
 }
 
 /// One number per independent joint, and no others.
-pub(crate) fn independent<'n>(
+pub(super) fn independent<'n>(
     robot: &Robot,
     name: &str,
     numbers: &'n Numbers,
@@ -121,8 +121,8 @@ pub(crate) fn independent<'n>(
         values.len(),
         joint_names(robot, robot.independent()).join(", "),
     );
-    Err(Refusal::new(
+    refuse(
         Code::WrongLength,
         format!("`{name}` has {found} numbers, the robot has {k} independent joints ({names})"),
-    ))
+    )
 }

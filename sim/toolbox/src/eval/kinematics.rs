@@ -4,8 +4,9 @@ use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::analytic::{Angles, analytic_jacobian};
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass};
 use kinemark_sim::kinematics::closure::independent_motions;
-use kinemark_sim::kinematics::derivative::jacobian_derivative;
+use kinemark_sim::kinematics::derivative;
 use kinemark_sim::kinematics::manipulability;
+use kinemark_sim::kinematics::manipulability::TWIST;
 use kinemark_sim::kinematics::workspace::sample_workspace;
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::model::robot::{Frame, Robot};
@@ -13,314 +14,262 @@ use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::joint_state::{positions, velocities};
-use super::number_fields::{
-    Numbers, RowNames, TwistRows, finite, finite_number, finite_rows, matrix_rows,
-};
-use super::operation::{FrameName, Operation, Subject, frame_or_tcp, frame_or_world};
-use super::refusal::{Code, Refusal};
+use super::number_fields::{Numbers, TwistRows, finite, finite_number, finite_rows, matrix_rows};
+use super::operation::{frame_or_tcp, frame_or_world};
+use super::refusal::{Code, Refusal, refuse};
 
 /// A workspace of more points is asked for by mistake.
 const MOST_SAMPLES: usize = 100_000;
 
 /// Forward kinematics: the pose of a frame.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Fk {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Fk {
     /// Joint positions \[rad or m\].
-    pub q: Numbers,
+    q: Numbers,
     /// The frame; the TCP where none is given.
-    pub frame: Option<FrameName>,
+    frame: Option<String>,
     /// The frame that coordinates are expressed in; the world where none is given.
-    pub r#in: Option<FrameName>,
+    r#in: Option<String>,
 }
 
 /// The answer to [`Fk`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FramePose {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct FramePose {
     /// Position of the frame's origin.
-    pub position_m: Vec<f64>,
+    position_m: Vec<f64>,
     /// Three rows; the columns are the axes of the frame.
-    pub rotation: Vec<Vec<f64>>,
+    rotation: Vec<Vec<f64>>,
 }
 
-impl Operation for Fk {
-    const NAME: &'static str = "fk";
-    type Answer = FramePose;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<FramePose, Refusal> {
-        let q = positions(robot, "q", &self.q)?;
-        let frame = frame_or_tcp(robot, self.frame.as_ref())?;
-        let base = frame_or_world(robot, self.r#in.as_ref())?;
-        let poses = forward_kinematics(robot, &q);
-        let world_from_frame = poses.world_from(frame);
-        let pose = match base {
-            None => world_from_frame,
-            Some(base) => poses.world_from(base).inv_mul(&world_from_frame),
-        };
-        Ok(FramePose {
-            position_m: finite(pose.translation.vector.as_slice())?,
-            rotation: matrix_rows(pose.rotation.matrix())?,
-        })
-    }
+/// The pose of a frame.
+pub(super) fn fk(robot: &Robot, request: &Fk) -> Result<FramePose, Refusal> {
+    let q = positions(robot, "q", &request.q)?;
+    let frame = frame_or_tcp(robot, request.frame.as_deref())?;
+    let base = frame_or_world(robot, request.r#in.as_deref())?;
+    let poses = forward_kinematics(robot, &q);
+    let world_from_frame = poses.world_from(frame);
+    let pose = match base {
+        None => world_from_frame,
+        Some(base) => poses.world_from(base).inv_mul(&world_from_frame),
+    };
+    Ok(FramePose {
+        position_m: finite(pose.translation.vector.as_slice())?,
+        rotation: matrix_rows(pose.rotation.matrix())?,
+    })
 }
 
 /// The Jacobian of a frame: its rows are `[linear; angular]`, its columns the joints that move.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Jacobian {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Jacobian {
     /// Joint positions \[rad or m\].
-    pub q: Numbers,
+    q: Numbers,
     /// The frame; the TCP where none is given.
-    pub frame: Option<FrameName>,
+    frame: Option<String>,
     /// The frame whose axes the rows are in; the world where none is given.
-    pub r#in: Option<FrameName>,
+    r#in: Option<String>,
     /// Angles whose rates are the lower rows, in the world; the angular velocity where none are given.
-    pub angles: Option<AngleSet>,
-}
-
-/// Three angles of an orientation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum AngleSet {
-    /// Roll, pitch and yaw.
-    Rpy,
-    /// About z, the new y and the new z.
-    Zyz,
+    angles: Option<Angles>,
 }
 
 /// The answer to [`Jacobian`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JacobianRows {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct JacobianRows {
     /// Shape `(6, n)`; with loops that of the open tree.
-    pub jacobian: Vec<Vec<f64>>,
+    jacobian: Vec<Vec<f64>>,
     /// Shape `(6, independent)`, the loops kept closed; only with loops, where they determine the dependent joints.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub independent_jacobian: Option<Vec<Vec<f64>>>,
+    independent_jacobian: Option<Vec<Vec<f64>>>,
 }
 
-impl Operation for Jacobian {
-    const NAME: &'static str = "jacobian";
-    type Answer = JacobianRows;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<JacobianRows, Refusal> {
-        let q = positions(robot, "q", &self.q)?;
-        let frame = frame_or_tcp(robot, self.frame.as_ref())?;
-        let base = frame_or_world(robot, self.r#in.as_ref())?;
-        let jacobian = match (self.angles, base) {
-            (None, _) => jacobian_in(robot, &q, frame, base),
-            (Some(angles), None) => {
-                let angles = match angles {
-                    AngleSet::Rpy => Angles::RollPitchYaw,
-                    AngleSet::Zyz => Angles::Zyz,
-                };
-                analytic_jacobian(robot, &q, frame, angles)
-                    .map_err(|error| Refusal::new(Code::Singular, error.to_string()))?
-            }
-            (Some(_), Some(_)) => {
-                return Err(Refusal::new(
-                    Code::OutOfRange,
-                    "`angles` are those of the world; leave `in` out",
-                ));
-            }
-        };
-        let has_loops = !robot.loops().is_empty();
-        let of_independent = has_loops.then(|| independent_columns(robot, &q, &jacobian).ok());
-        let of_independent = of_independent.flatten();
-        Ok(JacobianRows {
-            jacobian: matrix_rows(&jacobian)?,
-            independent_jacobian: of_independent.as_ref().map(matrix_rows).transpose()?,
-        })
-    }
+/// The Jacobian of a frame.
+pub(super) fn jacobian(robot: &Robot, request: &Jacobian) -> Result<JacobianRows, Refusal> {
+    let q = positions(robot, "q", &request.q)?;
+    let frame = frame_or_tcp(robot, request.frame.as_deref())?;
+    let base = frame_or_world(robot, request.r#in.as_deref())?;
+    let jacobian = match (request.angles, base) {
+        (None, _) => jacobian_in(robot, &q, frame, base),
+        (Some(angles), None) => analytic_jacobian(robot, &q, frame, angles)
+            .map_err(|error| Refusal::new(Code::Singular, error))?,
+        (Some(_), Some(_)) => {
+            return refuse(
+                Code::OutOfRange,
+                "`angles` are those of the world; leave `in` out",
+            );
+        }
+    };
+    let has_loops = !robot.loops().is_empty();
+    let of_independent = has_loops.then(|| independent_columns(robot, &q, &jacobian).ok());
+    Ok(JacobianRows {
+        jacobian: matrix_rows(&jacobian)?,
+        independent_jacobian: of_independent
+            .flatten()
+            .as_ref()
+            .map(matrix_rows)
+            .transpose()?,
+    })
 }
 
 /// The time derivative of the geometric Jacobian, in the axes of the world.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct JacobianDerivative {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct JacobianDerivative {
     /// Joint positions \[rad or m\].
-    pub q: Numbers,
+    q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    pub qd: Numbers,
+    qd: Numbers,
     /// The frame; the TCP where none is given.
-    pub frame: Option<FrameName>,
+    frame: Option<String>,
 }
 
 /// The answer to [`JacobianDerivative`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JacobianDerivativeRows {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct JacobianDerivativeRows {
     /// Shape `(6, n)`, rows `[linear; angular]`.
-    pub jacobian_derivative: Vec<Vec<f64>>,
+    jacobian_derivative: Vec<Vec<f64>>,
 }
 
-impl Operation for JacobianDerivative {
-    const NAME: &'static str = "jacobian_derivative";
-    type Answer = JacobianDerivativeRows;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<Self::Answer, Refusal> {
-        let q = positions(robot, "q", &self.q)?;
-        let qd = velocities(robot, "qd", &q, &self.qd)?;
-        let frame = frame_or_tcp(robot, self.frame.as_ref())?;
-        let rows = matrix_rows(&jacobian_derivative(robot, &q, &qd, frame))?;
-        Ok(JacobianDerivativeRows {
-            jacobian_derivative: rows,
-        })
-    }
+/// The time derivative of the geometric Jacobian.
+pub(super) fn jacobian_derivative(
+    robot: &Robot,
+    request: &JacobianDerivative,
+) -> Result<JacobianDerivativeRows, Refusal> {
+    let q = positions(robot, "q", &request.q)?;
+    let qd = velocities(robot, "qd", &q, &request.qd)?;
+    let frame = frame_or_tcp(robot, request.frame.as_deref())?;
+    let rows = matrix_rows(&derivative::jacobian_derivative(robot, &q, &qd, frame))?;
+    Ok(JacobianDerivativeRows {
+        jacobian_derivative: rows,
+    })
 }
 
 /// How well a frame can move, by the singular values of its Jacobian; with loops, that of the independent joints.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Manipulability {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Manipulability {
     /// Joint positions \[rad or m\].
-    pub q: Numbers,
+    q: Numbers,
     /// The frame; the TCP where none is given.
-    pub frame: Option<FrameName>,
+    frame: Option<String>,
     /// The frame whose axes the rows are in; the world where none is given.
-    pub r#in: Option<FrameName>,
+    r#in: Option<String>,
     /// The rows of the Jacobian that count; all where none are given.
-    pub rows: Option<TwistRows>,
+    rows: Option<TwistRows>,
 }
 
 /// The answer to [`Manipulability`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ManipulabilityMeasures {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct ManipulabilityMeasures {
     /// Yoshikawa's measure: the product of the singular values, zero with fewer joints than rows.
-    pub measure: f64,
+    measure: f64,
     /// Largest first.
-    pub singular_values: Vec<f64>,
+    singular_values: Vec<f64>,
     /// Largest by smallest singular value; `None` where it is infinite.
-    pub condition: Option<f64>,
+    condition: Option<f64>,
 }
 
-impl Operation for Manipulability {
-    const NAME: &'static str = "manipulability";
-    type Answer = ManipulabilityMeasures;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<Self::Answer, Refusal> {
-        let q = positions(robot, "q", &self.q)?;
-        let frame = frame_or_tcp(robot, self.frame.as_ref())?;
-        let base = frame_or_world(robot, self.r#in.as_ref())?;
-        let rows = self.rows.unwrap_or(TwistRows::Named(RowNames::All));
-        let mut jacobian = jacobian_in(robot, &q, frame, base);
-        if !robot.loops().is_empty() {
-            // only the independent joints can be moved at will
-            jacobian = independent_columns(robot, &q, &jacobian)?;
-        }
-        let ellipsoid = manipulability::Manipulability::of(&jacobian, rows.indices());
-        Ok(ManipulabilityMeasures {
-            measure: finite_number(ellipsoid.yoshikawa())?,
-            singular_values: finite(ellipsoid.singular_values())?,
-            condition: ellipsoid.condition(),
-        })
+/// How well a frame can move.
+pub(super) fn manipulability(
+    robot: &Robot,
+    request: &Manipulability,
+) -> Result<ManipulabilityMeasures, Refusal> {
+    let q = positions(robot, "q", &request.q)?;
+    let frame = frame_or_tcp(robot, request.frame.as_deref())?;
+    let base = frame_or_world(robot, request.r#in.as_deref())?;
+    let mut jacobian = jacobian_in(robot, &q, frame, base);
+    if !robot.loops().is_empty() {
+        // only the independent joints can be moved at will
+        jacobian = independent_columns(robot, &q, &jacobian)?;
     }
+    let rows = request.rows.as_ref().map_or(TWIST, |rows| &rows.0);
+    let ellipsoid = manipulability::Manipulability::of(&jacobian, rows);
+    Ok(ManipulabilityMeasures {
+        measure: finite_number(ellipsoid.yoshikawa())?,
+        singular_values: finite(ellipsoid.singular_values())?,
+        condition: ellipsoid.condition(),
+    })
 }
 
 /// Positions that a frame reaches, at joint positions spread evenly over their limits.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Workspace {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Workspace {
     /// The frame; the TCP where none is given.
-    pub frame: Option<FrameName>,
+    frame: Option<String>,
     /// How many; 1000 where it is not given.
-    pub samples: Option<usize>,
+    samples: Option<usize>,
     /// The point that reach is measured from; the world's origin where none is given.
-    pub from_m: Option<[f64; 3]>,
+    from_m: Option<[f64; 3]>,
 }
 
 /// The answer to [`Workspace`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct WorkspacePoints {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct WorkspacePoints {
     /// Points in the world.
-    pub points_m: Vec<Vec<f64>>,
+    points_m: Vec<Vec<f64>>,
     /// The corners of the box around them; `None` without points.
-    pub bounds_m: Option<Vec<Vec<f64>>>,
+    bounds_m: Option<Vec<Vec<f64>>>,
     /// The distance of the farthest one.
-    pub reach_m: f64,
+    reach_m: f64,
     /// How many samples have loops that do not close.
-    pub open_samples: usize,
+    open_samples: usize,
 }
 
-impl Operation for Workspace {
-    const NAME: &'static str = "workspace";
-    type Answer = WorkspacePoints;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<WorkspacePoints, Refusal> {
-        let frame = frame_or_tcp(robot, self.frame.as_ref())?;
-        let samples = self.samples.unwrap_or(1000);
-        if samples > MOST_SAMPLES {
-            let message = format!("{samples} samples are more than {MOST_SAMPLES}");
-            return Err(Refusal::new(Code::TooLarge, message));
-        }
-        let workspace = sample_workspace(robot, frame, samples);
-        let bounds = workspace.bounds_m();
-        let from: Vector3<f64> = self.from_m.unwrap_or_default().into();
-        Ok(WorkspacePoints {
-            points_m: finite_rows(workspace.points_m().iter().map(Vector3::as_slice))?,
-            bounds_m: bounds
-                .map(|corners| finite_rows(corners.iter().map(Vector3::as_slice)))
-                .transpose()?,
-            reach_m: finite_number(workspace.reach_m(&from))?,
-            open_samples: workspace.open_samples(),
-        })
+/// Positions that a frame reaches.
+pub(super) fn workspace(robot: &Robot, request: &Workspace) -> Result<WorkspacePoints, Refusal> {
+    let frame = frame_or_tcp(robot, request.frame.as_deref())?;
+    let samples = request.samples.unwrap_or(1000);
+    if samples > MOST_SAMPLES {
+        let message = format!("{samples} samples are more than {MOST_SAMPLES}");
+        return refuse(Code::TooLarge, message);
     }
+    let workspace = sample_workspace(robot, frame, samples);
+    let bounds = workspace.bounds_m();
+    let from: Vector3<f64> = request.from_m.unwrap_or_default().into();
+    Ok(WorkspacePoints {
+        points_m: finite_rows(workspace.points_m().iter().map(Vector3::as_slice))?,
+        bounds_m: bounds
+            .map(|corners| finite_rows(corners.iter().map(Vector3::as_slice)))
+            .transpose()?,
+        reach_m: finite_number(workspace.reach_m(&from))?,
+        open_samples: workspace.open_samples(),
+    })
 }
 
 /// The centre of mass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Com {
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Com {
     /// Joint positions \[rad or m\].
-    pub q: Numbers,
+    q: Numbers,
     /// The frame that coordinates are expressed in; the world where none is given.
-    pub r#in: Option<FrameName>,
+    r#in: Option<String>,
     /// Which links count; those that move where nothing is given.
-    pub counted: Option<CountedLinks>,
-}
-
-/// Which links have a part in a centre of mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CountedLinks {
-    /// Those that joints move.
-    Moving,
-    /// Those fixed to the world, too.
-    All,
+    counted: Option<Counted>,
 }
 
 /// The answer to [`Com`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CentreOfMass {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct CentreOfMass {
     /// Where it is.
-    pub position_m: Vec<f64>,
+    position_m: Vec<f64>,
     /// The mass of the links that count.
-    pub mass_kg: f64,
+    mass_kg: f64,
 }
 
-impl Operation for Com {
-    const NAME: &'static str = "com";
-    type Answer = CentreOfMass;
-
-    fn answer(self, Subject { robot, .. }: Subject<'_>) -> Result<CentreOfMass, Refusal> {
-        let q = positions(robot, "q", &self.q)?;
-        let base = frame_or_world(robot, self.r#in.as_ref())?;
-        let counted = match self.counted {
-            None | Some(CountedLinks::Moving) => Counted::MovingLinks,
-            Some(CountedLinks::All) => Counted::WholeRobot,
-        };
-        let Some(mut p_com) = centre_of_mass(robot, &q, counted) else {
-            let message = "what has no mass has no centre of mass; give links `inertia`";
-            return Err(Refusal::new(Code::NoMass, message));
-        };
-        if let Some(base) = base {
-            let world_from_base = forward_kinematics(robot, &q).world_from(base);
-            let p_in_base = world_from_base.inverse_transform_point(&p_com.into());
-            p_com = p_in_base.coords;
-        }
-        Ok(CentreOfMass {
-            position_m: finite(p_com.as_slice())?,
-            mass_kg: mass_kg(robot, counted),
-        })
+/// The centre of mass.
+pub(super) fn com(robot: &Robot, request: &Com) -> Result<CentreOfMass, Refusal> {
+    let q = positions(robot, "q", &request.q)?;
+    let base = frame_or_world(robot, request.r#in.as_deref())?;
+    let counted = request.counted.unwrap_or(Counted::MovingLinks);
+    let Some(mut p_com) = centre_of_mass(robot, &q, counted) else {
+        let message = "what has no mass has no centre of mass; give links `inertia`";
+        return refuse(Code::NoMass, message);
+    };
+    if let Some(base) = base {
+        let world_from_base = forward_kinematics(robot, &q).world_from(base);
+        let p_in_base = world_from_base.inverse_transform_point(&p_com.into());
+        p_com = p_in_base.coords;
     }
+    Ok(CentreOfMass {
+        position_m: finite(p_com.as_slice())?,
+        mass_kg: mass_kg(robot, counted),
+    })
 }
 
 fn mass_kg(robot: &Robot, counted: Counted) -> f64 {
@@ -357,11 +306,9 @@ fn independent_columns(
     q: &JointPositions,
     jacobian: &Matrix6xX<f64>,
 ) -> Result<Matrix6xX<f64>, Refusal> {
-    let motions =
-        independent_motions(robot, q.as_slice()).map_err(|error| Refusal::from(&error))?;
-    let columns: Vec<Vector6<f64>> = motions
-        .column_iter()
-        .map(|motion| jacobian * motion)
-        .collect();
-    Ok(Matrix6xX::from_columns(&columns))
+    let motions = independent_motions(robot, q.as_slice())?;
+    let columns = motions.column_iter().map(|motion| jacobian * motion);
+    Ok(Matrix6xX::from_columns(
+        &columns.collect::<Vec<Vector6<f64>>>(),
+    ))
 }

@@ -22,28 +22,5 @@ mod simulation;
 mod simulation_record;
 mod trajectory;
 
-pub use dynamics::{
-    Aba, Accelerations, Bias, Coriolis, Crba, DriveEfforts, Efforts, Energies, Energy, Gravity,
-    InverseDynamics, MassMatrix, Rnea,
-};
-pub use field_reader::{Fields, FromFields};
-pub use inverse_kinematics::{GroupOrder, Ik, IkMethod, IkResidual, IkSolution, IkTarget};
-pub use kinematics::{
-    AngleSet, CentreOfMass, Com, CountedLinks, Fk, FramePose, Jacobian, JacobianDerivative,
-    JacobianDerivativeRows, JacobianRows, Manipulability, ManipulabilityMeasures, Workspace,
-    WorkspacePoints,
-};
-pub use number_fields::{Numbers, RowNames, TwistRows};
-pub use operation::{
-    FrameName, NamedOperation, OPERATIONS, Operation, Subject, answer_line, operation_names,
-    refused,
-};
+pub use operation::{OPERATIONS, Operation, Subject, answer_line, operation_names, refused};
 pub use refusal::{Code, Refusal};
-pub use robot_info::{Info, JointInfo, MimicInfo, RobotInfo};
-pub use simulation::{ServoDerivative, ServoMode, ServoTable, Simulate};
-pub use simulation_record::{ContactRecord, EventRecord, SampledRun, SceneRecord};
-pub use trajectory::{
-    ArcMotion, ArcPoints, AxisSamples, CubicMotion, JerkLimitedMotion, LawDuration, LawJerkLimits,
-    LawLimits, LineEnds, LineMotion, Motion, PathEnd, PathSamples, PlanTrajectory, PlannedMotion,
-    QuinticMotion, SplineMotion, TimeLaw, TrapezoidMotion,
-};

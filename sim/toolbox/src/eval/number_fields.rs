@@ -1,16 +1,17 @@
 //! Numbers in requests and answers: one or many, for every axis or for each, and never without a value.
 
+use std::fmt;
+
 use kinemark_sim::kinematics::manipulability::{ANGULAR, LINEAR, TWIST};
 use nalgebra::{Dim, Matrix, RawStorage};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Unexpected, Visitor};
-use serde::{Deserialize as DeriveDeserialize, Serialize};
 
-use super::refusal::{Code, Refusal};
+use super::refusal::{Code, Refusal, refuse};
 
 /// A number or a list of numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(untagged)]
-pub enum Numbers {
+pub(super) enum Numbers {
     /// A bare number: a list of one, or the same for all axes.
     One(f64),
     /// One per axis or joint.
@@ -19,7 +20,7 @@ pub enum Numbers {
 
 impl Numbers {
     /// The numbers as a list; a bare one is a list of one.
-    pub fn as_slice(&self) -> &[f64] {
+    pub(super) fn as_slice(&self) -> &[f64] {
         match self {
             Self::One(number) => std::slice::from_ref(number),
             Self::List(numbers) => numbers,
@@ -27,14 +28,14 @@ impl Numbers {
     }
 
     /// One number for each of `n` axes; a bare one is that of all.
-    pub(crate) fn per_axis(&self, name: &str, n: usize) -> Result<Vec<f64>, Refusal> {
+    pub(super) fn per_axis(&self, name: &str, n: usize) -> Result<Vec<f64>, Refusal> {
         match self {
             Self::One(number) => Ok(vec![*number; n]),
             Self::List(numbers) if numbers.len() == n => Ok(numbers.clone()),
-            Self::List(numbers) => Err(Refusal::new(
+            Self::List(numbers) => refuse(
                 Code::WrongLength,
                 format!("`{name}` has {} numbers, expected 1 or {n}", numbers.len()),
-            )),
+            ),
         }
     }
 }
@@ -46,7 +47,7 @@ impl<'de> Deserialize<'de> for Numbers {
         impl<'de> Visitor<'de> for NumbersVisitor {
             type Value = Numbers;
 
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a list of numbers")
             }
 
@@ -67,39 +68,9 @@ impl<'de> Deserialize<'de> for Numbers {
     }
 }
 
-/// Rows of a Jacobian, `[linear; angular]`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(untagged)]
-pub enum TwistRows {
-    /// Rows that have a name.
-    Named(RowNames),
-    /// Rows 0 to 5, none of them twice.
-    Numbered(Vec<usize>),
-}
-
-/// Three or six rows of a Jacobian by their name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, DeriveDeserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RowNames {
-    /// All six, which mixes metres and radians.
-    All,
-    /// Those of the linear velocity.
-    Linear,
-    /// Those of the angular velocity.
-    Angular,
-}
-
-impl TwistRows {
-    /// The numbers of the rows, from zero.
-    pub fn indices(&self) -> &[usize] {
-        match self {
-            Self::Named(RowNames::All) => TWIST,
-            Self::Named(RowNames::Linear) => LINEAR,
-            Self::Named(RowNames::Angular) => ANGULAR,
-            Self::Numbered(rows) => rows,
-        }
-    }
-}
+/// Rows of a Jacobian, `[linear; angular]`, from zero and none of them twice; three or six of them also have a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct TwistRows(pub(super) Vec<usize>);
 
 impl<'de> Deserialize<'de> for TwistRows {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -108,17 +79,18 @@ impl<'de> Deserialize<'de> for TwistRows {
         impl<'de> Visitor<'de> for RowsVisitor {
             type Value = TwistRows;
 
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("`all`, `linear`, `angular` or a list of different rows 0 to 5")
             }
 
             fn visit_str<E: Error>(self, name: &str) -> Result<TwistRows, E> {
-                match name {
-                    "all" => Ok(TwistRows::Named(RowNames::All)),
-                    "linear" => Ok(TwistRows::Named(RowNames::Linear)),
-                    "angular" => Ok(TwistRows::Named(RowNames::Angular)),
-                    other => Err(E::invalid_value(Unexpected::Str(other), &self)),
-                }
+                let rows = match name {
+                    "all" => TWIST,
+                    "linear" => LINEAR,
+                    "angular" => ANGULAR,
+                    other => return Err(E::invalid_value(Unexpected::Str(other), &self)),
+                };
+                Ok(TwistRows(rows.to_vec()))
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<TwistRows, A::Error> {
@@ -133,7 +105,7 @@ impl<'de> Deserialize<'de> for TwistRows {
                 if rows.is_empty() {
                     return Err(A::Error::invalid_value(Unexpected::Other("[]"), &self));
                 }
-                Ok(TwistRows::Numbered(rows))
+                Ok(TwistRows(rows))
             }
         }
 
@@ -142,44 +114,41 @@ impl<'de> Deserialize<'de> for TwistRows {
 }
 
 /// A number of a request that must be positive.
-pub(crate) fn positive(name: &str, value: f64) -> Result<f64, Refusal> {
+pub(super) fn positive(name: &str, value: f64) -> Result<f64, Refusal> {
     if value > 0.0 {
         return Ok(value);
     }
     let message = format!("`{name}` must be positive, got {value}");
-    Err(Refusal::new(Code::OutOfRange, message))
+    refuse(Code::OutOfRange, message)
 }
 
 /// Numbers of an answer; JSON has no place for one that is not finite.
-pub(crate) fn finite(values: &[f64]) -> Result<Vec<f64>, Refusal> {
+pub(super) fn finite(values: &[f64]) -> Result<Vec<f64>, Refusal> {
     if values.iter().all(|value| value.is_finite()) {
         return Ok(values.to_vec());
     }
-    Err(Refusal::new(
+    refuse(
         Code::NotFinite,
         "the answer is not finite: the numbers given are too large",
-    ))
+    )
 }
 
 /// A number of an answer.
-pub(crate) fn finite_number(value: f64) -> Result<f64, Refusal> {
+pub(super) fn finite_number(value: f64) -> Result<f64, Refusal> {
     finite(&[value]).map(|_| value)
 }
 
 /// Lists of numbers of an answer.
-pub(crate) fn finite_rows<R: AsRef<[f64]>>(
+pub(super) fn finite_rows<R: AsRef<[f64]>>(
     rows: impl IntoIterator<Item = R>,
 ) -> Result<Vec<Vec<f64>>, Refusal> {
     rows.into_iter().map(|row| finite(row.as_ref())).collect()
 }
 
 /// The rows of a matrix in an answer.
-pub(crate) fn matrix_rows<R: Dim, C: Dim, S: RawStorage<f64, R, C>>(
+pub(super) fn matrix_rows<R: Dim, C: Dim, S: RawStorage<f64, R, C>>(
     matrix: &Matrix<f64, R, C, S>,
 ) -> Result<Vec<Vec<f64>>, Refusal> {
-    finite_rows(
-        matrix
-            .row_iter()
-            .map(|row| row.iter().copied().collect::<Vec<f64>>()),
-    )
+    let rows = matrix.row_iter();
+    finite_rows(rows.map(|row| row.iter().copied().collect::<Vec<f64>>()))
 }

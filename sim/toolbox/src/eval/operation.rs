@@ -3,17 +3,18 @@
 use kinemark_sim::model::robot::{Frame, Robot};
 use kinemark_sim::model::scene::Scene;
 use kinemark_sim::text::suggest;
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
 
-use super::dynamics::{Aba, Bias, Coriolis, Crba, Energy, Gravity, InverseDynamics, Rnea};
-use super::field_reader::{Fields, FromFields};
-use super::inverse_kinematics::Ik;
-use super::kinematics::{Com, Fk, Jacobian, JacobianDerivative, Manipulability, Workspace};
-use super::refusal::{Code, Refusal};
-use super::robot_info::Info;
-use super::simulation::Simulate;
-use super::trajectory::PlanTrajectory;
+use super::dynamics::{aba, bias, coriolis, crba, energy, gravity, inverse_dynamics, rnea};
+use super::field_reader;
+use super::inverse_kinematics::ik;
+use super::kinematics::{com, fk, jacobian, jacobian_derivative, manipulability, workspace};
+use super::refusal::{Code, Refusal, refuse};
+use super::robot_info::info;
+use super::simulation::simulate;
+use super::trajectory::trajectory;
 
 /// What requests are about.
 #[derive(Debug, Clone, Copy)]
@@ -24,68 +25,57 @@ pub struct Subject<'a> {
     pub scene: Option<&'a Scene>,
 }
 
-/// One thing that can be requested: its fields are those of the type.
-pub trait Operation: FromFields {
-    /// What `op` says.
-    const NAME: &'static str;
-    /// The fields of the answer.
-    type Answer: Serialize;
+type Fields = Map<String, Value>;
+type AnswerFn = fn(Subject<'_>, Fields) -> Result<Fields, Refusal>;
 
-    /// Answers the request.
-    ///
-    /// # Errors
-    /// What cannot be asked of this robot, or has no answer.
-    fn answer(self, subject: Subject<'_>) -> Result<Self::Answer, Refusal>;
-}
-
-type AnswerFn = fn(Subject<'_>, Fields) -> Result<Map<String, Value>, Refusal>;
-
-/// An operation by its name.
+/// One thing that can be requested.
 #[derive(Debug, Clone, Copy)]
-pub struct NamedOperation {
+pub struct Operation {
     /// What `op` says.
     pub name: &'static str,
     answer: AnswerFn,
 }
 
-const fn operation<O: Operation>() -> NamedOperation {
-    NamedOperation {
-        name: O::NAME,
-        answer: |subject, mut fields| {
-            let request = O::from_fields(&mut fields)?;
-            fields.finish()?;
-            match serde_json::to_value(request.answer(subject)?) {
-                Ok(Value::Object(answer)) => Ok(answer),
-                other => Err(Refusal::new(
-                    Code::Fault,
-                    format!("the answer is no object, please report this: {other:?}"),
-                )),
-            }
-        },
-    }
+const fn operation(name: &'static str, answer: AnswerFn) -> Operation {
+    Operation { name, answer }
 }
 
 /// All operations, in the order in which the documentation has them.
-pub const OPERATIONS: [NamedOperation; 18] = [
-    operation::<Info>(),
-    operation::<Fk>(),
-    operation::<Jacobian>(),
-    operation::<JacobianDerivative>(),
-    operation::<Manipulability>(),
-    operation::<Workspace>(),
-    operation::<Ik>(),
-    operation::<Com>(),
-    operation::<Rnea>(),
-    operation::<Bias>(),
-    operation::<Gravity>(),
-    operation::<Coriolis>(),
-    operation::<InverseDynamics>(),
-    operation::<Crba>(),
-    operation::<Aba>(),
-    operation::<Energy>(),
-    operation::<PlanTrajectory>(),
-    operation::<Simulate>(),
+#[rustfmt::skip]
+pub const OPERATIONS: [Operation; 18] = [
+    operation("info", |on, fields| answer(fields, |request| Ok(info(on.robot, request)))),
+    operation("fk", |on, fields| answer(fields, |request| fk(on.robot, request))),
+    operation("jacobian", |on, fields| answer(fields, |request| jacobian(on.robot, request))),
+    operation("jacobian_derivative", |on, fields| answer(fields, |request| jacobian_derivative(on.robot, request))),
+    operation("manipulability", |on, fields| answer(fields, |request| manipulability(on.robot, request))),
+    operation("workspace", |on, fields| answer(fields, |request| workspace(on.robot, request))),
+    operation("ik", |on, fields| answer(fields, |request| ik(on.robot, request))),
+    operation("com", |on, fields| answer(fields, |request| com(on.robot, request))),
+    operation("rnea", |on, fields| answer(fields, |request| rnea(on.robot, request))),
+    operation("bias", |on, fields| answer(fields, |request| bias(on.robot, request))),
+    operation("gravity", |on, fields| answer(fields, |request| gravity(on.robot, request))),
+    operation("coriolis", |on, fields| answer(fields, |request| coriolis(on.robot, request))),
+    operation("inverse_dynamics", |on, fields| answer(fields, |request| inverse_dynamics(on.robot, request))),
+    operation("crba", |on, fields| answer(fields, |request| crba(on.robot, request))),
+    operation("aba", |on, fields| answer(fields, |request| aba(on.robot, request))),
+    operation("energy", |on, fields| answer(fields, |request| energy(on.robot, request))),
+    operation("trajectory", |_, fields| answer(fields, trajectory)),
+    operation("simulate", |on, fields| answer(fields, |request| simulate(on, request))),
 ];
+
+/// Reads the request, and writes what it is answered with.
+fn answer<Q: DeserializeOwned, A: Serialize>(
+    fields: Fields,
+    answered: impl FnOnce(&Q) -> Result<A, Refusal>,
+) -> Result<Fields, Refusal> {
+    match serde_json::to_value(answered(&field_reader::request(fields)?)?) {
+        Ok(Value::Object(answer)) => Ok(answer),
+        other => refuse(
+            Code::Fault,
+            format!("the answer is no object, please report this: {other:?}"),
+        ),
+    }
+}
 
 /// The names of all operations with commas between.
 pub fn operation_names() -> String {
@@ -96,75 +86,61 @@ pub fn operation_names() -> String {
 pub fn answer_line(subject: Subject<'_>, line: &[u8]) -> Map<String, Value> {
     let request: Value = match serde_json::from_slice(line.trim_ascii_end()) {
         Ok(request) => request,
-        Err(error) => return refused(Refusal::new(Code::BadJson, error.to_string())),
+        Err(error) => return refused(Refusal::new(Code::BadJson, error)),
     };
     let Value::Object(mut request) = request else {
         let message = "a request is an object, such as {\"op\": \"info\"}";
         return refused(Refusal::new(Code::BadRequest, message));
     };
     let id = request.remove("id");
-    let mut whole = answer(subject, request).unwrap_or_else(error_field);
+    let mut whole = answer_request(subject, request).unwrap_or_else(refused);
     whole.insert("id".to_owned(), id.unwrap_or(Value::Null));
     whole
 }
 
 /// The answer to a line of which not even the `id` is known.
 pub fn refused(refusal: Refusal) -> Map<String, Value> {
-    let mut whole = error_field(refusal);
-    whole.insert("id".to_owned(), Value::Null);
-    whole
+    Map::from_iter([
+        ("error".to_owned(), json!(refusal)),
+        ("id".to_owned(), Value::Null),
+    ])
 }
 
-fn error_field(refusal: Refusal) -> Map<String, Value> {
-    let error = serde_json::json!({ "code": refusal.code, "message": refusal.message });
-    Map::from_iter([("error".to_owned(), error)])
-}
-
-fn answer(
-    subject: Subject<'_>,
-    mut request: Map<String, Value>,
-) -> Result<Map<String, Value>, Refusal> {
+fn answer_request(subject: Subject<'_>, mut request: Fields) -> Result<Fields, Refusal> {
     let op = match request.remove("op") {
         Some(Value::String(op)) => op,
-        Some(_) => return Err(Refusal::new(Code::WrongType, "`op` must be a string")),
-        None => return Err(Refusal::new(Code::MissingField, "`op` is missing")),
+        Some(_) => return refuse(Code::WrongType, "`op` must be a string"),
+        None => return refuse(Code::MissingField, "`op` is missing"),
     };
     let Some(found) = OPERATIONS.iter().find(|known| known.name == op) else {
         let known = suggest(&op, "operations", OPERATIONS.iter().map(|known| known.name));
-        let message = format!("no operation `{op}`; {known}");
-        return Err(Refusal::new(Code::UnknownOp, message));
+        return refuse(Code::UnknownOp, format!("no operation `{op}`; {known}"));
     };
-    (found.answer)(subject, Fields::of_request(request))
+    (found.answer)(subject, request)
 }
 
-/// The name of a frame of the robot, or of a link; `world` where coordinates may be in the world.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct FrameName(pub String);
-
-impl FrameName {
-    pub(crate) fn of<'r>(&self, robot: &'r Robot) -> Result<&'r Frame, Refusal> {
-        robot.frame(&self.0).ok_or_else(|| {
-            let known = robot.frames().iter().map(|frame| frame.name.as_str());
-            let known = suggest(&self.0, "frames", known);
-            let message = format!("no frame is called `{}`; {known}", self.0);
-            Refusal::new(Code::UnknownFrame, message)
-        })
-    }
+/// A frame or a link of the robot.
+fn frame<'r>(robot: &'r Robot, name: &str) -> Result<&'r Frame, Refusal> {
+    robot.frame(name).ok_or_else(|| {
+        let known = robot.frames().iter().map(|frame| frame.name.as_str());
+        let known = suggest(name, "frames", known);
+        Refusal::new(
+            Code::UnknownFrame,
+            format!("no frame is called `{name}`; {known}"),
+        )
+    })
 }
 
 /// The frame a request is about; the TCP where it names none.
-pub(crate) fn frame_or_tcp<'r>(
-    robot: &'r Robot,
-    name: Option<&FrameName>,
-) -> Result<&'r Frame, Refusal> {
-    name.map_or_else(|| Ok(robot.tcp()), |name| name.of(robot))
+pub(super) fn frame_or_tcp<'r>(robot: &'r Robot, name: Option<&str>) -> Result<&'r Frame, Refusal> {
+    name.map_or_else(|| Ok(robot.tcp()), |name| frame(robot, name))
 }
 
 /// The frame that coordinates are expressed in; `None` for the world.
-pub(crate) fn frame_or_world<'r>(
+pub(super) fn frame_or_world<'r>(
     robot: &'r Robot,
-    name: Option<&FrameName>,
+    name: Option<&str>,
 ) -> Result<Option<&'r Frame>, Refusal> {
-    let name = name.filter(|name| name.0 != "world");
-    name.map(|name| name.of(robot)).transpose()
+    let name = name.filter(|name| *name != "world");
+    name.map(|name| frame(robot, name)).transpose()
 }

@@ -58,10 +58,13 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    pub(crate) fn new(code: Code, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: message.into(),
-        }
+    pub(crate) fn new(code: Code, message: impl ToString) -> Self {
+        let message = message.to_string();
+        Self { code, message }
     }
+}
+
+/// A refusal in place of an answer.
+pub(crate) fn refuse<T>(code: Code, message: impl ToString) -> Result<T, Refusal> {
+    Err(Refusal::new(code, message))
 }

@@ -8,14 +8,14 @@ use kinemark_sim::trace::pose_numbers;
 use kinemark_sim::watch::Names;
 use kinemark_sim::watch::event::{Event, EventKind};
 use kinemark_sim::watch::{ContactSpan, Watch};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::number_fields::{Numbers, finite, finite_number, finite_rows};
 use super::refusal::Refusal;
 
 /// The answer to [`Simulate`](super::Simulate); each list has one entry per sample.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SampledRun {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct SampledRun {
     /// Times.
     pub t_s: Vec<f64>,
     /// Joint positions \[rad or m\].
@@ -33,8 +33,8 @@ pub struct SampledRun {
 }
 
 /// What happened in a scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SceneRecord {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct SceneRecord {
     /// Poses by body, one per sample: x, y, z \[m\] and the unit quaternion w, x, y, z, in the world.
     pub bodies: BTreeMap<String, Vec<Vec<f64>>>,
     /// What happened, in the order of time.
@@ -44,8 +44,8 @@ pub struct SceneRecord {
 }
 
 /// One thing that happened.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct EventRecord {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct EventRecord {
     /// When.
     pub t_s: f64,
     /// Its kind, such as `touched`.
@@ -70,8 +70,8 @@ pub struct EventRecord {
 }
 
 /// One contact.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ContactRecord {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct ContactRecord {
     /// The two that touch.
     pub parties: [String; 2],
     /// When it begins.

@@ -1,10 +1,10 @@
 //! The tree as a table: a link a line, with the joint that moves it.
 
 use kinemark_sim::model::robot::{Joint, JointKind, Robot};
+use kinemark_sim::text::number::short;
 use nalgebra::Vector3;
 
 use super::link_tree::{Branch, branches};
-use crate::number::short;
 use crate::styled_text::{Emphasis, StyledText};
 
 const HEADS: [&str; 8] = [

@@ -3,10 +3,10 @@
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass};
 use kinemark_sim::model::robot::Mimic;
 use kinemark_sim::model::robot::{JointKind, Robot};
+use kinemark_sim::text::number::short;
 
 use super::link_table::{WIDEST, table, triple};
 use crate::joint_names::joint_names;
-use crate::number::short;
 use crate::styled_text::{Emphasis, StyledText};
 
 /// Width of the labels before the facts.

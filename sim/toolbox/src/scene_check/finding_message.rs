@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use kinemark_sim::engine::Overlap;
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::scene_check::{Finding, Kind, LineStop, LineStopCause};
+use kinemark_sim::text::number::{metres, seconds, trimmed};
 
 use super::checked_scene::SceneToCheck;
-use crate::number::{metres, seconds, trimmed};
 
 /// What a finding says.
 pub(super) fn message(scene: &SceneToCheck, finding: &Finding) -> String {
