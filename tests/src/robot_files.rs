@@ -161,6 +161,14 @@ fn nothing_is_overwritten_unasked() {
         before
     );
     assert_eq!(bed.run(&["robot", "show", "mine.toml"]).code, Some(0));
+    // nor a file whose name says another format than it would have
+    let ran = bed.run(&["robot", "convert", "rrbot", "--out", "new.urdf"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(
+        ran.stderr.contains("robots cannot be written as a URDF"),
+        "{ran:?}"
+    );
+    assert!(!bed.path("new.urdf").exists());
     // a broken robot leaves no file
     bed.write("broken.urdf", "<robot");
     assert_eq!(
