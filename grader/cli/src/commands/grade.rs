@@ -54,7 +54,7 @@ pub(crate) struct Args {
     /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
     /// answer; do not give such a report to students
     #[arg(long, conflicts_with = "practice")]
-    pub(crate) ghost: bool,
+    pub(crate) reference_overlay: bool,
     #[command(flatten)]
     pub(crate) from: LabArgs,
 }
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 /// Writes the folder.
 pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
     let request = ReportRequest {
-        reference_overlay: args.ghost,
+        reference_overlay: args.reference_overlay,
         png: args.png,
         storyboard: args.storyboard,
     };
@@ -125,13 +125,13 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
         Some(reference) => staff_of(reference, &lab, &args.from.staff)?,
         None => None,
     };
-    if args.ghost && staff.is_none() {
+    if args.reference_overlay && staff.is_none() {
         return Err(Failure::usage(
             format!(
-                "--ghost needs the reference solution of lab `{}`, which was not found",
+                "--reference-overlay needs the reference solution of lab `{}`, which was not found",
                 lab.name
             ),
-            "give the course staff's folder with --reference DIR, or leave --ghost out",
+            "give the course staff's folder with --reference DIR, or leave --reference-overlay out",
         ));
     }
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
@@ -159,7 +159,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
             fault.as_ref(),
         );
     }
-    if let Some(staff) = staff.as_ref().filter(|_| args.ghost) {
+    if let Some(staff) = staff.as_ref().filter(|_| args.reference_overlay) {
         reference_run::show_reference(&lab, staff, &mut graded);
     }
     Ok(Work {

@@ -287,7 +287,7 @@ mod tests {
         let check = &mut graded.grade.tasks[3].checks[0];
         check.outcome = kinemark_grader::record::grade::Outcome::NotJudged;
         check.measure = None;
-        check.next_step = Some("First earn something in \"Done in time\".".to_owned());
+        check.next_step = Some("Not judged until \"Done in time\" earns points.".to_owned());
         let words = "Not judged: a check that it needs earned nothing.";
         assert!(own(&page(&graded)).contains(words));
     }
