@@ -105,7 +105,12 @@ fn staff_may_see_the_reference_move() {
     let bed = TestBed::a_little_off();
     assert_eq!(bed.run(&GRADE).code, Some(1));
     let without = std::fs::read(bed.path("out/grade.json")).expect("record");
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--reference-overlay"]);
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--reference-overlay",
+    ]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     // the grade is the same
     assert_eq!(
@@ -139,10 +144,16 @@ fn a_reference_overlay_needs_a_reference() {
     let bed = TestBed::new();
     bed.write("submission.rhai", "fn control(observation) { 0.0 }");
     // a folder without labs beside it: those built in, and no reference
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--reference-overlay"]);
+    let ran = bed.run(&[
+        "grade",
+        "01-kinematics",
+        "submission.rhai",
+        "--reference-overlay",
+    ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(
-        ran.stderr.contains("--reference-overlay needs the reference solution")
+        ran.stderr
+            .contains("--reference-overlay needs the reference solution")
             && ran.stderr.contains("--reference DIR"),
         "{ran:?}"
     );
