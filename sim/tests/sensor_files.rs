@@ -128,7 +128,7 @@ fn each_mistake_is_named_at_its_place() {
             format!("{position}{position}"),
             "robot::duplicate",
             6,
-            "sensor `s` is there twice",
+            "sensor `s` is defined twice",
         ),
         (
             position.replace("'s'", "' '"),

@@ -65,7 +65,7 @@ fn a_target_nobody_can_be_given_is_refused() {
     for (target, message) in [
         (
             "[2026-01-01]",
-            "a target holds numbers, texts, true and false, lists and tables of them",
+            "a target holds numbers, strings, booleans, lists and tables of them",
         ),
         (
             long.as_str(),

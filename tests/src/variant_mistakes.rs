@@ -40,7 +40,7 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
             "out = { from",
             "lengths = { from",
             "lab::toml",
-            "is there twice",
+            "is defined twice",
         ),
         (
             "[variants]\nout",
@@ -94,7 +94,7 @@ fn mistakes_in_hidden_runs_are_told_at_their_place() {
             "did you mean `out`?",
         ),
         ("count = 2", "count = 0", "1 to 20 hidden runs"),
-        ("task = \"touch\"", "task = \"fk\"", "is no motion task"),
+        ("task = \"touch\"", "task = \"fk\"", "is not a motion task"),
         ("[0.6, 0.75]", "[[0.6, 0.75]]", "do not fit its shape"),
         (
             "out = [0.6, 0.75]",

@@ -27,7 +27,7 @@ problems! {
             "lab::bad_name", "{what} name {name:?} cannot be used", "this name",
             "use lower-case letters, digits and `-`";
         Duplicate { what: &'static str, name: String }:
-            "lab::duplicate", "{what} `{name}` is there twice", "the second one", "give each its own name";
+            "lab::duplicate", "{what} `{name}` is defined twice", "the second one", "give each its own name";
     }
 }
 

@@ -31,7 +31,7 @@ pub enum PartProblem {
     },
     #[error("{message}")]
     Sensor { message: String, help: String },
-    #[error("{what} `{name}` is there twice")]
+    #[error("{what} `{name}` is defined twice")]
     Duplicate { what: &'static str, name: String },
     #[error("{what} name {name:?} cannot be used")]
     BadName {

@@ -55,7 +55,7 @@ struct CommonTable {
 ///
 /// # Errors
 /// A joint, link or frame that is not there or cannot be measured, a key that the type does not have or lacks, a number
-/// out of range, a name that is there twice.
+/// out of range, a name that is defined twice.
 pub fn read_all(
     tables: &[SensorTable],
     source: &Source,

@@ -68,7 +68,7 @@ fn unknown(message: &str, given: &str) -> Option<Words> {
 fn key(message: &str, given: &str) -> Option<Words> {
     if message == "duplicate key" {
         return Some((
-            format!("the key `{given}` is there twice"),
+            format!("the key `{given}` is defined twice"),
             "keep one of the two".to_owned(),
         ));
     }
@@ -279,7 +279,7 @@ mod tests {
             ),
             (
                 "mass_kg = 1\nmass_kg = 2",
-                "the key `mass_kg` is there twice",
+                "the key `mass_kg` is defined twice",
                 "keep one of the two",
             ),
             (

@@ -40,7 +40,7 @@ problems! {
             "lab::name", "the lab in folder `{folder}` calls itself `{name}`", "differs from its folder",
             format!("write `name = \"{folder}\"`, or rename the folder");
         UnknownRobot { name: String, known: Vec<String> }:
-            "lab::unknown_robot", "no robot file `robots/{name}.toml`", "not a robot of this place",
+            "lab::unknown_robot", "no robot file `robots/{name}.toml`", "no such robot",
             near(name, "robots", known);
         UnknownFrame { robot: String, frame: String, known: Vec<String> }:
             "lab::unknown_frame", "robot `{robot}` has no frame `{frame}`", "not a frame of this robot",
@@ -53,7 +53,7 @@ problems! {
         Dimensions { error: String }:
             "lab::dimensions", "with these dimensions: {error}", "here they begin";
         UnknownScene { name: String, known: Vec<String> }:
-            "lab::unknown_scene", "no scene file `scenes/{name}.toml`", "not a scene of this place",
+            "lab::unknown_scene", "no scene file `scenes/{name}.toml`", "no such scene",
             near(name, "scenes", known);
         SceneDimension { name: String, error: String, known: Vec<String> }:
             "lab::dimensions", "{error}", if name.is_empty() { "this scene" } else { "not a dimension of this scene" },

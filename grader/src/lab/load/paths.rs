@@ -19,7 +19,7 @@ problems! {
     /// What is wrong with the paths of a task.
     enum PathProblem {
         TooMany { count: usize }:
-            "lab::path", "a task has at most {MOST_PATHS} paths, got {count}", "one more than there may be",
+            "lab::path", "a task has at most {MOST_PATHS} paths, got {count}", "too many paths",
             "leave out what no check names";
         Points { count: usize }:
             "lab::path", "a path has 2 to {MOST_POINTS} points, got {count}", "this path",

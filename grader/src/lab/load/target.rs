@@ -11,8 +11,8 @@ problems! {
     /// What a target cannot hold.
     enum TargetProblem {
         Date:
-            "lab::target", "a target holds numbers, texts, true and false, lists and tables of them", "a date or a time in it",
-            "write a date as a text, in quotes";
+            "lab::target", "a target holds numbers, strings, booleans, lists and tables of them", "a date or a time in it",
+            "write a date as a string, in quotes";
         TooLong { most: u64, values: u64 }:
             "lab::target", "a target holds at most {most} values, this one {values}", "too long",
             "give submissions the few numbers that the rest follows from";

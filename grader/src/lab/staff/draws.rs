@@ -49,7 +49,7 @@ problems! {
     /// What is wrong with a draw.
     enum DrawProblem {
         NoFunctionTask { task: String }:
-            "staff::draw", "task `{task}` is no function task", "this draw", "hidden cases are drawn for function tasks";
+            "staff::draw", "task `{task}` is not a function task", "this draw", "hidden cases are drawn for function tasks";
         Count { count: u32 }:
             "staff::draw", "a draw has 1 to 1000 cases, got {count}", "this draw", "change `count`";
         JointCount { found: usize, joints: usize }:

@@ -17,7 +17,7 @@ problems! {
         Numbers { error: String }:
             "staff::runs", "{error}", "these runs", "change the ranges of `parameters`";
         NoMotionTask { task: String }:
-            "staff::runs", "task `{task}` is no motion task", "these runs", "hidden cases of function tasks are [[draws]]";
+            "staff::runs", "task `{task}` is not a motion task", "these runs", "hidden cases of function tasks are [[draws]]";
         Count { count: u32 }:
             "staff::runs", "there are 1 to {MOST_RUNS} hidden runs of a class, got {count}", "these runs", "change `count`";
         OnePath { check: String }:
@@ -70,7 +70,7 @@ pub(super) fn hidden_runs(
         .collect()
 }
 
-/// Refuses a task that is no motion task, or is judged by one path; and a count beyond what a class can wait for.
+/// Refuses a task that is not a motion task, or is judged by one path; and a count beyond what a class can wait for.
 fn is_of_goals(
     report: Reporter<'_>,
     lab: &Lab,

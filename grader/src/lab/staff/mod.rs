@@ -26,7 +26,7 @@ problems! {
             "staff::no_mutant", "there is no file `{path}`", "this mutant", "a mutant's name is its file's name without `.rhai`";
         EmptySalt:
             "staff::salt", "the salt is empty: anyone could compute the hidden numbers", "no secret",
-            "write a text that nobody guesses";
+            "write a string that nobody can guess";
         EmptyClass:
             "staff::class", "the class is empty, and it is all that students see of it", "no words",
             "say in a few words what is different, such as \"unequal links\"";
