@@ -95,7 +95,7 @@ fn a_storyboard_tells_where_points_were_lost_and_what_was_touched() {
     let svg = std::fs::read_to_string(bed.path("out/knock/storyboard.svg")).expect("there");
     assert_eq!(svg.matches("<clipPath").count(), 6);
     assert!(svg.contains("href=\"../report.html#task=knock&amp;t="));
-    assert!(svg.contains("touches"), "contacts are output");
+    assert!(svg.contains("touches"), "the storyboard shows contacts");
 }
 
 #[test]
