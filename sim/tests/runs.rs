@@ -1,4 +1,4 @@
-//! Whole runs in a scene: their events, their end at a divergence, and a copy that continues with the same bits.
+//! Whole runs in a scene: their events, and their end at a divergence.
 
 use std::num::NonZeroU32;
 
