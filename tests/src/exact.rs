@@ -1,4 +1,4 @@
-//! The comparisons that need a build of their own, for which `KINEMARK_EXACT=all` asks: `.ci/run` does.
+//! The comparisons that need a build of their own, for which `KINEMARK_EXACT=all` asks: `.ci/full` does.
 //!
 //! What does not run says so past the test harness, which would keep it to itself.
 

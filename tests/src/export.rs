@@ -80,6 +80,8 @@ fn grading_again_keeps_exports_and_refuses_what_is_somebodys_own() {
         assert!(before == files_below(&bed.path("out/move/run-csv")));
     }
     assert!(bed.path("out/move/storyboard.png").is_file());
+    // What follows needs no pictures: they cost most of a grade here.
+    let grade = &grade[..3];
     let entries = std::fs::read_dir(bed.path("")).expect("the bed");
     let names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
     assert_eq!(names.len(), 2, "nothing is left over: {names:?}");
@@ -93,14 +95,14 @@ fn grading_again_keeps_exports_and_refuses_what_is_somebodys_own() {
     ] {
         bed.write(name, "mine");
         let report = files_below(&bed.path("out"));
-        let ran = bed.run(&grade);
+        let ran = bed.run(grade);
         assert_eq!(ran.code, Some(2), "{name}: {ran:?}");
         assert!(ran.stderr.contains("which is not part of"), "{ran:?}");
         assert!(report == files_below(&bed.path("out")), "{name}");
         std::fs::remove_file(bed.path(name)).expect("removed");
         let _ = std::fs::remove_dir(bed.path("out/move/deep"));
     }
-    assert_eq!(bed.run(&grade).code, Some(0));
+    assert_eq!(bed.run(grade).code, Some(0));
 }
 
 /// A link to a folder stays one, and files are as open as the umask says.
