@@ -2,6 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use kinemark_toolbox::eval::Numbers;
+use kinemark_toolbox::eval::kinematics::{Fk, fk};
 use serde_json::{Value, json};
 
 use crate::{ask, close, numbers, robot_of, rrbot, uarm};
@@ -298,4 +300,26 @@ fn a_simulated_cart_falls_under_its_force() {
     close(&answer["q"], &[0.0, 0.0625, 0.25], 1e-12); // F t² / 2 m
     close(&answer["qd"], &[0.0, 0.25, 0.5], 1e-12);
     close(&answer["effort"], &[1.0, 1.0, 1.0], 0.0);
+}
+
+/// A program that has a robot calls the function of an operation, without JSON.
+#[test]
+fn a_typed_request_is_answered_as_its_json_is() {
+    let robot = rrbot();
+    let joint_positions = |q: &[f64]| Fk {
+        q: Numbers::List(q.to_vec()),
+        frame: None,
+        r#in: None,
+    };
+    let pose = fk(&robot, &joint_positions(&[0.3, -0.2])).expect("a pose");
+    let answer = ask(&robot, &json!({ "op": "fk", "q": [0.3, -0.2] }));
+    assert_eq!(json!(pose.position_m), answer["position_m"]);
+    assert_eq!(json!(pose.rotation), answer["rotation"]);
+    // straight up, then 0.3 rad about y, and 0.1 rad: 2 m + cos 0.3 + cos 0.1
+    let height_m = 2.0 + 0.955_336_489_125_606 + 0.995_004_165_278_025_8;
+    assert!((pose.position_m[2] - height_m).abs() < 1e-12, "{pose:?}");
+
+    let refusal = fk(&robot, &joint_positions(&[0.3])).expect_err("two joints");
+    let answer = ask(&robot, &json!({ "op": "fk", "q": [0.3] }));
+    assert_eq!(json!(refusal), answer["error"]);
 }

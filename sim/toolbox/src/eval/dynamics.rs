@@ -12,72 +12,70 @@ use super::refusal::{Code, Refusal};
 use crate::joint_names::joint_names;
 
 /// Gravity in the world, the earth's where none is given \[m/s²\].
-type OptionalGravity = Option<[f64; 3]>;
-
-pub(super) fn gravity_or_earths(given: OptionalGravity) -> Vector3<f64> {
+pub(super) fn gravity_or_earths(given: Option<[f64; 3]>) -> Vector3<f64> {
     given.map_or(GRAVITY_M_S2, Vector3::from)
 }
 
 /// A robot at rest.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct AtRest {
+pub struct AtRest {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Gravity in the world \[m/s²\]; to `crba` it makes no difference.
-    gravity_m_s2: OptionalGravity,
+    pub gravity_m_s2: Option<[f64; 3]>,
 }
 
 /// A robot in motion, without gravity.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct InMotion {
+pub struct InMotion {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    qd: Numbers,
+    pub qd: Numbers,
 }
 
 /// A robot in motion under gravity.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct UnderGravity {
+pub struct UnderGravity {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    qd: Numbers,
+    pub qd: Numbers,
     /// Gravity in the world \[m/s²\].
-    gravity_m_s2: OptionalGravity,
+    pub gravity_m_s2: Option<[f64; 3]>,
 }
 
 /// A robot that accelerates; of the joints that move, or with `inverse_dynamics` of the independent ones.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Accelerated {
+pub struct Accelerated {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    qd: Numbers,
+    pub qd: Numbers,
     /// Joint accelerations \[rad/s² or m/s²\].
-    qdd: Numbers,
+    pub qdd: Numbers,
     /// Gravity in the world \[m/s²\].
-    gravity_m_s2: OptionalGravity,
+    pub gravity_m_s2: Option<[f64; 3]>,
 }
 
 /// A robot in motion under efforts.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct UnderEffort {
+pub struct UnderEffort {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    qd: Numbers,
+    pub qd: Numbers,
     /// Joint efforts \[N m or N\].
-    effort: Numbers,
+    pub effort: Numbers,
     /// Gravity in the world \[m/s²\].
-    gravity_m_s2: OptionalGravity,
+    pub gravity_m_s2: Option<[f64; 3]>,
 }
 
 /// One effort per joint that moves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Efforts {
+pub struct Efforts {
     /// \[N m or N\].
-    effort: Vec<f64>,
+    pub effort: Vec<f64>,
 }
 
 impl Efforts {
@@ -88,7 +86,11 @@ impl Efforts {
 }
 
 /// Inverse dynamics: the effort that gives an acceleration, with joint damping and dry friction.
-pub(super) fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let qdd = accelerations(robot, "qdd", (&q, &qd), &request.qdd)?;
@@ -97,7 +99,11 @@ pub(super) fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refu
 }
 
 /// Coriolis, centrifugal and gravity terms, without damping and friction.
-pub(super) fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
@@ -105,14 +111,22 @@ pub(super) fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Ref
 }
 
 /// The effort that holds the robot still against gravity; with loops that of the open tree.
-pub(super) fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
     Efforts::new(dynamics::gravity_effort(robot, &gravity, &q).as_slice())
 }
 
 /// Coriolis and centrifugal terms.
-pub(super) fn coriolis(robot: &Robot, request: &InMotion) -> Result<Efforts, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn coriolis(robot: &Robot, request: &InMotion) -> Result<Efforts, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     Efforts::new(dynamics::coriolis_effort(robot, &q, &qd).as_slice())
@@ -120,20 +134,21 @@ pub(super) fn coriolis(robot: &Robot, request: &InMotion) -> Result<Efforts, Ref
 
 /// Efforts of the independent joints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct DriveEfforts {
+pub struct DriveEfforts {
     /// \[N m or N\].
-    effort: Vec<f64>,
+    pub effort: Vec<f64>,
     /// Names of the independent joints.
-    joints: Vec<String>,
+    pub joints: Vec<String>,
     /// Positions of all joints, the loops closed \[rad or m\].
-    q: Vec<f64>,
+    pub q: Vec<f64>,
 }
 
 /// Inverse dynamics of the independent joints, which alone have drives in a robot with loops.
-pub(super) fn inverse_dynamics(
-    robot: &Robot,
-    request: &Accelerated,
-) -> Result<DriveEfforts, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn inverse_dynamics(robot: &Robot, request: &Accelerated) -> Result<DriveEfforts, Refusal> {
     let q = independent(robot, "q", &request.q)?;
     let qd = independent(robot, "qd", &request.qd)?;
     let qdd = independent(robot, "qdd", &request.qdd)?;
@@ -148,16 +163,20 @@ pub(super) fn inverse_dynamics(
 
 /// The mass matrix, armature included.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct MassMatrix {
+pub struct MassMatrix {
     /// Shape `(n, n)`; with loops that of the open tree.
-    mass_matrix: Vec<Vec<f64>>,
+    pub mass_matrix: Vec<Vec<f64>>,
     /// That of the independent joints, the loops kept closed; only with loops, where they determine the dependent joints.
     #[serde(skip_serializing_if = "Option::is_none")]
-    independent_mass_matrix: Option<Vec<Vec<f64>>>,
+    pub independent_mass_matrix: Option<Vec<Vec<f64>>>,
 }
 
 /// The mass matrix.
-pub(super) fn crba(robot: &Robot, request: &AtRest) -> Result<MassMatrix, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn crba(robot: &Robot, request: &AtRest) -> Result<MassMatrix, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let has_loops = !robot.loops().is_empty();
     let of_independent = has_loops.then(|| dynamics::driven_mass_matrix(robot, &q).ok());
@@ -173,13 +192,17 @@ pub(super) fn crba(robot: &Robot, request: &AtRest) -> Result<MassMatrix, Refusa
 
 /// One acceleration per joint that moves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Accelerations {
+pub struct Accelerations {
     /// \[rad/s² or m/s²\].
-    qdd: Vec<f64>,
+    pub qdd: Vec<f64>,
 }
 
 /// Forward dynamics: the acceleration under an effort, with joint damping and dry friction.
-pub(super) fn aba(robot: &Robot, request: &UnderEffort) -> Result<Accelerations, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn aba(robot: &Robot, request: &UnderEffort) -> Result<Accelerations, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let effort = efforts(robot, "effort", &request.effort)?;
@@ -192,15 +215,19 @@ pub(super) fn aba(robot: &Robot, request: &UnderEffort) -> Result<Accelerations,
 
 /// Kinetic energy, and potential energy of all links, zero at the world's origin.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Energies {
+pub struct Energies {
     /// Kinetic energy.
-    kinetic_j: f64,
+    pub kinetic_j: f64,
     /// Potential energy.
-    potential_j: f64,
+    pub potential_j: f64,
 }
 
 /// Kinetic and potential energy.
-pub(super) fn energy(robot: &Robot, request: &UnderGravity) -> Result<Energies, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn energy(robot: &Robot, request: &UnderGravity) -> Result<Energies, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let energy = dynamics::energy(robot, &gravity_or_earths(request.gravity_m_s2), &q, &qd);

@@ -22,62 +22,62 @@ const DEFAULT_POSTURE_GAIN: f64 = 0.5;
 
 /// Inverse kinematics. Out of reach is an answer: [`IkSolution::reached`] is false.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Ik {
+pub struct Ik {
     /// Where to start \[rad or m\]; home where it is not given.
-    q0: Option<Numbers>,
+    pub q0: Option<Numbers>,
     /// The frame that targets are in, which must not move; the world where none is given.
-    r#in: Option<String>,
+    pub r#in: Option<String>,
     /// The frame to bring to `target`; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// Where to bring it.
-    target: Option<IkTarget>,
+    pub target: Option<IkTarget>,
     /// In place of `target` and `frame`: a group of targets, each with its frame.
-    targets: Option<Vec<IkTarget>>,
+    pub targets: Option<Vec<IkTarget>>,
     /// How the targets of a group are solved; all together where it is not given.
-    order: Option<GroupOrder>,
+    pub order: Option<GroupOrder>,
     /// The method of a step.
-    method: Option<IkMethod>,
+    pub method: Option<IkMethod>,
     /// The damping of the methods that have a fixed one.
-    damping: Option<f64>,
+    pub damping: Option<f64>,
     /// Steps from one start.
-    max_iterations: Option<usize>,
+    pub max_iterations: Option<usize>,
     /// Further starts of the method `auto`.
-    restarts: Option<usize>,
+    pub restarts: Option<usize>,
     /// How near counts as reached.
-    tolerance_m: Option<f64>,
+    pub tolerance_m: Option<f64>,
     /// How near counts as reached.
-    tolerance_rad: Option<f64>,
+    pub tolerance_rad: Option<f64>,
     /// Whether joints stay within their limits.
-    respect_limits: Option<bool>,
+    pub respect_limits: Option<bool>,
     /// Names of the joints that may move; all that carry a frame where it is not given.
-    chain: Option<Vec<String>>,
+    pub chain: Option<Vec<String>>,
     /// Joint positions to stay near, as far as the target leaves a choice \[rad or m\].
-    posture: Option<Numbers>,
+    pub posture: Option<Numbers>,
     /// The fraction of the way there that one step makes.
-    posture_gain: Option<f64>,
+    pub posture_gain: Option<f64>,
 }
 
 /// A position, an orientation, both, or a position with a direction for an axis of the frame.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct IkTarget {
+pub struct IkTarget {
     /// In a group: the frame to bring there.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// In a group that is solved together: how much its error counts.
-    weight: Option<f64>,
+    pub weight: Option<f64>,
     /// Position of the frame's origin.
-    position_m: Option<[f64; 3]>,
+    pub position_m: Option<[f64; 3]>,
     /// Orientation as three rows.
-    rotation: Option<[[f64; 3]; 3]>,
+    pub rotation: Option<[[f64; 3]; 3]>,
     /// A direction fixed in the frame.
-    axis: Option<[f64; 3]>,
+    pub axis: Option<[f64; 3]>,
     /// Where that direction should point.
-    direction: Option<[f64; 3]>,
+    pub direction: Option<[f64; 3]>,
 }
 
 /// How the targets of a group are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum GroupOrder {
+pub enum GroupOrder {
     /// One stacked error.
     Together,
     /// Each from where the one before ended; later ones may undo earlier ones.
@@ -89,7 +89,7 @@ pub(super) enum GroupOrder {
 /// How a step is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum IkMethod {
+pub enum IkMethod {
     /// Damped by the error, from several starts.
     Auto,
     /// Full steps.
@@ -102,35 +102,39 @@ pub(super) enum IkMethod {
 
 /// The answer to [`Ik`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct IkSolution {
+pub struct IkSolution {
     /// The best joint positions found \[rad or m\].
-    q: Vec<f64>,
+    pub q: Vec<f64>,
     /// Whether all targets are reached.
-    reached: bool,
+    pub reached: bool,
     /// The largest position error left.
-    residual_m: f64,
+    pub residual_m: f64,
     /// The largest orientation error left.
-    residual_rad: f64,
+    pub residual_rad: f64,
     /// Steps of all starts together.
-    iterations: usize,
+    pub iterations: usize,
     /// What is left of each target of a group that is solved in turn or by priority.
     #[serde(skip_serializing_if = "Option::is_none")]
-    targets: Option<Vec<IkResidual>>,
+    pub targets: Option<Vec<IkResidual>>,
 }
 
 /// What is left of one target of a group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct IkResidual {
+pub struct IkResidual {
     /// Whether it is reached.
-    reached: bool,
+    pub reached: bool,
     /// Position error.
-    residual_m: f64,
+    pub residual_m: f64,
     /// Orientation error.
-    residual_rad: f64,
+    pub residual_rad: f64,
 }
 
 /// Solves for the target, or for the group of targets in their order.
-pub(super) fn ik(robot: &Robot, request: &Ik) -> Result<IkSolution, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn ik(robot: &Robot, request: &Ik) -> Result<IkSolution, Refusal> {
     let q0 = match &request.q0 {
         Some(q0) => positions(robot, "q0", q0)?.as_slice().to_vec(),
         None => robot.home().to_vec(),

@@ -23,26 +23,30 @@ const MOST_SAMPLES: usize = 100_000;
 
 /// Forward kinematics: the pose of a frame.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Fk {
+pub struct Fk {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// The frame; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// The frame that coordinates are expressed in; the world where none is given.
-    r#in: Option<String>,
+    pub r#in: Option<String>,
 }
 
 /// The answer to [`Fk`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct FramePose {
+pub struct FramePose {
     /// Position of the frame's origin.
-    position_m: Vec<f64>,
+    pub position_m: Vec<f64>,
     /// Three rows; the columns are the axes of the frame.
-    rotation: Vec<Vec<f64>>,
+    pub rotation: Vec<Vec<f64>>,
 }
 
 /// The pose of a frame.
-pub(super) fn fk(robot: &Robot, request: &Fk) -> Result<FramePose, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn fk(robot: &Robot, request: &Fk) -> Result<FramePose, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let frame = frame_or_tcp(robot, request.frame.as_deref())?;
     let base = frame_or_world(robot, request.r#in.as_deref())?;
@@ -60,29 +64,33 @@ pub(super) fn fk(robot: &Robot, request: &Fk) -> Result<FramePose, Refusal> {
 
 /// The Jacobian of a frame: its rows are `[linear; angular]`, its columns the joints that move.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Jacobian {
+pub struct Jacobian {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// The frame; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// The frame whose axes the rows are in; the world where none is given.
-    r#in: Option<String>,
+    pub r#in: Option<String>,
     /// Angles whose rates are the lower rows, in the world; the angular velocity where none are given.
-    angles: Option<Angles>,
+    pub angles: Option<Angles>,
 }
 
 /// The answer to [`Jacobian`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct JacobianRows {
+pub struct JacobianRows {
     /// Shape `(6, n)`; with loops that of the open tree.
-    jacobian: Vec<Vec<f64>>,
+    pub jacobian: Vec<Vec<f64>>,
     /// Shape `(6, independent)`, the loops kept closed; only with loops, where they determine the dependent joints.
     #[serde(skip_serializing_if = "Option::is_none")]
-    independent_jacobian: Option<Vec<Vec<f64>>>,
+    pub independent_jacobian: Option<Vec<Vec<f64>>>,
 }
 
 /// The Jacobian of a frame.
-pub(super) fn jacobian(robot: &Robot, request: &Jacobian) -> Result<JacobianRows, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn jacobian(robot: &Robot, request: &Jacobian) -> Result<JacobianRows, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let frame = frame_or_tcp(robot, request.frame.as_deref())?;
     let base = frame_or_world(robot, request.r#in.as_deref())?;
@@ -111,24 +119,28 @@ pub(super) fn jacobian(robot: &Robot, request: &Jacobian) -> Result<JacobianRows
 
 /// The time derivative of the geometric Jacobian, in the axes of the world.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct JacobianDerivative {
+pub struct JacobianDerivative {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// Joint velocities \[rad/s or m/s\].
-    qd: Numbers,
+    pub qd: Numbers,
     /// The frame; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
 }
 
 /// The answer to [`JacobianDerivative`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct JacobianDerivativeRows {
+pub struct JacobianDerivativeRows {
     /// Shape `(6, n)`, rows `[linear; angular]`.
-    jacobian_derivative: Vec<Vec<f64>>,
+    pub jacobian_derivative: Vec<Vec<f64>>,
 }
 
 /// The time derivative of the geometric Jacobian.
-pub(super) fn jacobian_derivative(
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn jacobian_derivative(
     robot: &Robot,
     request: &JacobianDerivative,
 ) -> Result<JacobianDerivativeRows, Refusal> {
@@ -143,30 +155,34 @@ pub(super) fn jacobian_derivative(
 
 /// How well a frame can move, by the singular values of its Jacobian; with loops, that of the independent joints.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Manipulability {
+pub struct Manipulability {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// The frame; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// The frame whose axes the rows are in; the world where none is given.
-    r#in: Option<String>,
+    pub r#in: Option<String>,
     /// The rows of the Jacobian that count; all where none are given.
-    rows: Option<TwistRows>,
+    pub rows: Option<TwistRows>,
 }
 
 /// The answer to [`Manipulability`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct ManipulabilityMeasures {
+pub struct ManipulabilityMeasures {
     /// Yoshikawa's measure: the product of the singular values, zero with fewer joints than rows.
-    measure: f64,
+    pub measure: f64,
     /// Largest first.
-    singular_values: Vec<f64>,
+    pub singular_values: Vec<f64>,
     /// Largest by smallest singular value; `None` where it is infinite.
-    condition: Option<f64>,
+    pub condition: Option<f64>,
 }
 
 /// How well a frame can move.
-pub(super) fn manipulability(
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn manipulability(
     robot: &Robot,
     request: &Manipulability,
 ) -> Result<ManipulabilityMeasures, Refusal> {
@@ -189,30 +205,34 @@ pub(super) fn manipulability(
 
 /// Positions that a frame reaches, at joint positions spread evenly over their limits.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Workspace {
+pub struct Workspace {
     /// The frame; the TCP where none is given.
-    frame: Option<String>,
+    pub frame: Option<String>,
     /// How many; 1000 where it is not given.
-    samples: Option<usize>,
+    pub samples: Option<usize>,
     /// The point that reach is measured from; the world's origin where none is given.
-    from_m: Option<[f64; 3]>,
+    pub from_m: Option<[f64; 3]>,
 }
 
 /// The answer to [`Workspace`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct WorkspacePoints {
+pub struct WorkspacePoints {
     /// Points in the world.
-    points_m: Vec<Vec<f64>>,
+    pub points_m: Vec<Vec<f64>>,
     /// The corners of the box around them; `None` without points.
-    bounds_m: Option<Vec<Vec<f64>>>,
+    pub bounds_m: Option<Vec<Vec<f64>>>,
     /// The distance of the farthest one.
-    reach_m: f64,
+    pub reach_m: f64,
     /// How many samples have loops that do not close.
-    open_samples: usize,
+    pub open_samples: usize,
 }
 
 /// Positions that a frame reaches.
-pub(super) fn workspace(robot: &Robot, request: &Workspace) -> Result<WorkspacePoints, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn workspace(robot: &Robot, request: &Workspace) -> Result<WorkspacePoints, Refusal> {
     let frame = frame_or_tcp(robot, request.frame.as_deref())?;
     let samples = request.samples.unwrap_or(1000);
     if samples > MOST_SAMPLES {
@@ -234,26 +254,30 @@ pub(super) fn workspace(robot: &Robot, request: &Workspace) -> Result<WorkspaceP
 
 /// The centre of mass.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Com {
+pub struct Com {
     /// Joint positions \[rad or m\].
-    q: Numbers,
+    pub q: Numbers,
     /// The frame that coordinates are expressed in; the world where none is given.
-    r#in: Option<String>,
+    pub r#in: Option<String>,
     /// Which links count; those that move where nothing is given.
-    counted: Option<Counted>,
+    pub counted: Option<Counted>,
 }
 
 /// The answer to [`Com`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct CentreOfMass {
+pub struct CentreOfMass {
     /// Where it is.
-    position_m: Vec<f64>,
+    pub position_m: Vec<f64>,
     /// The mass of the links that count.
-    mass_kg: f64,
+    pub mass_kg: f64,
 }
 
 /// The centre of mass.
-pub(super) fn com(robot: &Robot, request: &Com) -> Result<CentreOfMass, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn com(robot: &Robot, request: &Com) -> Result<CentreOfMass, Refusal> {
     let q = positions(robot, "q", &request.q)?;
     let base = frame_or_world(robot, request.r#in.as_deref())?;
     let counted = request.counted.unwrap_or(Counted::MovingLinks);

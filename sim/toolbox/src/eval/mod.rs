@@ -1,4 +1,5 @@
-//! Requests to a robot and their answers: one JSON object in, one out. docs/robot-eval.md is the reference.
+//! Requests to a robot and their answers: one JSON object in, one out ([`answer_line`]), or typed, by the function of an operation
+//! ([`kinematics::fk`] of a [`kinematics::Fk`]). docs/robot-eval.md is the reference.
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -9,18 +10,20 @@
 //! | `field_reader` | JSON to typed requests, with errors that name the field |
 //! | `refusal` | why a request is not answered |
 
-mod dynamics;
+pub mod dynamics;
 mod field_reader;
-mod inverse_kinematics;
+pub mod inverse_kinematics;
 mod joint_state;
-mod kinematics;
+pub mod kinematics;
 mod number_fields;
 mod operation;
 mod refusal;
-mod robot_info;
-mod simulation;
+pub mod robot_info;
+pub mod simulation;
 mod simulation_record;
-mod trajectory;
+pub mod trajectory;
 
+pub use number_fields::{Numbers, TwistRows};
 pub use operation::{OPERATIONS, Operation, Subject, answer_line, operation_names, refused};
 pub use refusal::{Code, Refusal};
+pub use simulation_record::{ContactRecord, EventRecord, SampledRun, SceneRecord};

@@ -11,7 +11,7 @@ use super::refusal::{Code, Refusal, refuse};
 /// A number or a list of numbers.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(untagged)]
-pub(super) enum Numbers {
+pub enum Numbers {
     /// A bare number: a list of one, or the same for all axes.
     One(f64),
     /// One per axis or joint.
@@ -70,7 +70,7 @@ impl<'de> Deserialize<'de> for Numbers {
 
 /// Rows of a Jacobian, `[linear; angular]`, from zero and none of them twice; three or six of them also have a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct TwistRows(pub(super) Vec<usize>);
+pub struct TwistRows(pub Vec<usize>);
 
 impl<'de> Deserialize<'de> for TwistRows {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

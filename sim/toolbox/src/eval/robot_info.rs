@@ -7,62 +7,62 @@ use crate::joint_names::joint_names;
 
 /// A request for a description has no fields.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-pub(super) struct Info {}
+pub struct Info {}
 
 /// A robot, as other requests name its parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct RobotInfo {
+pub struct RobotInfo {
     /// The robot's name.
-    name: String,
+    pub name: String,
     /// The joints that move, in the order of every array over joints.
-    joints: Vec<JointInfo>,
+    pub joints: Vec<JointInfo>,
     /// The frames that `frame` and `in` can name.
-    frames: Vec<String>,
+    pub frames: Vec<String>,
     /// Mass of all links, fixed ones too.
-    mass_kg: f64,
+    pub mass_kg: f64,
     /// The joints that are free to choose: all without loops.
-    independent: Vec<String>,
+    pub independent: Vec<String>,
     /// The joints that follow another one.
-    mimics: Vec<MimicInfo>,
+    pub mimics: Vec<MimicInfo>,
     /// How many loops the robot has.
-    loops: usize,
+    pub loops: usize,
     /// What a reader of the robot's description should know.
-    warnings: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// A joint that moves; a limit that it does not have is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct JointInfo {
+pub struct JointInfo {
     /// The joint's name.
-    name: String,
+    pub name: String,
     /// `revolute`, `continuous` or `prismatic`.
     #[serde(rename = "type")]
-    kind: &'static str,
+    pub kind: &'static str,
     /// Least position \[rad or m\].
-    lower: Option<f64>,
+    pub lower: Option<f64>,
     /// Greatest position \[rad or m\].
-    upper: Option<f64>,
+    pub upper: Option<f64>,
     /// Greatest speed \[rad/s or m/s\].
-    speed: Option<f64>,
+    pub speed: Option<f64>,
     /// Greatest effort \[N m or N\].
-    effort: Option<f64>,
+    pub effort: Option<f64>,
 }
 
 /// A joint whose position is `multiplier * master + offset`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct MimicInfo {
+pub struct MimicInfo {
     /// The name of the joint that follows.
-    name: String,
+    pub name: String,
     /// The master's name.
-    joint: String,
+    pub joint: String,
     /// Ratio of the velocities.
-    multiplier: f64,
+    pub multiplier: f64,
     /// Position where the master's is zero \[rad or m\].
-    offset: f64,
+    pub offset: f64,
 }
 
 /// Describes the robot.
-pub(super) fn info(robot: &Robot, _: &Info) -> RobotInfo {
+pub fn info(robot: &Robot, _: &Info) -> RobotInfo {
     let joints = robot.moving_joints().map(|joint| JointInfo {
         name: joint.name.clone(),
         kind: joint.kind.name(),

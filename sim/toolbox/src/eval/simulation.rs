@@ -25,54 +25,58 @@ const MOST_GAP_M: f64 = 1e-6;
 
 /// A run from a state under given commands, alone or in a scene.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Simulate {
+pub struct Simulate {
     /// Joint positions at the start \[rad or m\].
-    q0: Numbers,
+    pub q0: Numbers,
     /// Joint velocities at the start \[rad/s or m/s\].
-    qd0: Numbers,
+    pub qd0: Numbers,
     /// One constant command, in the servo's mode.
-    command: Option<Numbers>,
+    pub command: Option<Numbers>,
     /// In place of `command`: one for each period; the last one stands for the rest of the run.
-    commands: Option<Vec<Vec<f64>>>,
+    pub commands: Option<Vec<Vec<f64>>>,
     /// How long each of `commands` stands.
-    command_period_s: Option<f64>,
+    pub command_period_s: Option<f64>,
     /// How long the run is.
-    duration_s: f64,
+    pub duration_s: f64,
     /// Time between two samples of the servo.
-    servo_period_s: f64,
+    pub servo_period_s: f64,
     /// The integrator's step; a millisecond, or the servo's period where that is shorter, if it is not given.
-    physics_step_s: Option<f64>,
+    pub physics_step_s: Option<f64>,
     /// Time between two rows of the answer.
-    sample_period_s: f64,
+    pub sample_period_s: f64,
     /// The joint servos.
-    servo: ServoTable,
+    pub servo: ServoTable,
     /// Gravity in the world \[m/s²\]; not in a scene, which has its own.
-    gravity_m_s2: Option<[f64; 3]>,
+    pub gravity_m_s2: Option<[f64; 3]>,
 }
 
 /// The joint servos; every number is one for all joints, or one per joint.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct ServoTable {
+pub struct ServoTable {
     /// What commands are.
-    mode: Mode,
+    pub mode: Mode,
     /// What the derivative term takes; the measurement where it is not given.
-    derivative: Option<Derivative>,
+    pub derivative: Option<Derivative>,
     /// Proportional gain.
-    kp: Option<Numbers>,
+    pub kp: Option<Numbers>,
     /// Integral gain.
-    ki: Option<Numbers>,
+    pub ki: Option<Numbers>,
     /// Derivative gain.
-    kd: Option<Numbers>,
+    pub kd: Option<Numbers>,
     /// Greatest effort, gravity compensation included \[N m or N\].
-    effort_limit: Option<Numbers>,
+    pub effort_limit: Option<Numbers>,
     /// Bound of the integral term \[N m or N\].
-    integral_limit: Option<Numbers>,
+    pub integral_limit: Option<Numbers>,
     /// Whether the effort that holds the robot against gravity is added.
-    gravity_compensation: Option<bool>,
+    pub gravity_compensation: Option<bool>,
 }
 
 /// Runs from the state under the commands.
-pub(super) fn simulate(subject: Subject<'_>, request: &Simulate) -> Result<SampledRun, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn simulate(subject: Subject<'_>, request: &Simulate) -> Result<SampledRun, Refusal> {
     let Subject { robot, scene } = subject;
     let q0 = positions(robot, "q0", &request.q0)?;
     refuse_open_loop(robot, q0.as_slice())?;

@@ -15,7 +15,7 @@ use super::refusal::Refusal;
 
 /// The answer to [`Simulate`](super::Simulate); each list has one entry per sample.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct SampledRun {
+pub struct SampledRun {
     /// Times.
     pub t_s: Vec<f64>,
     /// Joint positions \[rad or m\].
@@ -34,7 +34,7 @@ pub(super) struct SampledRun {
 
 /// What happened in a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct SceneRecord {
+pub struct SceneRecord {
     /// Poses by body, one per sample: x, y, z \[m\] and the unit quaternion w, x, y, z, in the world.
     pub bodies: BTreeMap<String, Vec<Vec<f64>>>,
     /// What happened, in the order of time.
@@ -45,7 +45,7 @@ pub(super) struct SceneRecord {
 
 /// One thing that happened.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct EventRecord {
+pub struct EventRecord {
     /// When.
     pub t_s: f64,
     /// Its kind, such as `touched`.
@@ -71,7 +71,7 @@ pub(super) struct EventRecord {
 
 /// One contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct ContactRecord {
+pub struct ContactRecord {
     /// The two that touch.
     pub parties: [String; 2],
     /// When it begins.

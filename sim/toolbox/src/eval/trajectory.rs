@@ -18,20 +18,22 @@ const MOST_SAMPLES: usize = 100_000;
 
 /// A motion planned by itself, sampled at given times.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct PlanTrajectory {
+pub struct PlanTrajectory {
     /// The motion.
-    kind: Motion,
+    pub kind: Motion,
     /// Times of the samples.
-    at_s: Option<Numbers>,
+    pub at_s: Option<Numbers>,
 }
 
 /// A motion of axes, from `from` to `to` with one number per axis each, or of the TCP along a path.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Motion {
+pub enum Motion {
     /// A polynomial of the third degree per axis.
     Cubic {
+        /// Where each axis starts.
         from: Numbers,
+        /// Where each axis ends.
         to: Numbers,
         /// How long the motion takes.
         duration_s: f64,
@@ -42,7 +44,9 @@ enum Motion {
     },
     /// A polynomial of the fifth degree per axis.
     Quintic {
+        /// Where each axis starts.
         from: Numbers,
+        /// Where each axis ends.
         to: Numbers,
         /// How long the motion takes.
         duration_s: f64,
@@ -57,7 +61,9 @@ enum Motion {
     },
     /// Constant acceleration, speed and deceleration per axis, from rest to rest within limits.
     Trapezoid {
+        /// Where each axis starts.
         from: Numbers,
+        /// Where each axis ends.
         to: Numbers,
         /// Greatest speed.
         speed: Numbers,
@@ -68,7 +74,9 @@ enum Motion {
     },
     /// At most seven phases of constant jerk per axis, from rest to rest within limits.
     JerkLimited {
+        /// Where each axis starts.
         from: Numbers,
+        /// Where each axis ends.
         to: Numbers,
         /// Greatest speed.
         speed: Numbers,
@@ -88,47 +96,64 @@ enum Motion {
     },
     /// A straight line of the TCP.
     Line {
+        /// Where the TCP starts.
         from: PathEnd,
+        /// Where it ends.
         to: PathEnd,
+        /// How time passes along the path.
         law: TimeLaw,
     },
     /// An arc of the TCP.
     Arc {
+        /// Where the TCP starts.
         from: PathEnd,
         /// A point of the arc.
         via_m: [f64; 3],
+        /// Where it ends.
         to: PathEnd,
+        /// How time passes along the path.
         law: TimeLaw,
     },
 }
 
 /// A pose of the TCP.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-struct PathEnd {
+pub struct PathEnd {
     /// Position.
-    position_m: [f64; 3],
+    pub position_m: [f64; 3],
     /// Orientation as three rows; that of the world where it is not given.
-    rotation: Option<[[f64; 3]; 3]>,
+    pub rotation: Option<[[f64; 3]; 3]>,
 }
 
 /// How time passes along a path: from rest to rest, in a time or within limits.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum TimeLaw {
+pub enum TimeLaw {
     /// A polynomial of the third degree.
-    Cubic { duration_s: f64 },
+    Cubic {
+        /// How long the motion takes.
+        duration_s: f64,
+    },
     /// A polynomial of the fifth degree; the law where none is given.
     #[serde(alias = "")]
-    Quintic { duration_s: f64 },
+    Quintic {
+        /// How long the motion takes.
+        duration_s: f64,
+    },
     /// Constant acceleration, speed and deceleration.
     Trapezoid {
+        /// Greatest speed.
         speed: Numbers,
+        /// Greatest acceleration.
         acceleration: Numbers,
     },
     /// At most seven phases of constant jerk.
     JerkLimited {
+        /// Greatest speed.
         speed: Numbers,
+        /// Greatest acceleration.
         acceleration: Numbers,
+        /// Greatest jerk.
         jerk: Numbers,
     },
 }
@@ -136,7 +161,7 @@ enum TimeLaw {
 /// The answer to [`PlanTrajectory`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub(super) enum PlannedMotion {
+pub enum PlannedMotion {
     /// A motion of axes, a row for each time.
     Axes {
         /// How long the motion takes.
@@ -176,7 +201,11 @@ impl From<TrajectoryError> for Refusal {
 }
 
 /// Plans the motion and samples it.
-pub(super) fn trajectory(request: &PlanTrajectory) -> Result<PlannedMotion, Refusal> {
+///
+/// # Errors
+///
+/// The refusal that the same request in JSON is answered with.
+pub fn trajectory(request: &PlanTrajectory) -> Result<PlannedMotion, Refusal> {
     let at_s = request.at_s.as_ref().map_or(&[][..], Numbers::as_slice);
     if at_s.len() > MOST_SAMPLES {
         let message = format!("{} times are more than {MOST_SAMPLES}", at_s.len());
