@@ -1,5 +1,7 @@
 //! The kinds of sensors, one file each, and the tables of sensors in a robot file or wherever else sensors are described.
 
+#[cfg(test)]
+mod documentation;
 mod kind;
 mod of_joint;
 mod registry;

@@ -38,6 +38,8 @@ pub(super) struct Kind {
     pub(super) read: ReadKind,
     #[cfg(test)]
     pub(super) example: &'static str,
+    #[cfg(test)]
+    pub(super) own_keys: fn() -> &'static [&'static str],
 }
 
 impl Kind {
@@ -48,6 +50,8 @@ impl Kind {
             read: |reading| Ok(Arc::new(reading.own::<T>()?.read(reading)?)),
             #[cfg(test)]
             example: T::EXAMPLE,
+            #[cfg(test)]
+            own_keys: super::documentation::keys::<T>,
         }
     }
 }
