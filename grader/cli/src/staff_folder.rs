@@ -15,10 +15,10 @@ pub(crate) struct StaffArgs {
     /// Folder of the course staff's part [default: `reference` beside the labs folder]
     #[arg(long, value_name = "DIR")]
     pub(crate) reference: Option<PathBuf>,
-    /// Grade visible cases only, as for students
+    /// Do not use the course staff's files, as for students
     #[arg(long, conflicts_with = "reference")]
     pub(crate) practice: bool,
-    /// Salt for the random hidden cases, instead of the one in hidden.toml [env: KINEMARK_SALT]
+    /// The course's salt, for hidden cases and variants, instead of the one in hidden.toml [env: KINEMARK_SALT]
     #[arg(
         long,
         value_name = "TEXT",

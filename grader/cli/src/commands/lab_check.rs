@@ -26,8 +26,8 @@ use crate::{interrupt, output};
 #[command(
     after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  \
     kinemark lab check 02-jacobian-velocity --variants 200\n\n\
-    A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which shows in 30 % of a function \
-    task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
+    A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which gives wrong answers in at least 30 % of \
+    a function task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
 )]
 pub(crate) struct Args {

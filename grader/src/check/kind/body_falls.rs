@@ -1,8 +1,8 @@
 //! body-falls: a dynamic body of the scene falls off what it stood on, over a named side or over any.
 //!
-//! It has fixed scores instead of a band: 1 where it fell so; `toppled` where it toppled only, or fell over another side or over
-//! none; `moved` where it was only moved; 0 where it stayed. What each word means is in docs/physics.md. It does not matter how the
-//! body was brought down.
+//! It has fixed scores instead of a band: 1 where it fell over the named side; `toppled` where it only toppled, or fell
+//! over another side or over none; `moved` where it only moved; 0 where it stayed. [physics.md](physics.md#what-a-run-reports) defines
+//! these words. It does not matter how the body was brought down.
 
 use kinemark_sim::trace::Trace;
 use kinemark_sim::watch::event::{EventKind, SeenSide};

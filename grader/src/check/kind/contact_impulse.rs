@@ -1,7 +1,7 @@
 //! contact-impulse: how hard and how long two pressed on each other, all contacts together \[N s\].
 //!
-//! Measured is the sum of the normal impulses of all contacts of the two, `Σ ∫ F dt`. Two that never met have 0: an arm that stays
-//! where it is touches nothing, so let this check need another.
+//! Measured is the sum of the normal impulses of all contacts of the two, `Σ ∫ F dt`. Two that could touch but never did
+//! have 0, and two that can never touch are refused. An arm that stays where it is touches nothing, so let this check need another.
 
 use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::watch::ContactSpan;

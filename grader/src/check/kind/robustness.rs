@@ -15,7 +15,7 @@ const MOST_LEVELS: usize = 10;
 pub(crate) struct Table {
     /// The earlier check of the same task that judges every run.
     check: At<String>,
-    /// The levels, 1 to 10.
+    /// The disturbance levels, 1 to 10.
     #[serde(default)]
     rungs: Vec<At<LevelTable>>,
 }
