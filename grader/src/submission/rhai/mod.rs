@@ -19,8 +19,10 @@ mod math;
 mod mistake;
 mod operand;
 mod output;
+mod parsing;
 mod range;
 mod script;
+mod signs;
 #[cfg(test)]
 mod tests;
 mod vector;
