@@ -86,10 +86,7 @@ impl Context<'_> {
         }
         // the engine reports the position of the call for a limit that was reached inside
         let own_place = (!inner.is_system_exception()).then(|| place(inner.position()));
-        let place = own_place
-            .flatten()
-            .or_else(|| self.meter.last_place())
-            .or(self.beginning);
+        let place = own_place.flatten().or_else(|| self.place_of_limit(inner));
         if let Some(budget) = self.meter.exhausted() {
             return self.over(budget, place);
         }
@@ -106,7 +103,9 @@ impl Context<'_> {
                 let (name, arguments) = hints::signature(signature);
                 self.names.unknown_function(name, &arguments)
             }
-            EvalAltResult::ErrorVariableNotFound(name, _) => self.names.unknown_variable(name),
+            EvalAltResult::ErrorVariableNotFound(name, _) => {
+                self.names.unknown_variable(name, place)
+            }
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
                 self.names.unknown_key(self.owner_of(place).as_deref(), key)
             }
@@ -167,6 +166,22 @@ impl Context<'_> {
             place,
             help: help.map(shortened),
         })
+    }
+
+    /// Where a limit was reached, of which the engine knows only where the grader's call stands.
+    fn place_of_limit(&self, error: &EvalAltResult) -> Option<SourcePosition> {
+        let places = &self.names.places;
+        let last = || self.meter.last_place().or(self.beginning);
+        match self.meter.exhausted() {
+            Some(Budget::OperationsPerCall | Budget::OperationsPerTask) => self
+                .meter
+                .recent_place()
+                .or_else(|| places.endless(self.beginning)),
+            None if matches!(error, EvalAltResult::ErrorStackOverflow(_)) => {
+                places.recursion().or_else(last)
+            }
+            _ => last(),
+        }
     }
 
     fn over(&self, budget: Budget, place: Option<SourcePosition>) -> Stop {

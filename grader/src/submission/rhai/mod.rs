@@ -20,6 +20,7 @@ mod mistake;
 mod operand;
 mod output;
 mod parsing;
+mod places;
 mod range;
 mod script;
 mod signs;

@@ -22,7 +22,7 @@ fn mistakes_are_told_with_names_values_and_a_way_out() {
         ("atan2(1)", "`atan2` takes 2 arguments, got 1"),
         (
             "sin(\"a\")",
-            "`sin` takes a number or a vector, got the text \"a\"",
+            "`sin` takes a number or a vector, got the string \"a\"",
         ),
         (
             "let gain = 2; gian",
@@ -270,6 +270,60 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
             "`for` is written without `(` and `)` | write for i in 0..n { ... }",
         ),
     ]);
+}
+
+#[test]
+fn values_of_the_wrong_shape_and_names_out_of_sight_are_told() {
+    assert_words([
+        (
+            "matrix([[1, 2], [3]])",
+            "the rows have 2 and 1 numbers: a matrix has rows of equal length",
+        ),
+        (
+            "vector([1, 2]) * [[1, 2], [3, 4], [5, 6]]",
+            "cannot multiply a vector of 2 by a 3x2 matrix | write the matrix first: m * v, or transpose(m) * v",
+        ),
+        (
+            "for i in 0..2 { let x = i; } x",
+            "variable `x` is not known here | `x` ends with the block in which it is declared: write let x = 0; before it",
+        ),
+        (
+            "x; let x = 2;",
+            "variable `x` is not known here | declare it first: let x = ...;",
+        ),
+        (
+            "cosine(1)",
+            "`cosine` is not a function: did you mean `cos`?",
+        ),
+    ]);
+}
+
+#[test]
+fn a_call_without_end_is_told_where_it_can_be() {
+    for (source, line) in [
+        (
+            "fn spin(x) {\n while true { let y = x; } }\nfn control(o) {\n let a = 2 * 3;\n spin(a) }",
+            Some(2),
+        ),
+        (
+            "fn spin(x) {\n while true { x += 1; } }\nfn control(o) {\n spin(1) }",
+            Some(2),
+        ),
+        (
+            "fn spin(x) {\n loop { } }\nfn control(o) {\n while false { }\n spin(1) }",
+            None,
+        ),
+        (
+            "fn spin(x) {\n spin(x) }\nfn control(o) {\n spin(1) }",
+            Some(2),
+        ),
+        ("fn control(o) {\n loop { } }", Some(2)),
+    ] {
+        let Stop::OverBudget { place, .. } = stop(source) else {
+            panic!("{source}: it ends");
+        };
+        assert_eq!(place.map(|place| place.line), line, "{source}");
+    }
 }
 
 /// The message, the place and the help of a file that does not compile.
