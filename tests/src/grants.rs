@@ -177,7 +177,7 @@ fn what_is_not_granted_or_asked_wrongly_is_told_so() {
         ),
         (
             "robot.fk(\"up\")",
-            "`robot.fk` takes one position per joint, got the text \"up\"",
+            "`robot.fk` takes one position per joint, got the string \"up\"",
             None,
         ),
         (

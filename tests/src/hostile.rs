@@ -13,14 +13,14 @@ const HOSTILE: [(&str, &str, &str); 8] = [
     ),
     ("a list of lists", "let a = [1.0]; loop { a = [a, a]; }", ""),
     (
-        "a text without end",
+        "a string without end",
         "let s = \"x\"; loop { s += s; }",
-        "characters in one text",
+        "a string of more than 4000 characters",
     ),
     (
         "recursion without end",
         "forward_kinematics(robot, q)",
-        "functions calling functions",
+        "nested function calls",
     ),
     (
         "printing without end",

@@ -7,7 +7,7 @@ use super::diverged::DivergedWords as _;
 use crate::record::grade::Stopped;
 use crate::record::names::Names;
 use crate::record::verdict::Verdict;
-use crate::submission::controller::{Budget, HostLimit, Stop};
+use crate::submission::controller::{Budget, HostLimit, Namesake, Stop};
 use crate::task::model::MotionTask;
 
 /// How an attempt ended early.
@@ -198,17 +198,24 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
         Stop::DidNotBuild(mistake) | Stop::Crashed(mistake) => {
             (mistake.message.clone(), mistake.help.clone(), mistake.place)
         }
-        Stop::Missing { function, help } => (
-            format!("the submission has no function `{function}`"),
+        Stop::Missing {
+            function,
+            help,
+            namesake,
+        } => (
+            missing_words(function, *namesake),
             help.clone(),
-            None,
+            namesake.and_then(|namesake| namesake.place),
         ),
         Stop::OverBudget {
             budget,
             limit,
             place,
         } => (
-            format!("more than {limit} {}", budget.name()),
+            match budget {
+                Budget::TextSize => format!("a string of more than {limit} characters"),
+                budget => format!("more than {limit} {}", budget.name()),
+            },
             Some(budget_help(*budget).to_owned()),
             *place,
         ),
@@ -239,6 +246,23 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
     }
 }
 
+/// The words for a missing function, `function` with its parameters.
+fn missing_words(function: &str, namesake: Option<Namesake>) -> String {
+    let Some(namesake) = namesake else {
+        return format!("the submission has no function `{function}`");
+    };
+    let name = function.split('(').next().unwrap_or(function);
+    let parameters = match namesake.parameters {
+        0 => "no parameters".to_owned(),
+        1 => "1 parameter".to_owned(),
+        count => format!("{count} parameters"),
+    };
+    format!(
+        "`{name}` has {parameters}, the lab calls it with {}",
+        namesake.wanted
+    )
+}
+
 fn budget_help(budget: Budget) -> &'static str {
     match budget {
         Budget::OperationsPerCall | Budget::OperationsPerTask => {
@@ -246,7 +270,8 @@ fn budget_help(budget: Budget) -> &'static str {
         }
         Budget::CallDepth => "look for a function that calls itself endlessly",
         Budget::ExpressionDepth => "take the expression apart with `let`",
-        Budget::ListSize | Budget::MapSize | Budget::TextSize => {
+        Budget::TextSize => "shorten the string: does a loop append to it?",
+        Budget::ListSize | Budget::MapSize => {
             "keep less: what is not needed at the next call need not be kept"
         }
         Budget::SourceBytes => "a submission is one short file: leave out what is not used",
@@ -270,4 +295,51 @@ fn not_finite_help(message: &str) -> Option<String> {
     shown.then(|| {
         "NaN comes from `acos` or `sqrt` of a number outside their range and from 0 / 0, infinity from a division by zero".to_owned()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::submission::controller::SourcePosition;
+
+    #[test]
+    fn a_function_with_other_parameters_is_shown_where_it_is() {
+        let stop = Stop::Missing {
+            function: "control(observation)".into(),
+            help: Some("write fn control(observation)".into()),
+            namesake: Some(Namesake {
+                parameters: 2,
+                wanted: 1,
+                place: Some(SourcePosition { line: 2, column: 4 }),
+            }),
+        };
+        let record = record_of(&stop, "\nfn control(q, qd) { 1 }");
+        assert_eq!(
+            record.message,
+            "`control` has 2 parameters, the lab calls it with 1"
+        );
+        assert_eq!(
+            record.source_line.as_deref(),
+            Some("fn control(q, qd) { 1 }")
+        );
+        assert_eq!(
+            missing_words("init(robot, task)", None),
+            "the submission has no function `init(robot, task)`"
+        );
+    }
+
+    #[test]
+    fn a_string_that_grows_is_told_as_a_string() {
+        let stop = Stop::OverBudget {
+            budget: Budget::TextSize,
+            limit: 4000,
+            place: None,
+        };
+        let record = record_of(&stop, "");
+        assert_eq!(record.message, "a string of more than 4000 characters");
+        assert_eq!(
+            record.help.as_deref(),
+            Some("shorten the string: does a loop append to it?")
+        );
+    }
 }

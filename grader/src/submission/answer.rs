@@ -210,7 +210,7 @@ pub fn describe(value: &Value) -> String {
         Value::Nothing => {
             "nothing (does the function end without a value, or with `;`?)".to_owned()
         }
-        Value::Text(text) => format!("the text {text:?}"),
+        Value::Text(text) => format!("the string {text:?}"),
         Value::Map(entries) => {
             let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
             format!("a map of {}", names.join(", "))

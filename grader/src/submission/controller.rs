@@ -206,6 +206,17 @@ pub struct Mistake {
     pub help: Option<String>,
 }
 
+/// A function of the right name with another number of parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Namesake {
+    /// Its number of parameters.
+    pub parameters: usize,
+    /// The number it is called with.
+    pub wanted: usize,
+    /// Its position, if the host knows it.
+    pub place: Option<SourcePosition>,
+}
+
 /// The reason why a call has no answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Stop {
@@ -217,6 +228,8 @@ pub enum Stop {
         function: String,
         /// What to do about it.
         help: Option<String>,
+        /// A function of this name with other parameters.
+        namesake: Option<Namesake>,
     },
     /// It failed while running.
     Crashed(Mistake),
@@ -244,13 +257,13 @@ pub enum Budget {
     OperationsPerCall,
     /// Operations of a whole task.
     OperationsPerTask,
-    /// Functions calling functions.
+    /// Nested calls of functions.
     CallDepth,
     /// Expressions inside expressions.
     ExpressionDepth,
     /// Elements of one list.
     ListSize,
-    /// Characters of one text.
+    /// Characters of one string.
     TextSize,
     /// Entries of one map.
     MapSize,
@@ -264,10 +277,10 @@ impl Budget {
         match self {
             Self::OperationsPerCall => "operations in one call",
             Self::OperationsPerTask => "operations in one task",
-            Self::CallDepth => "functions calling functions",
+            Self::CallDepth => "nested function calls",
             Self::ExpressionDepth => "expressions inside each other",
             Self::ListSize => "elements in one list",
-            Self::TextSize => "characters in one text",
+            Self::TextSize => "characters in one string",
             Self::MapSize => "entries in one map",
             Self::SourceBytes => "bytes of source",
         }

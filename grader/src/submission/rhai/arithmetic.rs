@@ -11,7 +11,7 @@ use rhai::{Array, Dynamic, INT, ImmutableString, Map};
 use super::budget::Meter;
 use super::library::{Arguments, Library};
 use super::mistake::{Problem, fault, fault_with_help};
-use super::operand::{Operand, as_number, as_whole};
+use super::operand::{Operand, as_number, as_whole, describe_operand};
 use super::range::Range;
 use super::vector::{Matrix, Vector};
 use super::words::{describe, show};
@@ -306,9 +306,9 @@ fn refuse(operator: Operator, left: &Dynamic, right: &Dynamic) -> Problem {
     let message = format!(
         "cannot {} {} {} {}",
         operator.verb,
-        describe(left),
+        describe_operand(left),
         operator.joiner,
-        describe(right)
+        describe_operand(right)
     );
     let (a, b) = (Operand::of(left), Operand::of(right));
     let help = if left.is_unit() || right.is_unit() {

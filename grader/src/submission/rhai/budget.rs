@@ -14,6 +14,9 @@ const ELEMENTS_PER_OPERATION: usize = 8;
 /// Copies of vectors are charged this often, in operations.
 const COPIES_EVERY: u64 = 64;
 
+/// The most operations of one round of a loop: what is longer ago belongs to code before the loop.
+const RECENT: u64 = 500;
+
 /// Counts one task; shared by the engine and all built-ins.
 #[derive(Debug)]
 pub(super) struct Meter {
@@ -32,6 +35,8 @@ pub(super) struct Meter {
     exhausted: Cell<Option<Budget>>,
     /// Position of the last call of a built-in or an operator.
     position: Cell<Position>,
+    /// The engine's count at that call.
+    counted_there: Cell<u64>,
     /// Origin of the first NaN of this call.
     not_a_number: RefCell<Option<String>>,
     log: RefCell<Vec<String>>,
@@ -51,6 +56,7 @@ impl Meter {
             charged: Cell::new(0),
             exhausted: Cell::new(None),
             position: Cell::new(Position::NONE),
+            counted_there: Cell::new(0),
             not_a_number: RefCell::default(),
             log: RefCell::default(),
             log_lines: Cell::new(0),
@@ -200,11 +206,18 @@ impl Meter {
     /// Remembers the position of a built-in's call, because the engine counts some operations without a position.
     pub(super) fn at(&self, position: Position) {
         self.position.set(position);
+        self.counted_there.set(self.counted.get());
     }
 
     /// Position of the last call of a built-in.
     pub(super) fn last_place(&self) -> Option<SourcePosition> {
         place(self.position.get())
+    }
+
+    /// The same if it was called a moment ago: a loop without built-ins can have run since then, in another function.
+    pub(super) fn recent_place(&self) -> Option<SourcePosition> {
+        let since = self.counted.get().saturating_sub(self.counted_there.get());
+        self.last_place().filter(|_| since <= RECENT)
     }
 
     pub(super) fn limit(&self, budget: Budget) -> u64 {

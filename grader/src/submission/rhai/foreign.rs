@@ -166,20 +166,63 @@ const SIGNS: &[(&str, &str)] = &[
     ("@", "write * for the product of matrices"),
     ("#", "a comment begins with //"),
     ("?", "write if condition { a } else { b }"),
+    ("===", "write =="),
+    ("!==", "write !="),
+    ("<>", "write !="),
+    ("<-", "write x = 1; to set, and x < -1 to compare"),
+    ("->", "write a function as fn name(x) { ... }"),
+    ("(*", "a comment begins with //"),
+    ("~", "write ! for \"not\", and != for \"not equal\""),
     (
         "'",
         "a string goes in double quotes; the transpose is transpose(m)",
     ),
 ];
 
+/// Characters that a keyboard or a word processor gives for those of the language, and what to write instead.
+const CHARACTERS: &[(&str, &str)] = &[
+    ("“”„«»", "write \" (a straight quote)"),
+    ("‘’‚", "write \" (a straight quote)"),
+    ("π", "write pi"),
+    ("×·∙", "write *"),
+    ("÷", "write /"),
+    ("−–—", "write - (a minus sign)"),
+    ("²³", "use ** for powers: x ** 2"),
+    ("≤", "write <="),
+    ("≥", "write >="),
+    ("≠", "write !="),
+    ("∞", "write inf"),
+    ("√", "write sqrt(x)"),
+    ("°", "write rad(90) for 90 degrees"),
+    ("\u{a0}\u{200b}", "write a plain space"),
+];
+
+/// What to write instead of a character that the language does not have.
+pub(super) fn character(sign: &str) -> Option<String> {
+    let first = sign.chars().next()?;
+    let known = CHARACTERS.iter().find(|(signs, _)| signs.contains(first));
+    match known {
+        Some((_, help)) => Some((*help).to_owned()),
+        None if first.is_alphabetic() && !first.is_ascii() => {
+            Some("names have the letters a to z, digits and _".to_owned())
+        }
+        None => None,
+    }
+}
+
+/// What to write instead of a word of another language's syntax.
+pub(super) fn word(name: &str) -> Option<String> {
+    look_up(SYNTAX, name)
+}
+
 /// What to write instead of a function of another language.
 pub(super) fn function(name: &str) -> Option<String> {
-    look_up(FUNCTIONS, name)
+    look_up(FUNCTIONS, name).or_else(|| look_up(SYNTAX, name))
 }
 
 /// What to write instead of a variable of another language.
 pub(super) fn variable(name: &str) -> Option<String> {
-    look_up(VARIABLES, name)
+    look_up(VARIABLES, name).or_else(|| look_up(SYNTAX, name))
 }
 
 /// What to write instead of a reserved word or symbol.
@@ -189,7 +232,16 @@ pub(super) fn reserved(word: &str) -> Option<String> {
         "import" | "export" | "as" | "module" | "use" => "everything there is, is built in",
         "type_of" | "is_def_var" | "is_def_fn" | "is_shared" => "there is no test of this",
         "|" | "||" => "functions without a name are not available: write fn name(x) { ... }",
-        other => return look_up(SIGNS, other).or_else(|| look_up(SYNTAX, other)),
+        "print" => "write print(x)",
+        other => {
+            let is_word = other.chars().all(|c| c.is_alphanumeric() || c == '_');
+            let reserved = "it is a word of the language: choose another name";
+            return look_up(SIGNS, other)
+                .or_else(|| look_up(SYNTAX, other))
+                .or_else(|| look_up(VARIABLES, other))
+                .or_else(|| look_up(FUNCTIONS, other))
+                .or_else(|| is_word.then(|| reserved.to_owned()));
+        }
     };
     Some(help.to_owned())
 }

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::foreign;
-use crate::submission::controller::Grant;
+use super::places::Places;
+use crate::submission::controller::{Grant, SourcePosition};
 
 /// All names of one submission.
 #[derive(Debug, Default)]
@@ -30,6 +31,8 @@ pub(super) struct Names {
     pub(super) robot_parameters: BTreeSet<String>,
     /// Keys of the input of the lab's own function.
     pub(super) given: BTreeSet<String>,
+    /// Where functions, loops and declarations are.
+    pub(super) places: Places,
     /// Names of the parameters that hold this input.
     pub(super) given_parameters: BTreeSet<String>,
 }
@@ -97,15 +100,21 @@ impl Names {
             .iter()
             .map(|(name, _)| name.as_str())
             .chain(self.built_in.keys().map(String::as_str));
-        match nearest(name, known) {
+        match nearest(name, known.clone()).or_else(|| abbreviation(name, known)) {
             Some(near) => (format!("{message}: did you mean `{near}`?"), None),
             None => (message, None),
         }
     }
 
-    pub(super) fn unknown_variable(&self, name: &str) -> Words {
+    pub(super) fn unknown_variable(&self, name: &str, place: Option<SourcePosition>) -> Words {
         let message = format!("variable `{name}` is not known here");
         if let Some(help) = foreign::variable(name) {
+            return (message, Some(help));
+        }
+        if place.is_some_and(|place| self.places.is_declared_before(name, place)) {
+            let help = format!(
+                "`{name}` ends with the block in which it is declared: write let {name} = 0; before it"
+            );
             return (message, Some(help));
         }
         if self.top_level.contains(name) {
@@ -186,12 +195,8 @@ impl Names {
     /// The help for a missing function that a task calls.
     pub(super) fn missing(&self, name: &str, parameters: &[&str]) -> Option<String> {
         let wanted = format!("{name}({})", parameters.join(", "));
-        if let Some((_, got)) = self.functions.iter().find(|(known, _)| known == name) {
-            return Some(format!(
-                "`{name}` takes {}, yours takes {}: write fn {wanted}",
-                arguments_words(parameters.len()),
-                got.len()
-            ));
+        if self.functions.iter().any(|(known, _)| known == name) {
+            return Some(format!("write fn {wanted}"));
         }
         let candidates = self
             .functions
@@ -238,6 +243,13 @@ fn arguments_words(count: usize) -> String {
         1 => "1 argument".to_owned(),
         count => format!("{count} arguments"),
     }
+}
+
+/// The longest known name that is the beginning of `name`: `cos` of `cosine`.
+fn abbreviation<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .filter(|known| known.len() > 2 && name.starts_with(known))
+        .max_by_key(|known| known.len())
 }
 
 /// The known name that a typo could have made `name` from; the first among equally near ones.

@@ -1,14 +1,13 @@
 //! Turns the engine's errors into messages for students: plain words, the position, what to do.
 
-use rhai::{Dynamic, EvalAltResult, LexError, ParseError, ParseErrorType, Position};
+use rhai::{Dynamic, EvalAltResult, ParseError, ParseErrorType, Position};
 
 use super::budget::{Meter, place};
-use super::foreign;
 use super::hints::{self, Names};
 use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
 /// The help for a fraction as an index.
-const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
+pub(super) const WHOLE_INDEX: &str = "round(i) makes it whole; a vector takes 2.0 for 2";
 
 /// The reason why a built-in has no result.
 #[derive(Debug)]
@@ -74,14 +73,7 @@ impl Context<'_> {
         match &**kind {
             ParseErrorType::ExprTooDeep => self.over(Budget::ExpressionDepth, place),
             ParseErrorType::LiteralTooLarge(what, _) => self.over(size_budget(what), place),
-            kind => {
-                let (message, help) = self.parse_words(kind, place);
-                Stop::DidNotBuild(Mistake {
-                    message: shortened(message),
-                    place,
-                    help: help.map(shortened),
-                })
-            }
+            kind => Stop::DidNotBuild(self.unparsed(kind, place)),
         }
     }
 
@@ -94,10 +86,7 @@ impl Context<'_> {
         }
         // the engine reports the position of the call for a limit that was reached inside
         let own_place = (!inner.is_system_exception()).then(|| place(inner.position()));
-        let place = own_place
-            .flatten()
-            .or_else(|| self.meter.last_place())
-            .or(self.beginning);
+        let place = own_place.flatten().or_else(|| self.place_of_limit(inner));
         if let Some(budget) = self.meter.exhausted() {
             return self.over(budget, place);
         }
@@ -114,7 +103,9 @@ impl Context<'_> {
                 let (name, arguments) = hints::signature(signature);
                 self.names.unknown_function(name, &arguments)
             }
-            EvalAltResult::ErrorVariableNotFound(name, _) => self.names.unknown_variable(name),
+            EvalAltResult::ErrorVariableNotFound(name, _) => {
+                self.names.unknown_variable(name, place)
+            }
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
                 self.names.unknown_key(self.owner_of(place).as_deref(), key)
             }
@@ -177,6 +168,22 @@ impl Context<'_> {
         })
     }
 
+    /// Where a limit was reached, of which the engine knows only where the grader's call stands.
+    fn place_of_limit(&self, error: &EvalAltResult) -> Option<SourcePosition> {
+        let places = &self.names.places;
+        let last = || self.meter.last_place().or(self.beginning);
+        match self.meter.exhausted() {
+            Some(Budget::OperationsPerCall | Budget::OperationsPerTask) => self
+                .meter
+                .recent_place()
+                .or_else(|| places.endless(self.beginning)),
+            None if matches!(error, EvalAltResult::ErrorStackOverflow(_)) => {
+                places.recursion().or_else(last)
+            }
+            _ => last(),
+        }
+    }
+
     fn over(&self, budget: Budget, place: Option<SourcePosition>) -> Stop {
         Stop::OverBudget {
             budget,
@@ -211,7 +218,7 @@ impl Context<'_> {
         (!name.is_empty()).then_some(name)
     }
 
-    fn line(&self, number: usize) -> Option<&str> {
+    pub(super) fn line(&self, number: usize) -> Option<&str> {
         self.source.lines().nth(number.checked_sub(1)?)
     }
 
@@ -222,95 +229,10 @@ impl Context<'_> {
             column: self.line(line).map_or(1, |text| text.chars().count() + 1),
         })
     }
-
-    fn parse_words(
-        &self,
-        kind: &ParseErrorType,
-        place: Option<SourcePosition>,
-    ) -> (String, Option<String>) {
-        let line = place.and_then(|place| self.line(place.line)).unwrap_or("");
-        let foreign = place.and_then(|place| foreign::syntax(line, place.column));
-        let at = place.and_then(|place| line.chars().nth(place.column.checked_sub(1)?));
-        let (message, help) = match kind {
-            ParseErrorType::UnexpectedEOF => (
-                "the file ends in the middle of something".to_owned(),
-                Some("a closing `}`, `)` or `]` is missing".to_owned()),
-            ),
-            ParseErrorType::BadInput(LexError::UnterminatedString) => (
-                "a string is not closed".to_owned(),
-                Some("put a `\"` at its end".to_owned()),
-            ),
-            ParseErrorType::BadInput(LexError::MalformedChar(_)) => (
-                "a string goes in double quotes".to_owned(),
-                Some("write \"text\" instead of 'text'".to_owned()),
-            ),
-            ParseErrorType::Reserved(word)
-            | ParseErrorType::BadInput(LexError::ImproperSymbol(word, _)) => (
-                format!("`{word}` is not available here"),
-                foreign::reserved(word),
-            ),
-            ParseErrorType::MissingToken(token, _) if token == ";" => {
-                let near = place.and_then(|place| foreign::near_keyword(line, place.column));
-                let help = "end the statement before it with `;`".to_owned();
-                return (
-                    "a `;` is missing before this".to_owned(),
-                    foreign.or(near).or(Some(help)),
-                );
-            }
-            ParseErrorType::MissingToken(token, _) if token == "]" && at == Some(',') => (
-                "a `]` is missing before this".to_owned(),
-                Some("an element of a matrix is m[row][column]".to_owned()),
-            ),
-            ParseErrorType::MissingToken(token, what) if token == "," => {
-                let closing = closing_bracket(what);
-                let message = format!("a `{closing}` or a `,` is missing before this");
-                (message, None)
-            }
-            ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | "]" | "}") => {
-                (format!("a `{token}` is missing before this"), None)
-            }
-            ParseErrorType::MalformedIndexExpr(text) if text.contains("integer") => (
-                "the index of a list is an integer".to_owned(),
-                Some(WHOLE_INDEX.to_owned()),
-            ),
-            ParseErrorType::MismatchedType(wanted, _) if wanted.contains("iterable") => (
-                "`for` goes over a range, a list, a vector or a string".to_owned(),
-                Some("count with `for i in 0..n`".to_owned()),
-            ),
-            ParseErrorType::BadInput(LexError::UnexpectedInput(sign)) if sign == "|" => {
-                ("unexpected `|`".to_owned(), foreign::reserved("|"))
-            }
-            ParseErrorType::AssignmentToConstant(name) => (
-                format!("`{name}` is a constant and cannot change"),
-                Some("declare it with `let`, or keep what changes in `this`".to_owned()),
-            ),
-            ParseErrorType::FnDuplicatedDefinition(name, _) => (
-                format!("there are two functions `{name}` with the same parameters"),
-                Some("remove or rename one of them".to_owned()),
-            ),
-            ParseErrorType::WrongFnDefinition => (
-                "a function is inside another function or block".to_owned(),
-                Some("move it to the top level of the file; is a `}` missing above?".to_owned()),
-            ),
-            other => (plain(&other.to_string()), None),
-        };
-        (message, help.or(foreign))
-    }
-}
-
-/// The bracket that closes what the engine was reading, from its description of that.
-fn closing_bracket(what: &str) -> &'static str {
-    if what.contains("array") {
-        "]"
-    } else if what.contains("map") {
-        "}"
-    } else {
-        ")"
-    }
 }
 
 /// Shortens a message with a very long name or string in it.
-fn shortened(text: String) -> String {
+pub(super) fn shortened(text: String) -> String {
     const LONGEST: usize = 400;
     if text.chars().count() <= LONGEST {
         return text;
@@ -329,7 +251,7 @@ fn size_budget(what: &str) -> Budget {
 }
 
 /// The engine's sentence as a lowercase fragment: `Expecting '(' ...` becomes ``expecting `(` ...``.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let text = text
         .split(" (line ")
         .next()

@@ -19,8 +19,11 @@ mod math;
 mod mistake;
 mod operand;
 mod output;
+mod parsing;
+mod places;
 mod range;
 mod script;
+mod signs;
 #[cfg(test)]
 mod tests;
 mod vector;

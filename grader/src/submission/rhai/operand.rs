@@ -110,10 +110,37 @@ pub(super) fn vector(function: &str, value: &Dynamic) -> Result<Vector, Problem>
 pub(super) fn matrix(function: &str, value: &Dynamic) -> Result<Matrix, Problem> {
     match Operand::of(value) {
         Operand::Matrix(matrix) => Ok(matrix),
+        _ if let Some((first, other)) = uneven_rows(value) => Err(fault(format!(
+            "the rows have {first} and {other} numbers: a matrix has rows of equal length"
+        ))),
         _ => Err(fault_with_help(
             format!("`{function}` takes a matrix, got {}", describe(value)),
             "a matrix is a list of rows of equal length: [[1, 0], [0, 1]]",
         )),
+    }
+}
+
+/// The lengths of the first row of a list and of the first that differs.
+fn uneven_rows(value: &Dynamic) -> Option<(usize, usize)> {
+    let list = value.as_array_ref().ok()?;
+    let lengths: Option<Vec<usize>> = list
+        .iter()
+        .map(|row| match Operand::of(row) {
+            Operand::Vector(vector) => Some(vector.len()),
+            _ => None,
+        })
+        .collect();
+    let lengths = lengths?;
+    let first = *lengths.first()?;
+    let other = lengths.into_iter().find(|length| *length != first)?;
+    Some((first, other))
+}
+
+/// A value in words, a list of rows as the matrix that arithmetic takes it for.
+pub(super) fn describe_operand(value: &Dynamic) -> String {
+    match Operand::of(value) {
+        Operand::Matrix(matrix) => format!("a {}x{} matrix", matrix.rows(), matrix.columns()),
+        _ => describe(value),
     }
 }
 

@@ -15,9 +15,10 @@ use super::granted::Model;
 use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::mistake::{Context, Problem, raise};
+use super::places::Places;
 use crate::submission::controller::{
-    Answer, Budget, Budgets, Call, Controller, Mistake, Opening, RobotFacts, Said, SensorFacts,
-    Stop, Value,
+    Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
+    SensorFacts, Stop, Value,
 };
 
 /// The stack size of a thread that runs scripts.
@@ -201,18 +202,13 @@ impl ScriptController {
 
     /// The context for messages about a run of `function` or of the top level.
     fn context(&self, function: Option<&str>) -> Context<'_> {
-        let body = function.and_then(|name| {
-            let parameters = self.parameters_of(name).len();
-            self.ast
-                .iter_fn_def()
-                .find(|function| function.name == name && function.params.len() == parameters)
-                .map(|function| function.body.start_position())
-        });
+        let places = &self.names.places;
+        let body = function.and_then(|name| places.body(name, self.parameters_of(name).len()));
         Context {
             source: &self.source,
             meter: &self.meter,
             names: &self.names,
-            beginning: body.and_then(place),
+            beginning: body,
         }
     }
 
@@ -274,10 +270,16 @@ impl ScriptController {
     /// The stop for a function that is missing or has other parameters; `None` if it is optional.
     fn missing(&self, name: &str) -> Option<Stop> {
         let parameters = self.parameters_of(name);
-        let has_namesake = self.names.functions.iter().any(|(known, _)| known == name);
-        (name != "init" || has_namesake).then(|| Stop::Missing {
+        let mut functions = self.names.functions.iter();
+        let namesake = functions.find(|(known, _)| known == name);
+        (name != "init" || namesake.is_some()).then(|| Stop::Missing {
             function: format!("{name}({})", parameters.join(", ")),
             help: self.names.missing(name, parameters),
+            namesake: namesake.map(|(_, got)| Namesake {
+                parameters: got.len(),
+                wanted: parameters.len(),
+                place: self.names.places.definition(name, &self.source),
+            }),
         })
     }
 }
@@ -480,5 +482,6 @@ fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
         true
     });
     names.local.extend(local);
+    names.places = Places::of(ast);
     names.top_level = top_level;
 }

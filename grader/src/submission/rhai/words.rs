@@ -22,7 +22,7 @@ pub(super) fn describe(value: &Dynamic) -> String {
     } else if let Ok(text) = value.as_immutable_string_ref() {
         let start: String = text.chars().take(20).collect();
         let dots = if start.len() < text.len() { "..." } else { "" };
-        format!("the text \"{start}{dots}\"")
+        format!("the string \"{start}{dots}\"")
     } else if let Some(vector) = value.read_lock::<Vector>() {
         format!("a vector of {}", vector.len())
     } else if let Some(matrix) = value.read_lock::<Matrix>() {
@@ -195,6 +195,6 @@ mod tests {
         );
         assert_eq!(describe(&Dynamic::UNIT), "nothing `()`");
         assert_eq!(describe(&Dynamic::from(true)), "true");
-        assert_eq!(describe(&"abc".into()), "the text \"abc\"");
+        assert_eq!(describe(&"abc".into()), "the string \"abc\"");
     }
 }

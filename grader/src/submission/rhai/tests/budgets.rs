@@ -10,7 +10,7 @@ fn a_mistake_can_be_caught_and_a_budget_cannot() {
         answer("try { sin(\"a\") } catch (e) { print(e); } 3")
             .said
             .log,
-        ["`sin` takes a number or a vector, got the text \"a\""]
+        ["`sin` takes a number or a vector, got the string \"a\""]
     );
     assert!(matches!(
         stop("fn control(o) { try { loop {} } catch {} 1 }"),

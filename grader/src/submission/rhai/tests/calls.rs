@@ -1,7 +1,9 @@
 //! What goes into a call and comes out of it, and what stays between calls.
 
 use super::{answer, assert_values, numbers, observation, opening, robot, run, stop};
-use crate::submission::controller::{Call, Controller, Mistake, SourcePosition, Stop, Value};
+use crate::submission::controller::{
+    Call, Controller, Mistake, Namesake, SourcePosition, Stop, Value,
+};
 use crate::submission::rhai::ScriptController;
 
 #[test]
@@ -101,7 +103,9 @@ fn constants_are_seen_in_functions_and_variables_are_not() {
 #[test]
 fn a_missing_function_is_named_with_the_nearest_one() {
     let help = |source: &str| match stop(source) {
-        Stop::Missing { function, help } => format!("{function} | {}", help.unwrap_or_default()),
+        Stop::Missing { function, help, .. } => {
+            format!("{function} | {}", help.unwrap_or_default())
+        }
         other => panic!("{source}: {other:?}"),
     };
     assert_eq!(
@@ -112,9 +116,21 @@ fn a_missing_function_is_named_with_the_nearest_one() {
         help("fn controll(o) { 1 }"),
         "control(observation) | rename `controll` to `control`"
     );
+    let source = "// mine\n  fn control(q, qd) { 1 }";
     assert_eq!(
-        help("fn control(q, qd) { 1 }"),
-        "control(observation) | `control` takes 1 argument, yours takes 2: write fn control(observation)"
+        help(source),
+        "control(observation) | write fn control(observation)"
+    );
+    let Stop::Missing { namesake, .. } = stop(source) else {
+        panic!("it is not missing");
+    };
+    assert_eq!(
+        namesake,
+        Some(Namesake {
+            parameters: 2,
+            wanted: 1,
+            place: Some(SourcePosition { line: 2, column: 6 }),
+        })
     );
     let mut script = ScriptController::open(&opening("fn init() {} fn control(o) { 1 }")).unwrap();
     assert!(matches!(

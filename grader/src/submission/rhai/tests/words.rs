@@ -22,7 +22,7 @@ fn mistakes_are_told_with_names_values_and_a_way_out() {
         ("atan2(1)", "`atan2` takes 2 arguments, got 1"),
         (
             "sin(\"a\")",
-            "`sin` takes a number or a vector, got the text \"a\"",
+            "`sin` takes a number or a vector, got the string \"a\"",
         ),
         (
             "let gain = 2; gian",
@@ -160,17 +160,20 @@ fn names_and_signs_of_other_languages_get_a_hint() {
         ),
         (
             "if true and false { 1 }",
-            "expecting `{` to start a statement block | write && for \"and\"",
+            "a `{` is missing before this | write && for \"and\"",
         ),
         (
             "let x = true ? 2 : 3;",
-            "unknown operator: `?` | write if condition { a } else { b }",
+            "`?` is not an operator here | write if condition { a } else { b }",
         ),
         (
             "observation.q .* 2",
-            "expecting name of a property | write *: vectors multiply element by element",
+            "a name must follow the `.` | write *: vectors multiply element by element",
         ),
-        ("let x = 1; x++;", "unknown operator: `++` | write x += 1"),
+        (
+            "let x = 1; x++;",
+            "`++` is not an operator here | write x += 1",
+        ),
         (
             "let m = eye(2); m[0, 1]",
             "a `]` is missing before this | an element of a matrix is m[row][column]",
@@ -205,6 +208,165 @@ fn names_and_signs_of_other_languages_get_a_hint() {
         ),
         ("None", "variable `None` is not known here | write ()"),
     ]);
+}
+
+#[test]
+fn a_file_that_does_not_compile_gets_a_way_out() {
+    assert_words([
+        (
+            "let a = 1; if a = 2 { }",
+            "`=` sets a value and cannot be part of a condition | write == to compare",
+        ),
+        (
+            "let a = 1; while (a = 2) { }",
+            "`=` sets a value and cannot be part of a condition | write == to compare",
+        ),
+        ("let x = cos(1)) ;", "this `)` closes nothing | remove it"),
+        ("let x = [1]];", "this `]` closes nothing | remove it"),
+        ("} }", "this `}` closes nothing | remove it"),
+        (
+            "[[1, 2]\n [3, 4]]",
+            "a `,` is missing at the end of line 1 | elements and rows are separated by ,",
+        ),
+        (
+            "[[1, 2] [3, 4]]",
+            "a `,` is missing before this | elements and rows are separated by ,",
+        ),
+        (
+            "if 1 > 2 { }\nelif\n1",
+            "a `;` is missing before this | write else if",
+        ),
+        ("elif(1)", "`elif` is not a function | write else if"),
+        ("null", "`null` is not available here | write ()"),
+        (
+            "let x = “a”;",
+            "unexpected `“` | write \" (a straight quote)",
+        ),
+        ("π * 2", "unexpected `π` | write pi"),
+        (
+            "θ * 2",
+            "unexpected `θ` | names have the letters a to z, digits and _",
+        ),
+        ("print x", "`print` is not available here | write print(x)"),
+        (
+            "if 1 { }",
+            "a condition is true or false, got a number | compare: x > 0",
+        ),
+        (
+            "if { }",
+            "a condition is missing before this | a condition is true or false: if x > 0 { ... }",
+        ),
+        ("let x = 1 + ;", "a value is missing before this `;`"),
+        (
+            "sin(1) = 2;",
+            "this cannot be set | on the left of `=` is a variable, an element or a key; == compares",
+        ),
+        (
+            "let = 3;",
+            "the name of a variable is missing here | a name begins with a letter and is not a word of the language: let gain = 1;",
+        ),
+        (
+            "for (i in 0..3) { }",
+            "`for` is written without `(` and `)` | write for i in 0..n { ... }",
+        ),
+    ]);
+}
+
+#[test]
+fn values_of_the_wrong_shape_and_names_out_of_sight_are_told() {
+    assert_words([
+        (
+            "matrix([[1, 2], [3]])",
+            "the rows have 2 and 1 numbers: a matrix has rows of equal length",
+        ),
+        (
+            "vector([1, 2]) * [[1, 2], [3, 4], [5, 6]]",
+            "cannot multiply a vector of 2 by a 3x2 matrix | write the matrix first: m * v, or transpose(m) * v",
+        ),
+        (
+            "for i in 0..2 { let x = i; } x",
+            "variable `x` is not known here | `x` ends with the block in which it is declared: write let x = 0; before it",
+        ),
+        (
+            "x; let x = 2;",
+            "variable `x` is not known here | declare it first: let x = ...;",
+        ),
+        (
+            "cosine(1)",
+            "`cosine` is not a function: did you mean `cos`?",
+        ),
+    ]);
+}
+
+#[test]
+fn a_call_without_end_is_told_where_it_can_be() {
+    for (source, line) in [
+        (
+            "fn spin(x) {\n while true { let y = x; } }\nfn control(o) {\n let a = 2 * 3;\n spin(a) }",
+            Some(2),
+        ),
+        (
+            "fn spin(x) {\n while true { x += 1; } }\nfn control(o) {\n spin(1) }",
+            Some(2),
+        ),
+        (
+            "fn spin(x) {\n loop { } }\nfn control(o) {\n while false { }\n spin(1) }",
+            None,
+        ),
+        (
+            "fn spin(x) {\n spin(x) }\nfn control(o) {\n spin(1) }",
+            Some(2),
+        ),
+        ("fn control(o) {\n loop { } }", Some(2)),
+    ] {
+        let Stop::OverBudget { place, .. } = stop(source) else {
+            panic!("{source}: it ends");
+        };
+        assert_eq!(place.map(|place| place.line), line, "{source}");
+    }
+}
+
+/// The message, the place and the help of a file that does not compile.
+fn unbuilt(source: &str) -> String {
+    let Stop::DidNotBuild(mistake) = stop(source) else {
+        panic!("{source}: it builds");
+    };
+    let place = mistake.place.expect("a place");
+    format!(
+        "{}:{} {} | {}",
+        place.line,
+        place.column,
+        mistake.message,
+        mistake.help.unwrap_or_default()
+    )
+}
+
+#[test]
+fn a_slip_is_told_where_it_is_and_not_where_the_parser_stops() {
+    for (source, wanted) in [
+        (
+            "fn control(o) { let x = 3 // three\n  [x, 0] }",
+            "1:26 a `;` is missing at the end of line 1 | end the statement with ;",
+        ),
+        (
+            "fn control(o) { let x = 3\n  [0.5, 0] }",
+            "1:26 a `;` is missing at the end of line 1 | end the statement with ;",
+        ),
+        (
+            "fn control(o) {\n  1 /* a\n}\n",
+            "2:5 the comment that begins at 2:5 is not closed | end it with */",
+        ),
+        (
+            "fn control(observation)\n [0.5, 0]",
+            "2:2 a function's body is in { } | fn control(observation) { [0.5, 0] }",
+        ),
+        (
+            "fn control { 1 }",
+            "1:12 the parameters of `control` are missing | write fn control(observation) { ... }",
+        ),
+    ] {
+        assert_eq!(unbuilt(source), wanted, "{source}");
+    }
 }
 
 #[test]
