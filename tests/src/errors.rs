@@ -163,7 +163,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "axis = [0.0, 1.0, 0.0]",
             "axis = \"y\"",
             "expected a list of 3",
-            "write a list of 3",
+            "write three numbers, such as [0, 0, 1]",
         ),
         (
             robot,
