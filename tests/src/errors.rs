@@ -229,6 +229,13 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "hidden.toml:23:16]",
         ),
         (
+            hidden,
+            "{ base_height = [1.2, 2.6],",
+            "{ base_height = [[1.2, 2.6]],",
+            "dimension `base_height`",
+            "hidden.toml:23:30]",
+        ),
+        (
             lab,
             "name = \"elbow a quarter turn\"",
             "name = \"straight up\"",

@@ -162,7 +162,8 @@ fn written_as(expected: &str, given: &str) -> String {
 /// Whether a text could be meant as an expression over names: `right[0]`.
 fn names_values(text: &str) -> bool {
     let of_expression = |c: char| c.is_ascii_alphanumeric() || "_[]+-*/(). ".contains(c);
-    text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    text.len() <= 40
+        && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && text.chars().all(of_expression)
 }
 
@@ -206,12 +207,19 @@ fn in_our_words(expected: &str) -> String {
 /// A text that is not TOML.
 fn syntax(message: &str, text: &str, at: usize) -> Words {
     if message.starts_with("invalid float") || message.contains("integer number") {
-        let message = format!("`{}` is not a number", word_at(text, at));
+        let message = match word_at(text, at) {
+            Some(word) => format!("`{word}` is not a number"),
+            None => "this is not a number".to_owned(),
+        };
         return (message, "a number is such as 2, -0.5 or 1e-3".to_owned());
     }
     if message.starts_with("string values must be quoted") {
         let word = word_at(text, at);
-        let message = format!("`{word}` is not in quotes");
+        let message = match word {
+            Some(word) => format!("`{word}` is not in quotes"),
+            None => "a text without quotes".to_owned(),
+        };
+        let word = word.unwrap_or("lab");
         return (message, format!("text stands in quotes: \"{word}\""));
     }
     let (message, help) = if message.starts_with("invalid basic string") {
@@ -262,8 +270,8 @@ fn line_of(text: &str, at: usize) -> (usize, &str) {
     (start, &text[start..end])
 }
 
-/// The value without quotes in which byte `at` is.
-fn word_at(text: &str, at: usize) -> &str {
+/// The value without quotes in which byte `at` is, if it is short enough for a message.
+fn word_at(text: &str, at: usize) -> Option<&str> {
     let (start, line) = line_of(text, at);
     let is_end =
         |c: char| c.is_whitespace() || matches!(c, ',' | '[' | ']' | '{' | '}' | '=' | '#');
@@ -274,7 +282,8 @@ fn word_at(text: &str, at: usize) -> &str {
         .last()
         .map_or(0, |(i, c)| i + c.len_utf8());
     let word = &line[begin..];
-    word.split(is_end).next().unwrap_or(word)
+    let word = word.split(is_end).next()?;
+    (1..=40).contains(&word.len()).then_some(word)
 }
 
 #[cfg(test)]

@@ -207,7 +207,13 @@ impl<'a> DrawReader<'a> {
                 .collect();
             if let Err(error) = self.lab.robot_file.build(&changed) {
                 let error = error.to_string();
-                return self.refuse(DrawProblem::Dimensions { error });
+                // what has another shape is wrong at its own place; which of several numbers is too much, nobody can say
+                let misfit = self.table.dimensions.iter().find(|(name, ranges)| {
+                    let base = stated.get(name.get_ref()).map(ToString::to_string);
+                    base != Some(ranges.get_ref().end(end).to_string())
+                });
+                let at = misfit.map_or(self.spanned.span(), |(_, ranges)| ranges.span());
+                return self.report.refuse(at, DrawProblem::Dimensions { error });
             }
         }
         Ok(dimensions)
