@@ -1,7 +1,9 @@
 //! Robot files: what they may say, and that both ways of saying a thing agree.
 
+use kinemark_sim::format::RobotFile;
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
+use kinemark_sim::text::{Problem as _, Source};
 
 use crate::arms::{robot, rrbot};
 
@@ -46,5 +48,42 @@ fn three_ways_to_say_a_rotation_agree() {
     for other in [axis, axes] {
         let error = (rpy.rotation.matrix() - other.rotation.matrix()).amax();
         assert!(error < 1e-15, "{error:.1e}");
+    }
+}
+
+#[test]
+fn a_rotation_that_is_half_there_or_there_twice_says_which() {
+    let ways = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
+    for (origin, message, help) in [
+        (
+            "{ x_axis = [1, 0, 0] }",
+            "`x_axis` without `y_axis`: a rotation needs both",
+            ways,
+        ),
+        (
+            "{ angle_deg = 3 }",
+            "`angle_deg` without `axis`: a rotation needs both",
+            ways,
+        ),
+        (
+            "{ rpy_deg = [0, 0, 0], axis = [1, 0, 0] }",
+            "two rotations: keep `rpy_deg`, or `axis` with `angle_deg`",
+            ways,
+        ),
+        (
+            "{ x_axis = [1, 0, 0], y_axis = [1, 1, 0] }",
+            "`y_axis` is not perpendicular to `x_axis`",
+            "choose y_axis so that its dot product with x_axis is 0",
+        ),
+    ] {
+        let text = format!(
+            "format = 1\nname = \"r\"\n[[links]]\nname = \"a\"\n[[frames]]\nname = \"f\"\nlink = \"a\"\norigin = {origin}\n"
+        );
+        let file = RobotFile::parse(Source::new("robot.toml", text));
+        let error = file
+            .and_then(|file| file.build(&[]).map(drop))
+            .expect_err(origin);
+        assert_eq!(error.to_string(), message, "{origin}");
+        assert_eq!(error.problem.help().as_deref(), Some(help), "{origin}");
     }
 }

@@ -323,3 +323,17 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn an_attribute_that_is_none_is_told_how_one_is_written() {
+    for text in [
+        "<robot name=\"r\"><link=\"a\"/></robot>",
+        "<robot name=\"r\"><link name \"a\"/></robot>",
+        "<robot name=\"r\"><link name=a/></robot>",
+    ] {
+        let error = read(text).expect_err(text);
+        let help = error.problem.help();
+        let written = Some("an attribute is name=\"value\"");
+        assert_eq!(help.as_deref(), written, "{text}: {error}");
+    }
+}

@@ -44,6 +44,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
     let lab = "labs/01-kinematics/lab.toml";
     let robot = "labs/robots/rrbot.toml";
     let hidden = "reference/01-kinematics/hidden.toml";
+    let mutants = "reference/01-kinematics/mutants.toml";
     let cases = [
         (
             lab,
@@ -119,7 +120,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             lab,
             "call = \"forward_kinematics\"",
             "call = \"forward_kinematic\"",
-            "`forward_kinematic` is a function of the lab's own",
+            "no built-in task function is called `forward_kinematic`",
             "did you mean `forward_kinematics`?",
         ),
         (
@@ -162,7 +163,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "axis = [0.0, 1.0, 0.0]",
             "axis = \"y\"",
             "expected a list of 3",
-            "write a list of 3",
+            "write three numbers, such as [0, 0, 1]",
         ),
         (
             robot,
@@ -205,6 +206,62 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "cuont = 8",
             "unknown key `cuont`",
             "did you mean `count`?",
+        ),
+        (
+            hidden,
+            "count = 8",
+            "count = 0",
+            "1 to 1000 cases, got 0",
+            "hidden.toml:8:9]",
+        ),
+        (
+            hidden,
+            "base_height =",
+            "base_hieght =",
+            "no dimension `base_hieght` in this robot",
+            "did you mean `base_height`?",
+        ),
+        (
+            hidden,
+            "base_height =",
+            "base_hieght =",
+            "not a dimension of this robot",
+            "hidden.toml:23:16]",
+        ),
+        (
+            hidden,
+            "{ base_height = [1.2, 2.6],",
+            "{ base_height = [[1.2, 2.6]],",
+            "dimension `base_height`",
+            "hidden.toml:23:30]",
+        ),
+        (
+            lab,
+            "name = \"elbow a quarter turn\"",
+            "name = \"straight up\"",
+            "case `straight up` is defined twice",
+            "give each its own name",
+        ),
+        (
+            mutants,
+            "name = \"absolute-elbow\"",
+            "name = \"degrees\"",
+            "mutant `degrees` is defined twice",
+            "mutants.toml:10:8]",
+        ),
+        (
+            mutants,
+            "says = \"Angles are treated as degrees. They are radians here: a right angle is pi / 2.\"",
+            "says = \"\"",
+            "mutant `degrees` says nothing",
+            "write what the student reads",
+        ),
+        (
+            mutants,
+            "tasks = [\"fk\", \"ik\"]",
+            "tasks = []",
+            "mutant `degrees` names no task",
+            "such as tasks = [\"move\"]",
         ),
     ];
     for (file, from, to, message, place) in cases {

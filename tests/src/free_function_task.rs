@@ -245,7 +245,22 @@ fn labs_that_ask_for_no_such_function_are_refused() {
         (
             "inertia = 1, kp = 4,",
             "inertia = 1,",
-            "case `without damping` gives damping, inertia and expects damping_ratio, natural_frequency, case `stiff` gives damping, inertia, kp and expects damping_ratio, natural_frequency",
+            "case `without damping` does not give `kp`, the first case does",
+        ),
+        (
+            "inertia = 1, kp = 4,",
+            "mass = 1, kp = 4,",
+            "case `without damping` gives `mass`, the first case gives `inertia`",
+        ),
+        (
+            "natural_frequency = 2, damping_ratio = 0 }",
+            "natural_frequency = 2, damping_ratio = 0, poles = 1 }",
+            "case `without damping` expects `poles`, the first case does not",
+        ),
+        (
+            "{ name = \"without damping\"",
+            "{ name = \"stiff\"",
+            "case `stiff` is defined twice",
         ),
         (
             r#"entry = "damping_ratio""#,

@@ -80,3 +80,30 @@ fn a_check_tells_where_the_solution_stops() {
     assert!(ran.stdout.contains("mend the solution"), "{}", ran.stdout);
     assert!(!ran.stdout.contains("widen the band"), "{}", ran.stdout);
 }
+
+#[test]
+fn a_check_names_the_hidden_class_that_may_be_wrong() {
+    let bed = TestBed::a_little_off();
+    bed.edit(
+        "reference/01-kinematics/hidden.toml",
+        "branches = 0",
+        "branches = 2",
+    );
+    let ran = bed.run(&[
+        "lab",
+        "check",
+        "01-kinematics",
+        "--salts",
+        "0",
+        "--variants",
+        "0",
+    ]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let shown = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "the class \"out of reach\" in hidden.toml, a visible case in lab.toml, the band, or the solution",
+        "inverse_kinematics returned [], expected the angles of a target within reach",
+    ] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+}

@@ -34,7 +34,13 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
             "step = 0.01 }\n",
             "step = 0.03 }\n",
             "lab::variants",
-            "is not 1 to",
+            "an integer is needed",
+        ),
+        (
+            "out = { from = 0.85",
+            "out = { from = 2.9",
+            "lab::variants",
+            "`from` 2.9 is above `to`",
         ),
         (
             "out = { from",

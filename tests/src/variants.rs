@@ -298,7 +298,10 @@ fn numbers_of_somebody_else_are_refused_by_staff_alone() {
     bed.write("easy.toml", easy.replace("student = \"s7\"\n", ""));
     let ran = bed.run(&args);
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    assert!(ran.stdout.contains("variant of nobody named: "), "{ran:?}");
+    assert!(
+        ran.stdout.contains("variant without a student's name: "),
+        "{ran:?}"
+    );
     assert!(ran.stdout.contains("out = 0.5"), "{ran:?}");
 }
 
@@ -338,7 +341,19 @@ fn a_variant_file_that_does_not_fit_is_refused_at_its_place() {
             "format = 1",
             "format = 1\nstudent = \"\"",
             (2, 11),
-            "\"\" is no student id",
+            "the student id is empty",
+        ),
+        (
+            "format = 1",
+            "format = 1\nstudent = \" s7\"",
+            (2, 11),
+            "the student id begins or ends with a space",
+        ),
+        (
+            "format = 1",
+            "format = 1\nstudent = \"s\\u00077\"",
+            (2, 11),
+            "the student id has an invisible character (U+0007)",
         ),
     ] {
         let source = Source::new("variant.toml", good.replacen(from, to, 1));

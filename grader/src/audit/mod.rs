@@ -119,10 +119,10 @@ impl Audit {
         (tried, name): (Tried, &str),
         task: Option<&str>,
         earned: Option<(f64, f64)>,
-        problem: Option<(String, &str)>,
+        problem: Option<(String, impl Into<String>)>,
     ) {
         let (problem, help) = problem.map_or((None, None), |(problem, help)| {
-            (Some(problem), Some(help.to_owned()))
+            (Some(problem), Some(help.into()))
         });
         self.rows.push(Row {
             tried,
@@ -208,11 +208,12 @@ impl Audit {
             Some(stopped) => {
                 let place = place_of(stopped, &staff.solution);
                 let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
-                (what, "mend the solution: it runs, and has full marks")
+                let help = "mend the solution: it runs, and has full marks";
+                (what, help.to_owned())
             }
             None => {
                 let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
-                (what, "widen the band, or mend the solution")
+                (what, mending(task))
             }
         });
         let earned = Some((grade.points, grade.max_points));
@@ -329,6 +330,22 @@ fn place_of(stopped: &Stopped, source: &Source) -> String {
         "\n    {}:{line}:{column}\n    {text}\n    {indent}^",
         source.name()
     )
+}
+
+/// What may be wrong where the reference solution loses points in `task`.
+fn mending(task: &TaskGrade) -> String {
+    let places = "the band, or the solution";
+    let class = task.hidden.iter().find(|class| class.good < class.total);
+    if let Some(class) = class {
+        let class = &class.class;
+        return format!(
+            "mend what is wrong: the class \"{class}\" in hidden.toml, a visible case in lab.toml, {places}"
+        );
+    }
+    if task.cases.iter().any(|case| !case.good) {
+        return format!("mend what is wrong: a visible case in lab.toml, {places}");
+    }
+    "widen the band, or mend the solution".to_owned()
 }
 
 /// Why a task lost points, in the words of its checks.

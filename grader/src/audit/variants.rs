@@ -3,7 +3,7 @@
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
-use super::{Audit, Tried, graded, loss_of, staff_code};
+use super::{Audit, Tried, graded, loss_of, mending, staff_code};
 use crate::lab::Lab;
 use crate::lab::Variant;
 use crate::lab::staff::Staff;
@@ -16,8 +16,8 @@ use crate::task::problem::LoadError;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Variants {
     students: u32,
-    /// Students in whose variant the reference solution lost points, with the problem.
-    lost: Vec<(String, String)>,
+    /// Students in whose variant the reference solution lost points, with the problem and what to do.
+    lost: Vec<(String, String, String)>,
     rooms: Vec<VariantMargin>,
 }
 
@@ -59,7 +59,8 @@ impl Variants {
             Ok(None) => return,
             Err(why) => {
                 let what = format!("it cannot be loaded ({numbers}): {why}");
-                self.lost.push((student.to_owned(), what));
+                let help = "or mend what the error names".to_owned();
+                self.lost.push((student.to_owned(), what, help));
                 return;
             }
         };
@@ -69,7 +70,7 @@ impl Variants {
         let tasks = &run.grade.tasks;
         if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
             let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
-            self.lost.push((student.to_owned(), what));
+            self.lost.push((student.to_owned(), what, mending(task)));
         }
         self.measure(&run.grade);
     }
@@ -135,13 +136,10 @@ impl Audit {
     /// Records the results of the variants.
     pub fn variants(&mut self, mut tried: Variants) {
         tried.lost.sort();
-        let problem = tried.lost.first().map(|(student, what)| {
+        let problem = tried.lost.first().map(|(student, what, help)| {
             let count = tried.lost.len();
             let what = format!("in {count} of them, such as that of `{student}`: {what}");
-            (
-                what,
-                "narrow [variants], widen the band, or mend the solution",
-            )
+            (what, format!("narrow [variants], {help}"))
         });
         let form = format!("{} variants", tried.students);
         self.add((Tried::Reference, &form), None, None, problem);
@@ -181,7 +179,7 @@ mod tests {
         };
         let some = |student: &str, rooms| Variants {
             students: 2,
-            lost: vec![(student.to_owned(), "a point".to_owned())],
+            lost: vec![(student.to_owned(), "a point".to_owned(), String::new())],
             rooms,
         };
         let mut all = some("s4", vec![margin(0.2, 0.3)]);

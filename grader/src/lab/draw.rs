@@ -69,7 +69,7 @@ pub(super) fn parameters(
                 Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
             }
         };
-        (name.clone(), value)
+        (name.get_ref().clone(), value)
     });
     drawn.collect()
 }

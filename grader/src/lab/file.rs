@@ -175,7 +175,7 @@ pub(super) struct HiddenTable {
 pub(super) struct DrawTable {
     pub(super) task: Spanned<String>,
     pub(super) class: Spanned<String>,
-    pub(super) count: u32,
+    pub(super) count: Spanned<u32>,
     pub(super) q_rad: Option<Spanned<Vec<[f64; 2]>>>,
     pub(super) position_m: Option<Spanned<[[f64; 2]; 3]>>,
     pub(super) branches: Option<u32>,
@@ -184,8 +184,8 @@ pub(super) struct DrawTable {
     pub(super) given: Option<RangesTable>,
 }
 
-/// Names with ranges, the place of each kept.
-pub(super) type RangesTable = BTreeMap<String, Spanned<Ranges>>;
+/// Names with ranges, the places of both kept.
+pub(super) type RangesTable = BTreeMap<Spanned<String>, Spanned<Ranges>>;
 
 /// A range for a number, or one for each number of a list.
 #[derive(Debug, Clone, PartialEq)]
@@ -265,8 +265,8 @@ pub(super) struct MutantsTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct MutantTable {
     pub(super) name: Spanned<String>,
-    pub(super) tasks: Vec<Spanned<String>>,
-    pub(super) says: String,
+    pub(super) tasks: Spanned<Vec<Spanned<String>>>,
+    pub(super) says: Spanned<String>,
 }
 
 /// The scene of a motion task: its name alone, or with dimensions that differ from its file's.
@@ -375,6 +375,6 @@ impl<'de> Deserialize<'de> for StepsOrEach {
 pub(super) struct HiddenRunsTable {
     pub(super) task: Spanned<String>,
     pub(super) class: Spanned<String>,
-    pub(super) count: u32,
+    pub(super) count: Spanned<u32>,
     pub(super) parameters: Spanned<RangesTable>,
 }

@@ -3,6 +3,7 @@
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
+use kinemark_sim::text::number::{short, trimmed};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -184,10 +185,17 @@ fn written<'n>(
 /// # Errors
 /// Why it cannot, in words.
 pub fn student_id(id: &str) -> Result<(), String> {
-    if id.is_empty() || id.trim() != id || id.chars().any(char::is_control) {
+    if id.is_empty() {
+        return Err("the student id is empty".to_owned());
+    }
+    if let Some(sign) = id.chars().find(|sign| sign.is_control()) {
+        let number = u32::from(sign);
         return Err(format!(
-            "{id:?} is no student id: it is empty, or has spaces around it or signs that nobody sees"
+            "the student id has an invisible character (U+{number:04X})"
         ));
+    }
+    if id.trim() != id {
+        return Err("the student id begins or ends with a space".to_owned());
     }
     if id.chars().count() > MOST_ID_CHARACTERS {
         return Err(format!(
@@ -287,11 +295,54 @@ problems! {
         Shape { name: String, base: Dimension }:
             "lab::variants", "parameter `{name}` is {base}, and this varies something else", "another shape",
             "give { from, to, step } for one number, and a list of such tables for a list";
-        Steps { from: f64, to: f64, step: f64 }:
-            "lab::variants",
-            "from {from} to {to} is not 1 to {MOST_STEPS} steps of {step}", "these steps",
-            "write such as { from = 2.9, to = 3.1, step = 0.01 }";
+        Steps { what: String, help: String }:
+            "lab::variants", "{what}", "these steps", help.clone();
     }
+}
+
+/// Why there are no equal steps `from` one number `to` another.
+fn not_steps(from: f64, to: f64, step: f64) -> RuleProblem {
+    let steps = (to - from) / step;
+    let (what, help) = if from > to {
+        let what = format!("`from` {from} is above `to` {to}");
+        (what, format!("write from = {to}, to = {from}"))
+    } else if step > 0.0 && steps.is_finite() && steps <= MOST_STEPS {
+        let count = trimmed(steps, 2);
+        // rounded, it would read as an integer
+        let count = match count.contains('.') {
+            true => count,
+            false => steps.to_string(),
+        };
+        let what = format!(
+            "{}, the way from {from} to {to}, is {count} steps of {step}: an integer is needed",
+            short(to - from)
+        );
+        (
+            what,
+            format!("such as step = {}", near_step(to - from, steps)),
+        )
+    } else {
+        let what = format!("from {from} to {to} is not 1 to {MOST_STEPS} steps of {step}");
+        let help = "write such as { from = 2.9, to = 3.1, step = 0.01 }";
+        (what, help.to_owned())
+    };
+    RuleProblem::Steps { what, help }
+}
+
+/// A step of which `way` is a multiple, near the one of which it is `steps`: with few digits where there is such a one.
+fn near_step(way: f64, steps: f64) -> f64 {
+    let in_digits = |value: f64, digits: usize| {
+        let text = format!("{value:.digits$e}");
+        text.parse::<f64>().unwrap_or(value)
+    };
+    let nearest = steps.round().max(1.0);
+    // a hundred around it: a short step is worth more than the nearest one
+    let around = (0..100).flat_map(|off| [nearest + f64::from(off), nearest - f64::from(off)]);
+    around
+        .filter(|count| *count >= 1.0)
+        .map(|count| (count, in_digits(way / count, 1)))
+        .find(|(count, step)| (count * step - way).abs() <= 1e-9 * step)
+        .map_or_else(|| in_digits(way / nearest, 11), |(_, step)| step)
 }
 
 /// The rules of a lab's `[variants]`.
@@ -327,7 +378,7 @@ pub(super) fn rules(
                 && (0.0..=MOST_STEPS).contains(&whole)
                 && (from + whole * step - to).abs() <= 1e-6 * step;
             if !fits {
-                return report.refuse_at(typed, RuleProblem::Steps { from, to, step });
+                return report.refuse_at(typed, not_steps(from, to, step));
             }
             steps.push(Steps {
                 from,
@@ -383,6 +434,37 @@ mod tests {
         }
         // 100 are expected of each, with a standard deviation of 10
         assert!(seen.iter().all(|&n| (50..150).contains(&n)), "{seen:?}");
+    }
+
+    #[test]
+    fn what_is_no_row_of_steps_is_told_with_a_step_that_is() {
+        for (numbers, what, help) in [
+            (
+                [1.9, 2.3, 0.07],
+                "0.4, the way from 1.9 to 2.3, is 5.71 steps of 0.07: an integer is needed",
+                "such as step = 0.08",
+            ),
+            (
+                [2.9, 2.3, 0.1],
+                "`from` 2.9 is above `to` 2.3",
+                "write from = 2.3, to = 2.9",
+            ),
+            (
+                [0.0, 1.0, -0.1],
+                "from 0 to 1 is not 1 to 1000000 steps of -0.1",
+                "write such as { from = 2.9, to = 3.1, step = 0.01 }",
+            ),
+        ] {
+            let [from, to, step] = numbers;
+            let RuleProblem::Steps {
+                what: found,
+                help: advice,
+            } = not_steps(from, to, step)
+            else {
+                panic!("{numbers:?}");
+            };
+            assert_eq!((found.as_str(), advice.as_str()), (what, help));
+        }
     }
 
     #[test]

@@ -76,7 +76,7 @@ impl VariantRecord {
         let numbers: Vec<String> = numbers.collect();
         let whose = match &self.student {
             Some(student) => format!("variant of {student}"),
-            None => "variant of nobody named".to_owned(),
+            None => "variant without a student's name".to_owned(),
         };
         format!("{whose}: {}", numbers.join(", "))
     }

@@ -123,7 +123,7 @@ struct Token {
 
 fn joints(source: &Source) -> Result<Vec<Token>, RobotError> {
     const HELP: &str =
-        "write pairs like Rz (turns about z) or Tx (slides along x), without spaces: RzRyRz";
+        "write pairs like Rz (turns about z), or Tx or Px (slides along x), without spaces: RzRyRz";
     let text = source.text();
     let mut tokens = Vec::new();
     let mut letters = text.char_indices();
@@ -133,7 +133,10 @@ fn joints(source: &Source) -> Result<Vec<Token>, RobotError> {
             'R' => JointKind::Continuous,
             'T' | 'P' => JointKind::Prismatic,
             _ => {
-                let message = format!("`{letter}` is no joint: expected R, T or P");
+                let sign = text[..start].chars().count() + 1;
+                let message = format!(
+                    "joint string, sign {sign}: `{letter}` is not a joint (R, T or P, then x, y or z)"
+                );
                 return refuse(source, here, message, HELP);
             }
         };
@@ -224,6 +227,11 @@ mod tests {
             let error = robot(text, 0.0, "").expect_err(text);
             assert_eq!(error.line_and_column(), (1, column), "{text}: {error}");
         }
+        let error = robot("RzRxq", 0.0, "").expect_err("q");
+        assert_eq!(
+            error.to_string(),
+            "joint string, sign 5: `q` is not a joint (R, T or P, then x, y or z)"
+        );
     }
 
     #[test]

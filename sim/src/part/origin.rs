@@ -10,6 +10,10 @@ use super::part_tables::{OriginTable, TripleAt};
 use super::values::{Allowed, Values};
 use crate::spatial::{Pose, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
 
+/// The help for a rotation that is given in none of these ways, or in more than one.
+const WAYS: &str =
+    "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
+
 impl Values<'_> {
     pub(crate) fn origin(&self, origin: Option<&OriginTable>) -> Result<Pose, PartError> {
         let Some(table) = origin else {
@@ -50,7 +54,8 @@ impl Values<'_> {
                 let given = triples.into_iter().chain(others).flatten();
                 self.clash(
                     given.max_by_key(|at| at.start).unwrap_or(0..0),
-                    "this rotation is half said, or said twice",
+                    &half_or_twice(table),
+                    WAYS,
                 )
             }
         }
@@ -61,7 +66,11 @@ impl Values<'_> {
         let x_axis = self.unit(x, "x_axis")?;
         let y_axis = self.unit(y, "y_axis")?;
         if x_axis.dot(&y_axis).abs() > 1e-6 {
-            return self.clash(y.span(), "`y_axis` is not perpendicular to `x_axis`");
+            return self.clash(
+                y.span(),
+                "`y_axis` is not perpendicular to `x_axis`",
+                "choose y_axis so that its dot product with x_axis is 0",
+            );
         }
         let z_axis = x_axis.cross(&y_axis).normalize();
         Ok(Matrix3::from_columns(&[
@@ -71,9 +80,8 @@ impl Values<'_> {
         ]))
     }
 
-    /// Refuses a rotation; every such message helps with all the ways to say one.
-    fn clash<T>(&self, at: Range<usize>, message: &str) -> Result<T, PartError> {
-        let help = "say a rotation in one way: `rpy_deg`, or `axis` with `angle_deg`, or `x_axis` with `y_axis`";
+    /// Refuses a rotation.
+    fn clash<T>(&self, at: Range<usize>, message: &str, help: &str) -> Result<T, PartError> {
         self.err(
             at,
             PartProblem::Origin {
@@ -82,4 +90,37 @@ impl Values<'_> {
             },
         )
     }
+}
+
+/// What is wrong with a rotation that has keys of several ways to say one, or a part of those of one way.
+fn half_or_twice(table: &OriginTable) -> String {
+    let ways = [
+        (table.rpy_deg.is_some(), "`rpy_deg`"),
+        (
+            table.axis.is_some() || table.angle_deg.is_some(),
+            "`axis` with `angle_deg`",
+        ),
+        (
+            table.x_axis.is_some() || table.y_axis.is_some(),
+            "`x_axis` with `y_axis`",
+        ),
+    ];
+    let given: Vec<&str> = ways
+        .into_iter()
+        .filter_map(|(given, way)| given.then_some(way))
+        .collect();
+    if given.len() > 1 {
+        let count = if given.len() == 2 { "two" } else { "three" };
+        return format!("{count} rotations: keep {}", given.join(", or "));
+    }
+    let (there, missing) = if table.axis.is_some() {
+        ("axis", "angle_deg")
+    } else if table.angle_deg.is_some() {
+        ("angle_deg", "axis")
+    } else if table.x_axis.is_some() {
+        ("x_axis", "y_axis")
+    } else {
+        ("y_axis", "x_axis")
+    };
+    format!("`{there}` without `{missing}`: a rotation needs both")
 }

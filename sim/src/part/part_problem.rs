@@ -175,10 +175,48 @@ impl PartProblem {
             | Self::Sensor { help, .. }
             | Self::Origin { help, .. }
             | Self::UnknownDimension { help, .. } => Some(help.clone()),
-            Self::OutOfRange { expected, .. } => Some(format!(
-                "write a number that is {expected}; its unit is in the name of its key"
+            Self::OutOfRange { what, expected, .. } => Some(format!(
+                "write a number that is {expected}{}",
+                unit_of(what)
             )),
             Self::DimensionShape { .. } => None,
+        }
+    }
+}
+
+/// The half sentence about the unit of what a message calls `what`; empty where that depends on more than its key.
+fn unit_of(what: &str) -> &'static str {
+    // a key of TOML, or an element or attribute of XML with its owner
+    let key = what.split(" of ").next().unwrap_or(what);
+    let ending = key.rsplit_once('_').map(|(_, ending)| ending);
+    match (ending, key) {
+        (Some("kg" | "m" | "m2" | "m3" | "s" | "hz" | "n" | "nm" | "rad" | "deg"), _) => {
+            "; its unit is in the name of its key"
+        }
+        (_, "mass `value`") => "; it is in kg",
+        (_, "box `size`" | "sphere `radius`" | "cylinder `radius`" | "cylinder `length`") => {
+            "; it is in metres"
+        }
+        _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_told_where_the_key_has_one() {
+        for (what, unit) in [
+            ("mass_kg", "; its unit is in the name of its key"),
+            ("area_m2", "; its unit is in the name of its key"),
+            ("mass `value` of link `hand`", "; it is in kg"),
+            ("cylinder `radius` of link `hand`", "; it is in metres"),
+            ("damping", ""),
+            ("friction", ""),
+            ("dynamics `damping` of joint `base_m`", ""),
+        ] {
+            assert_eq!(unit_of(what), unit, "{what}");
         }
     }
 }

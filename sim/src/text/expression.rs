@@ -243,10 +243,12 @@ impl Reader<'_> {
             }
             Dimension::List(values) => {
                 let last = values.len().saturating_sub(1);
-                let help = Some(format!(
-                    "write `{name}[0]` to `{name}[{last}]`: it has {} numbers",
-                    values.len()
-                ));
+                let help = Some(match values.len() {
+                    1 => format!("`{name}` has 1 number: there is only {name}[0]"),
+                    count => {
+                        format!("write `{name}[0]` to `{name}[{last}]`: it has {count} numbers")
+                    }
+                });
                 if !self.take('[') {
                     return Err(problem(
                         format!("`{name}` is a list and needs an index"),
@@ -305,6 +307,24 @@ mod tests {
             ("(h", 0..2),
         ] {
             assert_eq!(evaluate(text, &d).unwrap_err().at, at, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_index_that_is_missing_is_told_with_those_there_are() {
+        let mut dimensions = dimensions();
+        dimensions = Dimensions::from_pairs(
+            (dimensions.names().map(str::to_owned))
+                .filter_map(|name| Some((name.clone(), dimensions.get(&name)?.clone())))
+                .chain([("right".to_owned(), Dimension::List(vec![1.0]))]),
+        );
+        for (text, help) in [
+            ("right", "`right` has 1 number: there is only right[0]"),
+            ("right[1]", "`right` has 1 number: there is only right[0]"),
+            ("l[2]", "write `l[0]` to `l[1]`: it has 2 numbers"),
+        ] {
+            let problem = evaluate(text, &dimensions).unwrap_err();
+            assert_eq!(problem.help.as_deref(), Some(help), "{text}");
         }
     }
 

@@ -27,7 +27,7 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     noun: &'static str,
 ) -> Result<T, MarkedNumbersProblem> {
     let refused = |error: &toml::de::Error| {
-        MarkedNumbersProblem::Refused(TomlRefusal::from_error(error, source.text()))
+        MarkedNumbersProblem::Refused(TomlRefusal::with_expressions(error, source.text()))
     };
     // the numbers as text, in the order in which they are found: the tables borrow from them
     let mut numbers = Vec::new();

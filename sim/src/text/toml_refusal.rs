@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
 use super::nearest;
 
 /// An error of the TOML reader: its message, its position, and what to do.
@@ -22,16 +25,25 @@ const LINES: &str =
 impl TomlRefusal {
     /// Rewords the reader's error about `text`.
     pub fn from_error(error: &toml::de::Error, text: &str) -> Self {
+        Self::reworded(error, text, false)
+    }
+
+    /// As [`TomlRefusal::from_error`], about a text in which a number may be an expression.
+    pub(super) fn with_expressions(error: &toml::de::Error, text: &str) -> Self {
+        Self::reworded(error, text, true)
+    }
+
+    fn reworded(error: &toml::de::Error, text: &str, expressions: bool) -> Self {
         let at = error.span().unwrap_or(0..0);
         let given = text.get(at.clone()).unwrap_or_default();
         let message = error.message().trim();
         let (message, help) = if let Some(help) = decimal_comma(text, at.start) {
             ("a comma in a number".to_owned(), help)
         } else {
-            unknown(message, given)
-                .or_else(|| key(message, given))
-                .or_else(|| value(message, given))
-                .unwrap_or_else(|| syntax(message))
+            unknown(message, given, text, &at)
+                .or_else(|| key(message, given, line_of(text, at.start).1))
+                .or_else(|| value(message, given, expressions))
+                .unwrap_or_else(|| syntax(message, text, at.start))
         };
         Self {
             message,
@@ -44,7 +56,7 @@ impl TomlRefusal {
 type Words = (String, String);
 
 /// An unknown name: of a key, of a kind that is a key, or of a value.
-fn unknown(message: &str, given: &str) -> Option<Words> {
+fn unknown(message: &str, given: &str, text: &str, at: &Range<usize>) -> Option<Words> {
     let what = if message.starts_with("unknown field") {
         "key"
     } else if !message.starts_with("unknown variant") {
@@ -57,7 +69,11 @@ fn unknown(message: &str, given: &str) -> Option<Words> {
     let mut quoted = message.split('`').skip(1).step_by(2);
     let name = quoted.next().unwrap_or_default();
     let known: Vec<&str> = quoted.collect();
-    let help = match nearest(name, known.iter().copied()) {
+    // a second one of the same key would be the next mistake
+    let present = keys_beside(text, at);
+    let free = known.iter().copied();
+    let free = free.filter(|name| !present.iter().any(|key| key == name));
+    let help = match nearest(name, free) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("known here: {}", known.join(", ")),
     };
@@ -65,12 +81,16 @@ fn unknown(message: &str, given: &str) -> Option<Words> {
 }
 
 /// A key that is missing or duplicate.
-fn key(message: &str, given: &str) -> Option<Words> {
+fn key(message: &str, given: &str, line: &str) -> Option<Words> {
     if message == "duplicate key" {
-        return Some((
-            format!("the key `{given}` is defined twice"),
-            "keep one of the two".to_owned(),
-        ));
+        let is_table = line.trim_start().starts_with(&format!("[{given}]"));
+        let help = match is_table {
+            true => format!(
+                "keep one of the two; each item of a list is [[{given}]], with two brackets"
+            ),
+            false => "keep one of the two".to_owned(),
+        };
+        return Some((format!("the key `{given}` is defined twice"), help));
     }
     let name = message.strip_prefix("missing field ")?.trim_matches('`');
     let help = if name == "format" {
@@ -82,7 +102,7 @@ fn key(message: &str, given: &str) -> Option<Words> {
 }
 
 /// A value of a wrong type or length.
-fn value(message: &str, given: &str) -> Option<Words> {
+fn value(message: &str, given: &str, expressions: bool) -> Option<Words> {
     if !message.starts_with("invalid ") {
         return None;
     }
@@ -92,7 +112,7 @@ fn value(message: &str, given: &str) -> Option<Words> {
         let (found, _) = rest.split_once(',')?;
         return Some((
             format!("a list of {found}, expected {expected}"),
-            format!("write {expected}"),
+            written_as(&expected, given),
         ));
     }
     let found = ["invalid type: ", "invalid value: "]
@@ -118,12 +138,54 @@ fn value(message: &str, given: &str) -> Option<Words> {
     let bare = given.trim_matches(['"', '\'']);
     let help = if kind == "a string" && expected.contains("number") && bare.parse::<f64>().is_ok() {
         format!("write {bare}, without quotes")
+    } else if expressions && kind == "a string" && expected == "a number" && names_values(bare) {
+        format!("an expression begins with =: \"= {bare}\"")
     } else if expected == "a string" {
         "put it in quotes".to_owned()
     } else {
-        format!("write {expected}")
+        written_as(&expected, given)
     };
     Some((format!("{shown}, expected {expected}"), help))
+}
+
+/// What to write where `expected` is expected instead of `given`.
+fn written_as(expected: &str, given: &str) -> String {
+    // a list of lists is one of ranges or points, as far as that can be seen
+    let of_numbers = !given.starts_with("[[");
+    match expected {
+        "a list of 2" if of_numbers => "write two numbers, such as [0, 1]".to_owned(),
+        "a list of 3" if of_numbers => "write three numbers, such as [0, 0, 1]".to_owned(),
+        _ => format!("write {expected}"),
+    }
+}
+
+/// Whether a text could be meant as an expression over names: `right[0]`.
+fn names_values(text: &str) -> bool {
+    let of_expression = |c: char| c.is_ascii_alphanumeric() || "_[]+-*/(). ".contains(c);
+    text.len() <= 40
+        && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && text.chars().all(of_expression)
+}
+
+/// The keys of the table in which the key at `at` is, that one among them; none where the text is no TOML.
+fn keys_beside(text: &str, at: &Range<usize>) -> Vec<String> {
+    fn in_table(table: &DeTable<'_>, at: &Range<usize>) -> Option<Vec<String>> {
+        if table.keys().any(|key| key.span() == *at) {
+            return Some(table.keys().map(|key| key.get_ref().to_string()).collect());
+        }
+        table.values().find_map(|value| in_value(value, at))
+    }
+    fn in_value(value: &Spanned<DeValue<'_>>, at: &Range<usize>) -> Option<Vec<String>> {
+        match value.get_ref() {
+            DeValue::Table(table) => in_table(table, at),
+            DeValue::Array(items) => items.iter().find_map(|item| in_value(item, at)),
+            _ => None,
+        }
+    }
+    let table = DeTable::parse(text).ok();
+    table
+        .and_then(|table| in_table(table.get_ref(), at))
+        .unwrap_or_default()
 }
 
 /// The reader's name of an expected type, reworded.
@@ -143,7 +205,23 @@ fn in_our_words(expected: &str) -> String {
 }
 
 /// A text that is not TOML.
-fn syntax(message: &str) -> Words {
+fn syntax(message: &str, text: &str, at: usize) -> Words {
+    if message.starts_with("invalid float") || message.contains("integer number") {
+        let message = match word_at(text, at) {
+            Some(word) => format!("`{word}` is not a number"),
+            None => "this is not a number".to_owned(),
+        };
+        return (message, "a number is such as 2, -0.5 or 1e-3".to_owned());
+    }
+    if message.starts_with("string values must be quoted") {
+        let word = word_at(text, at);
+        let message = match word {
+            Some(word) => format!("`{word}` is not in quotes"),
+            None => "a text without quotes".to_owned(),
+        };
+        let word = word.unwrap_or("lab");
+        return (message, format!("text stands in quotes: \"{word}\""));
+    }
     let (message, help) = if message.starts_with("invalid basic string") {
         (
             "a string is not closed",
@@ -162,13 +240,7 @@ fn syntax(message: &str) -> Words {
 
 /// What to write for a number such as `0,5` that is the value at which the reader stopped.
 fn decimal_comma(text: &str, at: usize) -> Option<String> {
-    let mut at = at.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
-    }
-    let start = text[..at].rfind('\n').map_or(0, |end| end + 1);
-    let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
-    let line = &text[start..end];
+    let (start, line) = line_of(text, at);
     line.match_indices('=').find_map(|(sign, _)| {
         let rest = line[sign + 1..].trim_start();
         let begin = line.len() - rest.len();
@@ -185,6 +257,33 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
             format!("write {whole}.{fraction}: a decimal has a point")
         })
     })
+}
+
+/// The line of `text` in which byte `at` is, and where it begins.
+fn line_of(text: &str, at: usize) -> (usize, &str) {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    let start = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
+    (start, &text[start..end])
+}
+
+/// The value without quotes in which byte `at` is, if it is short enough for a message.
+fn word_at(text: &str, at: usize) -> Option<&str> {
+    let (start, line) = line_of(text, at);
+    let is_end =
+        |c: char| c.is_whitespace() || matches!(c, ',' | '[' | ']' | '{' | '}' | '=' | '#');
+    let inside = (at.saturating_sub(start)).min(line.len());
+    let begin = line
+        .char_indices()
+        .filter(|(i, c)| *i < inside && is_end(*c))
+        .last()
+        .map_or(0, |(i, c)| i + c.len_utf8());
+    let word = &line[begin..];
+    let word = word.split(is_end).next()?;
+    (1..=40).contains(&word.len()).then_some(word)
 }
 
 #[cfg(test)]
@@ -255,12 +354,12 @@ mod tests {
             (
                 "mass_kg = 1\naxis = \"y\"",
                 "`\"y\"` is a string, expected a list of 3",
-                "write a list of 3",
+                "write three numbers, such as [0, 0, 1]",
             ),
             (
                 "mass_kg = 1\naxis = [0, 1]",
                 "a list of 2, expected a list of 3",
-                "write a list of 3",
+                "write three numbers, such as [0, 0, 1]",
             ),
             (
                 "mass_kg = 1\ncount = -1",
@@ -281,6 +380,26 @@ mod tests {
                 "mass_kg = 1\nmass_kg = 2",
                 "the key `mass_kg` is defined twice",
                 "keep one of the two",
+            ),
+            (
+                "mass_kg = 1\n[part]\na = 1\n[part]\nb = 1",
+                "the key `part` is defined twice",
+                "keep one of the two; each item of a list is [[part]], with two brackets",
+            ),
+            (
+                "mass_kg = 1\nmass_kgs = 1",
+                "unknown key `mass_kgs`",
+                "known here: mass_kg, name, axis, count, side, part",
+            ),
+            (
+                "mass_kg = 1.0.0",
+                "`1.0.0` is not a number",
+                "a number is such as 2, -0.5 or 1e-3",
+            ),
+            (
+                "mass_kg = 1\nname = lab # here",
+                "`lab` is not in quotes",
+                "text stands in quotes: \"lab\"",
             ),
             (
                 "name = \"a\"",
@@ -309,6 +428,21 @@ mod tests {
             TomlRefusal::from_error(&error, text).help.as_deref(),
             Some(LINES)
         );
+    }
+
+    #[test]
+    fn an_expression_without_its_mark_is_told_where_one_may_be() {
+        let text = "mass_kg = \"right[0]\"";
+        let error = toml::from_str::<Table>(text).expect_err(text);
+        for (refusal, help) in [
+            (TomlRefusal::from_error(&error, text), "write a number"),
+            (
+                TomlRefusal::with_expressions(&error, text),
+                "an expression begins with =: \"= right[0]\"",
+            ),
+        ] {
+            assert_eq!(refusal.help.as_deref(), Some(help));
+        }
     }
 
     #[test]

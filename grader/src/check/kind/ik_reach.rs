@@ -61,7 +61,10 @@ fn message(facts: &CaseFacts<'_>, nearest_m: f64) -> String {
     let name = facts.label();
     match &facts.answer {
         Answered::Branches(branches) if branches.is_empty() => {
-            format!("{name}: said to be out of reach, but it is not")
+            // the lab's own target may be the one that is wrong
+            format!(
+                "{name}: inverse_kinematics returned [], expected the angles of a target within reach"
+            )
         }
         _ => without_answer(facts).unwrap_or_else(|| {
             format!("{name}: the arm ends {} from the target", metres(nearest_m))

@@ -42,12 +42,9 @@ impl Reader<'_> {
             if let Some(first) = cases.first()
                 && shape(first) != shape(&case)
             {
-                let problem = FunctionProblem::OtherNames {
-                    gives: in_words(&case),
-                    case: case.name,
-                    first: first.name.clone(),
-                    first_gives: in_words(first),
-                };
+                let differs = differences(&case, first);
+                let case = case.name;
+                let problem = FunctionProblem::OtherNames { case, differs };
                 return self.report.refuse_at(spanned, problem);
             }
             cases.push(case);
@@ -71,7 +68,6 @@ impl Reader<'_> {
             if let (true, Some(near)) = (foreign, nearest(function.get_ref(), known.into_iter())) {
                 let problem = FunctionProblem::NearName {
                     name: function.get_ref().clone(),
-                    case: name,
                     near: near.to_owned(),
                 };
                 return self.report.refuse_at(function, problem);
@@ -113,12 +109,34 @@ fn shape(case: &Case) -> [Vec<&str>; 2] {
     }
 }
 
-/// What a case gives and expects, in words.
-fn in_words(case: &Case) -> String {
+/// How what `case` gives and expects differs from the first one, in words: the names that differ, and no others.
+fn differences(case: &Case, first: &Case) -> String {
     let [given, expected] = shape(case);
-    let expected = match expected.as_slice() {
-        [""] => "one number".to_owned(),
-        names => names.join(", "),
+    let [first_given, first_expected] = shape(first);
+    let both = [
+        difference("give", &given, &first_given),
+        difference("expect", &expected, &first_expected),
+    ];
+    let both: Vec<String> = both.into_iter().flatten().collect();
+    both.join("; it ")
+}
+
+fn difference(verb: &str, of_case: &[&str], of_first: &[&str]) -> Option<String> {
+    let without = |these: &[&str], those: &[&str]| {
+        let only = these.iter().filter(|name| !those.contains(name));
+        let only: Vec<String> = only
+            .map(|name| match *name {
+                "" => "one number".to_owned(),
+                name => format!("`{name}`"),
+            })
+            .collect();
+        only.join(", ")
     };
-    format!("{} and expects {expected}", given.join(", "))
+    let (more, less) = (without(of_case, of_first), without(of_first, of_case));
+    match (more.is_empty(), less.is_empty()) {
+        (true, true) => None,
+        (false, true) => Some(format!("{verb}s {more}, the first case does not")),
+        (true, false) => Some(format!("does not {verb} {less}, the first case does")),
+        (false, false) => Some(format!("{verb}s {more}, the first case {verb}s {less}")),
+    }
 }

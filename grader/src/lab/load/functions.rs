@@ -1,5 +1,7 @@
 //! Function tasks: the function that is called, its rows, and its visible cases.
 
+use std::collections::BTreeSet;
+
 use toml::Spanned;
 
 use super::Reader;
@@ -13,9 +15,11 @@ problems! {
         BadName { name: String, why: String }:
             "lab::call", "`{name}` cannot be the name of a function: {why}", "this name",
             "`forward_kinematics`, `inverse_kinematics`, `jacobian`, or a name of your own in lower-case letters, digits and `_`";
-        NearName { name: String, case: String, near: String }:
-            "lab::call", "`{name}` is a function of the lab's own, and case `{case}` is one of `{near}`", "this name",
-            format!("did you mean `{near}`?");
+        NearName { name: String, near: String }:
+            "lab::call", "no built-in task function is called `{name}`", "this name",
+            format!("did you mean `{near}`? A function of your own needs `given` and `expected` in every case");
+        SameCase { case: String }:
+            "lab::duplicate", "case `{case}` is defined twice", "the second one", "give each its own name";
         RowsOfWhat { function: String }:
             "lab::rows", "`{function}` has no `rows`", "rows of what?", "`rows` are those of `jacobian`: remove them here";
         Rows { known: String }:
@@ -35,9 +39,8 @@ problems! {
         NothingExpected { case: String }:
             "lab::case_input", "case `{case}` expects nothing", "this case",
             "name in `expected` what the function is to return";
-        OtherNames { case: String, gives: String, first: String, first_gives: String }:
-            "lab::case_input", "case `{case}` gives {gives}, case `{first}` gives {first_gives}", "unlike the first case",
-            "give and expect the same names in every case";
+        OtherNames { case: String, differs: String }:
+            "lab::case_input", "case `{case}` {differs}", "unlike the first case", "all cases of a task have the same names";
     }
 }
 
@@ -59,6 +62,7 @@ impl Reader<'_> {
             let problem = FunctionProblem::NoCases { function };
             return self.report.refuse_at(&table.call, problem);
         }
+        self.distinct(&table.cases)?;
         let cases: Result<Vec<Case>, LabError> = match &function {
             Function::Free(_) => self.free_cases(table),
             function => {
@@ -71,6 +75,20 @@ impl Reader<'_> {
             function,
             cases: cases?,
         })
+    }
+
+    /// Refuses a name that two cases have.
+    fn distinct(&self, cases: &[Spanned<CaseTable>]) -> Result<(), LabError> {
+        let mut known = BTreeSet::new();
+        for case in cases {
+            let name = &case.get_ref().name;
+            if !known.insert(name.get_ref()) {
+                let case = name.get_ref().clone();
+                let problem = FunctionProblem::SameCase { case };
+                return self.report.refuse_at(name, problem);
+            }
+        }
+        Ok(())
     }
 
     /// The rows of a Jacobian: the linear ones where none are named.

@@ -9,7 +9,7 @@ use crate::lab::TaskWork;
 use crate::lab::draw::{Draw, Drawn};
 use crate::lab::file::{DrawTable, Ranges};
 use crate::task::model::{Function, FunctionTask, Given};
-use crate::task::problem::{LabError, problems};
+use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
 
 /// A `[[draws]]` table as a draw that fits its lab.
@@ -32,7 +32,7 @@ pub(super) fn checked(
     Ok(Draw {
         task: table.task.get_ref().clone(),
         class: table.class.get_ref().clone(),
-        count: table.count,
+        count: *table.count.get_ref(),
         what,
         dimensions: reader.dimensions()?,
     })
@@ -49,11 +49,11 @@ problems! {
     /// What is wrong with a draw.
     enum DrawProblem {
         NoFunctionTask { task: String }:
-            "staff::draw", "task `{task}` is not a function task", "this draw", "hidden cases are drawn for function tasks";
+            "staff::draw", "task `{task}` is not a function task", "this task", "hidden cases are drawn for function tasks";
         Count { count: u32 }:
-            "staff::draw", "a draw has 1 to 1000 cases, got {count}", "this draw", "change `count`";
-        JointCount { found: usize, joints: usize }:
-            "staff::draw", "`q_rad` has {found} ranges for {joints} joints", "this draw",
+            "staff::draw", "a draw has 1 to 1000 cases, got {count}", "this count", "change `count`";
+        JointCount { found: String, joints: String }:
+            "staff::draw", "`q_rad` has {found} for {joints}", "these ranges",
             "give one [low, high] per joint that moves";
         NotByGiven { function: String }:
             "staff::draw", "a draw for `{function}` is of `given`", "this draw",
@@ -68,6 +68,8 @@ problems! {
             "staff::draw", "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`", "this draw", "give one of the two";
         OtherNames { drawn: String, given: String }:
             "staff::draw", "this draw gives {drawn}, the visible cases give {given}", "this draw", "give the same names";
+        UnknownDimension { name: String, known: Vec<String> }:
+            "staff::draw", "no dimension `{name}` in this robot", "not a dimension of this robot", near(name, "dimensions", known);
         Dimensions { error: String }:
             "staff::draw", "{error}", "this draw", "change the ranges of `dimensions`";
     }
@@ -83,11 +85,13 @@ impl<'a> DrawReader<'a> {
         let TaskWork::Function(task, _) = known_task(self.report, self.lab, &self.table.task)?
         else {
             let task = self.table.task.get_ref().clone();
-            return self.refuse(DrawProblem::NoFunctionTask { task });
+            let problem = DrawProblem::NoFunctionTask { task };
+            return self.report.refuse_at(&self.table.task, problem);
         };
-        let count = self.table.count;
+        let count = *self.table.count.get_ref();
         if count == 0 || count > 1000 {
-            return self.refuse(DrawProblem::Count { count });
+            let problem = DrawProblem::Count { count };
+            return self.report.refuse_at(&self.table.count, problem);
         }
         Ok(task)
     }
@@ -112,12 +116,20 @@ impl<'a> DrawReader<'a> {
     /// The ranges of joint positions, one per joint.
     fn q_ranges(&self) -> Result<Option<Vec<[f64; 2]>>, LabError> {
         let joints = self.lab.robot.n();
-        let Some(ranges) = self.table.q_rad.as_ref().map(Spanned::get_ref) else {
+        let Some(typed) = &self.table.q_rad else {
             return Ok(None);
         };
+        let ranges = typed.get_ref();
         if ranges.len() != joints {
-            let found = ranges.len();
-            return self.refuse(DrawProblem::JointCount { found, joints });
+            let counted = |n: usize, what: &str| match n {
+                1 => format!("1 {what}"),
+                _ => format!("{n} {what}s"),
+            };
+            let problem = DrawProblem::JointCount {
+                found: counted(ranges.len(), "range"),
+                joints: counted(joints, "joint"),
+            };
+            return self.report.refuse_at(typed, problem);
         }
         Ok(Some(ranges.clone()))
     }
@@ -156,7 +168,7 @@ impl<'a> DrawReader<'a> {
     fn values(&self, task: &FunctionTask) -> Result<Drawn, LabError> {
         let ranges = self.table.given.iter().flatten();
         let ranges: Vec<(String, Ranges)> = ranges
-            .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
+            .map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().clone()))
             .collect();
         let drawn: Vec<&str> = ranges.iter().map(|(name, _)| name.as_str()).collect();
         let of_cases: Vec<&str> = match task.cases.first().map(|case| &case.given) {
@@ -174,9 +186,18 @@ impl<'a> DrawReader<'a> {
 
     /// The ranges of dimensions, with which a robot can be built.
     fn dimensions(&self) -> Result<Vec<(String, Ranges)>, LabError> {
+        let stated = self.lab.robot_file.dimensions();
+        let mut names = self.table.dimensions.keys();
+        if let Some(at) = names.find(|name| stated.get(name.get_ref()).is_none()) {
+            let problem = DrawProblem::UnknownDimension {
+                name: at.get_ref().clone(),
+                known: stated.names().map(str::to_owned).collect(),
+            };
+            return self.report.refuse_at(at, problem);
+        }
         let dimensions = self.table.dimensions.iter();
         let dimensions: Vec<(String, Ranges)> = dimensions
-            .map(|(name, ranges)| (name.clone(), ranges.get_ref().clone()))
+            .map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().clone()))
             .collect();
         // what can be built at the low ends can be built between: expressions are monotone in practice, and both ends are tried
         for end in [0, 1] {
@@ -186,7 +207,13 @@ impl<'a> DrawReader<'a> {
                 .collect();
             if let Err(error) = self.lab.robot_file.build(&changed) {
                 let error = error.to_string();
-                return self.refuse(DrawProblem::Dimensions { error });
+                // what has another shape is wrong at its own place; which of several numbers is too much, nobody can say
+                let misfit = self.table.dimensions.iter().find(|(name, ranges)| {
+                    let base = stated.get(name.get_ref()).map(ToString::to_string);
+                    base != Some(ranges.get_ref().end(end).to_string())
+                });
+                let at = misfit.map_or(self.spanned.span(), |(_, ranges)| ranges.span());
+                return self.report.refuse(at, DrawProblem::Dimensions { error });
             }
         }
         Ok(dimensions)

@@ -17,9 +17,9 @@ problems! {
         Numbers { error: String }:
             "staff::runs", "{error}", "these runs", "change the ranges of `parameters`";
         NoMotionTask { task: String }:
-            "staff::runs", "task `{task}` is not a motion task", "these runs", "hidden cases of function tasks are [[draws]]";
+            "staff::runs", "task `{task}` is not a motion task", "this task", "hidden cases of function tasks are [[draws]]";
         Count { count: u32 }:
-            "staff::runs", "there are 1 to {MOST_RUNS} hidden runs of a class, got {count}", "these runs", "change `count`";
+            "staff::runs", "there are 1 to {MOST_RUNS} hidden runs of a class, got {count}", "this count", "change `count`";
         OnePath { check: String }:
             "staff::runs", "check `{check}` compares with one path, and every run has its own", "these runs",
             "judge the task by goals or a path of its own instead";
@@ -27,9 +27,9 @@ problems! {
             "staff::runs", "a hidden run without other numbers is the visible run again", "nothing is drawn",
             "give parameters, such as { can_y = [0.95, 1.05] }";
         UnknownParameter { lab: String, name: String, known: Vec<String> }:
-            "staff::runs", "lab `{lab}` has no parameter `{name}`", "these runs", near(name, "parameters", known);
+            "staff::runs", "lab `{lab}` has no parameter `{name}`", "not a parameter of this lab", near(name, "parameters", known);
         Shape { name: String }:
-            "staff::runs", "the ranges of `{name}` do not fit its shape", "these runs",
+            "staff::runs", "the ranges of `{name}` do not fit its shape", "another shape",
             "give [low, high] for one number, and a list of such ranges for a list";
     }
 }
@@ -54,12 +54,12 @@ pub(super) fn hidden_runs(
     for end in [0, 1] {
         let all = ranges.iter();
         with(
-            all.map(|(name, ranges)| (name.clone(), ranges.get_ref().end(end)))
+            all.map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().end(end)))
                 .collect(),
         )?;
     }
     let class = table.class.get_ref();
-    (0..table.count)
+    (0..*table.count.get_ref())
         .map(|number| {
             let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
             Ok(HiddenRun {
@@ -79,11 +79,11 @@ fn is_of_goals(
     let table = spanned.get_ref();
     let TaskWork::Motion(..) = known_task(report, lab, &table.task)? else {
         let task = table.task.get_ref().clone();
-        return report.refuse_at(spanned, RunsProblem::NoMotionTask { task });
+        return report.refuse_at(&table.task, RunsProblem::NoMotionTask { task });
     };
-    if table.count == 0 || table.count > MOST_RUNS {
-        let count = table.count;
-        return report.refuse_at(spanned, RunsProblem::Count { count });
+    let count = *table.count.get_ref();
+    if count == 0 || count > MOST_RUNS {
+        return report.refuse_at(&table.count, RunsProblem::Count { count });
     }
     let task = lab
         .tasks
@@ -110,22 +110,22 @@ fn fitting_ranges<'t>(
     }
     all_rising(report, ranges)?;
     for (name, ranges) in ranges {
-        let fits = match (lab.parameters.get(name), ranges.get_ref()) {
+        let fits = match (lab.parameters.get(name.get_ref()), ranges.get_ref()) {
             (Some(Dimension::Number(_)), Ranges::One(_)) => true,
             (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
             (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
             (None, _) => {
                 let problem = RunsProblem::UnknownParameter {
                     lab: lab.name.clone(),
-                    name: name.clone(),
+                    name: name.get_ref().clone(),
                     known: lab.parameters.names().map(str::to_owned).collect(),
                 };
-                return report.refuse_at(spanned, problem);
+                return report.refuse_at(name, problem);
             }
         };
         if !fits {
-            let name = name.clone();
-            return report.refuse_at(spanned, RunsProblem::Shape { name });
+            let name = name.get_ref().clone();
+            return report.refuse_at(ranges, RunsProblem::Shape { name });
         }
     }
     Ok(ranges)

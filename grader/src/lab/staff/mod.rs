@@ -24,6 +24,12 @@ problems! {
     enum HiddenProblem {
         NoMutant { path: String }:
             "staff::no_mutant", "there is no file `{path}`", "this mutant", "a mutant's name is its file's name without `.rhai`";
+        Twice { name: String }:
+            "lab::duplicate", "mutant `{name}` is defined twice", "the second one", "give each its own name";
+        SaysNothing { name: String }:
+            "staff::no_mutant", "mutant `{name}` says nothing", "no words", "write what the student reads";
+        NoTask { name: String }:
+            "staff::unknown_task", "mutant `{name}` names no task", "no task", "such as tasks = [\"move\"]";
         EmptySalt:
             "staff::salt", "the salt is empty: anyone could compute the hidden numbers", "no secret",
             "write a string that nobody can guess";
@@ -237,8 +243,12 @@ fn mutants(files: &dyn Files, lab: &Lab, digest: &mut Digest) -> Result<Vec<Muta
     let table: MutantsTable = tables(&source)?;
     let report = Reporter { source: &source };
     report.format(&table.format)?;
-    let mut mutants = Vec::new();
+    let mut mutants: Vec<Mutant> = Vec::new();
     for table in table.mutants {
+        if mutants.iter().any(|m| m.name == *table.name.get_ref()) {
+            let name = table.name.get_ref().clone();
+            return Ok(report.refuse_at(&table.name, HiddenProblem::Twice { name })?);
+        }
         mutants.push(mutant(files, lab, report, table, digest)?);
     }
     Ok(mutants)
@@ -251,10 +261,16 @@ fn mutant(
     table: MutantTable,
     digest: &mut Digest,
 ) -> Result<Mutant, LoadError> {
-    for task in &table.tasks {
+    let name = table.name.get_ref().clone();
+    for task in table.tasks.get_ref() {
         known_task(report, lab, task)?;
     }
-    let name = table.name.get_ref().clone();
+    if table.tasks.get_ref().is_empty() {
+        return Ok(report.refuse_at(&table.tasks, HiddenProblem::NoTask { name })?);
+    }
+    if table.says.get_ref().trim().is_empty() {
+        return Ok(report.refuse_at(&table.says, HiddenProblem::SaysNothing { name })?);
+    }
     let path = format!("{}/mutants/{name}.rhai", lab.name);
     let Some(source) = own(files, &path)? else {
         let path = format!("{}/{path}", files.name());
@@ -263,8 +279,10 @@ fn mutant(
     digest.add(&source);
     Ok(Mutant {
         name,
-        tasks: table.tasks.into_iter().map(Spanned::into_inner).collect(),
-        says: table.says,
+        tasks: (table.tasks.into_inner().into_iter())
+            .map(Spanned::into_inner)
+            .collect(),
+        says: table.says.into_inner(),
         source,
     })
 }
@@ -310,7 +328,7 @@ fn rising<T>(
 /// [`rising`] for ranges by name.
 fn all_rising(report: Reporter<'_>, table: &RangesTable) -> Result<(), LabError> {
     let mut all = table.iter();
-    all.try_for_each(|(name, at)| rising(report, name, at, at.get_ref().all()))
+    all.try_for_each(|(name, at)| rising(report, name.get_ref(), at, at.get_ref().all()))
 }
 
 fn known_task<'l>(

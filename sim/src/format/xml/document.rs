@@ -108,6 +108,12 @@ fn malformed(source: &Source, dialect: &Dialect, error: &Error) -> RobotError {
             point(text, pos),
             Some("close elements in the order they were opened"),
         ),
+        // an attribute without its quotes, or without what is before its `=`
+        Error::InvalidChar2("a quote", ..)
+        | Error::InvalidChar2(_, b'=', _)
+        | Error::InvalidChar(b'=', ..) => {
+            (point(text, pos), Some("an attribute is name=\"value\""))
+        }
         _ => (point(text, pos), None),
     };
     let message = error.to_string();
