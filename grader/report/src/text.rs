@@ -89,7 +89,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
                 "likely:".magenta().bold(),
                 diagnosis.says,
                 format!(
-                    "({} of {} telling {} agree)",
+                    "(matches {} of the {} {} in which this mistake shows)",
                     diagnosis.agreeing,
                     diagnosis.telling,
                     match task.kind {
@@ -245,7 +245,7 @@ pub(crate) fn untold(check: &CheckGrade) -> Option<Instant> {
     (!told).then_some(first)
 }
 
-/// The value against its band, and the margin of a full check.
+/// The value against its band, and the margin of a run that is full.
 pub fn band(measure: &Measure, outcome: Outcome) -> String {
     let told = Measured::of(measure);
     let (to, from) = if measure.zero >= measure.full {
@@ -257,7 +257,8 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
         "{}: {}; all points {to} {}, none {from} {}",
         measure.quantity, told.value, told.full, told.zero
     );
-    if let (Outcome::Full, Some(margin)) = (outcome, told.margin)
+    // with a margin the visible run is full; hidden ones may have lost points
+    if let (Outcome::Full | Outcome::Partial, Some(margin)) = (outcome, told.margin)
         && measure.margin() > Some(0.0)
     {
         let _ = write!(text, "; margin {margin}");

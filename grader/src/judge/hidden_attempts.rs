@@ -94,28 +94,34 @@ impl HiddenAttempts {
         self.0.iter().map(|attempt| attempt.score(check)).sum()
     }
 
-    /// The report on a check: the classes in which it lost points, and those in which a check that it needs earned nothing.
-    pub(super) fn losses(&self, check: usize) -> [Vec<Evidence>; 2] {
+    /// The report on a check: the classes in which it lost points, and those in which it was not judged because a check that it needs,
+    /// one of those called `needed`, earned nothing.
+    pub(super) fn losses(&self, check: usize, needed: &str) -> [Vec<Evidence>; 2] {
         [
             self.evidence(
                 |run| run.score(check) < 1.0 && !run.needs_failed(check),
-                "points are lost",
+                |runs| format!("in {runs} points are lost"),
             ),
             self.evidence(
                 |run| run.needs_failed(check),
-                "a check that this one needs earns nothing",
+                |runs| format!("not judged in {runs}, because {needed} earns nothing there"),
             ),
         ]
     }
 
     /// One sentence per class with a run in which `lost`: the count, and never the numbers of a run.
-    fn evidence(&self, lost: impl Fn(&HiddenAttempt) -> bool, what: &str) -> Vec<Evidence> {
+    fn evidence(
+        &self,
+        lost: impl Fn(&HiddenAttempt) -> bool,
+        what: impl Fn(&str) -> String,
+    ) -> Vec<Evidence> {
         let classes = self.classes().into_iter();
         let evidence = classes.filter_map(|HiddenClass { class, total, .. }| {
             let of_class = self.0.iter().filter(|run| run.class == class);
             let lost = of_class.filter(|run| lost(run)).count();
-            let message =
-                format!("in {lost} of {total} hidden runs of the class \"{class}\" {what}");
+            let message = what(&format!(
+                "{lost} of {total} hidden runs of the class \"{class}\""
+            ));
             (lost > 0).then(|| of_control(message, Some(class)))
         });
         evidence.collect()

@@ -94,7 +94,7 @@ impl RunMeasure for SteadyError {
         let curve = response.curve(marks, (band.full > 0.0).then_some(edges));
         let what = response.what();
         let quantity = format!(
-            "distance of {what} at rest from {}",
+            "steady-state error of {what} (target {})",
             response.with_unit(target)
         );
         let finding = Finding::against(band, value, unit, quantity).drawn(curve);
@@ -105,15 +105,21 @@ impl RunMeasure for SteadyError {
 impl SteadyError {
     /// Why points are lost where the joint came to rest, `value` off.
     fn loss(&self, response: &Response<'_>, value: f64) -> Loss {
+        let reason = reason(response, self.target);
+        let moves = reason.as_ref().is_some_and(|reason| reason.moves);
         let mut message = format!(
-            "{} settles at {}, {} from {}",
+            "{} {} {}, {} from {}",
             response.what(),
+            if moves { "ends at" } else { "settles at" },
             response.with_unit(response.end),
             response.with_unit(value),
             response.with_unit(self.target),
         );
         let mut next_step = "Add integral action.".to_owned();
-        if let Some(Reason { words, help }) = reason(response, self.target) {
+        if moves {
+            message += ", and is still moving";
+        }
+        if let Some(Reason { words, help, .. }) = reason {
             message += &format!(": {words}");
             next_step = help;
         }
