@@ -76,6 +76,16 @@ fn a_folder_without_labs_is_told() {
     );
 }
 
+/// A name is whole in a message that is wrapped, so that it can be copied.
+#[test]
+fn a_message_breaks_at_spaces_only() {
+    let bed = TestBed::new();
+    let path = format!("{}x.rhai", "04-knock/".repeat(12));
+    let ran = bed.run(&["grade", "01-kinematics", &path]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains(&format!("`{path}`")), "{ran:?}");
+}
+
 /// A message names a file as it was typed, so that it can be opened from there.
 #[test]
 fn a_broken_robot_is_told_with_its_folder() {

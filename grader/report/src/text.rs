@@ -279,3 +279,23 @@ fn told(evidence: &Evidence, task: &str) -> String {
         _ => message,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hint on hidden runs tells to look at the margins of the visible one.
+    #[test]
+    fn a_margin_is_told_where_only_hidden_runs_lost_points() {
+        let measure = |value| Measure {
+            quantity: "way".to_owned(),
+            value: Some(value),
+            unit: "s".to_owned(),
+            full: 2.0,
+            zero: 4.0,
+        };
+        let told = |value, outcome| band(&measure(value), outcome).contains("; margin");
+        assert!(told(1.0, Outcome::Full) && told(1.0, Outcome::Partial));
+        assert!(!told(3.0, Outcome::Partial) && !told(1.0, Outcome::NotJudged));
+    }
+}

@@ -212,6 +212,40 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_class_tells_which_check_stands_in_the_way() {
+        let attempts = HiddenAttempts(vec![HiddenAttempt {
+            class: "another post".to_owned(),
+            scores: vec![0.5, 0.0],
+            judged: vec![true, false],
+            digest: blake3::hash(b""),
+            stopped: None,
+        }]);
+        let told = |check: usize| {
+            let losses = attempts.losses(check, "\"The hand arrives\"");
+            losses.map(|of_kind| {
+                of_kind
+                    .into_iter()
+                    .map(|fact| fact.message)
+                    .collect::<Vec<_>>()
+            })
+        };
+        let [lost, unjudged] = told(0);
+        assert_eq!(
+            lost,
+            ["in 1 of 1 hidden runs of the class \"another post\" points are lost"]
+        );
+        assert!(unjudged.is_empty());
+        let [lost, unjudged] = told(1);
+        assert!(lost.is_empty());
+        assert_eq!(
+            unjudged,
+            [
+                "not judged in 1 of 1 hidden runs of the class \"another post\", because \"The hand arrives\" earns nothing there"
+            ]
+        );
+    }
+
+    #[test]
     fn a_hidden_score_is_cut_to_twentieths_but_never_to_nothing() {
         for (score, counted) in [
             (1.0, 1.0),

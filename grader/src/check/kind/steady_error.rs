@@ -173,6 +173,28 @@ mod tests {
     }
 
     #[test]
+    fn an_error_that_still_shrinks_is_told_as_moving() {
+        let nears = |t_s: f64| HandRow {
+            q: [
+                0.0,
+                (LEVEL - 0.05 * libm::exp(-0.5 * t_s)) * (10.0 * t_s).min(1.0),
+            ],
+            command: [0.0, LEVEL],
+            ..HandRow::default()
+        };
+        let finding = judged(SERVO, KIND, nears);
+        let message = &finding.evidence[0].message;
+        assert!(message.contains(" ends at "), "{message}");
+        assert!(message.contains("and is still moving: from "), "{message}");
+        assert!(finding.next_step.contains("raise ki"));
+        let quantity = finding.measure.expect("measured").quantity;
+        assert_eq!(
+            quantity,
+            "steady-state error of joint `elbow` (target 1.5708 rad)"
+        );
+    }
+
+    #[test]
     fn what_pushes_past_the_target_is_no_proportional_gain() {
         let finding = judged(EFFORT, KIND, at(LEVEL - 0.025, -2.452, -2.452));
         let message = &finding.evidence[0].message;
