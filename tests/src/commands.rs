@@ -1,6 +1,8 @@
 //! The small commands: the list of labs, new, completions, help, and names of before.
 
 use crate::testbed::TestBed;
+#[cfg(unix)]
+use crate::testbed::{CommandResult, binary, files_below};
 
 #[test]
 fn labs_are_listed_from_the_binary_alone() {
@@ -36,6 +38,62 @@ fn a_student_starts_grades_and_sees_the_warm_up_pass() {
     let ran = bed.run(&["new", "01-kinematics"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("already exists"), "{ran:?}");
+}
+
+/// A disk that is full after the first files: nothing stays that would stand in the way of the next try.
+#[cfg(unix)]
+#[test]
+fn a_start_that_fails_leaves_nothing_behind() {
+    let bed = TestBed::new();
+    bed.write("there/notes.txt", "mine");
+    for folder in ["mine", "there"] {
+        // no file may have more than 4 KiB (8 blocks of 512 bytes, or 8 KiB where blocks are larger): pages do
+        let script = format!(
+            "trap '' XFSZ; ulimit -f 8; exec '{}' new 01-kinematics {folder}",
+            binary().display()
+        );
+        let mut limited = std::process::Command::new("sh");
+        limited.args(["-c", &script]).current_dir(bed.path("."));
+        let ran: CommandResult = limited.output().expect("sh runs").into();
+        assert_eq!(ran.code, Some(4), "{ran:?}");
+        assert!(ran.stderr.contains("cannot be written"), "{ran:?}");
+    }
+    assert!(!bed.path("mine").exists());
+    assert_eq!(files_below(&bed.path("there")).len(), 1);
+    let ran = bed.run(&["new", "01-kinematics", "there"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+}
+
+#[test]
+fn a_folder_without_labs_is_told() {
+    let bed = TestBed::new();
+    bed.write("subs/one/submission.rhai", "");
+    let ran = bed.run(&["--labs", "subs"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(
+        ran.stdout.starts_with("no folder in subs has a lab.toml\n"),
+        "{ran:?}"
+    );
+}
+
+/// A name is whole in a message that is wrapped, so that it can be copied.
+#[test]
+fn a_message_breaks_at_spaces_only() {
+    let bed = TestBed::new();
+    let path = format!("{}x.rhai", "04-knock/".repeat(12));
+    let ran = bed.run(&["grade", "01-kinematics", &path]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains(&format!("`{path}`")), "{ran:?}");
+}
+
+/// A message names a file as it was typed, so that it can be opened from there.
+#[test]
+fn a_broken_robot_is_told_with_its_folder() {
+    let bed = TestBed::new();
+    bed.write("r/arm.toml", "name = 1\n");
+    let ran = bed.run(&["robot", "show", "r/arm.toml"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    assert!(ran.stderr.contains("[r/arm.toml:1:"), "{ran:?}");
 }
 
 #[test]

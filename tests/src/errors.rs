@@ -366,7 +366,22 @@ fn files_that_are_no_submission_are_refused_or_judged() {
     bed.write("large.rhai", " ".repeat(100_000_000));
     let ran = grade("large.rhai");
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("more than"), "{ran:?}");
+    for words in [
+        "more than 1048576 bytes",
+        "a submission has at most 1048576 bytes: is it the right file?",
+    ] {
+        let plain = ran.stderr.replace("\n  │", "").replace("\n        ", " ");
+        assert!(plain.contains(words), "{ran:?}");
+    }
+    assert!(!ran.stderr.contains("UTF-8"), "{ran:?}");
+    bed.write("lab.toml", "points = 1.0");
+    let ran = grade("lab.toml");
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(
+        ran.stderr
+            .contains("is a TOML file, not a submission (.rhai)"),
+        "{ran:?}"
+    );
     // longer than its budget, but no trouble to read: judged
     bed.write("long.rhai", format!("// {}\n", "x".repeat(70_000)));
     let ran = grade("long.rhai");

@@ -257,6 +257,11 @@ fn a_bad_request_is_answered_and_the_stream_goes_on() {
     for ((request, wanted), answer) in cases.iter().zip(&answers) {
         assert_eq!(answer["error"]["code"], *wanted, "{request}: {answer}");
     }
+    // it has no id: its number tells which it is
+    assert_eq!(
+        answers[0]["error"]["message"],
+        "request 1: column 1: EOF while parsing an object"
+    );
     let last = answers.last().expect("answers");
     assert_eq!(last["id"], "last");
     assert_eq!(last["joints"][1]["name"], "elbow");

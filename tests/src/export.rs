@@ -154,8 +154,12 @@ fn what_is_no_log_is_told_with_its_code() {
         ("nowhere.mcap", 2, "there is no file"),
         (".", 2, "is a folder"),
         ("empty.mcap", 3, "it is empty"),
-        ("text.mcap", 3, "it is no MCAP log"),
-        ("cut.mcap", 3, "it was cut off"),
+        ("text.mcap", 3, "it is not an MCAP log"),
+        (
+            "cut.mcap",
+            3,
+            "the file is incomplete (cut off after 0 messages)",
+        ),
     ] {
         let ran = bed.run(&["log", "export", name, "--csv"]);
         assert_eq!(ran.code, Some(code), "{ran:?}");

@@ -115,7 +115,7 @@ fn who_follows_the_path_as_asked_has_full_marks() {
         assert!(plot.contains(words), "no {words:?}");
     }
     let page = lab.written("report.html");
-    assert!(page.contains("under disturbances, mean of 4 levels"));
+    assert!(page.contains("earned under disturbances, mean of 4 runs"));
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn who_hurries_rests_or_stops_loses_for_that() {
     assert_eq!(check(&task, "near")["outcome"], "none", "{task}");
     assert_eq!(value(&task, "pace-2"), 1.0);
     assert!(
-        message(check(&task, "pace")).contains("0.380 m are never passed"),
+        message(check(&task, "pace")).contains("0.380 m are never covered"),
         "{task}"
     );
     let words = message(check(&task, "soon"));

@@ -201,7 +201,7 @@ fn the_same_mistake_in_other_words_is_named() {
             diagnosis.telling >= 50 && 100 * diagnosis.agreeing >= 95 * diagnosis.telling,
             "{diagnosis:?}"
         );
-        assert!(self::text(&all).contains("telling moments agree)"));
+        assert!(self::text(&all).contains("moments in which this mistake shows)"));
         // the diagnosis takes the place of the checks' own hints
         assert!(
             task.checks

@@ -62,7 +62,7 @@ fn a_sound_scene_has_no_findings_and_a_sunk_box_is_told_with_its_line() {
     bed.write("bench.toml", SCENE);
     let ran = bed.run(&["scene", "check", "bench.toml"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    assert_eq!(ran.stdout, "scene bench\n\nnothing found\n");
+    assert_eq!(ran.stdout, "scene bench\n\nno problems found\n");
 
     bed.edit("bench.toml", "0.05, 1.05]", "0.05, 1.03]");
     let ran = bed.run(&["scene", "check", "bench.toml"]);

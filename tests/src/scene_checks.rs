@@ -115,7 +115,7 @@ fn an_arm_that_stays_earns_nothing() {
         assert_eq!(check(&task, name)["outcome"], "not-judged");
     }
     let words = message(check(&task, "line")).to_owned();
-    assert!(words.contains("never passed"), "{words}");
+    assert!(words.contains("never covered"), "{words}");
     assert_eq!(check(&task, "whole")["measure"]["value"], 0.0);
     assert_eq!(
         message(check(&task, "soon")),

@@ -165,9 +165,16 @@ fn staff_write_the_numbers_of_a_student() {
     assert_eq!(json["student"], "s1234567");
     assert!(json["parameters"]["lengths"][1].is_number());
 
-    let ran = of("s1234567", &["--practice"]);
-    assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("needs the course's salt"), "{ran:?}");
+    for (args, words) in [
+        (&["--reference", "labs"][..], "needs the course's salt"),
+        (&["--reference", "nowhere"], "holds LAB/hidden.toml"),
+        // without the course staff's part there is no salt
+        (&["--practice"], "unexpected argument"),
+    ] {
+        let ran = of("s1234567", args);
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains(words), "{ran:?}");
+    }
     let ran = of("", &[]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     let (head, rest) = LAB.split_once("[variants]").expect("variants");

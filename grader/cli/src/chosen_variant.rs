@@ -10,7 +10,7 @@ use kinemark_grader::task::problem::LoadError;
 use crate::disk::{self, Folder};
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::staff_folder::{self, StaffArgs};
+use crate::staff_folder::{self, StaffArgs, StaffPart};
 
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
@@ -76,7 +76,7 @@ fn variant_of(
     // whatever it is: what is no file is refused below, and not passed over
     let found = found.filter(|path| path.symlink_metadata().is_ok());
     if let Some(student) = &variant.student {
-        let own = of_student(&lab, reference, staff, student)?;
+        let own = of_student(&lab, reference, &staff.part, student)?;
         let unused = found.map(|found| {
             format!(
                 "using the variant of student {student}; {} is not used",
@@ -99,7 +99,7 @@ fn variant_of(
     let chosen = Lab::load_variant(files, name, Some(&variant))?;
     if let Some(reference) = reference {
         let shown = path.display().to_string();
-        refuse_forged(&chosen, files, reference, staff, &shown)?;
+        refuse_forged(&chosen, files, reference, &staff.part, &shown)?;
     }
     Ok((chosen, note))
 }
@@ -112,7 +112,7 @@ pub(crate) fn refuse_forged(
     lab: &Lab,
     files: &dyn Files,
     reference: &dyn Files,
-    staff: &StaffArgs,
+    staff: &StaffPart,
     shown: &str,
 ) -> Result<(), Failure> {
     let name = &lab.name;
@@ -145,7 +145,7 @@ pub(crate) fn refuse_forged(
 pub(crate) fn of_student(
     lab: &Lab,
     reference: Option<&Folder>,
-    staff: &StaffArgs,
+    staff: &StaffPart,
     student: &str,
 ) -> Result<Variant, Failure> {
     if let Err(why) = student_id(student) {

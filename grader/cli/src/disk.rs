@@ -82,7 +82,7 @@ pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         return Err("it is no plain file".to_owned());
     }
     if there.len() > most {
-        return Err(format!("more than {most} bytes"));
+        return Err(too_large(most));
     }
     let mut bytes = Vec::new();
     // one byte more tells a longer file without reading it
@@ -90,7 +90,7 @@ pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         .read_to_end(&mut bytes)
         .map_err(|error| plain(&error))?;
     if bytes.len() as u64 > most {
-        return Err(format!("more than {most} bytes"));
+        return Err(too_large(most));
     }
     Ok(bytes)
 }
@@ -172,16 +172,44 @@ pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure
             "save it to a file first",
         ));
     }
-    match bytes_of(path, most).and_then(text) {
-        Ok(text) => {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            Ok(Source::new(name.to_string_lossy().into_owned(), text))
+    let unread = |why: &str, help: &str| {
+        Failure::usage(format!("`{shown}` cannot be read as {what}: {why}"), help)
+    };
+    let bytes = bytes_of(path, most).map_err(|why| {
+        if why == too_large(most) {
+            let help = format!("{what} has at most {most} bytes: is it the right file?");
+            return unread(&why, &help);
         }
-        Err(why) => Err(Failure::usage(
-            format!("`{shown}` cannot be read as {what}: {why}"),
-            "save it as UTF-8 text",
-        )),
+        unread(&why, "check the file and its permissions")
+    })?;
+    let text = text(bytes).map_err(|why| unread(&why, "save it as UTF-8 text"))?;
+    Ok(Source::new(shown.to_string(), text))
+}
+
+/// Reads a submission of at most `most` bytes; its name is that of the file alone, for records are the same wherever it lies.
+pub(crate) fn read_submission(path: &Path, most: u64) -> Result<Source, Failure> {
+    let is_toml = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if is_toml && path.is_file() {
+        return Err(Failure::usage(
+            format!(
+                "`{}` is a TOML file, not a submission (.rhai)",
+                path.display()
+            ),
+            "name the program, such as submission.rhai",
+        ));
     }
+    let read = read(path, "a submission", most)?;
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Ok(Source::new(
+        name.to_string_lossy().into_owned(),
+        read.text(),
+    ))
+}
+
+fn too_large(most: u64) -> String {
+    format!("more than {most} bytes")
 }
 
 /// What lies near a path that does not exist.

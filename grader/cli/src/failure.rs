@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use textwrap::{WordSeparator, WordSplitter};
 
 /// Points lost, or a comparison that differs.
 pub(crate) const LOST: u8 = 1;
@@ -94,7 +95,12 @@ fn show(diagnostic: &dyn Diagnostic) {
     use std::io::Write as _;
     let mut text = String::new();
     let theme = GraphicalTheme::unicode();
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(100);
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(100)
+        // a name such as `04-knock` or a path stays whole
+        .with_break_words(false)
+        .with_word_separator(WordSeparator::AsciiSpace)
+        .with_word_splitter(WordSplitter::NoHyphenation);
     // the handler writes to a string, which cannot fail
     let _ = handler.render_report(&mut text, diagnostic);
     // anstream strips the colours where they do not belong

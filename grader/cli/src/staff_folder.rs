@@ -12,12 +12,19 @@ use crate::failure::Failure;
 /// Which part of the course staff takes part in grading.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct StaffArgs {
-    /// Folder of the course staff's part [default: `reference` beside the labs folder]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) reference: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) part: StaffPart,
     /// Do not use the course staff's files, as for students
     #[arg(long, conflicts_with = "reference")]
     pub(crate) practice: bool,
+}
+
+/// Where the course staff's part is, and its salt.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct StaffPart {
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) reference: Option<PathBuf>,
     /// The course's salt, for hidden cases and variants, instead of the one in hidden.toml [env: KINEMARK_SALT]
     #[arg(
         long,
@@ -50,11 +57,22 @@ pub(crate) fn open(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folde
     if args.practice {
         return Ok(None);
     }
+    let help = "give the course staff's folder, or use --practice to grade visible cases only";
+    part(&args.part, labs, help)
+}
+
+/// The staff's part: that of `--reference`, else a `reference` folder beside the labs folder; `help` is what to do where the former is
+/// no folder.
+pub(crate) fn part(
+    args: &StaffPart,
+    labs: Option<&Path>,
+    help: &str,
+) -> Result<Option<Folder>, Failure> {
     if let Some(given) = &args.reference {
         if !given.is_dir() {
             return Err(Failure::usage(
                 format!("`{}` is not a directory", given.display()),
-                "give the course staff's folder, or use --practice to grade visible cases only",
+                help,
             ));
         }
         return Ok(Some(Folder::new(given.clone())));
@@ -70,6 +88,14 @@ pub(crate) fn open(args: &StaffArgs, labs: Option<&Path>) -> Result<Option<Folde
         let plain = folder.strip_prefix(".").map(Path::to_owned);
         Folder::new(plain.unwrap_or(folder))
     }))
+}
+
+/// Which file is missing where a folder has no solution of a lab.
+pub(crate) fn no_solution(reference: &dyn Files, lab: &Lab) -> String {
+    let path = Path::new(&reference.name())
+        .join(&lab.name)
+        .join("solution.rhai");
+    format!("there is no file `{}`", path.display())
 }
 
 /// The staff's part of a lab, whose code works; none where there is no reference solution.

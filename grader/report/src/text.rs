@@ -89,7 +89,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
                 "likely:".magenta().bold(),
                 diagnosis.says,
                 format!(
-                    "({} of {} telling {} agree)",
+                    "(matches {} of the {} {} in which this mistake shows)",
                     diagnosis.agreeing,
                     diagnosis.telling,
                     match task.kind {
@@ -245,7 +245,7 @@ pub(crate) fn untold(check: &CheckGrade) -> Option<Instant> {
     (!told).then_some(first)
 }
 
-/// The value against its band, and the margin of a full check.
+/// The value against its band, and the margin of a run that is full.
 pub fn band(measure: &Measure, outcome: Outcome) -> String {
     let told = Measured::of(measure);
     let (to, from) = if measure.zero >= measure.full {
@@ -257,7 +257,8 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
         "{}: {}; all points {to} {}, none {from} {}",
         measure.quantity, told.value, told.full, told.zero
     );
-    if let (Outcome::Full, Some(margin)) = (outcome, told.margin)
+    // with a margin the visible run is full; hidden ones may have lost points
+    if let (Outcome::Full | Outcome::Partial, Some(margin)) = (outcome, told.margin)
         && measure.margin() > Some(0.0)
     {
         let _ = write!(text, "; margin {margin}");
@@ -276,5 +277,25 @@ fn told(evidence: &Evidence, task: &str) -> String {
             )
         }
         _ => message,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hint on hidden runs tells to look at the margins of the visible one.
+    #[test]
+    fn a_margin_is_told_where_only_hidden_runs_lost_points() {
+        let measure = |value| Measure {
+            quantity: "way".to_owned(),
+            value: Some(value),
+            unit: "s".to_owned(),
+            full: 2.0,
+            zero: 4.0,
+        };
+        let told = |value, outcome| band(&measure(value), outcome).contains("; margin");
+        assert!(told(1.0, Outcome::Full) && told(1.0, Outcome::Partial));
+        assert!(!told(3.0, Outcome::Partial) && !told(1.0, Outcome::NotJudged));
     }
 }

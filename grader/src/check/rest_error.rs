@@ -37,6 +37,8 @@ pub(super) fn number(value: f64) -> String {
 pub(super) struct Reason {
     pub(super) words: String,
     pub(super) help: String,
+    /// Whether the joint is not at rest at all.
+    pub(super) moves: bool,
 }
 
 impl Reason {
@@ -44,6 +46,7 @@ impl Reason {
         Some(Self {
             words: words.into(),
             help: help.into(),
+            moves: false,
         })
     }
 }
@@ -125,10 +128,14 @@ impl<'a> Rest<'a> {
             return None;
         }
         let [from, to] = ends.map(|value| response.with_unit(value));
-        Reason::new(
-            format!("it is still on its way, from {from} to {to} in this time"),
-            "What takes the error away works, and is too slow: a stronger integral, or less for it to do.",
-        )
+        let nearing = Reason::new(
+            format!("from {from} to {to} in this time"),
+            "The integral removes the error too slowly: raise ki, or compensate gravity so that less is left for it.",
+        )?;
+        Some(Reason {
+            moves: true,
+            ..nearing
+        })
     }
 
     /// A joint that has to be held against gravity.

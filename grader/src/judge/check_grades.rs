@@ -17,7 +17,7 @@ pub(super) fn check_grades<K: ?Sized>(
 ) -> Vec<CheckGrade> {
     let judged = checks.iter().zip(visible).zip(first_lost).enumerate();
     let grades = judged.map(|(i, ((check, judged), first_lost))| {
-        let mut parts = visible_parts(checks, check, judged);
+        let mut parts = visible_parts(checks, check, judged, hidden);
         if hidden.is_undecided() {
             parts = Parts::default();
         } else if !hidden.is_empty() {
@@ -63,13 +63,23 @@ impl Default for Parts {
 }
 
 /// The result of a check in the visible attempt.
-fn visible_parts<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, judged: &JudgedCheck) -> Parts {
+fn visible_parts<K: ?Sized>(
+    checks: &[Check<K>],
+    check: &Check<K>,
+    judged: &JudgedCheck,
+    hidden: &HiddenAttempts,
+) -> Parts {
     let loss = judged.loss();
     let next_step = match (loss, judged.unmet) {
         (Some(finding), _) => {
             let hint = check.hint.clone().filter(|_| !finding.insists);
             Some(hint.unwrap_or_else(|| finding.next_step.clone()))
         }
+        // with its points of hidden runs it would seem to earn some
+        (None, Some(need)) if hidden.sum_of_scores(need) > 0.0 => Some(format!(
+            "Not judged in the visible run: \"{}\" earns nothing in it.",
+            checks[need].title
+        )),
         (None, Some(need)) => Some(format!(
             "Not judged until \"{}\" earns points.",
             checks[need].title
@@ -100,7 +110,7 @@ impl Parts {
         if points(alone) != points(together) {
             evidence.push(mean_of(alone, check.points, hidden.count()));
         }
-        let [lost, needs_failed] = hidden.losses(i);
+        let [lost, needs_failed] = hidden.losses(i, &needed(checks, check, "or"));
         let is_lost = !lost.is_empty() || !needs_failed.is_empty();
         let next_step = self.next_step.or_else(|| {
             // a loss in the visible run already has its next step
@@ -131,9 +141,17 @@ fn hidden_next_step<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, lost: &[Ev
     if !lost.is_empty() {
         return OTHER_NUMBERS.to_owned();
     }
-    let needed = check.needs.iter().map(|&need| checks[need].title.as_str());
-    let needed: Vec<&str> = needed.collect();
-    format!("Look at \"{}\" there first.", needed.join("\" and \""))
+    format!(
+        "First make {} earn points in the hidden runs.",
+        needed(checks, check, "and")
+    )
+}
+
+/// The titles of the checks that a check needs, with a word between.
+fn needed<K: ?Sized>(checks: &[Check<K>], check: &Check<K>, between: &str) -> String {
+    let titles = check.needs.iter().map(|&need| &checks[need].title);
+    let titles: Vec<String> = titles.map(|title| format!("\"{title}\"")).collect();
+    titles.join(&format!(" {between} "))
 }
 
 /// A note that hidden runs count as much as the visible run, whose measure is shown.

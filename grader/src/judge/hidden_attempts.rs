@@ -94,28 +94,34 @@ impl HiddenAttempts {
         self.0.iter().map(|attempt| attempt.score(check)).sum()
     }
 
-    /// The report on a check: the classes in which it lost points, and those in which a check that it needs earned nothing.
-    pub(super) fn losses(&self, check: usize) -> [Vec<Evidence>; 2] {
+    /// The report on a check: the classes in which it lost points, and those in which it was not judged because a check that it needs,
+    /// one of those called `needed`, earned nothing.
+    pub(super) fn losses(&self, check: usize, needed: &str) -> [Vec<Evidence>; 2] {
         [
             self.evidence(
                 |run| run.score(check) < 1.0 && !run.needs_failed(check),
-                "points are lost",
+                |runs| format!("in {runs} points are lost"),
             ),
             self.evidence(
                 |run| run.needs_failed(check),
-                "a check that this one needs earns nothing",
+                |runs| format!("not judged in {runs}, because {needed} earns nothing there"),
             ),
         ]
     }
 
     /// One sentence per class with a run in which `lost`: the count, and never the numbers of a run.
-    fn evidence(&self, lost: impl Fn(&HiddenAttempt) -> bool, what: &str) -> Vec<Evidence> {
+    fn evidence(
+        &self,
+        lost: impl Fn(&HiddenAttempt) -> bool,
+        what: impl Fn(&str) -> String,
+    ) -> Vec<Evidence> {
         let classes = self.classes().into_iter();
         let evidence = classes.filter_map(|HiddenClass { class, total, .. }| {
             let of_class = self.0.iter().filter(|run| run.class == class);
             let lost = of_class.filter(|run| lost(run)).count();
-            let message =
-                format!("in {lost} of {total} hidden runs of the class \"{class}\" {what}");
+            let message = what(&format!(
+                "{lost} of {total} hidden runs of the class \"{class}\""
+            ));
             (lost > 0).then(|| of_control(message, Some(class)))
         });
         evidence.collect()
@@ -204,6 +210,40 @@ fn attempt(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_class_tells_which_check_stands_in_the_way() {
+        let attempts = HiddenAttempts(vec![HiddenAttempt {
+            class: "another post".to_owned(),
+            scores: vec![0.5, 0.0],
+            judged: vec![true, false],
+            digest: blake3::hash(b""),
+            stopped: None,
+        }]);
+        let told = |check: usize| {
+            let losses = attempts.losses(check, "\"The hand arrives\"");
+            losses.map(|of_kind| {
+                of_kind
+                    .into_iter()
+                    .map(|fact| fact.message)
+                    .collect::<Vec<_>>()
+            })
+        };
+        let [lost, unjudged] = told(0);
+        assert_eq!(
+            lost,
+            ["in 1 of 1 hidden runs of the class \"another post\" points are lost"]
+        );
+        assert!(unjudged.is_empty());
+        let [lost, unjudged] = told(1);
+        assert!(lost.is_empty());
+        assert_eq!(
+            unjudged,
+            [
+                "not judged in 1 of 1 hidden runs of the class \"another post\", because \"The hand arrives\" earns nothing there"
+            ]
+        );
+    }
 
     #[test]
     fn a_hidden_score_is_cut_to_twentieths_but_never_to_nothing() {

@@ -24,10 +24,16 @@ fn refusal(line: &str) -> (String, String) {
 fn a_refusal_names_the_field_and_what_it_must_be() {
     let servo = r#""q0": [0,0], "qd0": [0,0], "duration_s": 1, "servo_period_s": 0.001, "sample_period_s": 0.1"#;
     for (line, code, message) in [
+        ("{", "bad-json", "column 1: EOF while parsing an object"),
         (
-            "{",
+            r#"{"op": "fk" "q": [0, 0]}"#,
             "bad-json",
-            "EOF while parsing an object at line 1 column 1",
+            "column 13: expected `,` or `}`",
+        ),
+        (
+            r#"{"op": "fk", "q": [NaN, 0]}"#,
+            "bad-json",
+            "JSON has no NaN: leave the field out",
         ),
         (
             "[1]",

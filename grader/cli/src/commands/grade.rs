@@ -138,7 +138,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
     disk::refuse_link(&args.submission)?;
-    let submission = disk::read(&args.submission, "a submission", MOST_SUBMISSION_BYTES)?;
+    let submission = disk::read_submission(&args.submission, MOST_SUBMISSION_BYTES)?;
     report_folder::refuse_foreign(&args.out)?;
 
     let mut in_process = InProcess;
@@ -199,14 +199,10 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
 }
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &StaffArgs) -> Result<Option<Staff>, Failure> {
-    let staff = staff_folder::staff(reference, lab, args.salt.as_deref())?;
-    if staff.is_none() && args.reference.is_some() {
+    let staff = staff_folder::staff(reference, lab, args.part.salt.as_deref())?;
+    if staff.is_none() && args.part.reference.is_some() {
         return Err(Failure::usage(
-            format!(
-                "{} has no solution for lab `{}`",
-                reference.name(),
-                lab.name
-            ),
+            staff_folder::no_solution(reference, lab),
             "check the folder, or use --practice to grade visible cases only",
         ));
     }

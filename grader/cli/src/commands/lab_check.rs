@@ -11,14 +11,13 @@ use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::submission::rhai::STACK_BYTES;
-use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
 use owo_colors::OwoColorize as _;
 
 use crate::disk::Folder;
 use crate::failure::{Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::staff_folder::{self, StaffArgs};
+use crate::staff_folder::{self, StaffPart};
 use crate::{interrupt, output};
 
 /// Check a lab: its starter loses points, its reference solution gets full marks, and every mutant loses points and is named
@@ -53,12 +52,12 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
-    let from = StaffArgs {
+    let from = StaffPart {
         reference: args.reference.clone(),
-        practice: false,
         salt: None,
     };
-    let reference = staff_folder::open(&from, labs_folder.as_deref())?.ok_or_else(|| {
+    let help = "give the course staff's folder";
+    let reference = staff_folder::part(&from, labs_folder.as_deref(), help)?.ok_or_else(|| {
         Failure::usage(
             "there is no folder `reference` beside the labs".to_owned(),
             "a lab is checked with the course staff's part: give its folder with --reference DIR",
@@ -67,12 +66,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let staff = |salt: Option<&str>| {
         staff_folder::staff(&reference, &lab, salt)?.ok_or_else(|| {
             Failure::usage(
-                format!(
-                    "{} has no solution for lab `{}`",
-                    reference.name(),
-                    lab.name
-                ),
-                "write solution.rhai there, or give another folder with --reference DIR",
+                staff_folder::no_solution(&reference, &lab),
+                "write it, or give another folder with --reference DIR",
             )
         })
     };

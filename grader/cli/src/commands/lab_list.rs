@@ -54,9 +54,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::print_json(&rows)?;
     } else {
         let mut text = String::new();
+        // one that is short leaves the titles where they always were
+        let names = rows.iter().map(|row| row.name.chars().count());
+        let width = names.max().unwrap_or(0).max(16);
         for row in &rows {
             text += &format!(
-                "{:<16} {}\n{:<16} {}\n{:<16} {} points: {}\n",
+                "{:<width$} {}\n{:<width$} {}\n{:<width$} {} points: {}\n",
                 row.name,
                 row.title,
                 "",
@@ -67,7 +70,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             );
         }
         if rows.is_empty() && broken.is_empty() {
-            text = format!("no labs in {}\n", files.name());
+            text = format!(
+                "no folder in {} has a lab.toml\n  help: give the folder that holds the labs\n",
+                files.name()
+            );
         } else if !rows.is_empty() {
             text += "\nStart one with `kinemark new NAME`.\n";
         }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::staff_folder::{self, StaffArgs};
+use crate::staff_folder::{self, StaffPart};
 use crate::{chosen_variant, output};
 
 /// Generate one student's variant of a lab: for course staff
@@ -40,7 +40,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) labs_folder: LabsFolderArgs,
     #[command(flatten)]
-    pub(crate) staff: StaffArgs,
+    pub(crate) staff: StaffPart,
 }
 
 #[derive(Serialize)]
@@ -54,7 +54,8 @@ struct Printed<'a> {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
-    let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
+    let help = "give the folder that holds LAB/hidden.toml, or --salt TEXT";
+    let reference = staff_folder::part(&args.staff, labs_folder.as_deref(), help)?;
     let variant = chosen_variant::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
     // numbers that make no lab are told now, and not when the student grades
     Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;

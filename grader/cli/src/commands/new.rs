@@ -1,6 +1,6 @@
 //! `kinemark new`: a folder with a lab's starter and brief (as text and as a page), and nothing of it overwritten.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_grader::lab::brief::{with_grading, with_numbers};
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::chosen_variant::{self, Chosen, LabArgs};
 use crate::failure::Failure;
-use crate::{labs_folder, output};
+use crate::{interrupt, labs_folder, output};
 
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
@@ -66,11 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "name another folder, or move your work away first: nothing is overwritten",
         ));
     }
-    let help = "choose another folder";
-    std::fs::create_dir_all(&dir).map_err(|error| output::unwritten(&dir, &error, help))?;
-    for (path, text) in &written {
-        output::write_file(path, text.as_bytes(), help)?;
-    }
+    put_in_place(&dir, &written)?;
     let paths: Vec<PathBuf> = written.into_iter().map(|(path, _)| path).collect();
     if args.json {
         output::print_json(&Written {
@@ -87,4 +83,46 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         ))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes all files in a temporary folder inside `dir`, then renames each to its place: a part of them would stand in the way of the
+/// next try.
+fn put_in_place(dir: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    let help = "free some space, or choose another folder";
+    let failed = |path: &Path, error| output::unwritten(path, &error, help);
+    // Ctrl-C waits for the few renames
+    interrupt::listen();
+    let is_new = !dir.exists();
+    std::fs::create_dir_all(dir).map_err(|error| failed(dir, error))?;
+    let placed = rename_in(dir, files);
+    if let Err((there, path, error)) = placed {
+        // what is left behind is told no further: the failure itself is
+        for (path, _) in &files[..there] {
+            let _ = std::fs::remove_file(path);
+        }
+        if is_new {
+            let _ = std::fs::remove_dir(dir);
+        }
+        return Err(failed(&path, error));
+    }
+    Ok(())
+}
+
+/// The renames; of a failure how many files stand in their place, which one fails, and why.
+fn rename_in(
+    dir: &Path,
+    files: &[(PathBuf, String)],
+) -> Result<(), (usize, PathBuf, std::io::Error)> {
+    let temporary = tempfile::Builder::new()
+        .prefix(".kinemark-")
+        .tempdir_in(dir)
+        .map_err(|error| (0, dir.to_owned(), error))?;
+    let beside = |at: usize| temporary.path().join(at.to_string());
+    for (at, (path, text)) in files.iter().enumerate() {
+        std::fs::write(beside(at), text).map_err(|error| (0, path.clone(), error))?;
+    }
+    for (at, (path, _)) in files.iter().enumerate() {
+        std::fs::rename(beside(at), path).map_err(|error| (at, path.clone(), error))?;
+    }
+    Ok(())
 }

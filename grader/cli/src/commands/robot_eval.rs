@@ -50,10 +50,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut input = BufReader::new(std::io::stdin());
     let mut output = BufWriter::new(std::io::stdout());
     let mut some_refused = false;
+    let mut requests = 0_u64;
     while let Some(line) = read_line(&mut input)? {
+        if matches!(&line, Line::Whole(line) if line.iter().all(u8::is_ascii_whitespace)) {
+            continue;
+        }
+        requests += 1;
         let answer = match line {
-            Line::Whole(line) if line.iter().all(u8::is_ascii_whitespace) => continue,
-            Line::Whole(line) => answer_line(subject, &line),
+            Line::Whole(line) => placed(answer_line(subject, &line), requests),
             Line::TooLong => refused(Refusal {
                 code: Code::TooLarge,
                 message: format!("a line has at most {MOST_LINE_BYTES} bytes"),
@@ -67,6 +71,17 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::from(if some_refused { LOST } else { 0 }))
+}
+
+/// The answer to the request with this number: one that is no JSON has no `id` to be found by.
+fn placed(mut answer: Map<String, Value>, number: u64) -> Map<String, Value> {
+    let error = answer.get_mut("error").and_then(Value::as_object_mut);
+    if let Some(error) = error.filter(|error| error.get("code") == Some(&"bad-json".into()))
+        && let Some(Value::String(message)) = error.get_mut("message")
+    {
+        message.insert_str(0, &format!("request {number}: "));
+    }
+    answer
 }
 
 /// A line of the input.

@@ -40,6 +40,9 @@ pub(crate) struct Args {
     pub(crate) staff: StaffArgs,
 }
 
+/// In place of the digest of a file that is not there.
+const MISSING: &str = "missing";
+
 /// What the comparison found.
 #[derive(Serialize)]
 struct Comparison {
@@ -76,10 +79,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                         &lab,
                         &copies,
                         &reference,
-                        &args.staff,
+                        &args.staff.part,
                         VARIANT_FILE,
                     )?;
-                    staff_folder::staff(&reference, &lab, args.staff.salt.as_deref())?
+                    staff_folder::staff(&reference, &lab, args.staff.part.salt.as_deref())?
                 }
                 None => None,
             }
@@ -280,7 +283,7 @@ fn file_differences(
     let files = report_folder::files(lab, &report.submission, graded, request, Pixels::Undrawn)?;
     let digest_there = |path: &str| {
         let there = disk::bytes_of(&folder.join(path), report_folder::MOST_PAGE_BYTES);
-        there.map_or("missing".to_owned(), |bytes| digest(&bytes))
+        there.map_or(MISSING.to_owned(), |bytes| digest(&bytes))
     };
     let now = Manifest::of(request, &files);
     let not_listed = || "not listed in report.json".to_owned();
@@ -324,8 +327,30 @@ fn file_differences(
     Ok(differences)
 }
 
+/// What the differences come to, in a line: a change of what was graded explains all that follows from it.
+fn verdict(differences: &[Difference]) -> Option<String> {
+    let first = differences.first()?;
+    let begins = |word: &str| differences.iter().any(|it| it.what.starts_with(word));
+    let why = if begins("engine") {
+        "it was made by another version of kinemark"
+    } else if begins("lab") || begins("robot") {
+        "the lab was changed after grading"
+    } else if begins("submission") {
+        "the submission was changed after grading"
+    } else if begins("reference") {
+        "the course staff's part was changed after grading"
+    } else if first.task.is_some() {
+        "a task does not go as recorded"
+    } else if begins("record") {
+        "its grade was changed after grading"
+    } else {
+        "its files were changed after grading"
+    };
+    Some(format!("this report does not match: {why}\n"))
+}
+
 fn text(comparison: &Comparison, recorded: &Grade) -> String {
-    let mut text = String::new();
+    let mut text = verdict(&comparison.differences).unwrap_or_default();
     for difference in &comparison.differences {
         let mut place = difference.what.clone();
         if let Some(task) = &difference.task {
@@ -334,9 +359,13 @@ fn text(comparison: &Comparison, recorded: &Grade) -> String {
         if let (Some(second), Some(signal)) = (difference.second, difference.signal) {
             place = format!("{place}, first in second {second}, signal `{signal}`");
         }
+        let recorded = match difference.recorded.as_str() {
+            MISSING => "in the folder: missing".to_owned(),
+            there => format!("recorded {there}"),
+        };
         text += &format!(
-            "differs: {place}\n  recorded {}\n  now      {}\n",
-            difference.recorded, difference.now
+            "differs: {place}\n  {recorded}\n  now      {}\n",
+            difference.now
         );
     }
     for what in &comparison.not_compared {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::sync::Arc;
 
 use ::mcap::Schema;
@@ -195,6 +195,11 @@ impl<W: Write> Rows<'_, W> {
     }
 }
 
+/// The bytes that tables may have are spent; the system has an error of its own for a file that it lets grow no further.
+#[derive(Debug, thiserror::Error)]
+#[error("the tables are too large")]
+struct Spent;
+
 /// A writer that has an end, the same for all tables of a log.
 struct Bounded<'a, W> {
     out: W,
@@ -205,7 +210,7 @@ impl<W: Write> Write for Bounded<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         let left = self.left.get().checked_sub(bytes.len() as u64);
         self.left
-            .set(left.ok_or_else(|| std::io::Error::from(ErrorKind::FileTooLarge))?);
+            .set(left.ok_or_else(|| std::io::Error::other(Spent))?);
         self.out.write_all(bytes)?;
         Ok(bytes.len())
     }
@@ -285,12 +290,12 @@ fn unwritten(error: csv::Error) -> ReadError {
 }
 
 fn unfit(error: std::io::Error) -> ReadError {
-    match error.kind() {
-        ErrorKind::FileTooLarge => ReadError::TooLarge {
+    if error.get_ref().is_some_and(|inner| inner.is::<Spent>()) {
+        return ReadError::TooLarge {
             what: "its tables take many times its own room".to_owned(),
-        },
-        _ => ReadError::Write(error),
+        };
     }
+    ReadError::Write(error)
 }
 
 /// A time in seconds, to the nanosecond, without zeros at its end.

@@ -31,10 +31,10 @@ pub enum ReadError {
     #[error("it is empty")]
     Empty,
     /// It does not begin as an MCAP file.
-    #[error("it is no MCAP log: it does not begin as one")]
+    #[error("it is not an MCAP log: it does not begin as one")]
     Foreign,
     /// It ends too early.
-    #[error("it ends in the middle, after {messages} messages: it was cut off")]
+    #[error("the file is incomplete (cut off after {messages} messages)")]
     CutOff {
         /// Messages before the end.
         messages: u64,
@@ -91,7 +91,7 @@ impl ReadError {
                 "name a log such as out/TASK/run.mcap, which `kinemark grade` writes"
             }
             Self::CutOff { .. } | Self::Damaged { .. } => {
-                "copy it again or grade the submission again; `mcap recover` saves what is left of other logs"
+                "copy it again, or grade again; for a log of another program, `mcap recover FILE`"
             }
             Self::Compression { .. } => {
                 "pack it anew: `mcap compress --compression zstd LOG -o NEW`"
@@ -273,6 +273,13 @@ fn told(error: McapError, messages: u64) -> ReadError {
                 what: format!("a record of {len} bytes, at most {MOST_RECORD_BYTES} are read"),
             }
         }
+        McapError::BadChunkCrc { .. }
+        | McapError::BadDataCrc { .. }
+        | McapError::BadSummaryCrc { .. }
+        | McapError::BadAttachmentCrc { .. } => ReadError::Damaged {
+            messages,
+            why: "a checksum does not match".to_owned(),
+        },
         other => ReadError::Damaged {
             messages,
             why: other.to_string(),

@@ -47,7 +47,7 @@ impl RunMeasure for JointLimits {
         }
         let (value, tick, joint) = worst;
         let unit = facts.units(joint).position();
-        let quantity = "way beyond a joint's limits (negative inside)";
+        let quantity = "greatest violation of a joint limit (negative: within the limits)";
         let mut finding = Finding::against(band, value, unit, quantity);
         if let (Some((first, first_joint)), true) = (breach, finding.is_lost()) {
             let message = format!(

@@ -80,7 +80,7 @@ impl RunMeasure for Overshoot {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let (values, furthest) = past_goals(facts);
         let value = furthest.map_or(f64::INFINITY, |furthest| furthest.fraction);
-        let quantity = "way past a goal, as a fraction of the way to it";
+        let quantity = "overshoot past a goal, as a fraction of the move";
         let curve = facts.curve("way past the goal", "", values, band);
         let mut finding = Finding {
             statistic: Some(Statistic::Greatest),

@@ -89,7 +89,7 @@ impl MotionCheck for PathCoverage {
                 continue;
             }
             let message = format!(
-                "of {}, {} is passed within {within}",
+                "of {}, {} is covered within {within}",
                 segment_name(&self.path, i),
                 with_unit(share, ""),
             );
@@ -103,7 +103,7 @@ impl MotionCheck for PathCoverage {
         let share = |e: &Evidence| e.value.unwrap_or(0.0);
         evidence.sort_by(|a, b| share(a).total_cmp(&share(b)));
         evidence.truncate(3);
-        let quantity = format!("share of the path passed within {within}");
+        let quantity = format!("share of the path covered within {within}");
         let band = [self.shares.full, self.shares.zero];
         Finding::scored(score, measure(quantity, value, "", band))
             .because(evidence)

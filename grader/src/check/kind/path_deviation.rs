@@ -84,7 +84,7 @@ impl PathDeviation {
         }
         if segment.left_out_m > 1e-3 {
             message += &format!(
-                "; {} of {} are never passed",
+                "; {} of {} are never covered",
                 metres(segment.left_out_m),
                 metres(segment.length_m)
             );

@@ -169,7 +169,7 @@ impl PathSpeed {
             );
         }
         if pace.left_out_m > 1e-3 {
-            message += &format!("; {} are never passed", metres(pace.left_out_m));
+            message += &format!("; {} are never covered", metres(pace.left_out_m));
         }
         facts.evidence(message, "tcp".to_owned(), tick)
     }

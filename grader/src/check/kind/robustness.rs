@@ -147,9 +147,10 @@ fn judge(sweep: &Sweep, outcomes: &[LevelOutcome], time_s: impl Fn(u64) -> f64) 
         ))
     });
     let quantity = format!(
-        "\"{}\" under disturbances, mean of {} levels",
+        "share of the points of \"{}\" earned under disturbances, mean of {} {}",
         sweep.repeated,
-        scores.len()
+        scores.len(),
+        if scores.len() == 1 { "run" } else { "runs" }
     );
     Finding::share(mean(sweep, &scores), quantity)
         .because(evidence.collect())

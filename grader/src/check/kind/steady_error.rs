@@ -94,7 +94,7 @@ impl RunMeasure for SteadyError {
         let curve = response.curve(marks, (band.full > 0.0).then_some(edges));
         let what = response.what();
         let quantity = format!(
-            "distance of {what} at rest from {}",
+            "steady-state error of {what} (target {})",
             response.with_unit(target)
         );
         let finding = Finding::against(band, value, unit, quantity).drawn(curve);
@@ -105,15 +105,21 @@ impl RunMeasure for SteadyError {
 impl SteadyError {
     /// Why points are lost where the joint came to rest, `value` off.
     fn loss(&self, response: &Response<'_>, value: f64) -> Loss {
+        let reason = reason(response, self.target);
+        let moves = reason.as_ref().is_some_and(|reason| reason.moves);
         let mut message = format!(
-            "{} settles at {}, {} from {}",
+            "{} {} {}, {} from {}",
             response.what(),
+            if moves { "ends at" } else { "settles at" },
             response.with_unit(response.end),
             response.with_unit(value),
             response.with_unit(self.target),
         );
         let mut next_step = "Add integral action.".to_owned();
-        if let Some(Reason { words, help }) = reason(response, self.target) {
+        if moves {
+            message += ", and is still moving";
+        }
+        if let Some(Reason { words, help, .. }) = reason {
             message += &format!(": {words}");
             next_step = help;
         }
@@ -163,6 +169,28 @@ mod tests {
             finding.evidence[0].message,
             "joint `elbow` settles at 1.5958 rad, 0.025 rad from 1.5708 rad: gravity takes 2.452 N m there; \
              the motor gives 2.452 N m with 0.025 rad of error: as a proportional gain of 98.08 would"
+        );
+    }
+
+    #[test]
+    fn an_error_that_still_shrinks_is_told_as_moving() {
+        let nears = |t_s: f64| HandRow {
+            q: [
+                0.0,
+                (LEVEL - 0.05 * libm::exp(-0.5 * t_s)) * (10.0 * t_s).min(1.0),
+            ],
+            command: [0.0, LEVEL],
+            ..HandRow::default()
+        };
+        let finding = judged(SERVO, KIND, nears);
+        let message = &finding.evidence[0].message;
+        assert!(message.contains(" ends at "), "{message}");
+        assert!(message.contains("and is still moving: from "), "{message}");
+        assert!(finding.next_step.contains("raise ki"));
+        let quantity = finding.measure.expect("measured").quantity;
+        assert_eq!(
+            quantity,
+            "steady-state error of joint `elbow` (target 1.5708 rad)"
         );
     }
 

@@ -86,7 +86,7 @@ pub fn operation_names() -> String {
 pub fn answer_line(subject: Subject<'_>, line: &[u8]) -> Map<String, Value> {
     let request: Value = match serde_json::from_slice(line.trim_ascii_end()) {
         Ok(request) => request,
-        Err(error) => return refused(Refusal::new(Code::BadJson, error)),
+        Err(error) => return refused(Refusal::new(Code::BadJson, no_json(&error, line))),
     };
     let Value::Object(mut request) = request else {
         let message = "a request is an object, such as {\"op\": \"info\"}";
@@ -96,6 +96,18 @@ pub fn answer_line(subject: Subject<'_>, line: &[u8]) -> Map<String, Value> {
     let mut whole = answer_request(subject, request).unwrap_or_else(refused);
     whole.insert("id".to_owned(), id.unwrap_or(Value::Null));
     whole
+}
+
+/// Why a line is no JSON: the column alone, for the line is always the first of its request.
+fn no_json(error: &serde_json::Error, line: &[u8]) -> String {
+    let rest = &line[error.column().saturating_sub(1).min(line.len())..];
+    if rest.starts_with(b"NaN") {
+        return "JSON has no NaN: leave the field out".to_owned();
+    }
+    let whole = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let why = whole.strip_suffix(place.as_str()).unwrap_or(&whole);
+    format!("column {}: {why}", error.column())
 }
 
 /// The answer to a line of which not even the `id` is known.

@@ -61,7 +61,7 @@ fn counts(findings: &[Finding]) -> String {
         .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
         .collect();
     if counts.is_empty() {
-        "nothing found".to_owned()
+        "no problems found".to_owned()
     } else {
         counts.join(", ")
     }

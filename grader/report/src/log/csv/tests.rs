@@ -125,6 +125,28 @@ fn other_encodings_are_named_and_passed_over() {
     );
 }
 
+/// A system that lets a file grow no further says the same of it as a log whose tables are too large, and means another thing.
+#[test]
+fn a_file_that_may_not_grow_is_no_fault_of_the_log() {
+    struct Full;
+    impl Write for Full {
+        fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+            Err(std::io::ErrorKind::FileTooLarge.into())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let log = log_of(&[("/t", "json", 0, br#"{"a": 1}"#)]);
+    let found = tables(&log).unwrap();
+    let error = write_csv(&log, &found.tables, vec![Some(Full)]).unwrap_err();
+    assert!(matches!(error, ReadError::Write(_)), "{error}");
+    assert!(matches!(
+        unfit(std::io::Error::other(Spent)),
+        ReadError::TooLarge { .. }
+    ));
+}
+
 #[test]
 fn every_log_that_is_none_is_told() {
     let whole = log_of(&[("/t", "json", 0, br#"{"a": 1}"#)]);
@@ -132,7 +154,7 @@ fn every_log_that_is_none_is_told() {
     assert_eq!(told(b""), "it is empty");
     assert_eq!(
         told(b"%PDF-1.7"),
-        "it is no MCAP log: it does not begin as one"
+        "it is not an MCAP log: it does not begin as one"
     );
     assert_eq!(told(&log_of(&[])), "it holds no messages");
     assert_eq!(

@@ -23,7 +23,7 @@ pub(super) fn mismatch(log: &[u8]) -> Option<&'static str> {
     };
     let (all, sum) = (&log[..footer_at + HEAD + 16], &footer[HEAD + 16..]);
     if summary_at <= footer_at && differs(all.get(summary_at..)?, sum) {
-        return Some("its summary is not the one that was written");
+        return Some("the checksum of its summary does not match");
     }
     let data_end_at = summary_at.checked_sub(HEAD + DATA_END)?;
     let data_end = log.get(data_end_at..summary_at)?;
@@ -31,7 +31,7 @@ pub(super) fn mismatch(log: &[u8]) -> Option<&'static str> {
         return Some("the end of its data is not where it was written");
     }
     differs(&log[..data_end_at], &data_end[HEAD..])
-        .then_some("its data are not those that were written")
+        .then_some("the checksum of its data does not match")
 }
 
 /// Whether a checksum that is there is not that of `bytes`.
