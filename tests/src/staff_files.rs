@@ -100,10 +100,6 @@ fn a_check_names_the_hidden_class_that_may_be_wrong() {
     ]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     let shown = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
-    for part in [
-        "the class \"out of reach\" in hidden.toml, a visible case in lab.toml, the band, or the solution",
-        "inverse_kinematics returned [], expected the angles of a target within reach",
-    ] {
-        assert!(shown.contains(part), "{part}: {shown}");
-    }
+    let part = "the class \"out of reach\" in hidden.toml, a visible case in lab.toml, the band, or the solution";
+    assert!(shown.contains(part), "{shown}");
 }

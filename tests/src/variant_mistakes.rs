@@ -34,7 +34,7 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
             "step = 0.01 }\n",
             "step = 0.03 }\n",
             "lab::variants",
-            "an integer is needed",
+            "steps of 0.03",
         ),
         (
             "out = { from = 0.85",
