@@ -115,10 +115,14 @@ impl Context<'_> {
                 };
                 (message.to_owned(), None)
             }
-            ParseErrorType::ExprExpected(_) if line.trim_start().starts_with("for") => (
-                "what `for` goes over is missing before this".to_owned(),
-                Some("count with `for i in 0..n`".to_owned()),
-            ),
+            ParseErrorType::ExprExpected(_)
+                if place.and_then(|place| signs.word_before(place)).as_deref() == Some("in") =>
+            {
+                (
+                    "what `for` goes over is missing before this".to_owned(),
+                    Some("count with `for i in 0..n`".to_owned()),
+                )
+            }
             other => definition(other)
                 .or_else(|| statement(other))
                 .unwrap_or_else(|| (plain(&other.to_string()), None)),
@@ -210,7 +214,7 @@ fn missing(token: &str, what: &str, line: &str, at: Option<char>) -> Words {
             before_this(token),
             Some("an element of a matrix is m[row][column]".to_owned()),
         ),
-        "," if line.trim_start().starts_with("for (") => (
+        "," if line.contains("for (") => (
             "`for` is written without `(` and `)`".to_owned(),
             Some("write for i in 0..n { ... }".to_owned()),
         ),
