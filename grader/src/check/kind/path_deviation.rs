@@ -1,7 +1,7 @@
 //! path-deviation: how far the TCP is from a path of straight segments, in the worst of them \[m, root mean square\].
 //!
 //! The formula is in [How a path is followed](#how-a-path-is-followed): along the distance travelled, so that speed does not count,
-//! with progress that never goes back; what is never passed counts with its distance.
+//! with progress that never goes back; what is never covered counts with its distance.
 
 use crate::check::path_following::{FollowedSegment, followed};
 use crate::check::prelude::*;
