@@ -278,8 +278,7 @@ fn word_at(text: &str, at: usize) -> Option<&str> {
     let inside = (at.saturating_sub(start)).min(line.len());
     let begin = line
         .char_indices()
-        .filter(|(i, c)| *i < inside && is_end(*c))
-        .last()
+        .rfind(|(i, c)| *i < inside && is_end(*c))
         .map_or(0, |(i, c)| i + c.len_utf8());
     let word = &line[begin..];
     let word = word.split(is_end).next()?;
