@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::number_fields::{Numbers, finite, finite_number, finite_rows};
 use super::refusal::Refusal;
 
-/// The answer to [`Simulate`](super::Simulate); each list has one entry per sample.
+/// The answer to [`Simulate`](super::simulation::Simulate); each list has one entry per sample.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SampledRun {
     /// Times.
