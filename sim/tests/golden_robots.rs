@@ -1,4 +1,4 @@
-//! Robots by DH table, by configuration string and with a closed loop, against `tests/golden/{D,E,G,H_puma560}*.json`, whose `how`
+//! Robots by DH table, by joint string and with a closed loop, against `tests/golden/{D,E,G,H_puma560}*.json`, whose `how`
 //! and `crosscheck` name the tools behind the numbers.
 
 use kinemark_sim::dynamics::{

@@ -1,4 +1,4 @@
-//! `kinemark robot eval` on robots of every kind: the golden numbers of configuration strings, DH tables, loops, URDFs and textbook
+//! `kinemark robot eval` on robots of every kind: the golden numbers of joint strings, DH tables, loops, URDFs and textbook
 //! inverse kinematics, through the JSON interface.
 
 use serde_json::{Value, json};

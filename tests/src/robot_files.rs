@@ -197,8 +197,10 @@ fn what_cannot_be_shown_says_why() {
         "<robot name=\"arm\">\n  <link name=\"base\"/>\n  <link name=\"tip\"/>\n</robot>\n",
     );
     let links = "0,0,1; 0,0,1; 0,0,1";
-    let cases: [(&[&str], i32, &str); 16] = [
+    let cases: [(&[&str], i32, &str); 17] = [
         (&["RzRyRz"], 2, "--links \"0,0,1; 0,0,1; 0,0,1\""),
+        // the letter comes first: links of a wrong count would not help
+        (&["RzRxq"], 2, "[joint string:1:5]"),
         (
             &["RzRyRz", "--base", "1"],
             2,

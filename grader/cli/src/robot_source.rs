@@ -102,17 +102,17 @@ fn broken(error: RobotError) -> Failure {
 
 fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
     refuse_urdf_options(args, &format!("`{text}` is a joint string"))?;
+    // it was typed, so what is wrong with it is a matter of usage
+    let usage = |error| Failure::diagnostic(USAGE, error);
+    let count = joint_string::joint_count(text).map_err(usage)?;
     let Some(links) = &args.links else {
-        let count = text.chars().count() / 2;
         let example = vec!["0,0,1"; count.clamp(1, 8)].join("; ");
         return Err(Failure::usage(
             format!("`{text}` gives joints but no links"),
             &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
         ));
     };
-    let robot = joint_string::robot(text, args.base.unwrap_or(0.0), links)
-        // it was typed, so it is a matter of usage
-        .map_err(|error| Failure::diagnostic(USAGE, error))?;
+    let robot = joint_string::robot(text, args.base.unwrap_or(0.0), links).map_err(usage)?;
     let meshes = BTreeMap::new();
     Ok(Loaded { robot, meshes })
 }

@@ -19,14 +19,26 @@ use crate::text::{Dimensions, Source};
 /// A drawn link is this part of the longest link thick.
 const DRAWN_RADIUS: f64 = 0.03;
 
-/// Whether `text` starts like a configuration string, so that what is wrong with it is worth telling.
+/// Whether `text` starts like a joint string, so that what is wrong with it is worth telling.
 pub fn looks_like_one(text: &str) -> bool {
     let mut letters = text.chars();
     matches!(letters.next(), Some('R' | 'T' | 'P'))
         && matches!(letters.next(), Some('x' | 'y' | 'z'))
 }
 
-/// Makes the robot of a configuration string.
+fn joint_string(text: &str) -> Source {
+    Source::new("joint string", text)
+}
+
+/// How many joints a joint string has.
+///
+/// # Errors
+/// A problem at the letter that does not fit.
+pub fn joint_count(text: &str) -> Result<usize, RobotError> {
+    joints(&joint_string(text)).map(|joints| joints.len())
+}
+
+/// Makes the robot of a joint string.
 ///
 /// `base_m` is the height of the first joint; `links_m` holds one `lx, ly, lz` per joint in metres, separated by semicolons, as in
 /// `"0,0,4; 3,0,0; 1,0,0"`. Links are drawn as cylinders and have no mass. Joints are called `joint1` and on, links `base`,
@@ -35,7 +47,7 @@ pub fn looks_like_one(text: &str) -> bool {
 /// # Errors
 /// A problem at the letter or the link that does not fit.
 pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError> {
-    let source = Source::new("configuration string", text);
+    let source = joint_string(text);
     let joints = joints(&source)?;
     let links = links(&Source::new("links", links_m), joints.len())?;
     if !base_m.is_finite() {

@@ -1,6 +1,6 @@
 //! What every source of a robot says in the end: links, joints, frames and loops with their numbers worked out and their places kept.
 //!
-//! A TOML file, a URDF, a DH table or a configuration string becomes a [`Description`]; `assemble` makes the robot of it.
+//! A TOML file, a URDF, a DH table or a joint string becomes a [`Description`]; `assemble` makes the robot of it.
 
 use nalgebra::Vector3;
 use toml::Spanned;
