@@ -257,7 +257,7 @@ fn a_bad_request_is_answered_and_the_stream_goes_on() {
     for ((request, wanted), answer) in cases.iter().zip(&answers) {
         assert_eq!(answer["error"]["code"], *wanted, "{request}: {answer}");
     }
-    // it has no id: its number tells which it is
+    // it has no id: its number stands for it
     assert_eq!(
         answers[0]["error"]["message"],
         "request 1: column 1: EOF while parsing an object"

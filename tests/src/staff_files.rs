@@ -58,19 +58,22 @@ fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
     }
 }
 
+/// `lab check` with nothing at random.
+const CHECK: [&str; 7] = [
+    "lab",
+    "check",
+    "01-kinematics",
+    "--salts",
+    "0",
+    "--variants",
+    "0",
+];
+
 #[test]
 fn a_check_tells_where_the_solution_stops() {
     let bed = TestBed::a_little_off();
     bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
-    let ran = bed.run(&[
-        "lab",
-        "check",
-        "01-kinematics",
-        "--salts",
-        "0",
-        "--variants",
-        "0",
-    ]);
+    let ran = bed.run(&CHECK);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(
         ran.stdout.contains(&format!("{SOLUTION}:16:")),
@@ -89,15 +92,7 @@ fn a_check_names_the_hidden_class_that_may_be_wrong() {
         "branches = 0",
         "branches = 2",
     );
-    let ran = bed.run(&[
-        "lab",
-        "check",
-        "01-kinematics",
-        "--salts",
-        "0",
-        "--variants",
-        "0",
-    ]);
+    let ran = bed.run(&CHECK);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     let shown = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
     let part = "the class \"out of reach\" in hidden.toml, a visible case in lab.toml, the band, or the solution";

@@ -284,7 +284,7 @@ fn told(evidence: &Evidence, task: &str) -> String {
 mod tests {
     use super::*;
 
-    /// A hint on hidden runs tells to look at the margins of the visible one.
+    /// A hint on hidden runs sends the reader to the margins of the visible one.
     #[test]
     fn a_margin_is_told_where_only_hidden_runs_lost_points() {
         let measure = |value| Measure {

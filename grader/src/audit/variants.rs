@@ -16,9 +16,16 @@ use crate::task::problem::LoadError;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Variants {
     students: u32,
-    /// Students in whose variant the reference solution lost points, with the problem and what to do.
-    lost: Vec<(String, String, String)>,
+    lost: Vec<Lost>,
     rooms: Vec<VariantMargin>,
+}
+
+/// A student in whose variant the reference solution lost points. In the order of students, whoever tried them.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Lost {
+    student: String,
+    problem: String,
+    help: String,
 }
 
 /// The margin of the reference solution in a check's band, over the variants that were tried. Similar margins make variants equally hard.
@@ -58,9 +65,11 @@ impl Variants {
             Ok(Some(loaded)) => loaded,
             Ok(None) => return,
             Err(why) => {
-                let what = format!("it cannot be loaded ({numbers}): {why}");
-                let help = "or mend what the error names".to_owned();
-                self.lost.push((student.to_owned(), what, help));
+                self.lost.push(Lost {
+                    student: student.to_owned(),
+                    problem: format!("it cannot be loaded ({numbers}): {why}"),
+                    help: "or mend what the error names".to_owned(),
+                });
                 return;
             }
         };
@@ -69,8 +78,11 @@ impl Variants {
         };
         let tasks = &run.grade.tasks;
         if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
-            let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
-            self.lost.push((student.to_owned(), what, mending(task)));
+            self.lost.push(Lost {
+                student: student.to_owned(),
+                problem: format!("task `{}` loses points: {}", task.name, loss_of(task)),
+                help: mending(task),
+            });
         }
         self.measure(&run.grade);
     }
@@ -136,10 +148,10 @@ impl Audit {
     /// Records the results of the variants.
     pub fn variants(&mut self, mut tried: Variants) {
         tried.lost.sort();
-        let problem = tried.lost.first().map(|(student, what, help)| {
-            let count = tried.lost.len();
-            let what = format!("in {count} of them, such as that of `{student}`: {what}");
-            (what, format!("narrow [variants], {help}"))
+        let problem = tried.lost.first().map(|lost| {
+            let (count, student, problem) = (tried.lost.len(), &lost.student, &lost.problem);
+            let what = format!("in {count} of them, such as that of `{student}`: {problem}");
+            (what, format!("narrow [variants], {}", lost.help))
         });
         let form = format!("{} variants", tried.students);
         self.add((Tried::Reference, &form), None, None, problem);
@@ -179,7 +191,11 @@ mod tests {
         };
         let some = |student: &str, rooms| Variants {
             students: 2,
-            lost: vec![(student.to_owned(), "a point".to_owned(), String::new())],
+            lost: vec![Lost {
+                student: student.to_owned(),
+                problem: "a point".to_owned(),
+                help: String::new(),
+            }],
             rooms,
         };
         let mut all = some("s4", vec![margin(0.2, 0.3)]);

@@ -130,7 +130,7 @@ impl<'a> Rest<'a> {
         let [from, to] = ends.map(|value| response.with_unit(value));
         let nearing = Reason::new(
             format!("from {from} to {to} in this time"),
-            "The integral removes the error too slowly: raise ki, or compensate gravity so that less is left for it.",
+            "The error is removed too slowly: use a stronger integral, or compensate gravity, so that less is left to remove.",
         )?;
         Some(Reason {
             moves: true,

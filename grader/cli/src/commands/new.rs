@@ -96,7 +96,7 @@ fn put_in_place(dir: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> 
     std::fs::create_dir_all(dir).map_err(|error| failed(dir, error))?;
     let placed = rename_in(dir, files);
     if let Err((there, path, error)) = placed {
-        // what is left behind is told no further: the failure itself is
+        // a file that cannot be removed either is not worth a second message
         for (path, _) in &files[..there] {
             let _ = std::fs::remove_file(path);
         }

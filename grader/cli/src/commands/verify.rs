@@ -40,6 +40,9 @@ pub(crate) struct Args {
     pub(crate) staff: StaffArgs,
 }
 
+/// The beginning of what names a place in the record.
+const RECORD: &str = "record at ";
+
 /// In place of the digest of a file that is not there.
 const MISSING: &str = "missing";
 
@@ -180,7 +183,7 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
         };
         if let Some((path, recorded, now)) = first_difference(&value(recorded)?, &value(now)?) {
             differences.push(Difference {
-                what: format!("record at `{path}`"),
+                what: format!("{RECORD}`{path}`"),
                 task: None,
                 second: None,
                 signal: None,
@@ -330,18 +333,18 @@ fn file_differences(
 /// What the differences come to, in a line: a change of what was graded explains all that follows from it.
 fn verdict(differences: &[Difference]) -> Option<String> {
     let first = differences.first()?;
-    let begins = |word: &str| differences.iter().any(|it| it.what.starts_with(word));
-    let why = if begins("engine") {
+    let differs = |part: &str| differences.iter().any(|it| it.what == part);
+    let why = if differs("engine") {
         "it was made by another version of kinemark"
-    } else if begins("lab") || begins("robot") {
+    } else if differs("lab") || differs("robot") {
         "the lab was changed after grading"
-    } else if begins("submission") {
+    } else if differs("submission") {
         "the submission was changed after grading"
-    } else if begins("reference") {
+    } else if differs("reference") {
         "the course staff's part was changed after grading"
     } else if first.task.is_some() {
         "a task does not go as recorded"
-    } else if begins("record") {
+    } else if differences.iter().any(|it| it.what.starts_with(RECORD)) {
         "its grade was changed after grading"
     } else {
         "its files were changed after grading"

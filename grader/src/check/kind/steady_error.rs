@@ -186,7 +186,7 @@ mod tests {
         let message = &finding.evidence[0].message;
         assert!(message.contains(" ends at "), "{message}");
         assert!(message.contains("and is still moving: from "), "{message}");
-        assert!(finding.next_step.contains("raise ki"));
+        assert!(finding.next_step.contains("removed too slowly"));
         let quantity = finding.measure.expect("measured").quantity;
         assert_eq!(
             quantity,
