@@ -55,6 +55,7 @@ pub(crate) fn near<'n>(
 
 /// An enum of problems, each a line of a table: its data, then its code, its message, what stands under the caret, and something to
 /// do where there is something to say beyond that. The message is a format string over the data; the others are expressions over it.
+#[macro_export]
 macro_rules! problems {
     (
         $(#[$of_all:meta])*
@@ -107,4 +108,4 @@ macro_rules! problems {
         }
     };
 }
-pub(crate) use problems;
+pub use problems;

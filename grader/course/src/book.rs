@@ -1,0 +1,471 @@
+//! The book: the folder that the program writes. Records, submissions, and the versions of labs and staff parts that made them, each
+//! under a name that follows from its content, whole or absent; nothing in it is ever changed, so books join by copying.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::task::files::Files;
+use serde::{Deserialize, Serialize};
+
+use crate::journal::Journal;
+use crate::private_files::{private_folder, put};
+
+/// The format of records that this version writes.
+const FORMAT: &str = "kinemark-record/1";
+
+/// The grade of one submission, under the key of everything that it follows from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Always `kinemark-record/1`.
+    format: String,
+    /// The key ([`Inputs::key`]).
+    pub key: String,
+    /// What it was made from.
+    pub inputs: Inputs,
+    /// The grade.
+    pub grade: Grade,
+}
+
+/// Everything that a grade follows from, by digest.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// The engine: its version, and a digest of its sources.
+    pub engine: String,
+    /// The lab's name.
+    pub lab_name: String,
+    /// The lab in its variant.
+    pub lab: String,
+    /// The robot.
+    pub robot: String,
+    /// The scenes.
+    pub scenes: Vec<String>,
+    /// The staff part with its salt; none in practice.
+    pub staff: Option<String>,
+    /// The student whose variant it is, if it is one.
+    pub variant_of: Option<String>,
+    /// The submission.
+    pub submission: String,
+    /// The version of the lab's files in the book.
+    pub lab_version: String,
+    /// The version of the staff part's files in the book.
+    pub staff_version: Option<String>,
+}
+
+impl Inputs {
+    /// The key: a digest over all of them.
+    pub fn key(&self) -> String {
+        let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 record of a course v1");
+        let mut add = |part: &str| {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part.as_bytes());
+        };
+        for part in [
+            &self.engine,
+            &self.lab_name,
+            &self.lab,
+            &self.robot,
+            &self.submission,
+            &self.lab_version,
+        ] {
+            add(part);
+        }
+        for part in [&self.staff, &self.variant_of, &self.staff_version] {
+            add(if part.is_some() { "some" } else { "none" });
+            add(part.as_deref().unwrap_or_default());
+        }
+        for scene in &self.scenes {
+            add(scene);
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}
+
+impl Record {
+    /// The record of a grade.
+    pub fn new(inputs: Inputs, grade: Grade) -> Self {
+        Self {
+            format: FORMAT.to_owned(),
+            key: inputs.key(),
+            inputs,
+            grade,
+        }
+    }
+}
+
+/// What goes wrong with a book.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("`{}`: {why}", path.display())]
+pub struct BookError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// Why, in words.
+    pub why: String,
+}
+
+/// A book.
+#[derive(Debug, Clone)]
+pub struct Book {
+    root: PathBuf,
+}
+
+impl Book {
+    /// The book in `root`; it is made where it is not there.
+    ///
+    /// # Errors
+    /// A folder that cannot be made.
+    pub fn open(root: &Path) -> Result<Self, BookError> {
+        let book = Self {
+            root: root.to_owned(),
+        };
+        for folder in ["", "records", "submissions", "labs", "staff"] {
+            let path = root.join(folder);
+            private_folder(&path).map_err(|error| BookError {
+                path,
+                why: error.to_string(),
+            })?;
+        }
+        Ok(book)
+    }
+
+    /// Its folder.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// What happened.
+    pub fn journal(&self) -> Journal {
+        Journal::new(self.root.join("journal"))
+    }
+
+    fn record_path(&self, key: &str) -> PathBuf {
+        let shelf = key.get(..2).unwrap_or("--");
+        self.root
+            .join("records")
+            .join(shelf)
+            .join(format!("{key}.json"))
+    }
+
+    /// Whether there is a record of this key.
+    pub fn has_record(&self, key: &str) -> bool {
+        self.record_path(key).is_file()
+    }
+
+    /// Keeps a record.
+    ///
+    /// # Errors
+    /// A full disk; there is then no such record.
+    pub fn put_record(&self, record: &Record) -> Result<(), BookError> {
+        let path = self.record_path(&record.key);
+        let json = serde_json::to_vec(record);
+        let written = json
+            .map_err(io::Error::other)
+            .and_then(|json| put(&path, &json));
+        written.map_err(|error| BookError {
+            path,
+            why: error.to_string(),
+        })
+    }
+
+    /// The record of this key; `None` where there is none, or one that a failing disk has damaged: it is graded again.
+    ///
+    /// # Errors
+    /// A record of another version, or a file that cannot be read.
+    pub fn record(&self, key: &str) -> Result<Option<Record>, BookError> {
+        #[derive(Deserialize)]
+        struct Format {
+            format: String,
+        }
+        let path = self.record_path(key);
+        let error = |why: String| BookError {
+            path: path.clone(),
+            why,
+        };
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(missing) if missing.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(unread) => return Err(error(unread.to_string())),
+        };
+        let Ok(Format { format }) = serde_json::from_slice(&bytes) else {
+            return Ok(None);
+        };
+        if format != FORMAT {
+            return Err(error(format!(
+                "its format is `{format}`, and this version reads `{FORMAT}`"
+            )));
+        }
+        let record: Record = match serde_json::from_slice(&bytes) {
+            Ok(record) => record,
+            Err(_) => return Ok(None),
+        };
+        Ok((record.key == key && record.inputs.key() == key).then_some(record))
+    }
+
+    /// Keys of all records, sorted.
+    ///
+    /// # Errors
+    /// A folder that cannot be listed.
+    pub fn record_keys(&self) -> io::Result<Vec<String>> {
+        let mut keys = Vec::new();
+        for shelf in std::fs::read_dir(self.root.join("records"))? {
+            let shelf = shelf?;
+            if !shelf.file_type()?.is_dir() {
+                continue;
+            }
+            for record in std::fs::read_dir(shelf.path())? {
+                let name = record?.file_name().into_string().unwrap_or_default();
+                if let Some(key) = name.strip_suffix(".json") {
+                    keys.push(key.to_owned());
+                }
+            }
+        }
+        keys.sort();
+        Ok(keys)
+    }
+
+    /// Keeps a submission, and gives its digest.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_submission(&self, bytes: &[u8]) -> Result<String, BookError> {
+        let digest = blake3::hash(bytes).to_hex().to_string();
+        let path = self.submission_path(&digest);
+        put(&path, bytes).map_err(|error| BookError {
+            path,
+            why: error.to_string(),
+        })?;
+        Ok(digest)
+    }
+
+    fn submission_path(&self, digest: &str) -> PathBuf {
+        let shelf = digest.get(..2).unwrap_or("--");
+        self.root.join("submissions").join(shelf).join(digest)
+    }
+
+    /// The submission of this digest.
+    ///
+    /// # Errors
+    /// None there, or one whose bytes are others by now.
+    pub fn submission(&self, digest: &str) -> Result<Vec<u8>, BookError> {
+        let path = self.submission_path(digest);
+        let read = std::fs::read(&path).map_err(|error| error.to_string());
+        let read = read.and_then(|bytes| {
+            if blake3::hash(&bytes).to_hex().as_str() == digest {
+                Ok(bytes)
+            } else {
+                Err("its bytes are not those that were handed in".to_owned())
+            }
+        });
+        read.map_err(|why| BookError { path, why })
+    }
+
+    /// Keeps the files of a lab, and gives their version.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_lab(&self, files: &[(String, Vec<u8>)]) -> Result<String, BookError> {
+        self.put_version("labs", files)
+    }
+
+    /// Keeps the files of a staff part, its salt among them, and gives their version.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_staff(&self, files: &[(String, Vec<u8>)]) -> Result<String, BookError> {
+        self.put_version("staff", files)
+    }
+
+    /// The files of a version of a lab, in the shape of a folder of labs.
+    pub fn lab(&self, version: &str) -> impl Files + use<> {
+        Version(self.root.join("labs").join(version))
+    }
+
+    /// The files of a version of a staff part.
+    pub fn staff(&self, version: &str) -> impl Files + use<> {
+        Version(self.root.join("staff").join(version))
+    }
+
+    fn put_version(&self, kind: &str, files: &[(String, Vec<u8>)]) -> Result<String, BookError> {
+        let version = version_of(files);
+        let path = self.root.join(kind).join(&version);
+        if path.is_dir() {
+            return Ok(version);
+        }
+        let written = || -> io::Result<()> {
+            let fresh = tempfile::Builder::new()
+                .prefix(".new-")
+                .tempdir_in(self.root.join(kind))?;
+            for (name, bytes) in files {
+                put(&fresh.path().join(name), bytes)?;
+            }
+            match std::fs::rename(fresh.path(), &path) {
+                // somebody else was first with the same files
+                Err(_) if path.is_dir() => Ok(()),
+                renamed => renamed,
+            }
+        };
+        written().map_err(|error| BookError {
+            path: path.clone(),
+            why: error.to_string(),
+        })?;
+        Ok(version)
+    }
+}
+
+/// The version of files: a digest of their paths and bytes, whatever their order.
+pub fn version_of(files: &[(String, Vec<u8>)]) -> String {
+    let mut sorted: Vec<&(String, Vec<u8>)> = files.iter().collect();
+    sorted.sort();
+    let mut hasher = blake3::Hasher::new();
+    for (path, bytes) in sorted {
+        hasher.update(&(path.len() as u64).to_le_bytes());
+        hasher.update(path.as_bytes());
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    }
+    hasher.finalize().to_hex().to_string()
+}
+
+/// A version in the book, as files.
+struct Version(PathBuf);
+
+impl Files for Version {
+    fn name(&self) -> String {
+        self.0.display().to_string()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        let plain = |part| matches!(part, std::path::Component::Normal(_));
+        if !Path::new(path).components().all(plain) {
+            return Ok(None);
+        }
+        match std::fs::read(self.0.join(path)) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.join(folder)).into_iter().flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inputs() -> Inputs {
+        let text = str::to_owned;
+        Inputs {
+            engine: text("kinemark 0.1.0+aa"),
+            lab_name: text("01"),
+            lab: text("l"),
+            robot: text("r"),
+            scenes: vec![text("s")],
+            staff: Some(text("t")),
+            variant_of: None,
+            submission: text("u"),
+            lab_version: text("v"),
+            staff_version: Some(text("w")),
+        }
+    }
+
+    #[test]
+    fn every_input_changes_the_key() {
+        let one = inputs().key();
+        let text = str::to_owned;
+        for other in [
+            Inputs {
+                engine: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                lab_name: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                lab: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                robot: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                scenes: Vec::new(),
+                ..inputs()
+            },
+            Inputs {
+                staff: None,
+                ..inputs()
+            },
+            Inputs {
+                variant_of: Some(String::new()),
+                ..inputs()
+            },
+            Inputs {
+                submission: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                lab_version: text("x"),
+                ..inputs()
+            },
+            Inputs {
+                staff_version: None,
+                ..inputs()
+            },
+        ] {
+            assert_ne!(other.key(), one, "{other:?}");
+        }
+        assert_eq!(inputs().key(), one);
+    }
+
+    #[test]
+    fn what_is_kept_is_given_back_and_a_damaged_submission_is_not() {
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::open(bed.path()).unwrap();
+        let digest = book.put_submission(b"let a = 1;").unwrap();
+        assert_eq!(book.submission(&digest).unwrap(), b"let a = 1;");
+        std::fs::write(book.submission_path(&digest), "let a = 2;").unwrap();
+        let error = book.submission(&digest).unwrap_err();
+        assert!(error.to_string().contains("not those that were handed in"));
+        assert!(book.submission("ffff").is_err());
+    }
+
+    #[test]
+    fn a_version_is_kept_once_and_read_as_files() {
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::open(bed.path()).unwrap();
+        let files = vec![
+            ("01/lab.toml".to_owned(), b"x".to_vec()),
+            ("robots/r.toml".to_owned(), b"y".to_vec()),
+        ];
+        let version = book.put_lab(&files).unwrap();
+        let turned: Vec<_> = files.iter().rev().cloned().collect();
+        assert_eq!(book.put_lab(&turned).unwrap(), version);
+        let lab = book.lab(&version);
+        assert_eq!(lab.read("01/lab.toml").unwrap().as_deref(), Some("x"));
+        assert_eq!(lab.read("01/none").unwrap(), None);
+        assert_eq!(lab.read("../../journal").unwrap(), None);
+        assert_eq!(lab.list(""), ["01", "robots"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_the_owner_reads_the_book() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::open(&bed.path().join("book")).unwrap();
+        let digest = book.put_submission(b"x").unwrap();
+        let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode(book.root()), 0o700);
+        assert_eq!(mode(&book.submission_path(&digest)), 0o600);
+    }
+}

@@ -1,0 +1,215 @@
+//! The journal, read: each student's attempts at each lab, and the record that is the grade of each.
+
+use std::collections::BTreeMap;
+
+use jiff::Timestamp;
+
+use crate::journal::{Entry, Event, Graded, HandIn};
+use crate::student::StudentId;
+
+/// A hand-in with its grades, in the order of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// What was handed in.
+    pub hand_in: HandIn,
+    /// When the course first read it.
+    pub read_at: Timestamp,
+    /// Its grades, the earliest first; the last one stands.
+    pub grades: Vec<GradeEvent>,
+}
+
+/// A record became the grade of a hand-in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GradeEvent {
+    /// When.
+    pub at: Timestamp,
+    /// By whose command.
+    pub by: String,
+    /// The key of the record.
+    pub record: String,
+    /// Why, where it replaced an earlier one.
+    pub why: Option<String>,
+}
+
+impl Attempt {
+    /// The key of the record that is its grade; none where it is not graded yet.
+    pub fn record(&self) -> Option<&str> {
+        self.grades.last().map(|grade| grade.record.as_str())
+    }
+
+    /// When it was handed in, as far as that is known: as the LMS says, else when the course first read it.
+    pub fn time(&self) -> Timestamp {
+        self.hand_in.submitted_at.unwrap_or(self.read_at)
+    }
+}
+
+/// What happened in a course.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct History {
+    attempts: BTreeMap<(String, StudentId), Vec<Attempt>>,
+    /// The place of each hand-in by its id.
+    places: BTreeMap<String, (String, StudentId, usize)>,
+    /// Grades that went out: when, the lab, the form, and the record of each student.
+    pub releases: Vec<Release>,
+}
+
+/// Grades that went to the LMS.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Release {
+    /// When.
+    pub at: Timestamp,
+    /// The lab.
+    pub lab: String,
+    /// The form, such as `moodle`.
+    pub to: String,
+    /// The key of each student's record.
+    pub records: BTreeMap<StudentId, String>,
+}
+
+impl History {
+    /// Reads entries that are in the order of time. A hand-in that is there twice counts once; a grade of an unknown hand-in, whose
+    /// line another book has, waits for it and counts for nothing.
+    pub fn of(entries: impl IntoIterator<Item = Entry>) -> Self {
+        let mut history = Self::default();
+        for entry in entries {
+            let Entry { at, by, event } = entry;
+            match event {
+                Event::HandIn(hand_in) => history.hand_in(at, hand_in),
+                Event::Graded(graded) => history.graded(at, by, graded),
+                Event::Released { lab, to, records } => history.releases.push(Release {
+                    at,
+                    lab,
+                    to,
+                    records,
+                }),
+            }
+        }
+        for attempts in history.attempts.values_mut() {
+            // stable: those of one time stay in the order in which they were read
+            attempts.sort_by_key(|attempt| (attempt.time(), attempt.hand_in.attempt));
+        }
+        history
+    }
+
+    fn hand_in(&mut self, at: Timestamp, hand_in: HandIn) {
+        if self.places.contains_key(&hand_in.id) {
+            return;
+        }
+        let (lab, student) = (hand_in.lab.clone(), hand_in.student.clone());
+        let attempts = self
+            .attempts
+            .entry((lab.clone(), student.clone()))
+            .or_default();
+        let place = (lab, student, attempts.len());
+        self.places.insert(hand_in.id.clone(), place);
+        attempts.push(Attempt {
+            hand_in,
+            read_at: at,
+            grades: Vec::new(),
+        });
+    }
+
+    fn graded(&mut self, at: Timestamp, by: String, graded: Graded) {
+        let Some((lab, student, index)) = self.places.get(&graded.hand_in) else {
+            return;
+        };
+        let key = (lab.clone(), student.clone());
+        let attempts = self.attempts.get_mut(&key);
+        if let Some(attempt) = attempts.and_then(|attempts| attempts.get_mut(*index)) {
+            let is_same = attempt.record() == Some(graded.record.as_str());
+            // two shards that grade the same say the same
+            if !is_same {
+                attempt.grades.push(GradeEvent {
+                    at,
+                    by,
+                    record: graded.record,
+                    why: graded.why,
+                });
+            }
+        }
+    }
+
+    /// The attempts of a student at a lab, the earliest first.
+    pub fn attempts(&self, lab: &str, student: &StudentId) -> &[Attempt] {
+        let key = (lab.to_owned(), student.clone());
+        self.attempts.get(&key).map_or(&[], Vec::as_slice)
+    }
+
+    /// All attempts at a lab, by student.
+    pub fn of_lab(&self, lab: &str) -> impl Iterator<Item = (&StudentId, &[Attempt])> {
+        let all = self.attempts.iter();
+        let of_lab = all.filter(move |((name, _), _)| name == lab);
+        of_lab.map(|((_, student), attempts)| (student, attempts.as_slice()))
+    }
+
+    /// Whether a hand-in of this id was read before.
+    pub fn knows(&self, hand_in: &str) -> bool {
+        self.places.contains_key(hand_in)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(second: i64) -> Timestamp {
+        Timestamp::from_second(second).unwrap()
+    }
+
+    fn hand_in(submitted: Option<i64>, submission: &str) -> HandIn {
+        HandIn {
+            id: String::new(),
+            student: StudentId::new("s1").unwrap(),
+            lab: "01".to_owned(),
+            submission: submission.to_owned(),
+            file: "submission.rhai".to_owned(),
+            matched_by: "id".to_owned(),
+            submitted_at: submitted.map(at),
+            marked_late: None,
+            attempt: None,
+            lms_number: None,
+            variant_of: None,
+            made_with: None,
+        }
+        .identified()
+    }
+
+    fn entry(second: i64, event: Event) -> Entry {
+        Entry {
+            at: at(second),
+            by: "ta".to_owned(),
+            event,
+        }
+    }
+
+    fn graded(hand_in: &HandIn, record: &str) -> Event {
+        Event::Graded(Graded {
+            hand_in: hand_in.id.clone(),
+            record: record.to_owned(),
+            why: None,
+        })
+    }
+
+    #[test]
+    fn attempts_are_in_the_order_of_the_lms_and_the_last_grade_stands() {
+        let (first, second) = (hand_in(Some(5), "aa"), hand_in(Some(9), "bb"));
+        let student = first.student.clone();
+        let history = History::of([
+            entry(10, Event::HandIn(second.clone())),
+            entry(11, Event::HandIn(first.clone())),
+            entry(12, Event::HandIn(first.clone())),
+            entry(13, graded(&first, "k1")),
+            entry(14, graded(&first, "k1")),
+            entry(15, graded(&first, "k2")),
+            entry(16, graded(&hand_in(None, "cc"), "k3")),
+        ]);
+        let attempts = history.attempts("01", &student);
+        assert_eq!(attempts.len(), 2);
+        assert_eq!(attempts[0].hand_in, first);
+        assert_eq!(attempts[0].record(), Some("k2"));
+        assert_eq!(attempts[0].grades.len(), 2);
+        assert_eq!(attempts[1].record(), None);
+        assert!(history.knows(&second.id) && !history.knows("x"));
+        assert_eq!(history.of_lab("02").count(), 0);
+    }
+}

@@ -1,0 +1,345 @@
+//! What happened in a course: who handed in what, which record is the grade of which hand-in, and why. Lines of JSON that are only
+//! ever appended; each command writes a file of its own, so that two can write at once and two books join by copying.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::private_files::private_folder;
+use crate::student::StudentId;
+
+/// A line of the journal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// When it was written.
+    pub at: Timestamp,
+    /// The login of whoever ran the command.
+    pub by: String,
+    /// What happened.
+    pub event: Event,
+}
+
+/// What happened.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Event {
+    /// Something was handed in.
+    HandIn(HandIn),
+    /// A record became the grade of a hand-in.
+    Graded(Graded),
+    /// Grades went to the LMS.
+    Released {
+        /// The lab.
+        lab: String,
+        /// The form, such as `moodle`.
+        to: String,
+        /// The key of the record of each student whose grade went out.
+        records: BTreeMap<StudentId, String>,
+    },
+}
+
+/// One attempt of one student at one lab.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct HandIn {
+    /// Its id: the same attempt read again is the same.
+    pub id: String,
+    /// The student.
+    pub student: StudentId,
+    /// The lab.
+    pub lab: String,
+    /// Digest of the submission.
+    pub submission: String,
+    /// The name of the submission's file.
+    pub file: String,
+    /// How it was found to be theirs: `id`, `lms_id`, `username`, `name`, `email`, `repository`, `group`, `hand-in file`, `fixes`.
+    pub matched_by: String,
+    /// When it was handed in, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub submitted_at: Option<Timestamp>,
+    /// Whether the LMS marked it as late, where it marks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marked_late: Option<bool>,
+    /// The number of the attempt at the LMS, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attempt: Option<u32>,
+    /// The number by which the LMS knows the student in its files, such as Moodle's participant number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lms_number: Option<String>,
+    /// Whose variant is graded, where a group handed in that of another member.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant_of: Option<StudentId>,
+    /// What the hand-in file says of itself, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub made_with: Option<MadeWith>,
+}
+
+/// What a hand-in file says of how it was made.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MadeWith {
+    /// The engine.
+    pub engine: String,
+    /// Digest of the lab.
+    pub lab: String,
+}
+
+impl HandIn {
+    /// Its id: a digest of everything in it but the id.
+    pub fn identified(mut self) -> Self {
+        self.id = String::new();
+        // how it was matched may change from one reading to the next, the attempt does not
+        let parts = [
+            self.student.as_str(),
+            &self.lab,
+            &self.submission,
+            &self
+                .submitted_at
+                .map(|at| at.to_string())
+                .unwrap_or_default(),
+            &self.attempt.map(|n| n.to_string()).unwrap_or_default(),
+        ];
+        let mut hasher = blake3::Hasher::new();
+        for part in parts {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part.as_bytes());
+        }
+        self.id = hasher.finalize().to_hex()[..32].to_owned();
+        self
+    }
+}
+
+/// A record became the grade of a hand-in.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Graded {
+    /// The hand-in's id.
+    pub hand_in: String,
+    /// The key of the record.
+    pub record: String,
+    /// Why, where it replaces an earlier grade.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+/// The journal's folder.
+#[derive(Debug, Clone)]
+pub struct Journal {
+    folder: PathBuf,
+}
+
+/// A line that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("`{}`, line {line}: {why}", path.display())]
+pub struct JournalError {
+    /// The file.
+    pub path: PathBuf,
+    /// The line, from one.
+    pub line: usize,
+    /// Why.
+    pub why: String,
+}
+
+impl Journal {
+    /// The journal in `folder`, which need not exist yet.
+    pub fn new(folder: PathBuf) -> Self {
+        Self { folder }
+    }
+
+    /// The files of the journal, by name: the order in which they were begun.
+    ///
+    /// # Errors
+    /// A folder that cannot be listed.
+    pub fn files(&self) -> io::Result<Vec<PathBuf>> {
+        let entries = match std::fs::read_dir(&self.folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(error),
+        };
+        let mut files = Vec::new();
+        for entry in entries {
+            let path = entry?.path();
+            if path.extension().is_some_and(|ending| ending == "jsonl") {
+                files.push(path);
+            }
+        }
+        files.sort();
+        Ok(files)
+    }
+
+    /// Everything that happened, in the order of time. What two joined books both have is there once.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a line that is none of this version. A last line without its end is what a killed process left
+    /// and does not count.
+    pub fn entries(&self) -> Result<Vec<Entry>, JournalError> {
+        let unread = |path: &Path, line: usize, why: String| JournalError {
+            path: path.to_owned(),
+            line,
+            why,
+        };
+        let files = self
+            .files()
+            .map_err(|error| unread(&self.folder, 0, error.to_string()))?;
+        let mut entries: Vec<Entry> = Vec::new();
+        for path in files {
+            let text = std::fs::read_to_string(&path)
+                .map_err(|error| unread(&path, 0, error.to_string()))?;
+            for (i, line) in text.split_inclusive('\n').enumerate() {
+                let Some(line) = line.strip_suffix('\n') else {
+                    continue;
+                };
+                let entry = serde_json::from_str(line)
+                    .map_err(|error| unread(&path, i + 1, error.to_string()))?;
+                entries.push(entry);
+            }
+        }
+        // stable: what has the same time stays in the order of the files
+        entries.sort_by_key(|entry| entry.at);
+        entries.dedup();
+        Ok(entries)
+    }
+
+    /// Starts a file of this journal for one command.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn begin(&self, at: Timestamp, by: &str) -> io::Result<Writer> {
+        private_folder(&self.folder)?;
+        // a name without `:` and in the order of time
+        let prefix = at.strftime("%Y%m%dT%H%M%S%.6fZ-").to_string();
+        let file = tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(".jsonl")
+            .rand_bytes(10)
+            .tempfile_in(&self.folder)?;
+        let (file, path) = file.keep().map_err(|error| error.error)?;
+        Ok(Writer {
+            file,
+            path,
+            by: by.to_owned(),
+            is_empty: true,
+        })
+    }
+}
+
+/// A file of the journal that is being written.
+#[derive(Debug)]
+pub struct Writer {
+    file: File,
+    path: PathBuf,
+    by: String,
+    is_empty: bool,
+}
+
+impl Writer {
+    /// Appends what happened. When this returns, a process that is killed loses it no more.
+    ///
+    /// # Errors
+    /// A full disk; the line is then not there, or without its end.
+    pub fn append(&mut self, at: Timestamp, event: Event) -> io::Result<()> {
+        let entry = Entry {
+            at,
+            by: self.by.clone(),
+            event,
+        };
+        let mut line = serde_json::to_string(&entry).map_err(io::Error::other)?;
+        line.push('\n');
+        self.file.write_all(line.as_bytes())?;
+        self.is_empty = false;
+        Ok(())
+    }
+
+    /// Ends the file: what it holds is on the disk. An empty one is removed.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn finish(self) -> io::Result<()> {
+        if self.is_empty {
+            return std::fs::remove_file(self.path);
+        }
+        self.file.sync_all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hand_in(student: &str) -> HandIn {
+        HandIn {
+            id: String::new(),
+            student: StudentId::new(student).unwrap(),
+            lab: "01-kinematics".to_owned(),
+            submission: "aa".to_owned(),
+            file: "submission.rhai".to_owned(),
+            matched_by: "id".to_owned(),
+            submitted_at: None,
+            marked_late: None,
+            attempt: None,
+            lms_number: None,
+            variant_of: None,
+            made_with: None,
+        }
+        .identified()
+    }
+
+    fn at(second: i64) -> Timestamp {
+        Timestamp::from_second(second).unwrap()
+    }
+
+    #[test]
+    fn what_is_appended_is_read_in_the_order_of_time_and_a_torn_line_is_not() {
+        let bed = tempfile::tempdir().unwrap();
+        let journal = Journal::new(bed.path().join("journal"));
+        assert!(journal.entries().unwrap().is_empty());
+        let mut later = journal.begin(at(20), "b").unwrap();
+        later.append(at(21), Event::HandIn(hand_in("s2"))).unwrap();
+        let mut sooner = journal.begin(at(10), "a").unwrap();
+        sooner.append(at(11), Event::HandIn(hand_in("s1"))).unwrap();
+        sooner.finish().unwrap();
+        later.file.write_all(b"{\"at\":").unwrap();
+        let students: Vec<String> = journal
+            .entries()
+            .unwrap()
+            .into_iter()
+            .map(|entry| match entry.event {
+                Event::HandIn(hand_in) => hand_in.student.to_string(),
+                _ => String::new(),
+            })
+            .collect();
+        assert_eq!(students, ["s1", "s2"]);
+    }
+
+    #[test]
+    fn two_copies_of_a_file_are_one_and_an_empty_one_goes() {
+        let bed = tempfile::tempdir().unwrap();
+        let journal = Journal::new(bed.path().to_owned());
+        let mut writer = journal.begin(at(1), "a").unwrap();
+        writer.append(at(1), Event::HandIn(hand_in("s1"))).unwrap();
+        let path = writer.path.clone();
+        writer.finish().unwrap();
+        std::fs::copy(&path, bed.path().join("copy.jsonl")).unwrap();
+        assert_eq!(journal.entries().unwrap().len(), 1);
+        journal.begin(at(2), "a").unwrap().finish().unwrap();
+        assert_eq!(journal.files().unwrap().len(), 2);
+    }
+
+    #[test]
+    fn the_id_of_a_hand_in_is_that_of_the_attempt() {
+        let one = hand_in("s1");
+        let again = HandIn {
+            matched_by: "name".to_owned(),
+            ..one.clone()
+        }
+        .identified();
+        assert_eq!(one.id, again.id);
+        let other = HandIn {
+            attempt: Some(2),
+            ..one.clone()
+        }
+        .identified();
+        assert_ne!(one.id, other.id);
+    }
+}

@@ -1,0 +1,35 @@
+//! A class graded: who handed in what, the book of grades, and what goes back to the learning management system (LMS).
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`course_text`] | the files that people write, read with their places |
+//! | [`student`] | ids of students, and when two are alike |
+//! | [`roster`] | `roster.csv`: who takes the course |
+//! | [`course_file`] | `course.toml`: which labs, by which rules |
+//! | [`fixes`] | `fixes.toml`: what people decided |
+//! | `private_files` | files that their owner alone can read |
+//! | [`journal`] | what happened: hand-ins and grades, one line each |
+//! | [`history`] | the journal read: attempts and their grades |
+//! | [`standing`] | how each student stands in each lab |
+//! | [`book`] | the folder that is written: records, submissions, labs, the journal |
+//!
+//! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
+
+#![cfg_attr(
+    test,
+    expect(
+        clippy::float_cmp,
+        reason = "tests state exact values where exactness is the claim"
+    )
+)]
+
+pub mod book;
+pub mod course_file;
+pub mod course_text;
+pub mod fixes;
+pub mod history;
+pub mod journal;
+mod private_files;
+pub mod roster;
+pub mod standing;
+pub mod student;

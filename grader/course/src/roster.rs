@@ -1,0 +1,237 @@
+//! `roster.csv`: who takes the course. The only place with names.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::course_text::decoded;
+use crate::student::{StudentId, folded};
+
+/// The columns with a meaning; others are kept for people and never read.
+pub const COLUMNS: [&str; 8] = [
+    "id",
+    "name",
+    "email",
+    "section",
+    "lms_id",
+    "username",
+    "group",
+    "repository",
+];
+
+/// A person of the roster.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Person {
+    /// The id, which everything else goes by.
+    pub id: StudentId,
+    /// Full name; empty where the roster has none.
+    pub name: String,
+    /// Address; empty where the roster has none.
+    pub email: String,
+    /// Section or tutorial group; empty where there is none.
+    pub section: String,
+    /// The id that the LMS uses in names of files, such as Canvas's user id; empty where it is unknown.
+    pub lms_id: String,
+    /// The login at the LMS or at a code host; empty where it is unknown.
+    pub username: String,
+    /// The group that hands in together; empty where there is none.
+    pub group: String,
+    /// The name of the repository of this person; empty where it ends in the username or the id.
+    pub repository: String,
+}
+
+/// Who takes the course, in the order of the file.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Roster {
+    people: Vec<Person>,
+}
+
+/// What is wrong with a roster.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("{path}, line {line}: {problem}")]
+pub struct RosterError {
+    /// The file, as a person knows it.
+    pub path: String,
+    /// The line, from one.
+    pub line: u64,
+    /// What is wrong, in words.
+    pub problem: String,
+    /// What to do.
+    #[help]
+    pub help: String,
+}
+
+impl Roster {
+    /// Reads a roster: a header, then a line a person, fields apart by `,`, `;` or tabs.
+    ///
+    /// # Errors
+    /// A header without `id`, an id twice or one that differs from another only in case or composition, an lms_id or username of two
+    /// people.
+    pub fn parse(path: &str, bytes: &[u8]) -> Result<Self, RosterError> {
+        let text = decoded(bytes);
+        let error = |line: u64, problem: String, help: &str| RosterError {
+            path: path.to_owned(),
+            line,
+            problem,
+            help: help.to_owned(),
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter(&text))
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let unread = |why: &csv::Error| {
+            let line = why.position().map_or(1, csv::Position::line);
+            error(line, format!("it cannot be read: {why}"), "save it as CSV")
+        };
+        let header = reader.headers().map_err(|why| unread(&why))?.clone();
+        let columns = columns(&header).map_err(|(problem, help)| error(1, problem, &help))?;
+        let mut people: Vec<Person> = Vec::new();
+        let mut taken = Taken::default();
+        for record in reader.records() {
+            let record = record.map_err(|why| unread(&why))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let field = |name: &str| {
+                let at = columns.get(name);
+                at.and_then(|at| record.get(*at))
+                    .unwrap_or_default()
+                    .to_owned()
+            };
+            if record.iter().all(str::is_empty) {
+                continue;
+            }
+            let id = StudentId::new(&field("id"))
+                .map_err(|why| error(line, why, "give everybody an id of their own"))?;
+            let person = Person {
+                name: field("name"),
+                email: field("email"),
+                section: field("section"),
+                lms_id: field("lms_id"),
+                username: field("username"),
+                group: field("group"),
+                repository: field("repository"),
+                id,
+            };
+            taken
+                .add(line, &person)
+                .map_err(|problem| error(line, problem, "give each person a value of their own"))?;
+            people.push(person);
+        }
+        if people.is_empty() {
+            return Err(error(
+                1,
+                "nobody is in it".to_owned(),
+                "add a line a person below the header",
+            ));
+        }
+        Ok(Self { people })
+    }
+
+    /// Everybody, in the order of the file.
+    pub fn people(&self) -> &[Person] {
+        &self.people
+    }
+
+    /// The person with this id.
+    pub fn get(&self, id: &StudentId) -> Option<&Person> {
+        self.people.iter().find(|person| person.id == *id)
+    }
+}
+
+/// What one person has and no other may.
+#[derive(Default)]
+struct Taken(BTreeMap<(&'static str, String), u64>);
+
+impl Taken {
+    fn add(&mut self, line: u64, person: &Person) -> Result<(), String> {
+        for (what, value) in [
+            ("id", person.id.as_str()),
+            ("lms_id", &person.lms_id),
+            ("username", &person.username),
+            ("repository", &person.repository),
+        ] {
+            if value.is_empty() {
+                continue;
+            }
+            if let Some(first) = self.0.insert((what, folded(value)), line) {
+                return Err(format!(
+                    "{what} `{value}` is that of line {first}, but for case or accents typed in another way"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where the columns are.
+fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, (String, String)> {
+    let mut at = BTreeMap::new();
+    let mut unknown = BTreeSet::new();
+    for (i, name) in header.iter().enumerate() {
+        match COLUMNS.iter().find(|known| folded(name) == **known) {
+            Some(known) => {
+                if at.insert(*known, i).is_some() {
+                    return Err((
+                        format!("the column `{known}` is there twice"),
+                        "keep one of the two".to_owned(),
+                    ));
+                }
+            }
+            None => {
+                unknown.insert(name.to_owned());
+            }
+        }
+    }
+    if at.contains_key("id") {
+        return Ok(at);
+    }
+    let found: Vec<String> = unknown.into_iter().collect();
+    Err((
+        format!("there is no column `id`; found: {}", found.join(", ")),
+        format!("the first line names the columns: {}", COLUMNS.join(",")),
+    ))
+}
+
+/// What stands between fields: whichever the header has most of.
+pub(crate) fn delimiter(text: &str) -> u8 {
+    let header = text.lines().next().unwrap_or_default();
+    let count = |sign: u8| header.bytes().filter(|byte| *byte == sign).count();
+    [b',', b';', b'\t']
+        .into_iter()
+        .rev()
+        .max_by_key(|sign| count(*sign))
+        .unwrap_or(b',')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_roster_of_a_spreadsheet_is_read() {
+        let text = "\u{feff}ID;Name;E-Mail;section\r\ns1;\"Müller; Jörg\";x;A\r\n\r\ns2;Öz;;B\r\n";
+        let roster = Roster::parse("roster.csv", text.as_bytes()).unwrap();
+        let people = roster.people();
+        assert_eq!(people.len(), 2);
+        assert_eq!(people[0].name, "Müller; Jörg");
+        assert_eq!(
+            (people[1].section.as_str(), people[1].email.as_str()),
+            ("B", "")
+        );
+        assert_eq!(roster.get(&StudentId::new("s2").unwrap()), Some(&people[1]));
+    }
+
+    #[test]
+    fn what_two_people_share_is_refused_with_both_lines() {
+        for (text, part) in [
+            ("id,name\ns1,A\nS1,B\n", "id `S1` is that of line 2"),
+            ("id,name\nRen\u{e9}e,A\nRene\u{301}e,B\n", "that of line 2"),
+            ("id,lms_id\ns1,7\ns2,7\n", "lms_id `7` is that of line 2"),
+            ("name\nA\n", "there is no column `id`; found: name"),
+            ("id,id\ns1,s2\n", "`id` is there twice"),
+            ("id,name\n", "nobody is in it"),
+            ("id,name\n,A\n", "the student id is empty"),
+        ] {
+            let error = Roster::parse("roster.csv", text.as_bytes()).unwrap_err();
+            assert!(error.to_string().contains(part), "{error}");
+        }
+    }
+}
