@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use jiff::Timestamp;
+use kinemark_grader::record::verdict::Verdict;
 
 use crate::journal::{Entry, Event, Graded, HandIn};
 use crate::student::StudentId;
@@ -16,6 +17,17 @@ pub struct Attempt {
     pub read_at: Timestamp,
     /// Its grades, the earliest first; the last one stands.
     pub grades: Vec<GradeEvent>,
+    /// Why the last try to grade it gave no grade.
+    pub failure: Option<Failure>,
+}
+
+/// Why a hand-in could not be graded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// `host-limit` or `grader-fault`.
+    pub verdict: Verdict,
+    /// What happened, in words.
+    pub what: String,
 }
 
 /// A record became the grade of a hand-in.
@@ -76,6 +88,15 @@ impl History {
             match event {
                 Event::HandIn(hand_in) => history.hand_in(at, hand_in),
                 Event::Graded(graded) => history.graded(at, by, graded),
+                Event::NotGraded {
+                    hand_in,
+                    verdict,
+                    what,
+                } => {
+                    if let Some(attempt) = history.attempt_mut(&hand_in) {
+                        attempt.failure = Some(Failure { verdict, what });
+                    }
+                }
                 Event::Released { lab, to, records } => history.releases.push(Release {
                     at,
                     lab,
@@ -106,27 +127,30 @@ impl History {
             hand_in,
             read_at: at,
             grades: Vec::new(),
+            failure: None,
         });
     }
 
     fn graded(&mut self, at: Timestamp, by: String, graded: Graded) {
-        let Some((lab, student, index)) = self.places.get(&graded.hand_in) else {
+        let Some(attempt) = self.attempt_mut(&graded.hand_in) else {
             return;
         };
-        let key = (lab.clone(), student.clone());
-        let attempts = self.attempts.get_mut(&key);
-        if let Some(attempt) = attempts.and_then(|attempts| attempts.get_mut(*index)) {
-            let is_same = attempt.record() == Some(graded.record.as_str());
-            // two shards that grade the same say the same
-            if !is_same {
-                attempt.grades.push(GradeEvent {
-                    at,
-                    by,
-                    record: graded.record,
-                    why: graded.why,
-                });
-            }
+        attempt.failure = None;
+        // two shards that grade the same say the same
+        if attempt.record() != Some(graded.record.as_str()) {
+            attempt.grades.push(GradeEvent {
+                at,
+                by,
+                record: graded.record,
+                why: graded.why,
+            });
         }
+    }
+
+    fn attempt_mut(&mut self, hand_in: &str) -> Option<&mut Attempt> {
+        let (lab, student, index) = self.places.get(hand_in)?;
+        let attempts = self.attempts.get_mut(&(lab.clone(), student.clone()))?;
+        attempts.get_mut(*index)
     }
 
     /// The attempts of a student at a lab, the earliest first.
@@ -140,6 +164,12 @@ impl History {
         let all = self.attempts.iter();
         let of_lab = all.filter(move |((name, _), _)| name == lab);
         of_lab.map(|((_, student), attempts)| (student, attempts.as_slice()))
+    }
+
+    /// Labs with attempts and their students, sorted.
+    pub fn all(&self) -> impl Iterator<Item = (&str, &StudentId, &[Attempt])> {
+        let all = self.attempts.iter();
+        all.map(|((lab, student), attempts)| (lab.as_str(), student, attempts.as_slice()))
     }
 
     /// Whether a hand-in of this id was read before.

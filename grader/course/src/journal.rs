@@ -7,6 +7,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
+use kinemark_grader::record::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
 use crate::private_files::private_folder;
@@ -31,6 +32,15 @@ pub enum Event {
     HandIn(HandIn),
     /// A record became the grade of a hand-in.
     Graded(Graded),
+    /// A hand-in could not be graded: this machine or the grader failed, twice. It has no grade, and no points.
+    NotGraded {
+        /// The hand-in's id.
+        hand_in: String,
+        /// `host-limit` or `grader-fault`.
+        verdict: Verdict,
+        /// What happened, in words.
+        what: String,
+    },
     /// Grades went to the LMS.
     Released {
         /// The lab.

@@ -12,6 +12,7 @@
 //! | [`history`] | the journal read: attempts and their grades |
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
+//! | [`index`] | `course.sqlite`: the book as tables |
 //!
 //! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
 
@@ -28,6 +29,7 @@ pub mod course_file;
 pub mod course_text;
 pub mod fixes;
 pub mod history;
+pub mod index;
 pub mod journal;
 mod private_files;
 pub mod roster;

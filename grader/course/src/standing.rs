@@ -54,6 +54,12 @@ pub struct Summary {
     pub points: f64,
     /// Its maximum.
     pub max_points: f64,
+    /// The engine that made it.
+    pub engine: String,
+    /// The version of the lab.
+    pub lab_version: String,
+    /// The version of the staff part.
+    pub staff_version: Option<String>,
     /// Points of each check, by `TASK/CHECK`.
     pub checks: Vec<(String, f64)>,
 }
@@ -108,6 +114,8 @@ pub struct Standing {
     pub by_hand: Vec<ByHand>,
     /// Why it is excused.
     pub excuse: Option<String>,
+    /// Why there is no grade, or why the last try to grade it again gave none.
+    pub failure: Option<String>,
 }
 
 /// How everybody of the roster stands in `lab`, in the roster's order. `summary` knows the records; `open` are students of whom a file
@@ -147,13 +155,14 @@ fn of_person(
         .excuses
         .iter()
         .find(|excuse| excuse.lab == lab.name && excuse.student == *student);
+    let failure = attempt.and_then(|attempt| attempt.failure.as_ref());
     let mut status = match (&record, attempt) {
-        (Some(record), _) => match record.verdict {
-            Verdict::HostLimit => Status::HostLimit,
-            Verdict::GraderFault => Status::GraderFault,
-            _ => Status::Graded,
+        (Some(_), _) => Status::Graded,
+        (None, Some(_)) => match failure.map(|failure| failure.verdict) {
+            Some(Verdict::HostLimit) => Status::HostLimit,
+            Some(_) => Status::GraderFault,
+            None => Status::Pending,
         },
-        (None, Some(_)) => Status::Pending,
         (None, None) if open.contains(student) => Status::NeedsPerson,
         (None, None) => Status::Missing,
     };
@@ -198,6 +207,7 @@ fn of_person(
         max_points: record.as_ref().map(|record| record.max_points),
         by_hand,
         excuse: excuse.map(|excuse| excuse.why.clone()),
+        failure: failure.map(|failure| failure.what.clone()),
     }
 }
 
@@ -279,6 +289,9 @@ mod tests {
             verdict,
             points,
             max_points: 24.0,
+            engine: String::new(),
+            lab_version: String::new(),
+            staff_version: None,
             checks: vec![("fk/position".to_owned(), 2.0)],
         })
     }

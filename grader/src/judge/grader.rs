@@ -79,6 +79,7 @@ pub fn grade(
 /// The grade of all tasks together, with the digests of lab, robot, submission and reference.
 fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<TaskGrade>) -> Grade {
     let verdicts = tasks.iter().map(|task| task.verdict);
+    let parts = parts(lab, staff, submission);
     Grade {
         format: FORMAT.to_owned(),
         engine: engine(),
@@ -87,8 +88,38 @@ fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<Task
         } else {
             GradeMode::Practice
         },
-        lab: part(&lab.name, digest_of_lab(lab)),
+        lab: parts.lab,
         variant: variant_record(lab),
+        robot: parts.robot,
+        scenes: parts.scenes,
+        submission: parts.submission,
+        reference: parts.reference,
+        verdict: verdicts.min().unwrap_or(Verdict::Passed),
+        points: sum_of_points(tasks.iter().map(|task| task.points)),
+        max_points: tasks.iter().map(|task| task.max_points).sum(),
+        tasks,
+    }
+}
+
+/// What a grade follows from besides the engine, by name and content, as its record has it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parts {
+    /// The lab in its variant.
+    pub lab: Part,
+    /// The robot file.
+    pub robot: Part,
+    /// The scenes, each once.
+    pub scenes: Vec<Part>,
+    /// The submission.
+    pub submission: Part,
+    /// The course staff's part with its salt; none in practice.
+    pub reference: Option<Part>,
+}
+
+/// What the grade of `submission` would follow from; nothing is run.
+pub fn parts(lab: &Lab, staff: Option<&Staff>, submission: &Source) -> Parts {
+    Parts {
+        lab: part(&lab.name, digest_of_lab(lab)),
         robot: part(
             lab.robot.name(),
             LabRobot::digest(&lab.robot_file, &lab.robot_meshes),
@@ -99,10 +130,6 @@ fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<Task
             blake3::hash(submission.text().as_bytes()),
         ),
         reference: staff.map(|staff| part(&lab.name, staff.digest)),
-        verdict: verdicts.min().unwrap_or(Verdict::Passed),
-        points: sum_of_points(tasks.iter().map(|task| task.points)),
-        max_points: tasks.iter().map(|task| task.max_points).sum(),
-        tasks,
     }
 }
 
@@ -155,6 +182,12 @@ fn variant_record(lab: &Lab) -> Option<VariantRecord> {
 /// The engine and its version, as in grade records and logs.
 pub fn engine() -> String {
     format!("kinemark {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// A digest of the sources that grades are made by, in 16 hexadecimal digits: equal where grades are equal. It is in no grade, because
+/// a change of a comment changes it.
+pub fn engine_digest() -> &'static str {
+    env!("KINEMARK_ENGINE_DIGEST")
 }
 
 pub(super) struct Grader<'a> {

@@ -20,5 +20,5 @@ mod robustness_sweep;
 pub(crate) mod staff_faults;
 
 pub use expected::with_expected;
-pub use grader::{Interrupted, engine, grade};
+pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};
 pub(crate) use opening::opening;

@@ -42,6 +42,23 @@ impl Verdict {
         }
     }
 
+    /// All of them, worst first.
+    pub const ALL: [Self; 8] = [
+        Self::GraderFault,
+        Self::HostLimit,
+        Self::DidNotBuild,
+        Self::Crashed,
+        Self::OverBudget,
+        Self::InvalidOutput,
+        Self::Missed,
+        Self::Passed,
+    ];
+
+    /// The verdict of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|verdict| verdict.name() == name)
+    }
+
     /// Whether points are decided: false if the grader or its machine failed.
     pub fn is_decided(self) -> bool {
         !matches!(self, Self::GraderFault | Self::HostLimit)

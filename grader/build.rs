@@ -1,0 +1,92 @@
+//! Makes the digest of the engine: the sources of simulator and grader, and the versions of what they depend on. Two builds with the
+//! same digest give the same grades.
+
+use std::collections::BTreeSet;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// The package whose dependencies count: what a grade is made by.
+const ROOT: &str = "kinemark-grader";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let here = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?);
+    let house = here.parent().ok_or("the grader lies in a workspace")?;
+    let mut hasher = blake3::Hasher::new();
+    for folder in ["grader/src", "sim/src"] {
+        println!("cargo::rerun-if-changed={}", house.join(folder).display());
+        let mut files = Vec::new();
+        sources(&house.join(folder), folder, &mut files)?;
+        files.sort();
+        for (name, path) in files {
+            // a checkout with other line ends is the same program
+            let text = std::fs::read_to_string(path)?.replace("\r\n", "\n");
+            add(&mut hasher, &name);
+            add(&mut hasher, &text);
+        }
+    }
+    let lock = house.join("Cargo.lock");
+    println!("cargo::rerun-if-changed={}", lock.display());
+    for package in locked(&std::fs::read_to_string(lock)?)? {
+        add(&mut hasher, &package);
+    }
+    let digest = hasher.finalize().to_hex();
+    println!("cargo::rustc-env=KINEMARK_ENGINE_DIGEST={}", &digest[..16]);
+    Ok(())
+}
+
+fn add(hasher: &mut blake3::Hasher, part: &str) {
+    hasher.update(&(part.len() as u64).to_le_bytes());
+    hasher.update(part.as_bytes());
+}
+
+/// Rust files below `folder`, each with a name that is the same on every system.
+fn sources(
+    folder: &Path,
+    name: &str,
+    files: &mut Vec<(String, PathBuf)>,
+) -> Result<(), Box<dyn Error>> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{name}/{}", entry.file_name().to_string_lossy());
+        if entry.file_type()?.is_dir() {
+            sources(&entry.path(), &name, files)?;
+        } else if name.ends_with(".rs") {
+            files.push((name, entry.path()));
+        }
+    }
+    Ok(())
+}
+
+/// Name, version and checksum of every package that [`ROOT`] is built with, sorted. Packages that it is only tested with are among
+/// them, because a lock file does not keep them apart.
+fn locked(text: &str) -> Result<BTreeSet<String>, Box<dyn Error>> {
+    let lock: toml::Table = text.parse()?;
+    let packages = lock.get("package").and_then(toml::Value::as_array);
+    let packages = packages.ok_or("a lock file has packages")?;
+    let field = |package: &toml::Value, name: &str| {
+        let value = package.get(name).and_then(toml::Value::as_str);
+        value.unwrap_or_default().to_owned()
+    };
+    let mut open = vec![ROOT.to_owned()];
+    let mut found = BTreeSet::new();
+    while let Some(wanted) = open.pop() {
+        // `name`, or `name version` where there are several
+        let mut words = wanted.split(' ');
+        let (name, version) = (words.next().unwrap_or_default(), words.next());
+        for package in packages {
+            let is_wanted = field(package, "name") == name
+                && version.is_none_or(|version| field(package, "version") == version);
+            if !is_wanted {
+                continue;
+            }
+            let line = ["name", "version", "checksum"].map(|name| field(package, name));
+            if found.insert(line.join(" ")) {
+                let dependencies = package.get("dependencies");
+                let dependencies = dependencies.and_then(toml::Value::as_array);
+                let names = dependencies.into_iter().flatten();
+                open.extend(names.filter_map(|name| name.as_str().map(str::to_owned)));
+            }
+        }
+    }
+    Ok(found)
+}
