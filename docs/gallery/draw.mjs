@@ -2,7 +2,7 @@
 //
 // Needs Chromium (by its Debian name, or the one in CHROMIUM) and the packages of grader/web (`npm ci` there). `draw.sh` calls it for
 // every lab. Replays show a telling moment: a little after the arm first meets something, else where two fifths of the run are over.
-// A page that is too tall for a picture is drawn to where it is cut, and told on standard output: `NAME-WIDTH shows the beginning`.
+// A page that is too tall for a picture is drawn to where it is cut, and reported on standard output: `NAME-WIDTH shows the beginning`.
 import { writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";

@@ -290,7 +290,7 @@ fn a_hole_is_named_by_its_edges() {
 }
 
 #[test]
-fn flipped_triangles_are_told_from_their_neighbours() {
+fn flipped_triangles_are_distinguished_from_their_neighbours() {
     let mut triangles = corners(&icosphere(1));
     triangles[17].swap(0, 1);
     let problem = mesh_of(&triangles).check_closed().expect_err("one flipped");

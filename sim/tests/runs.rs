@@ -86,7 +86,7 @@ fn first(trace: &Trace, name: &str) -> Event {
 const CAN: usize = 1;
 
 #[test]
-fn a_can_that_is_swept_off_is_told_in_order_and_by_its_side() {
+fn a_can_that_is_swept_off_is_reported_in_order_and_by_its_side() {
     for (from, to, side) in [(0.75, 1.4, SeenSide::Far), (1.25, 0.6, SeenSide::Near)] {
         let trace = swept(from, to);
         assert!(trace.events.is_sorted_by_key(|event| event.tick));
@@ -118,7 +118,7 @@ fn a_can_that_is_swept_off_is_told_in_order_and_by_its_side() {
 }
 
 #[test]
-fn contacts_tell_whom_from_when_to_when_and_how_hard() {
+fn contacts_record_whom_from_when_to_when_and_how_hard() {
     let trace = swept(0.75, 1.4);
     let of = |parties: [Party; 2]| {
         let mut contacts = trace.contacts.iter();
@@ -175,7 +175,7 @@ fn without_contact_a_run_in_a_scene_is_smooth_motion_to_the_last_bit() {
 }
 
 #[test]
-fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_can_be_told() {
+fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_are_finite() {
     let (robot, around) = (rrbot(), shelf_and_can());
     for scene in [None, Some(&around)] {
         let mut setup = setup(&robot, scene, [100.0, 2000.0], 5000);
@@ -269,7 +269,7 @@ fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
 }
 
 #[test]
-fn a_joint_that_is_pressed_on_its_stop_is_told_once() {
+fn a_joint_that_is_pressed_on_its_limit_is_reported_once() {
     let (robot, nothing) = (rrbot(), scene(Vec::new()));
     let setup = setup(&robot, Some(&nothing), [100.0, 10.0], 4000);
     let mut recorder = TraceRecorder::new(&setup);

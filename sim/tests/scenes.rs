@@ -299,7 +299,7 @@ fn under_caret(error: &SceneError) -> &str {
 }
 
 #[test]
-fn each_mistake_is_told_at_its_place() {
+fn each_mistake_is_reported_at_its_position() {
     assert!(read(&ball(&[])).is_ok());
     let cases = [
         // the file

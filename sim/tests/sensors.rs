@@ -106,14 +106,14 @@ fn a_switch_opens_the_motor_to_its_side_and_leaves_the_other() {
 }
 
 #[test]
-fn the_motor_is_open_while_the_switch_is_pressed_however_late_it_is_told() {
+fn the_motor_is_open_while_the_switch_is_pressed_however_late_it_is_reported() {
     let lift = "format = 1\nname = 'lift'\n[[links]]\nname = 'base'\n[[links]]\nname = 'car'\n\
         inertia = { mass_kg = 2.0, tensor_kg_m2 = [1, 1, 1, 0, 0, 0] }\n[[joints]]\nname = 'lift'\ntype = 'prismatic'\n\
         parent = 'base'\nchild = 'car'\naxis = [0, 0, 1]\n[[sensors]]\nname = 'motor'\ntype = 'joint-effort'\njoint = 'lift'\n";
     let top = switch("top", "lift", "side = 'upper'\nat = 0.29\ndelay_s = 0.05");
     let empty = scene(Vec::new());
     let mut rig = Rig::new(robot(&format!("{lift}{top}")), &empty, &[0.25], DT);
-    let (mut pressed, mut told_after) = (0, None);
+    let (mut pressed, mut reported_after) = (0, None);
     // until it falls back on the switch
     for _ in 0..400 {
         let was_pressed = rig.q[0] >= 0.29;
@@ -122,8 +122,8 @@ fn the_motor_is_open_while_the_switch_is_pressed_however_late_it_is_told() {
         let expected = if was_pressed { 0.0 } else { 25.0 };
         assert_eq!(rig.reading("motor"), [expected]);
         pressed += usize::from(was_pressed);
-        if rig.reading("top") == [1.0] && told_after.is_none() {
-            told_after = Some(pressed);
+        if rig.reading("top") == [1.0] && reported_after.is_none() {
+            reported_after = Some(pressed);
         }
         // it flies on without the motor, by v²/2g with v² = 2 a s from 0.04 m of a = 2.69 m/s²
         assert!(rig.q[0] < 0.29 + 0.04 * 2.69 / 9.81 + 1e-3, "{}", rig.q[0]);
@@ -131,8 +131,8 @@ fn the_motor_is_open_while_the_switch_is_pressed_however_late_it_is_told() {
     assert!(pressed > 50, "{pressed}");
     // of the 50 steps of delay, those in which it was pressed
     assert!(
-        told_after.is_some_and(|after| after <= 50),
-        "{told_after:?}"
+        reported_after.is_some_and(|after| after <= 50),
+        "{reported_after:?}"
     );
 }
 

@@ -325,7 +325,7 @@ proptest! {
 }
 
 #[test]
-fn an_attribute_that_is_none_is_told_how_one_is_written() {
+fn a_malformed_attribute_is_reported_with_how_one_is_written() {
     for text in [
         "<robot name=\"r\"><link=\"a\"/></robot>",
         "<robot name=\"r\"><link name \"a\"/></robot>",

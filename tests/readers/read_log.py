@@ -141,8 +141,8 @@ def findings(path):
         if time_ns not in tcp:
             yield f"no /tcp at {time_ns} ns"
             return
-        told = tcp[time_ns]
-        at = place(product(poses[told["frame_id"]], matrix(told["pose"]["position"], told["pose"]["orientation"])))
+        logged = tcp[time_ns]
+        at = place(product(poses[logged["frame_id"]], matrix(logged["pose"]["position"], logged["pose"]["orientation"])))
         nearest = min(math.dist(place(poses[name]), at) for name in robot)
         if not nearest <= TOLERANCE_M:
             yield f"/tf at {time_ns} ns: the TCP is {nearest} m from every frame"

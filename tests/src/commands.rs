@@ -65,7 +65,7 @@ fn a_start_that_fails_leaves_nothing_behind() {
 }
 
 #[test]
-fn a_folder_without_labs_is_told() {
+fn a_folder_without_labs_is_reported() {
     let bed = TestBed::new();
     bed.write("subs/one/submission.rhai", "");
     let ran = bed.run(&["--labs", "subs"]);
@@ -88,7 +88,7 @@ fn a_message_breaks_at_spaces_only() {
 
 /// A message names a file as it was typed, so that it can be opened from there.
 #[test]
-fn a_broken_robot_is_told_with_its_folder() {
+fn a_broken_robot_is_reported_with_its_folder() {
     let bed = TestBed::new();
     bed.write("r/arm.toml", "name = 1\n");
     let ran = bed.run(&["robot", "show", "r/arm.toml"]);

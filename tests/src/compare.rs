@@ -31,7 +31,7 @@ fn record(bed: &TestBed) -> Value {
 }
 
 #[test]
-fn two_attempts_are_told_apart_where_they_part() {
+fn a_comparison_names_where_two_attempts_first_differ() {
     let bed = graded();
     let ran = bed.run(&["compare", "a", "b"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
@@ -137,7 +137,7 @@ fn students_with_other_numbers_are_compared_and_the_page_says_so() {
 }
 
 #[test]
-fn a_run_that_stopped_is_told_with_when_and_why() {
+fn a_run_that_stopped_is_reported_with_when_and_why() {
     let bed = TestBed::new();
     let lab = "04-knock-with-velocity";
     for (out, case) in [("a", "good"), ("b", "nan-at-the-corner")] {
@@ -187,7 +187,7 @@ fn a_run_that_stopped_is_told_with_when_and_why() {
 /// A failure of the machine is not a result.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_machine_that_cannot_run_them_again_is_told_and_nothing_is_written() {
+fn a_machine_that_cannot_run_them_again_is_reported_and_nothing_is_written() {
     let bed = graded();
     let binary = crate::testbed::binary();
     // no process gets the pipes to a worker
@@ -205,7 +205,7 @@ fn a_machine_that_cannot_run_them_again_is_told_and_nothing_is_written() {
 }
 
 #[test]
-fn what_is_no_whole_report_of_this_version_is_told() {
+fn what_is_no_whole_report_of_this_version_is_refused() {
     let bed = graded();
     let broken = |words: &str| {
         for args in [&["compare", "a", "b"][..], &["verify", "b", "--practice"]] {
@@ -302,7 +302,7 @@ fn a_lab_whose_robot_has_changed_since_is_compared_with_its_two_robots() {
 }
 
 #[test]
-fn a_report_that_was_changed_is_told() {
+fn a_report_that_was_changed_is_noticed() {
     let bed = graded();
     bed.edit("a/submission.rhai", "time < 2.5", "time < 2.6");
     let ran = bed.run(&["compare", "a", "b"]);
@@ -316,7 +316,7 @@ fn a_report_that_was_changed_is_told() {
 }
 
 #[test]
-fn what_has_nothing_in_common_is_told_with_the_way_out() {
+fn what_has_nothing_in_common_is_refused_with_the_way_out() {
     let bed = graded();
     assert_eq!(bed.run(&["new", "00-step-response", "step"]).code, Some(0));
     let ran = bed.run(&[

@@ -325,7 +325,7 @@ fn a_broken_lab_takes_no_other_off_the_list() {
 }
 
 #[test]
-fn an_empty_salt_is_told_where_it_stands() {
+fn an_empty_salt_is_reported_where_it_stands() {
     let bed = bed();
     let output = bed.command(&GRADE).env("KINEMARK_SALT", "").output();
     let stderr = String::from_utf8_lossy(&output.expect("the binary runs").stderr).into_owned();

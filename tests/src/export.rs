@@ -145,7 +145,7 @@ fn a_report_is_written_where_a_link_leads_and_as_the_umask_says() {
 }
 
 #[test]
-fn what_is_no_log_is_told_with_its_code() {
+fn what_is_no_log_is_reported_with_its_code() {
     let bed = TestBed::new();
     bed.write("empty.mcap", "");
     bed.write("text.mcap", "time,q\n0,1\n");
@@ -171,7 +171,7 @@ fn what_is_no_log_is_told_with_its_code() {
 }
 
 #[test]
-fn a_topic_that_is_not_there_is_told_with_those_that_are() {
+fn a_topic_that_is_not_there_is_reported_with_those_that_are() {
     let bed = graded();
     let ran = bed.run(&[
         "log",

@@ -125,7 +125,7 @@ fn a_right_answer_earns_everything() {
 }
 
 #[test]
-fn a_wrong_entry_is_told_and_a_known_mistake_named() {
+fn a_wrong_entry_is_reported_and_a_mutant_named() {
     let hertz = SOLUTION.replace("natural_frequency: w", "natural_frequency: w / 2 / pi");
     let grade = graded(&hertz);
     let task = &grade.tasks[0];
@@ -160,7 +160,7 @@ fn an_error_within_the_band_earns_a_part() {
 }
 
 #[test]
-fn what_is_no_such_map_is_told_so_and_entries_count_for_themselves() {
+fn what_is_no_such_map_is_reported_and_entries_count_for_themselves() {
     for (body, message, points) in [
         (
             "3",

@@ -196,7 +196,7 @@ fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
 /// Who grades a class loops over folders that students named.
 #[cfg(unix)]
 #[test]
-fn a_folder_that_would_steer_the_terminal_is_told_in_plain_characters() {
+fn a_folder_that_would_steer_the_terminal_is_printed_in_plain_characters() {
     let bed = TestBed::new();
     assert_eq!(bed.run(&["new", "01-kinematics", "mine"]).code, Some(0));
     let out = "o\u{1b}[31m\u{202E}x";

@@ -157,7 +157,7 @@ fn a_call_is_charged_by_the_joints() {
 }
 
 #[test]
-fn what_is_not_granted_or_asked_wrongly_is_told_so() {
+fn what_is_not_granted_or_asked_wrongly_is_refused_with_help() {
     let lab = own_lab().lab();
     for (body, message, help) in [
         (

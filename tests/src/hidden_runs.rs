@@ -8,7 +8,7 @@ use crate::testbed::{files_below, grade};
 use crate::variants::{HIDDEN, SOLUTION, base, bed, graded, places};
 
 #[test]
-fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
+fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_shown() {
     let bed = bed();
     let full = graded(&bed, SOLUTION);
     assert_eq!(full.verdict, Verdict::Passed, "{}", text(&full));
@@ -76,7 +76,7 @@ fn numbers_written_down_are_lost_in_hidden_runs_and_no_number_is_told() {
 }
 
 #[test]
-fn digests_of_hidden_parts_tell_nothing_without_the_salt() {
+fn digests_of_hidden_parts_reveal_nothing_without_the_salt() {
     let bed = bed();
     let lab = base(&bed);
     let practice = grade(&lab, None, "mine.rhai", SOLUTION).grade;

@@ -120,7 +120,7 @@ fn a_right_jacobian_earns_everything_as_a_matrix_or_as_rows() {
 }
 
 #[test]
-fn a_wrong_column_is_told_and_a_known_mistake_named() {
+fn a_wrong_column_is_reported_and_a_mutant_named() {
     let grade = graded(ELBOW_BY_SHOULDER);
     let task = &grade.tasks[0];
     assert_eq!((task.verdict, task.points), (Verdict::Missed, 0.0));
@@ -168,7 +168,7 @@ fn an_error_within_the_band_earns_a_part() {
 }
 
 #[test]
-fn what_is_no_matrix_of_the_right_shape_is_told_so_and_nan_earns_nothing() {
+fn what_is_no_matrix_of_the_right_shape_is_reported_and_nan_earns_nothing() {
     for (body, message) in [
         (
             "zeros(3, 2)",

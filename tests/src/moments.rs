@@ -192,7 +192,7 @@ fn a_stop_leads_to_the_last_tick_there_is() {
 }
 
 #[test]
-fn a_held_goal_is_told_where_its_best_stay_ends() {
+fn a_held_goal_is_reported_where_its_best_dwell_ends() {
     let graded = graded("03-knock-with-position", "sags");
     let hold = task(&graded, "hold");
     let timed = hold.checks[0]

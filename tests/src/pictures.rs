@@ -87,7 +87,7 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
 }
 
 #[test]
-fn a_storyboard_tells_where_points_were_lost_and_what_was_touched() {
+fn a_storyboard_shows_where_points_were_lost_and_what_was_touched() {
     let bed = TestBed::new();
     bed.copy_labs();
     let lab = "03-knock-with-position";

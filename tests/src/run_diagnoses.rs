@@ -278,7 +278,7 @@ fn of_two_mutants_that_do_the_same_neither_is_named() {
 }
 
 #[test]
-fn the_first_difference_is_told_where_points_are_lost() {
+fn the_first_difference_is_reported_where_points_are_lost() {
     let bed = bed();
     let (lab, staff) = loaded(&bed);
     let (task, _) = sweep(&lab, Some(&staff), SWEEP);
@@ -318,7 +318,7 @@ fn anstream_free(text: &str) -> String {
 }
 
 #[test]
-fn students_are_told_by_the_path_they_have() {
+fn students_see_where_their_path_differs() {
     let bed = bed();
     bed.write(
         "mine.rhai",
@@ -411,7 +411,7 @@ fn lab_check_finds_nothing_wrong_or_says_what_is() {
 }
 
 #[test]
-fn a_lab_without_enough_mistakes_is_told() {
+fn a_lab_without_enough_mutants_is_reported() {
     let bed = bed();
     let (lab, staff) = loaded(&bed);
     let mut few = staff.clone();

@@ -57,7 +57,7 @@ fn checked(ran: &CommandResult, code: i32) -> Value {
 }
 
 #[test]
-fn a_sound_scene_has_no_findings_and_a_sunk_box_is_told_with_its_line() {
+fn a_valid_scene_has_no_findings_and_a_sunk_box_is_reported_with_its_line() {
     let bed = TestBed::new();
     bed.write("bench.toml", SCENE);
     let ran = bed.run(&["scene", "check", "bench.toml"]);
@@ -92,7 +92,7 @@ fn a_sound_scene_has_no_findings_and_a_sunk_box_is_told_with_its_line() {
 }
 
 #[test]
-fn via_points_are_told_in_the_frame_of_the_robot() {
+fn via_points_are_given_in_the_frame_of_the_robot() {
     let bed = TestBed::new();
     bed.write("bench.toml", SCENE);
     let ran = bed.run(&[

@@ -226,7 +226,7 @@ fn mistakes_about_a_scene_are_shown_at_their_place() {
 }
 
 #[test]
-fn a_runaway_is_told_with_its_cause() {
+fn a_diverged_run_is_reported_with_its_cause() {
     let bed = bed();
     bed.edit(
         "labs/90-knock/lab.toml",

@@ -56,12 +56,12 @@ joint-reached = { joint = "shoulder", position_rad = 0.0, hold_s = 0.1, full_rad
 
 /// Pushes the shoulder up until and beyond its switch.
 const PUSH: &str = r#"
-fn init(robot, task) { this.told = false; }
+fn init(robot, task) { this.reported = false; }
 
 fn control(observation) {
     let sensors = observation.sensors;
-    if sensors.top && !this.told {
-        this.told = true;
+    if sensors.top && !this.reported {
+        this.reported = true;
         print(`pressed at ${observation.tick}`);
     }
     if observation.tick == 0 {
@@ -177,7 +177,7 @@ fn a_sensor_that_does_not_fit_is_shown_at_its_place() {
 }
 
 #[test]
-fn eval_tells_what_sensors_read() {
+fn eval_returns_what_sensors_read() {
     use std::io::Write as _;
     let bed = bed();
     let mut child = bed

@@ -70,7 +70,7 @@ const CHECK: [&str; 7] = [
 ];
 
 #[test]
-fn a_check_tells_where_the_solution_stops() {
+fn a_check_shows_where_the_solution_stops() {
     let bed = TestBed::a_little_off();
     bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
     let ran = bed.run(&CHECK);

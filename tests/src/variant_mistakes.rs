@@ -3,7 +3,7 @@
 use crate::variants::{BRIEF, HIDDEN, LAB, bed};
 
 #[test]
-fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
+fn mistakes_in_a_lab_with_parameters_are_reported_at_their_position() {
     for (from, to, code, message) in [
         (
             "\"= lengths[0]\"",
@@ -92,7 +92,7 @@ fn mistakes_in_a_lab_with_parameters_are_told_at_their_place() {
 }
 
 #[test]
-fn mistakes_in_hidden_runs_are_told_at_their_place() {
+fn mistakes_in_hidden_runs_are_reported_at_their_position() {
     for (from, to, message) in [
         (
             "parameters = { out",

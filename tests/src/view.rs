@@ -128,7 +128,7 @@ fn several_reports_are_listed_with_what_they_earned() {
 }
 
 #[test]
-fn what_holds_no_report_is_told() {
+fn what_holds_no_report_is_refused() {
     let bed = TestBed::new();
     assert_eq!(bed.run(&["view", "nowhere", "--no-open"]).code, Some(2));
     bed.write("folder/file", "");
@@ -179,7 +179,7 @@ fn what_never_ends_is_not_waited_for() {
 }
 
 #[test]
-fn a_program_is_told_folder_and_address_as_json() {
+fn a_program_gets_folder_and_address_as_json() {
     let bed = graded("out");
     let (serving, lines) = Serving::start(&bed, &["view", "out", "--no-open", "--json"]);
     let line: serde_json::Value = serde_json::from_str(&lines[0]).expect("JSON");

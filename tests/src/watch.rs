@@ -20,7 +20,7 @@ fn newer(serving: &Serving, seen: u64) -> u64 {
 }
 
 #[test]
-fn every_save_is_graded_and_open_pages_are_told() {
+fn every_save_is_graded_and_open_pages_are_notified() {
     let bed = bed();
     let (serving, before) = Serving::start(
         &bed,
@@ -102,7 +102,7 @@ fn each_grade_is_a_line_of_json() {
 }
 
 #[test]
-fn what_cannot_be_watched_is_told_at_once() {
+fn what_cannot_be_watched_is_reported_at_once() {
     let bed = TestBed::new();
     let ran = bed.run(&["watch", "01-kinematics", "nowhere.rhai", "--no-open"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");

@@ -85,7 +85,7 @@ pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         return Err(too_large(most));
     }
     let mut bytes = Vec::new();
-    // one byte more tells a longer file without reading it
+    // one byte more shows that a file is longer, without reading all of it
     file.take(most + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| plain(&error))?;
@@ -146,7 +146,7 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), Failure> {
             format!("`{}` is a link to another file", path.display()),
             "copy the file itself",
         )),
-        // what is not there is told by whoever reads it
+        // a missing file is reported by whoever reads it
         Ok(_) | Err(_) => Ok(()),
     }
 }

@@ -84,7 +84,7 @@ impl FreshFolder {
         let old = self.temporary.path().join("old");
         std::fs::rename(&self.out, &old)?;
         std::fs::rename(self.path(), &self.out).inspect_err(|_| {
-            // put the earlier one back; what went wrong is told either way
+            // put the earlier one back; the error is reported either way
             let _ = std::fs::rename(&old, &self.out);
         })?;
         Ok(Some(old))
@@ -118,7 +118,7 @@ pub(crate) enum Entry {
 }
 
 /// Checks that `out` is free, empty, or holds nothing but what is `ours`, `whole` in words: replacing it would lose the rest. Gives the
-/// paths of what is to be kept. Paths are told from `out`, with `/` between names; links are never ours.
+/// paths of what is to be kept. Paths are relative to `out`, with `/` between names; links are never ours.
 pub(crate) fn refuse_foreign(
     out: &Path,
     whole: &str,

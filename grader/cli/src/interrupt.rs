@@ -16,7 +16,7 @@ pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// Starts to listen, and tells `also` the first time.
+/// Starts to listen, and calls `also` the first time.
 pub(crate) fn listen_and(mut also: impl FnMut() + Send + 'static) {
     // a second handler, or a system without signals, leaves the default
     let _ = ctrlc::set_handler(move || {

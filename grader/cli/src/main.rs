@@ -50,7 +50,7 @@ fn main() -> ExitCode {
             Err(failure) => failure.report(),
         });
     let ended = command.map(std::thread::JoinHandle::join);
-    // a panic has been told by its own message; without a thread there is nothing to tell
+    // a panic has printed its own message; without a thread there is nothing to report
     ended.map_or(ExitCode::from(failure::FAULT), |code| {
         code.unwrap_or(ExitCode::from(failure::FAULT))
     })

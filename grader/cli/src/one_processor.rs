@@ -63,14 +63,14 @@ mod tests {
     fn one_while_it_lasts_and_all_afterwards() {
         // a thread of its own: the choice is the thread's
         let thread = std::thread::spawn(|| {
-            let before = sched_getaffinity(None).expect("told");
+            let before = sched_getaffinity(None).expect("a mask");
             let mut one = OneProcessor::default();
             one.choose();
-            assert_eq!(sched_getaffinity(None).expect("told").count(), 1);
+            assert_eq!(sched_getaffinity(None).expect("a mask").count(), 1);
             one.choose();
-            assert_eq!(sched_getaffinity(None).expect("told").count(), 1);
+            assert_eq!(sched_getaffinity(None).expect("a mask").count(), 1);
             drop(one);
-            assert_eq!(sched_getaffinity(None).expect("told"), before);
+            assert_eq!(sched_getaffinity(None).expect("a mask"), before);
         });
         thread.join().expect("no panic");
     }

@@ -1,12 +1,12 @@
-//! A measured value against its band in words, the same in the terminal, on the page and wherever else it is told.
+//! A measured value against its band in words, the same in the terminal, on the page and wherever else it is shown.
 
 use kinemark_grader::record::grade::Measure;
-use kinemark_grader::record::quantity::{told_apart, with_unit};
+use kinemark_grader::record::quantity::{with_unit, with_unit_unlike};
 
 /// Value, limits and margin with their units.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Measured {
-    /// The value, with as many digits as tell it from where all points are earned.
+    /// The value, with enough digits to differ from where all points are earned.
     pub(super) value: String,
     /// What earns all points.
     pub(super) full: String,
@@ -17,12 +17,12 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Tells a measure.
+    /// Formats a measure.
     pub(super) fn of(measure: &Measure) -> Self {
         let unit = &measure.unit;
         let value = measure.value.map_or_else(
             || "nothing to measure".to_owned(),
-            |value| told_apart(value, measure.full, unit),
+            |value| with_unit_unlike(value, measure.full, unit),
         );
         let margin = measure.margin().filter(|margin| *margin != 0.0);
         Self {

@@ -43,7 +43,7 @@ pub struct FirstLoss<'a> {
     pub task: &'a TaskGrade,
     /// The check that lost them; none where the submission was stopped.
     pub check: Option<&'a CheckGrade>,
-    /// The moment of its run; none where no moment is told, as in a function task.
+    /// The moment of its run; none where no moment is given, as in a function task.
     pub at: Option<Instant>,
 }
 
@@ -61,8 +61,8 @@ pub fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
     grade.tasks.iter().find_map(first_loss_of)
 }
 
-/// Where a task lost its first points: the earliest moment told of all its checks that lost some, or of what stopped it; of equal ones
-/// the stop, then the costliest check. Where no moment is told, the stop, or the first check that lost points.
+/// Where a task lost its first points: the earliest moment given for all its checks that lost some, or for what stopped it; of equal ones
+/// the stop, then the costliest check. Where no moment is given, the stop, or the first check that lost points.
 pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
     let stop = task.stopped.as_ref().map(|stopped| FirstLoss {
         task,
@@ -82,7 +82,7 @@ pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
         .min_by(|(a, of_a), (b, of_b)| a.cmp(b).then_with(|| cost(of_b).total_cmp(&cost(of_a))));
     match earliest {
         Some((_, loss)) => Some(*loss),
-        // no moment is told, as in a function task: what cost the most, of equal ones the first
+        // no moment is given, as in a function task: what cost the most, of equal ones the first
         None => all
             .into_iter()
             .reduce(|a, b| if cost(&b) > cost(&a) { b } else { a }),
@@ -151,23 +151,23 @@ mod tests {
             let loss = first_loss_of(task).expect("a loss");
             (loss.fragment(), loss.check.map(|check| check.name.clone()))
         };
-        // the saturation is told before the match in the lab, and came later in the run
-        let told = (
+        // the saturation comes before the match in the lab, and came later in the run
+        let expected = (
             "#task=move&t=0.62".to_owned(),
             Some("trajectory-match".to_owned()),
         );
-        assert_eq!(first(&task), told);
+        assert_eq!(first(&task), expected);
         // of one moment the costlier check
         task.checks[2].first_lost = at(620);
-        assert_eq!(first(&task), told);
-        // a full check loses nothing, whatever is told of it
+        assert_eq!(first(&task), expected);
+        // a full check loses nothing, whatever is said about it
         task.checks[0].first_lost = at(1);
-        assert_eq!(first(&task), told);
+        assert_eq!(first(&task), expected);
         // the run ends with the tick before the call that failed
         task.stopped = Some(stop(Some(501)));
         assert_eq!(first(&task), ("#task=move&t=0.5".to_owned(), None));
         task.stopped = Some(stop(Some(3000)));
-        assert_eq!(first(&task), told);
+        assert_eq!(first(&task), expected);
     }
 
     #[test]

@@ -239,7 +239,7 @@ mod tests {
     }
 
     /// The value of `name` in the part of a source that begins with `part`.
-    fn told(source: &str, part: &str, name: &str) -> String {
+    fn colour_in(source: &str, part: &str, name: &str) -> String {
         let (_, rest) = source.split_once(part).expect(part);
         let (_, rest) = rest.split_once(name).expect(name);
         let start = rest.find('#').expect("a colour");
@@ -284,19 +284,27 @@ mod tests {
         ] {
             if !in_theme.is_empty() {
                 assert_eq!(
-                    told(theme, "LIGHT", in_theme),
+                    colour_in(theme, "LIGHT", in_theme),
                     hex(colour.light),
                     "{in_theme}"
                 );
                 assert_eq!(
-                    told(theme, "DARK", in_theme),
+                    colour_in(theme, "DARK", in_theme),
                     hex(colour.dark),
                     "{in_theme}"
                 );
             }
             if !in_css.is_empty() {
-                assert_eq!(told(css, ".replay", in_css), hex(colour.light), "{in_css}");
-                assert_eq!(told(dark_css, "{", in_css), hex(colour.dark), "{in_css}");
+                assert_eq!(
+                    colour_in(css, ".replay", in_css),
+                    hex(colour.light),
+                    "{in_css}"
+                );
+                assert_eq!(
+                    colour_in(dark_css, "{", in_css),
+                    hex(colour.dark),
+                    "{in_css}"
+                );
             }
         }
     }

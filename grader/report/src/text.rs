@@ -216,7 +216,7 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
             &format!("               {}", band(measure, check.outcome).dimmed()),
         );
     }
-    if let Some(first) = untold(check) {
+    if let Some(first) = loss_without_evidence(check) {
         let at = format!("[tick {}] {}", first.tick, fragment(task, first.time_s));
         line(
             out,
@@ -228,26 +228,29 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
         );
     }
     for evidence in &check.evidence {
-        line(out, &format!("               {}", told(evidence, task)));
+        line(
+            out,
+            &format!("               {}", evidence_text(evidence, task)),
+        );
     }
     if let Some(next) = &check.next_step {
         line(out, &format!("               {} {next}", "next:".cyan()));
     }
 }
 
-/// Where a check began to lose points, if its evidence tells other moments only.
-pub(crate) fn untold(check: &CheckGrade) -> Option<Instant> {
+/// Where a check began to lose points, if its evidence shows other moments only.
+pub(crate) fn loss_without_evidence(check: &CheckGrade) -> Option<Instant> {
     let first = check.first_lost?;
-    let told = check
+    let has_evidence = check
         .evidence
         .iter()
         .any(|fact| fact.tick == Some(first.tick));
-    (!told).then_some(first)
+    (!has_evidence).then_some(first)
 }
 
 /// The value against its band, and the margin of a run that is full.
 pub fn band(measure: &Measure, outcome: Outcome) -> String {
-    let told = Measured::of(measure);
+    let measured = Measured::of(measure);
     let (to, from) = if measure.zero >= measure.full {
         ("up to", "from")
     } else {
@@ -255,10 +258,10 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     };
     let mut text = format!(
         "{}: {}; all points {to} {}, none {from} {}",
-        measure.quantity, told.value, told.full, told.zero
+        measure.quantity, measured.value, measured.full, measured.zero
     );
     // with a margin the visible run is full; hidden ones may have lost points
-    if let (Outcome::Full | Outcome::Partial, Some(margin)) = (outcome, told.margin)
+    if let (Outcome::Full | Outcome::Partial, Some(margin)) = (outcome, measured.margin)
         && measure.margin() > Some(0.0)
     {
         let _ = write!(text, "; margin {margin}");
@@ -266,7 +269,7 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     text
 }
 
-fn told(evidence: &Evidence, task: &str) -> String {
+fn evidence_text(evidence: &Evidence, task: &str) -> String {
     let message = visible(&evidence.message).into_owned();
     match (evidence.tick, evidence.time_s) {
         (Some(tick), Some(time_s)) => {
@@ -286,7 +289,7 @@ mod tests {
 
     /// A hint on hidden runs sends the reader to the margins of the visible one.
     #[test]
-    fn a_margin_is_told_where_only_hidden_runs_lost_points() {
+    fn a_margin_is_shown_where_only_hidden_runs_lost_points() {
         let measure = |value| Measure {
             quantity: "way".to_owned(),
             value: Some(value),
@@ -294,8 +297,8 @@ mod tests {
             full: 2.0,
             zero: 4.0,
         };
-        let told = |value, outcome| band(&measure(value), outcome).contains("; margin");
-        assert!(told(1.0, Outcome::Full) && told(1.0, Outcome::Partial));
-        assert!(!told(3.0, Outcome::Partial) && !told(1.0, Outcome::NotJudged));
+        let has_margin = |value, outcome| band(&measure(value), outcome).contains("; margin");
+        assert!(has_margin(1.0, Outcome::Full) && has_margin(1.0, Outcome::Partial));
+        assert!(!has_margin(3.0, Outcome::Partial) && !has_margin(1.0, Outcome::NotJudged));
     }
 }

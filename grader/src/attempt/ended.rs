@@ -329,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_string_that_grows_is_told_as_a_string() {
+    fn a_string_that_grows_is_reported_as_a_string() {
         let stop = Stop::OverBudget {
             budget: Budget::TextSize,
             limit: 4000,

@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_control_tick_over_the_tolerance_is_told() {
+    fn the_first_control_tick_over_the_tolerance_is_reported() {
         let reference = chain(2, 101, |_, _| 0.0);
         // over 0.02 rad from tick 21 on, which the control tick 30 is the first to see
         let student = chain(2, 101, |tick, joint| 0.001 * (tick * joint as u64) as f64);
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_agree_or_end_before_are_not_told() {
+    fn runs_that_agree_or_end_before_are_not_reported() {
         let reference = chain(2, 101, |_, _| 0.0);
         let near = chain(2, 101, |_, _| 0.019);
         let short = chain(2, 20, |tick, _| 0.001 * tick as f64);

@@ -212,7 +212,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_class_tells_which_check_stands_in_the_way() {
+    fn a_class_names_the_check_that_stands_in_the_way() {
         let attempts = HiddenAttempts(vec![HiddenAttempt {
             class: "another post".to_owned(),
             scores: vec![0.5, 0.0],
@@ -220,7 +220,7 @@ mod tests {
             digest: blake3::hash(b""),
             stopped: None,
         }]);
-        let told = |check: usize| {
+        let messages = |check: usize| {
             let losses = attempts.losses(check, "\"The hand arrives\"");
             losses.map(|of_kind| {
                 of_kind
@@ -229,13 +229,13 @@ mod tests {
                     .collect::<Vec<_>>()
             })
         };
-        let [lost, unjudged] = told(0);
+        let [lost, unjudged] = messages(0);
         assert_eq!(
             lost,
             ["in 1 of 1 hidden runs of the class \"another post\" points are lost"]
         );
         assert!(unjudged.is_empty());
-        let [lost, unjudged] = told(1);
+        let [lost, unjudged] = messages(1);
         assert!(lost.is_empty());
         assert_eq!(
             unjudged,

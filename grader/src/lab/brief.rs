@@ -176,7 +176,7 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
     fn the_number_before_a_mark_is_that_of_the_lab() {
         let files = Copies::from_texts([("x/lab.toml", LAB), ("robots/r.toml", ROBOT)]);
         let lab = Lab::load(&files, "x").unwrap();
-        for (brief, told) in [
+        for (brief, expected) in [
             ("from 9.0<!-- = far --> m", "from 3.0<!-- = far --> m"),
             ("9<!-- = far / 8 -->", "0.375<!-- = far / 8 -->"),
             ("9<!-- = far / 7 | 2 -->", "0.43<!-- = far / 7 | 2 -->"),
@@ -191,9 +191,9 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
                 "no mark <!-- but a comment -->",
             ),
         ] {
-            assert_eq!(with_numbers(brief, &lab).as_deref(), Ok(told));
+            assert_eq!(with_numbers(brief, &lab).as_deref(), Ok(expected));
             // what is right already stays
-            assert_eq!(with_numbers(told, &lab).as_deref(), Ok(told));
+            assert_eq!(with_numbers(expected, &lab).as_deref(), Ok(expected));
         }
         for (brief, why) in [
             (

@@ -109,7 +109,7 @@ impl Variant {
         written(self.lab.get_ref(), self.student(), self.parameters())
     }
 
-    /// Its numbers as text alone: what a digest tells variants apart by.
+    /// Its numbers as text alone: what the digests of two variants differ by.
     pub(crate) fn numbers(&self) -> String {
         let lines = self.parameters();
         lines
@@ -419,7 +419,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_are_all_reached_and_told_in_short() {
+    fn steps_are_all_reached_and_given_in_short() {
         let steps = Steps {
             from: 2.9,
             step: 0.01,
@@ -437,7 +437,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_row_of_steps_is_told_with_a_step_that_is() {
+    fn what_is_no_row_of_steps_is_reported_with_a_step_that_is() {
         for (numbers, what, help) in [
             (
                 [1.9, 2.3, 0.07],

@@ -29,7 +29,7 @@ fn beyond(which: &str, unit: &str) -> String {
 
 /// A value in the unit of a measure, formatted like [`with_unit`], but with enough digits to differ from `limit` unless it is equal to
 /// it.
-pub fn told_apart(value: f64, limit: f64, unit: &str) -> String {
+pub fn with_unit_unlike(value: f64, limit: f64, unit: &str) -> String {
     let short = with_unit(value, unit);
     if value.total_cmp(&limit).is_eq() || short != with_unit(limit, unit) {
         return short;
@@ -81,16 +81,16 @@ mod tests {
 
     #[test]
     fn a_near_miss_does_not_read_like_a_hit() {
-        assert_eq!(told_apart(2.000_000_4, 2.0, "s"), "2.0000004 s");
-        assert_eq!(told_apart(2.0, 2.0, "s"), "2 s");
-        assert_eq!(told_apart(2.1, 2.0, "s"), "2.1 s");
-        assert_eq!(told_apart(0.008_002, 0.008, "m"), "8.002 mm");
-        assert_eq!(told_apart(0.9999, 1.0, ""), "99.99 %");
-        assert_eq!(told_apart(0.0501, 0.05, "m"), "50.1 mm");
+        assert_eq!(with_unit_unlike(2.000_000_4, 2.0, "s"), "2.0000004 s");
+        assert_eq!(with_unit_unlike(2.0, 2.0, "s"), "2 s");
+        assert_eq!(with_unit_unlike(2.1, 2.0, "s"), "2.1 s");
+        assert_eq!(with_unit_unlike(0.008_002, 0.008, "m"), "8.002 mm");
+        assert_eq!(with_unit_unlike(0.9999, 1.0, ""), "99.99 %");
+        assert_eq!(with_unit_unlike(0.0501, 0.05, "m"), "50.1 mm");
     }
 
     #[test]
-    fn what_is_told_of_points_adds_up() {
+    fn the_points_reported_add_up() {
         assert_eq!(whole_hundredths(1.4888, 2.0), 1.48);
         assert_eq!(whole_hundredths(0.9999, 1.0), 0.99);
         assert_eq!(whole_hundredths(0.29, 1.0), 0.29);

@@ -26,7 +26,7 @@ pub(crate) fn read(files: &dyn Files, folder: &str, name: &str) -> Result<MeshFi
     }
 }
 
-/// What tells a file with its meshes from any other.
+/// The digest of a file and its meshes: another one for any other file.
 pub(crate) fn digest(text: &str, meshes: &[MeshFile]) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
     hasher.update(text.as_bytes());

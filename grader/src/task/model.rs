@@ -93,7 +93,7 @@ pub struct FunctionTask {
 /// One call of a function, and what a right answer is like.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Its name; of a hidden case, only its class is ever told.
+    /// Its name; of a hidden case, only its class is ever shown.
     pub name: String,
     /// The class of a hidden case; `None` for a visible one.
     pub hidden_class: Option<String>,

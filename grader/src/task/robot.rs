@@ -43,7 +43,7 @@ impl LabRobot {
         Ok(Some(Self { file, meshes }))
     }
 
-    /// What tells this robot from any other: the digest of its file, and of its meshes where it has some.
+    /// Identifies this robot: the digest of its file, and of its meshes if it has any.
     pub fn digest(file: &RobotFile, meshes: &[MeshFile]) -> blake3::Hash {
         mesh_file::digest(file.source().text(), meshes)
     }

@@ -77,14 +77,14 @@ impl LabScene {
         self.name == name && self.dimensions == dimensions
     }
 
-    /// A body that bears the name of a link of `robot`: nobody could tell the two apart in a report.
+    /// A body with the name of a link of `robot`: a report could not distinguish the two.
     pub fn namesake(&self, robot: &Robot) -> Option<&str> {
         let names = self.scene.bodies.iter().map(|body| body.name.as_str());
         let mut names = names.filter(|name| robot.frame(name).is_some());
         names.next()
     }
 
-    /// What tells this scene from any other: the digest of its file and meshes.
+    /// Identifies this scene: the digest of its file and meshes.
     pub fn digest(&self) -> blake3::Hash {
         mesh_file::digest(self.file.source().text(), &self.meshes)
     }

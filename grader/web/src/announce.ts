@@ -1,4 +1,4 @@
-// What a screen reader is told: moments and events that were sought, never every frame.
+// What a screen reader announces: moments and events that were sought, never every frame.
 
 import { element } from "./dom";
 
@@ -7,7 +7,7 @@ export class Announcer {
   private timer = 0;
 
   say(text: string): void {
-    // a region that was just emptied and filled again is told even where the words are the same
+    // a region that was just emptied and filled again is read out even where the words are the same
     this.after(() => text, 60);
   }
 

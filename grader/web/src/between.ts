@@ -60,7 +60,7 @@ export class Way {
     weights[3] = arriving * upper;
   }
 
-  /** Whether the moment is a frame's, so that what is shown is what was told of it. */
+  /** Whether the moment is a frame's, so that what is shown is what was recorded. */
   get isFrame(): boolean {
     return this.weights[1] === 1 || this.weights[2] === 1;
   }

@@ -1,4 +1,4 @@
-// Links without a shape, as sticks from joint to joint: so an arm that is told by its lengths alone is seen.
+// Links without a shape, as sticks from joint to joint: so an arm that is given by its lengths alone is visible.
 
 import type { Replay, SceneNode } from "./data";
 import { place } from "./pose";

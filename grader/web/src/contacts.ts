@@ -9,7 +9,7 @@ export interface ContactMark {
   readonly to: number;
   /** Size as a part of the greatest. */
   readonly size: number;
-  /** How much it covers while it lasts, and when it is over: what is over is still told, more quietly. */
+  /** How much it covers while it lasts, and when it is over: what is over is still shown, more quietly. */
   readonly lasting: number;
   readonly over: number;
 }

@@ -32,7 +32,7 @@ export class Cursor {
     this.listeners[change].push(listener);
   }
 
-  private tell(change: Change): void {
+  private notify(change: Change): void {
     for (const listener of this.listeners[change]) listener();
   }
 
@@ -48,7 +48,7 @@ export class Cursor {
 
   private put(t: number): void {
     this.t = Math.min(this.end, Math.max(this.start, t));
-    this.tell("moved");
+    this.notify("moved");
   }
 
   /** Stops, and goes to the tick nearest to a moment \[s\]; what is no number changes nothing. */
@@ -57,7 +57,7 @@ export class Cursor {
     this.stop();
     const inside = Math.min(this.end, Math.max(this.start, t));
     this.put(this.timeOf(Math.round(inside / this.replay.stepS)));
-    this.tell("rested");
+    this.notify("rested");
   }
 
   /** Stops, and goes to a tick. */
@@ -107,18 +107,18 @@ export class Cursor {
     this.playing = true;
     this.last = 0;
     onFrame(this.advance, this.frameTimes);
-    this.tell("changed");
+    this.notify("changed");
   }
 
   private stop(): void {
     if (!this.playing) return;
     this.playing = false;
     stopFrames(this.advance);
-    this.tell("changed");
+    this.notify("changed");
   }
 
   pause(): void {
-    // a run is told in whole ticks, so it rests on one
+    // a run is recorded in whole ticks, so it rests on one
     if (this.playing) this.seek(this.t);
   }
 
@@ -129,12 +129,12 @@ export class Cursor {
 
   setSpeed(speed: number): void {
     this.speed = speed;
-    this.tell("changed");
+    this.notify("changed");
   }
 
   setLoop(loop: boolean): void {
     this.loop = loop;
-    this.tell("changed");
+    this.notify("changed");
   }
 
   private readonly advance = (now: number): void => {
@@ -147,7 +147,7 @@ export class Cursor {
     else {
       this.t = this.end;
       this.pause();
-      this.tell("ended");
+      this.notify("ended");
     }
   };
 }

@@ -27,7 +27,7 @@ export interface SceneNode {
   readonly shapes: readonly Shape[];
   /** Where it stands in the world if it never moves. */
   readonly pose: Pose | null;
-  /** The node its joint hangs on, where the data tell. */
+  /** The node its joint hangs on, where the data have it. */
   readonly parent: number | null;
   /** Index of its track where it moves. */
   readonly track: number;

@@ -1,4 +1,4 @@
-// Signs on buttons and of events. Each event has a shape of its own, so that it is told without its colour.
+// Signs on buttons and of events. Each event has a shape of its own, so that it is recognised without its colour.
 
 import { drawing } from "./dom";
 import type { EventKind } from "./data";

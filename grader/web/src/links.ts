@@ -30,12 +30,12 @@ export function parse(hash: string): Moment | null {
   }
   const task = values.get("task");
   if (!task) return null;
-  const told = (values.get("t") ?? "").trim();
-  const bare = told.replace(AFTER, "");
-  if (bare === "") return { task, t: null, unread: told === "" ? null : told };
+  const text = (values.get("t") ?? "").trim();
+  const bare = text.replace(AFTER, "");
+  if (bare === "") return { task, t: null, unread: text === "" ? null : text };
   // a comma is what many write for the point
   if (SECONDS.test(bare)) return { task, t: Number(bare.replace(",", ".")), unread: null };
-  return { task, t: null, unread: told };
+  return { task, t: null, unread: text };
 }
 
 /** Of the names of tasks, the one that a link means; a full stop after a link is none of its name. */

@@ -4,7 +4,7 @@ import { element } from "./dom";
 
 export class Notice {
   private readonly words = element("p");
-  // a region is told of only if it was there before its words
+  // a region is announced only if it was there before its words
   private readonly region = element("div", { class: "replay-notice", role: "status" });
   private readonly box = element("div");
 

@@ -1,4 +1,4 @@
-// A thin dark (or light) edge around what is drawn, so that a pale shape is told from the paper and from the next one.
+// A thin dark (or light) edge around what is drawn, so that a pale shape stands out from the paper and from the next one.
 
 import { BackSide, Color, EdgesGeometry, LineBasicMaterial, LineSegments, Mesh, ShaderMaterial, Vector2, type BufferGeometry } from "three";
 

@@ -140,15 +140,15 @@ export class Plot {
   private byKeys(): void {
     const { figure, cursor } = this;
     figure.tabIndex = 0;
-    figure.setAttribute("aria-description", "Arrow keys move through the run and tell its values; Escape hides them.");
+    figure.setAttribute("aria-description", "Arrow keys move through the run and read out its values; Escape hides them.");
     listen(figure, cursor, this.acts.event);
     // after the keys have done what they do
-    let told = cursor.t;
+    let last = cursor.t;
     figure.addEventListener("keydown", (event) => {
       if (event.key === "Escape" || event.key === "Tab") return;
       this.stay();
-      if (cursor.t !== told && !cursor.playing) this.acts.say(this.said());
-      told = cursor.t;
+      if (cursor.t !== last && !cursor.playing) this.acts.say(this.said());
+      last = cursor.t;
     });
     figure.addEventListener("focus", () => figure.matches(":focus-visible") && this.stay());
     figure.addEventListener("blur", () => this.leave());
@@ -177,11 +177,11 @@ export class Plot {
   private said(): string {
     const { t } = this.cursor;
     const panels = this.timePanels();
-    const told = panels.map((panel) => {
+    const values = panels.map((panel) => {
       const rows = this.rows(panel, t).map(({ series, text }) => `${series.name} ${text}`);
       return panels.length > 1 && panel.name ? `${panel.name}: ${rows.join(", ")}` : rows.join(", ");
     });
-    return [seconds(t, this.stepS), ...told].join("; ");
+    return [seconds(t, this.stepS), ...values].join("; ");
   }
 
   /** Reads the picture, which takes its time, before anyone asks. */
@@ -301,8 +301,8 @@ export class Plot {
     if (name) head.append(" ", element("bdi", { class: "quiet" }, String(name)));
     const lines = rows.map(({ panel, series, text }) => {
       const swatch = drawing("svg", { class: "plot replay-swatch", viewBox: "0 0 14 4" }, drawing("line", { x1: "0", x2: "14", y1: "2", y2: "2", stroke: String(series.colour), "stroke-width": "3", "stroke-dasharray": String(series.dashes ?? "none") }));
-      const told = name || !panel.name ? String(series.name) : `${panel.name}: ${series.name}`;
-      return element("p", {}, swatch, element("bdi", {}, told), element("span", {}, text));
+      const label = name || !panel.name ? String(series.name) : `${panel.name}: ${series.name}`;
+      return element("p", {}, swatch, element("bdi", {}, label), element("span", {}, text));
     });
     this.box.replaceChildren(head, ...lines);
     if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));

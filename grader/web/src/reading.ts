@@ -1,4 +1,4 @@
-// What is read off a plot, in words that claim no more than the drawing tells.
+// What is read off a plot, in words that claim no more than the drawing shows.
 
 import type { Span } from "./curve";
 import { fixed } from "./words";
@@ -39,7 +39,7 @@ export function rounded(number: number, off: number): string {
 }
 
 /** The value at a height that may be `off` higher or lower, and whether it lies beyond what is drawn. */
-function told(scale: Scale, at: number, off: number, cut: number | undefined): string {
+function valueText(scale: Scale, at: number, off: number, cut: number | undefined): string {
   const number = value(scale, at);
   const doubt = Math.max(Math.abs(value(scale, at - off) - number), Math.abs(value(scale, at + off) - number));
   if (cut !== undefined && Math.abs(number) >= cut - doubt) {
@@ -53,7 +53,7 @@ function told(scale: Scale, at: number, off: number, cut: number | undefined): s
 /** What stands at a place: a value, or from where to where the run went there. */
 export function words(scale: Scale, [top, bottom]: Span, { off, cut }: Doubt): string {
   const half = 0.5 * (bottom - top);
-  if (2 * half <= WIDE) return told(scale, top + half, off + half, cut);
-  const [least, greatest] = [told(scale, bottom, off, cut), told(scale, top, off, cut)];
+  if (2 * half <= WIDE) return valueText(scale, top + half, off + half, cut);
+  const [least, greatest] = [valueText(scale, bottom, off, cut), valueText(scale, top, off, cut)];
   return least === greatest ? least : `${least} … ${greatest}`;
 }

@@ -78,6 +78,6 @@ export class Readout {
   }
 }
 
-/** What stands before a number that may be farther than this from the run's: between frames of what is told less truly. */
+/** What stands before a number that may be farther than this from the run's: between frames of what is recorded less accurately. */
 const ROUGH = 1e-3;
 const about = (way: Way): string => (way.within > ROUGH && !way.isFrame ? "≈ " : "");

@@ -16,7 +16,7 @@ import { bring } from "./sections";
 import { Side } from "./side";
 import { Stage } from "./stage";
 import type { Part, View } from "./view";
-import { moment, seconds, told } from "./words";
+import { moment, seconds, eventWords } from "./words";
 import { World } from "./world";
 
 /** What a test sees of a replay. */
@@ -161,12 +161,12 @@ export class Replay {
     this.shared.hidden = true;
     if (this.quiet) return;
     this.address.write(this.link());
-    // who works here hears where the run is; the slider tells it by itself
+    // who works here hears where the run is; the slider announces it by itself
     const at = document.activeElement;
     if (at && this.root.contains(at) && !at.matches("input")) this.announcer.soon(() => this.here());
   }
 
-  /** Does something of which neither the address nor a screen reader is told. */
+  /** Does something that changes neither the address nor what a screen reader announces. */
   quietly(act: () => void): void {
     this.quiet = true;
     act();
@@ -198,7 +198,7 @@ export class Replay {
 
   /** The moment and what happens in it, in words. */
   private here(): string {
-    const now = this.cursor.now().slice(0, 2).map(told);
+    const now = this.cursor.now().slice(0, 2).map(eventWords);
     return [seconds(this.cursor.t, this.data.stepS), ...now].join(", ");
   }
 

@@ -6,14 +6,14 @@ import { element } from "./dom";
 import { EVENTS, mark } from "./icon";
 import { lanes, MARK } from "./lanes";
 import { Tip } from "./tip";
-import { seconds, told } from "./words";
+import { seconds, eventWords } from "./words";
 
 /** Width of what is pressed to go to an event \[px\]. */
 const TARGET = 28;
 /** Height of the marks' row at least \[px\]. */
 const LEAST_HEIGHT = 26;
-/** Events a tip tells. */
-const MOST_TOLD = 6;
+/** Events in a tip. */
+const MOST_EVENTS = 6;
 
 export class Scrubber {
   readonly element: HTMLElement;
@@ -158,8 +158,8 @@ export class Scrubber {
   }
 
   private words(events: readonly RunEvent[]): string[] {
-    const said = events.slice(0, MOST_TOLD).map((event) => `${seconds(this.cursor.timeOf(event.tick), this.replay.stepS)}, ${told(event)}`);
-    if (events.length > MOST_TOLD) said.push(`and ${events.length - MOST_TOLD} more`);
+    const said = events.slice(0, MOST_EVENTS).map((event) => `${seconds(this.cursor.timeOf(event.tick), this.replay.stepS)}, ${eventWords(event)}`);
+    if (events.length > MOST_EVENTS) said.push(`and ${events.length - MOST_EVENTS} more`);
     return said;
   }
 

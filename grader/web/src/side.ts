@@ -151,7 +151,7 @@ export class Side implements View {
     return out;
   }
 
-  /** What is told in the lab frame: goals, paths, reference and trail. */
+  /** What is given in the lab frame: goals, paths, reference and trail. */
   private drawLab(): void {
     const { replay, still, unit } = this;
     still.replaceChildren();

@@ -67,7 +67,7 @@ export class Stage implements View {
     world: World,
     extent: Extent,
     label: string,
-    /** Told when the context is gone and cannot be had again. */
+    /** Called when the context is gone and cannot be restored. */
     private readonly lost: () => void,
   ) {
     this.element = element("div", { class: "replay-stage", tabindex: "0", role: "application", "aria-roledescription": "3D view", "aria-label": label });
@@ -106,7 +106,7 @@ export class Stage implements View {
     const options = { signal: heard.signal };
     canvas.addEventListener("webglcontextlost", (event) => this.waitFor(event), options);
     canvas.addEventListener("webglcontextrestored", (event) => this.regain(event), options);
-    // asked for here, since three tells the console where there is none
+    // asked for here, since three logs an error to the console where there is none
     const context = canvas.getContext("webgl2", { alpha: true, antialias: true, depth: true, stencil: false, powerPreference: "low-power" });
     if (!context) {
       this.giveUp();
@@ -146,7 +146,7 @@ export class Stage implements View {
   /** The browser took the context, and is asked for it again: a machine that slept or changed its graphics card gives it back. */
   private waitFor(event: Event): void {
     event.preventDefault();
-    // three would tell the console
+    // three would log it to the console
     event.stopImmediatePropagation();
     if (!this.drawn) return;
     const now = performance.now();
@@ -228,7 +228,7 @@ export class Stage implements View {
     // sizes the canvas and draws
     if (devicePixelRatio !== this.pixels) return this.sharpen(false);
     clearTimeout(this.settles);
-    // only pictures in frame after frame tell of a machine that cannot keep up
+    // only pictures in frame after frame show that a machine cannot keep up
     if (now !== this.beaten) this.late = 0;
     const more = this.camera.ease(Math.min(50, now - this.last));
     this.last = now;
@@ -239,7 +239,7 @@ export class Stage implements View {
     if (this.parts.frames) this.labels.place(this.camera.camera);
   };
 
-  /** The frame after a picture: how late it comes tells what the picture took. */
+  /** The frame after a picture: how late it comes shows what the picture took. */
   private readonly beat = (now: number): void => {
     const passed = now - this.last;
     this.beaten = now;

@@ -78,7 +78,7 @@ export function onTheme(listener: () => void): () => void {
   return () => dark.removeEventListener("change", listener);
 }
 
-/** Which colour each node has, by its place in the list: the links take turns, so that each is told from the next. */
+/** Which colour each node has, by its place in the list: the links take turns, so that each differs from the next. */
 export function turns(nodes: ReadonlyArray<{ readonly kind: NodeKind }>): Turn[] {
   let links = 0;
   return nodes.map(({ kind }) => (kind === "link" ? turn(links++) : kind));

@@ -1,4 +1,4 @@
-// What something is, told beside it while it is pointed at or has focus: it stays while the pointer is on it, and Escape takes it away.
+// What something is, shown beside it while it is pointed at or has focus: it stays while the pointer is on it, and Escape takes it away.
 
 import { element } from "./dom";
 

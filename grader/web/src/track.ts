@@ -1,4 +1,4 @@
-// Numbers of a run as the page carries them: columns of whole numbers, each told by how far it is from where the two before it lead.
+// Numbers of a run as the page carries them: columns of integers, each given by how far it is from where the two before it lead.
 
 /** Values of every row, row after row: value `c` of row `i` is `values[i * width + c]`. */
 export interface Track {

@@ -3,7 +3,7 @@
 import type { RunEvent } from "./data";
 import { EVENTS } from "./icon";
 
-/** Decimals that tell every step of a run, at most six. */
+/** Decimals that distinguish every step of a run, at most six. */
 export function decimals(stepS: number): number {
   return Math.min(6, Math.max(0, Math.ceil(-Math.log10(stepS) - 1e-9)));
 }
@@ -29,8 +29,8 @@ export function breakable(name: string): Array<string | HTMLElement> {
   return name.split(/(?<=[_.:/-])/).flatMap((part, i) => (i > 0 ? [document.createElement("wbr"), part] : [part]));
 }
 
-/** What an event is, with its kind where its own words do not tell. */
-export function told(event: RunEvent): string {
+/** What an event is, with its kind where its own words do not name it. */
+export function eventWords(event: RunEvent): string {
   const kind = EVENTS[event.kind].name;
   return event.kind === "other" || event.text.toLowerCase().includes(kind) ? event.text : `${kind}: ${event.text}`;
 }

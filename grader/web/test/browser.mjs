@@ -1,4 +1,4 @@
-// A browser for tests: the one of the system, told to draw WebGL without a graphics card.
+// A browser for tests: the one of the system, set to draw WebGL without a graphics card.
 
 import { existsSync } from "node:fs";
 import { chromium } from "playwright-core";

@@ -19,7 +19,7 @@ function varint(out, integer) {
   out.push(rest);
 }
 
-/** The bytes of columns of whole numbers, each told by how far it is from where the two before it lead. */
+/** The bytes of columns of integers, each given by how far it is from where the two before it lead. */
 export function encodeColumns(columns, ticks = null) {
   const out = [];
   for (const column of columns) {
@@ -133,7 +133,7 @@ export function replay({ task = "knock", seconds = 4, joints = 2, ghost = true, 
     );
   }
   if (bare) {
-    // an arm told by its joints alone
+    // an arm given by its joints alone
     nodes.forEach((node, n) => {
       if (node.kind === "link") Object.assign(node, { shapes: [], parent: n > 0 ? (n < 3 ? n - 1 : undefined) : undefined });
       else if (node.kind === "ghost") Object.assign(node, { shapes: [], parent: node.name === "forearm" ? n - 1 : undefined });

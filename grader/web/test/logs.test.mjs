@@ -53,7 +53,7 @@ each("the summary agrees with what is in the file", async ({ path }) => {
   assert.ok(all.findIndex((record) => record.type === "Chunk") < all.findIndex((record) => record.type === "Message"));
 });
 
-each("times begin at zero, do not go back, and are those the messages tell", async ({ path }) => {
+each("times begin at zero, do not go back, and are those in the messages", async ({ path }) => {
   let last = 0n;
   const messages = records(path).filter((record) => record.type === "Message");
   assert.equal(messages[0].logTime, 0n);
@@ -65,8 +65,8 @@ each("times begin at zero, do not go back, and are those the messages tell", asy
   const { topics } = await log(path);
   for (const [topic, list] of topics) {
     for (const { ns, content } of list) {
-      const told = [content.timestamp, ...(content.transforms ?? content.entities ?? []).map((part) => part.timestamp)].filter(Boolean);
-      for (const { sec, nsec } of told) assert.equal(sec * 1e9 + nsec, ns, topic);
+      const stamps = [content.timestamp, ...(content.transforms ?? content.entities ?? []).map((part) => part.timestamp)].filter(Boolean);
+      for (const { sec, nsec } of stamps) assert.equal(sec * 1e9 + nsec, ns, topic);
     }
   }
 });
@@ -122,12 +122,12 @@ each("/tf alone draws the arm that moves", async ({ path, lab, task }) => {
       assert.ok(!frames.has(name) || distance(frames.get(name).p, seen[0].get(name).p) === 0, `${name} moves`);
     }
     const { frame_id, pose } = tcp[i].content;
-    const told = composed(frames.get(frame_id), poseOf(pose.position, pose.orientation));
+    const logged = composed(frames.get(frame_id), poseOf(pose.position, pose.orientation));
     candidates = (candidates ?? [...frames.keys()]).filter((name) => {
       const here = frames.get(name);
-      const same = Math.abs(here.q.reduce((sum, value, axis) => sum + value * told.q[axis], 0));
+      const same = Math.abs(here.q.reduce((sum, value, axis) => sum + value * logged.q[axis], 0));
       // elements are rounded to a billionth, and a chain of them may be five long
-      return distance(here.p, told.p) <= 1e-6 && 1 - same <= 1e-6;
+      return distance(here.p, logged.p) <= 1e-6 && 1 - same <= 1e-6;
     });
     for (const [name, here] of frames) if (!name.startsWith("body/")) travelled = Math.max(travelled, distance(here.p, seen[0].get(name).p));
   });

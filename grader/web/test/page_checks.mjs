@@ -152,7 +152,7 @@ export async function lastTime(page, index) {
   return t;
 }
 
-/** A click on a moment that is told shows it, and brings the replay into view; the address is its link. */
+/** A click on a linked moment shows it, and brings the replay into view; the address is its link. */
 export async function momentsSeek(page, most = 12) {
   const all = await places(page);
   const links = await page.$$("a.seek");
@@ -167,7 +167,7 @@ export async function momentsSeek(page, most = 12) {
     const href = await link.getAttribute("href");
     const wanted = new URLSearchParams(href.slice(1));
     const index = all.findIndex(({ task }) => task === wanted.get("task"));
-    // what is told of a run without a row leads to its place
+    // a link to a run without a row leads to its place
     if (index < 0) {
       assert.ok(await page.$(`[data-task="${wanted.get("task")}"]`), `${href} leads nowhere`);
       continue;
@@ -192,7 +192,7 @@ export async function momentsSeek(page, most = 12) {
   return clicked;
 }
 
-/** Clicks on the first moment that is told; one in a folded part is reached by unfolding it. */
+/** Clicks on the first linked moment; one in a folded part is reached by unfolding it. */
 export async function clickMoment(page) {
   await unfold(page);
   await page.locator("a.seek").first().click();
@@ -312,7 +312,7 @@ export async function keysSteer(page, index) {
   }
 }
 
-/** What axe finds in a part of the page: `{ id, impact, told }`. */
+/** What axe finds in a part of the page: `{ id, impact, message }`. */
 export async function violations(page, part = "html") {
   if (!(await page.evaluate(() => "axe" in window))) {
     // the page's policy lets no script in: axe comes through the debugger
@@ -331,14 +331,14 @@ export async function violations(page, part = "html") {
   return found.map(({ id, impact, nodes }) => ({
     id,
     impact,
-    told: `${id} (${impact}): ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join(" | ")}`,
+    message: `${id} (${impact}): ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join(" | ")}`,
   }));
 }
 
 /** No violation of a rule that axe calls serious or critical. */
 export async function accessible(page) {
   const found = await violations(page);
-  assert.deepEqual(found.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ told }) => told), []);
+  assert.deepEqual(found.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ message }) => message), []);
   return found.map(({ id }) => id);
 }
 

@@ -43,7 +43,7 @@ test("a track comes back row by row", () => {
   rows.flat().forEach((value, i) => assert.ok(Math.abs(values[i] - value) <= 0.51e-5, `${i}: ${values[i]} and ${value}`));
 });
 
-test("at uneven ticks a number is told from where the two before it lead, by their ticks", () => {
+test("at uneven ticks a number is read from where the two before it lead, by their ticks", () => {
   // as in the maker's own test: after 0 and 10 the line leads to 15 at tick 3, and after 10 and 16 to 40 at tick 7
   const ticks = [0, 2, 3, 7];
   const coded = encode([[0], [10], [16], [39]], [1], ticks);
@@ -53,7 +53,7 @@ test("at uneven ticks a number is told from where the two before it lead, by the
   assert.deepEqual([...track(half.data, [1], 3, Float64Array.from([0, 2, 3])).values], [0, -1, -5]);
 });
 
-test("bytes that are too few or too many are told", () => {
+test("bytes that are too few or too many are refused", () => {
   const coded = encode([[1], [2], [3]], [1]);
   assert.throws(() => track(coded.data, [1], 4, null), /hold no 1 columns of 4|ends after/);
   assert.throws(() => track(coded.data, [1], 2, null), /more than/);
@@ -146,7 +146,7 @@ test("frames 80 ms apart show smooth motion within 1 mm and 1 mrad", () => {
   }
 });
 
-test("a lab frame that is turned changes what is told, not where things are", () => {
+test("a lab frame that is turned changes what is shown, not where things are", () => {
   const turned = [0.3, -0.2, 1, Math.SQRT1_2, 0, Math.SQRT1_2, 0];
   const world = new World(read(JSON.stringify(replay({ lab: turned }))));
   world.at(1);
@@ -155,7 +155,7 @@ test("a lab frame that is turned changes what is told, not where things are", ()
 
 test("25 joints over 60 s are read whole", () => {
   const text = JSON.stringify(replay({ seconds: 60, joints: 25 }));
-  // told, not held: meant are 50 ms; time of this process alone, so that others that run do not count
+  // reported, not asserted: meant are 50 ms; time of this process alone, so that others that run do not count
   const times = Array.from({ length: 6 }, () => {
     const began = process.cpuUsage();
     const { moves, joints } = read(text);
@@ -179,7 +179,7 @@ test("links to a moment", () => {
     ["#task=move&t=2,", "move", 2, null],
     ["#task=move&t=.5%E2%80%9D", "move", 0.5, null],
     ["#task=move&t=-3", "move", -3, null],
-    // what is no time is told
+    // what is no time is returned as it is
     ["#task=move&t=soon", "move", null, "soon"],
     ["#task=move&t=0x2", "move", null, "0x2"],
     ["#task=move&t=1e1", "move", null, "1e1"],
@@ -248,7 +248,7 @@ test("what is drawn stands out from the paper, in light and in dark, and the sty
   }
 });
 
-test("numbers as they are told", () => {
+test("numbers as they are shown", () => {
   assert.equal(moment(2.35, 0.001), "2.35");
   assert.equal(moment(0.1 + 0.2, 0.001), "0.3");
   assert.equal(fixed(-0.00001, 4), "0.0000");
@@ -276,7 +276,7 @@ test("a drawn line is read where it is, a jump as from where to where, a band as
   assert.deepEqual(ofLine(all, "#006CAE", null), []);
 });
 
-test("what is read claims no more than the drawing tells", () => {
+test("what is read claims no more than the drawing shows", () => {
   // 10 N m in 1000 units: a unit is 0.01
   const scale = { foot: 2000, top: 1000, low: 0, high: 10, log: false };
   assert.equal(words(scale, [1500, 1500], { off: 1.5 }), "5.0");
@@ -290,9 +290,9 @@ test("what is read claims no more than the drawing tells", () => {
   assert.equal(rounded(-0.2, 0.4), "0");
   for (let n = 0; n < 200; n++) {
     const [value, off] = [37.1 * Math.sin(n), 10 ** (-3 + (n % 7) / 2)];
-    const told = rounded(value + off * Math.cos(3 * n), off);
-    const digit = 10 ** -(told.split(".")[1]?.length ?? 0);
-    if (off < 0.5) assert.ok(Math.abs(Number(told) - value) <= digit + 1e-9, `${value} told as ${told} with ${off}`);
+    const shown = rounded(value + off * Math.cos(3 * n), off);
+    const digit = 10 ** -(shown.split(".")[1]?.length ?? 0);
+    if (off < 0.5) assert.ok(Math.abs(Number(shown) - value) <= digit + 1e-9, `${value} shown as ${shown} with ${off}`);
   }
 });
 

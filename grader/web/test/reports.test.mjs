@@ -63,8 +63,8 @@ for (const lab of labs) {
       const found = await check.sizes(page);
       const seconds = [];
       for (let i = 0; i < found.tasks.length; i++) seconds.push(await check.lastTime(page, i));
-      const told = found.tasks.map(({ task, replay, plots, meshes }, i) => `${task} (${seconds[i]} s) ${replay} + plots ${plots} + meshes ${meshes}`);
-      t.diagnostic(`${lab}: code ${found.code} bytes; ${told.join("; ")}`);
+      const sizes = found.tasks.map(({ task, replay, plots, meshes }, i) => `${task} (${seconds[i]} s) ${replay} + plots ${plots} + meshes ${meshes}`);
+      t.diagnostic(`${lab}: code ${found.code} bytes; ${sizes.join("; ")}`);
       check.small(found, seconds);
     }));
 }

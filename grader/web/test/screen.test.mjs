@@ -34,7 +34,7 @@ test("a picture that turned coarse while it played is sharp again once it rests"
   await page.mouse.move(box.x + 100, box.y + 100);
   await page.evaluate(() => document.querySelector(".replay-stage").addEventListener("pointerdown", (event) => (window.held = event.pointerId)));
   await page.mouse.down();
-  // as a browser tells of a drag: once for each frame
+  // as a browser reports a drag: once for each frame
   const least = await page.evaluate(async () => {
     const stage = document.querySelector(".replay-stage");
     const canvas = stage.querySelector("canvas");

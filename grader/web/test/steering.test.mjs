@@ -167,7 +167,7 @@ test("where the run is, is said after a command, once for many", async () => {
   assert.deepEqual(await said(), ["4 s, stop: the time is over"]);
   await page.keyboard.press("Home");
   assert.deepEqual(await said(), ["0 s"]);
-  // the slider tells it by itself
+  // the slider announces it by itself
   const slider = page.locator(".replay-slider");
   await slider.focus();
   await page.keyboard.press("ArrowRight");
@@ -197,7 +197,7 @@ test("letters twice as large and narrow windows need no scrolling to the side", 
         .filter((part) => part.checkVisibility() && !part.closest(".unseen,.replay-labels,.replay-side,.replay-events,svg") && (part.getBoundingClientRect().right > right + 1 || (part.clientWidth > 0 && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).overflowX !== "visible")))
         .map((part) => `${part.tagName}.${part.className} ${part.textContent.slice(0, 30)}`);
     });
-    assert.deepEqual(wide.filter((told) => !told.startsWith("SELECT")), [], `${width} px, ${size} %`);
+    assert.deepEqual(wide.filter((part) => !part.startsWith("SELECT")), [], `${width} px, ${size} %`);
     await close();
   }
 });
@@ -212,7 +212,7 @@ test("names of joints are read whole", async () => {
   await close();
 });
 
-test("a link that cannot be followed is told, and the rest of it is followed", async () => {
+test("a link that cannot be followed is reported, and the rest of it is followed", async () => {
   const { page, wrong, close } = await open(`${two}#t=1.5&task=again`);
   await page.waitForFunction(() => window.kinemark.replays[1].shown().t === 1.5);
   assert.equal(await notice(page).count(), 0);
@@ -288,10 +288,10 @@ test("a page that is loaded anew by the server stands as it stood, also after on
   };
   const server = createServer((asked, answer) => {
     const { pathname, searchParams } = new URL(asked.url, "http://localhost");
-    const tell = () => answer.end(JSON.stringify({ version }));
+    const reply = () => answer.end(JSON.stringify({ version }));
     if (pathname === "/kinemark/changes") {
-      if (searchParams.get("seen") === String(version)) waiting.push(tell);
-      else tell();
+      if (searchParams.get("seen") === String(version)) waiting.push(reply);
+      else reply();
     } else if (pathname === "/report.html") {
       const page = version === 2 ? broken : whole;
       answer.setHeader("content-type", "text/html");

@@ -128,7 +128,7 @@ test("nothing is drawn while nothing moves", async () => {
   await close();
 });
 
-test("a plot shows the cursor, seeks, and tells values beside the pointer", async () => {
+test("a plot shows the cursor, seeks, and shows values beside the pointer", async () => {
   for (const width of [1440, 390]) {
     const { page, close } = await open(one, { viewport: { width, height: 900 } });
     const figure = page.locator("figure[data-panels]").first();
@@ -149,8 +149,8 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
       assert.ok(box.x >= frame.x - 1 && box.x + box.width <= frame.x + frame.width + 1, `leaves the figure at ${width}: ${JSON.stringify({ box, frame })}`);
       assert.ok(box.y >= frame.y - 1 && box.y + box.height <= frame.y + frame.height + 1);
     }
-    const told = Number(/elbow(-?[\d.]+)/.exec(await figure.locator(".replay-values").textContent())[1]);
-    near(told, truth(1000).q[1], 0.02, "elbow at 1 s");
+    const read = Number(/elbow(-?[\d.]+)/.exec(await figure.locator(".replay-values").textContent())[1]);
+    near(read, truth(1000).q[1], 0.02, "elbow at 1 s");
     await page.mouse.click(at.x, at.y);
     near((await shown(page)).t, 2, 0.01, "sought");
     await page.keyboard.press("Escape");
@@ -168,7 +168,7 @@ test("a plot shows the cursor, seeks, and tells values beside the pointer", asyn
   }
 });
 
-test("a plot is read by keys, and what it tells is said", async () => {
+test("a plot is read by keys, and its values are read out", async () => {
   const { page, close } = await open(one);
   const figure = page.locator("figure[data-panels]").first();
   await page.locator("figure[data-panels] svg").first().waitFor();
@@ -197,7 +197,7 @@ test("the link of the moment can be copied", async () => {
   await close();
 });
 
-test("two runs are told by their names", async () => {
+test("two runs are identified by their names", async () => {
   const { page, close } = await open(write("two.html", html([{ ...replay({ seconds: 0.5 }), mainLabel: "A", ghostLabel: "B" }])));
   assert.match(await page.locator(".replay-legend").textContent(), /run A.*run B.*path of run B/);
   await page.getByRole("button", { name: "Run B" }).click();
@@ -238,7 +238,7 @@ test("the whole run is in the picture from every side", async () => {
   await close();
 });
 
-test("an event's mark is named, pressed, and told by shape", async () => {
+test("an event's mark is named, pressed, and recognised by shape", async () => {
   const { page, close } = await open(one);
   const marks = page.getByRole("group", { name: "Events" }).getByRole("button");
   const names = await marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
@@ -258,7 +258,7 @@ test("no serious barrier is found, light, dark and narrow", async () => {
     const { page, close } = await open(`${one}#task=knock&t=2.35`, options);
     await page.waitForFunction(() => window.kinemark.replays[0].shown().tick === 2350);
     await frames(page, 3);
-    assert.deepEqual((await violations(page, ".replay")).map(({ told }) => told), []);
+    assert.deepEqual((await violations(page, ".replay")).map(({ message }) => message), []);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${wide} px too wide`);
     const small = await page.locator(".replay :is(button, select, input)").evaluateAll((all) =>

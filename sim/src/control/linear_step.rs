@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn routh_tells_growth() {
+    fn routh_predicts_growth() {
         let with = |kd: f64, ki: f64| LinearStep { kd, ki, ..POSITION };
         assert!(with(0.0, 0.0).is_bounded());
         assert!(with(1.0, 3.9).is_bounded() && !with(1.0, 4.1).is_bounded());

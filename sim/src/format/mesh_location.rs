@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_form_is_told_apart() {
+    fn each_form_is_distinguished() {
         let package = |name, path| MeshLocation::Package { name, path };
         for (filename, expected) in [
             ("package://arm/meshes/a.stl", package("arm", "meshes/a.stl")),

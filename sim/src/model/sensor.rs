@@ -87,7 +87,7 @@ pub trait Gauge: Send {
     /// Leaves the true values in `values`, one for each channel.
     fn read(&mut self, seen: &Seen<'_>, around: &dyn Surroundings, values: &mut [f64]);
 
-    /// Puts `values`, which have their noise and are quantised by now, back into the range that the sensor can tell.
+    /// Puts `values`, which have their noise and are quantised by now, back into the range that the sensor can report.
     fn bound(&self, _values: &mut [f64]) {}
 
     /// Takes from `effort`, shape `(n)`, what the sensor's circuit keeps from the motors.

@@ -206,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_unit_is_told_where_the_key_has_one() {
+    fn a_unit_is_mentioned_where_the_key_has_one() {
         for (what, unit) in [
             ("mass_kg", "; its unit is in the name of its key"),
             ("area_m2", "; its unit is in the name of its key"),

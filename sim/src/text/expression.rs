@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn an_index_that_is_missing_is_told_with_those_there_are() {
+    fn an_index_that_is_missing_is_reported_with_those_there_are() {
         let mut dimensions = dimensions();
         dimensions = Dimensions::from_pairs(
             (dimensions.names().map(str::to_owned))

@@ -430,7 +430,7 @@ mod tests {
     }
 
     #[test]
-    fn an_expression_without_its_mark_is_told_where_one_may_be() {
+    fn an_expression_without_its_mark_is_reported_where_one_may_be() {
         let text = "mass_kg = \"right[0]\"";
         let error = toml::from_str::<Table>(text).expect_err(text);
         for (refusal, help) in [

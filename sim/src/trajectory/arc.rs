@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_fix_no_circle_are_told_with_numbers() {
+    fn points_that_fix_no_circle_are_reported_with_numbers() {
         let text = |via: [f64; 3], end: Pose| {
             Arc::through(&at(0.0, 0.0, 0.0), Vector3::from(via), &end)
                 .unwrap_err()

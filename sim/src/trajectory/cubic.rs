@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_numbers_are_told() {
+    fn wrong_numbers_are_reported() {
         let (a, b) = (Knot::at_rest(0.0), Knot::at_rest(1.0));
         let text = |error: TrajectoryError| error.to_string();
         assert_eq!(

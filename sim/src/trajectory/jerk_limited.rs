@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_limits_are_told() {
+    fn wrong_limits_are_reported() {
         let limits = JerkLimits {
             speed: 1.0,
             acceleration: 1.0,

@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_counts_are_told() {
+    fn wrong_counts_are_reported() {
         let (two, three) = (JointPositions::zeros(2), JointPositions::zeros(3));
         let text = |error: TrajectoryError| error.to_string();
         assert_eq!(

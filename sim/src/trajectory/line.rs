@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_numbers_are_told() {
+    fn wrong_numbers_are_reported() {
         let start = pose(Matrix3::identity(), Vector3::new(f64::NAN, 0.0, 0.0));
         assert_eq!(
             Line::between(&start, &Pose::identity())

@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_numbers_are_told() {
+    fn wrong_numbers_are_reported() {
         let mut start = Sample::at_rest(0.0);
         start.acceleration = f64::INFINITY;
         assert_eq!(

@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_points_are_told() {
+    fn wrong_points_are_reported() {
         let text = |times_s: &[f64], positions: &[f64]| {
             Spline::through(times_s, positions, SplineEnds::AT_REST)
                 .unwrap_err()

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_numbers_are_told() {
+    fn wrong_numbers_are_reported() {
         assert_eq!(
             Trapezoid::with_deceleration(0.0, 1.0, &LIMITS, 0.0)
                 .unwrap_err()

@@ -54,7 +54,7 @@ contact = { friction = 0.5 }
 "#;
 
 #[test]
-fn a_scene_tells_what_overlaps_and_where_it_stands() {
+fn a_scene_reports_what_overlaps_and_where_it_stands() {
     let file =
         SceneFile::parse(Source::new("sunk.toml", SUNK)).unwrap_or_else(|error| panic!("{error}"));
     let scene = file.build(&[]).unwrap_or_else(|error| panic!("{error}"));

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     comparison.notes.extend(notes);
-    // it is told before anything is written: a full disk must not lose it
+    // print the comparison before anything is written: a full disk must not lose it
     if args.json {
         output::print_json(&comparison)?;
     } else {

@@ -171,12 +171,12 @@ fn text(audit: &Audit) -> String {
         let _ = writeln!(out, "  {name:<42} {least:>7.1} % to {greatest:.1} %");
     }
     let problems = audit.problems().count();
-    let told = match problems {
+    let conclusion = match problems {
         0 => "nothing is wrong".green().to_string(),
         1 => "1 problem".red().to_string(),
         _ => format!("{problems} problems").red().to_string(),
     };
-    let _ = writeln!(out, "\n{} tried, {told}", audit.rows.len());
+    let _ = writeln!(out, "\n{} tried, {conclusion}", audit.rows.len());
     out
 }
 
@@ -199,9 +199,9 @@ fn push(out: &mut String, row: &Row) {
         Tried::Mutants => "enough of them",
         Tried::Mutant => "loses and is named",
     };
-    let told = if row.problem.is_some() { "" } else { right };
+    let comment = if row.problem.is_some() { "" } else { right };
     let line = format!(
-        "{mark} {:<14} {:<26} {task:<12} {earned:>9}  {told}",
+        "{mark} {:<14} {:<26} {task:<12} {earned:>9}  {comment}",
         row.tried.name(),
         row.name
     );

@@ -29,7 +29,7 @@ struct Row {
     points: f64,
 }
 
-/// Lists the labs; each broken one is told after them, with its place.
+/// Lists the labs; each broken one is reported after them, with its position.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, _) = labs_folder::open(&args.labs_folder)?;
     let mut rows = Vec::new();
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
         output::print(&text)?;
     }
-    // those that can be had are told first: one that is broken takes no other with it
+    // list the labs that load first: a broken one hides no other
     let mut code = ExitCode::SUCCESS;
     for error in broken {
         code = Failure::from(error).report();

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let help = "give the folder that holds LAB/hidden.toml, or --salt TEXT";
     let reference = staff_folder::part(&args.staff, labs_folder.as_deref(), help)?;
     let variant = chosen_variant::of_student(&lab, reference.as_ref(), &args.staff, &args.student)?;
-    // numbers that make no lab are told now, and not when the student grades
+    // report numbers that make no valid lab now, and not when the student grades
     Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;
     if let Some(path) = &args.out {
         if path.exists() && !args.force {

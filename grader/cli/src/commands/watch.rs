@@ -129,7 +129,7 @@ fn follow(
     }
 }
 
-/// Tells a grade in a line, writes the folder, and lets open pages know.
+/// Prints a grade in one line, writes the folder, and notifies open pages.
 fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
     if args.grade.json {

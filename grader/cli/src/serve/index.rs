@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn links_that_lead_out_are_not_listed_and_what_is_left_out_is_told() {
+    fn links_that_lead_out_are_not_listed_and_what_is_left_out_is_reported() {
         let bed = tempfile::tempdir().unwrap();
         let folder = bed.path().join("all");
         std::fs::create_dir(&folder).unwrap();

@@ -16,9 +16,9 @@ pub(super) struct MeasureText {
     pub(super) margin: Option<String>,
 }
 
-/// Tells a measure.
+/// The words for a measure.
 pub(super) fn measure_text(measure: &Measure) -> MeasureText {
-    let told = Measured::of(measure);
+    let measured = Measured::of(measure);
     // a number and its unit are kept on one line
     let kept = |text: &str| visible(text).replace(' ', "\u{a0}");
     let (within, beyond) = if measure.zero >= measure.full {
@@ -33,15 +33,15 @@ pub(super) fn measure_text(measure: &Measure) -> MeasureText {
     };
     MeasureText {
         value: match measure.value {
-            Some(_) => kept(&told.value),
-            None => told.value,
+            Some(_) => kept(&measured.value),
+            None => measured.value,
         },
         band: format!(
             "full {within} {}, none {beyond} {}",
-            kept(&told.full),
-            kept(&told.zero)
+            kept(&measured.full),
+            kept(&measured.zero)
         ),
-        margin: told
+        margin: measured
             .margin
             .map(|margin| format!("{} {words}", kept(&margin))),
     }
@@ -112,46 +112,46 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_told_against_its_limits() {
-        let told = measure_text(&measure(Some(0.0041), 0.002, 0.02));
-        assert_eq!(told.value, "4.1\u{a0}mm");
-        assert_eq!(told.band, "full ≤ 2.0\u{a0}mm, none ≥ 20.0\u{a0}mm");
+    fn a_value_is_shown_with_its_limits() {
+        let text = measure_text(&measure(Some(0.0041), 0.002, 0.02));
+        assert_eq!(text.value, "4.1\u{a0}mm");
+        assert_eq!(text.band, "full ≤ 2.0\u{a0}mm, none ≥ 20.0\u{a0}mm");
         assert_eq!(
-            told.margin.as_deref(),
+            text.margin.as_deref(),
             Some("2.1\u{a0}mm short of full points")
         );
     }
 
     #[test]
     fn a_band_can_run_downwards() {
-        let told = measure_text(&measure(Some(0.5), 0.45, 0.1));
-        assert_eq!(told.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
-        assert_eq!(told.margin.as_deref(), Some("50.0\u{a0}mm margin"));
+        let text = measure_text(&measure(Some(0.5), 0.45, 0.1));
+        assert_eq!(text.band, "full ≥ 0.450\u{a0}m, none ≤ 0.100\u{a0}m");
+        assert_eq!(text.margin.as_deref(), Some("50.0\u{a0}mm margin"));
     }
 
     #[test]
-    fn a_wild_answer_is_told_in_metres() {
-        let told = measure_text(&measure(Some(2325.872), 1e-4, 5e-3));
-        assert_eq!(told.value, "2325.872\u{a0}m");
+    fn a_wild_answer_is_shown_in_metres() {
+        let text = measure_text(&measure(Some(2325.872), 1e-4, 5e-3));
+        assert_eq!(text.value, "2325.872\u{a0}m");
         assert_eq!(
-            told.margin.as_deref(),
+            text.margin.as_deref(),
             Some("2325.872\u{a0}m short of full points")
         );
     }
 
     #[test]
-    fn rounding_is_told_as_next_to_nothing() {
+    fn rounding_is_shown_as_next_to_nothing() {
         for full in [1e-4, 0.0] {
-            let told = measure_text(&measure(Some(2.2e-16), full, 5e-3));
-            assert_eq!(told.value, "under\u{a0}0.001\u{a0}mm");
+            let text = measure_text(&measure(Some(2.2e-16), full, 5e-3));
+            assert_eq!(text.value, "under\u{a0}0.001\u{a0}mm");
         }
     }
 
     #[test]
     fn what_is_not_finite_says_so() {
-        let told = measure_text(&measure(None, 0.002, 0.02));
+        let text = measure_text(&measure(None, 0.002, 0.02));
         assert_eq!(
-            (told.value.as_str(), told.margin),
+            (text.value.as_str(), text.margin),
             ("nothing to measure", None)
         );
     }

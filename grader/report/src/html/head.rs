@@ -171,9 +171,9 @@ fn check_row(check: &CheckGrade) -> Markup {
             th scope="row" role="rowheader" { (foreign(&check.title)) }
             td role="cell" {
                 @if let Some(measure) = &check.measure {
-                    @let told = measure_text(measure);
-                    span class="value" { (told.value) } " "
-                    small { (told.band) }
+                    @let text = measure_text(measure);
+                    span class="value" { (text.value) } " "
+                    small { (text.band) }
                 } @else { span class="quiet" { "–" } }
             }
             td role="cell" class="number" { (earned(check.points, check.max_points)) }

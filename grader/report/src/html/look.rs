@@ -10,7 +10,7 @@ use crate::moment::{first_loss, last_before};
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
 use kinemark_grader::record::quantity::points;
 
-/// A card that tells what cost points first; nothing where nothing did, or where nothing is decided.
+/// A card that shows what cost points first; nothing where nothing did, or where nothing is decided.
 pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup {
     let first = first_loss(grade).filter(|_| grade.verdict.is_decided());
     let Some(loss) = first else {
@@ -40,7 +40,7 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
             } @else if let Some(check) = loss.check {
                 p {
                     strong { (foreign(&check.title)) } " lost " (share(check.max_points - check.points, check.max_points))
-                    @if let Some(fact) = telling(check) { ": " (prose(&fact.message)) } @else { "." }
+                    @if let Some(fact) = earliest_fact(check) { ": " (prose(&fact.message)) } @else { "." }
                 }
             }
             @if let Some(diagnosis) = task.diagnoses.first() { p { "It looks like this: " (prose(&diagnosis.says)) } }
@@ -58,8 +58,8 @@ fn share(lost: f64, of: f64) -> String {
     format!("{} of {} points", points(lost), points(of))
 }
 
-/// The fact of a check that tells most of its first loss: the earliest that has a time, else the first.
-fn telling(check: &CheckGrade) -> Option<&Evidence> {
+/// The fact of a check that says most about its first loss: the earliest that has a time, else the first.
+fn earliest_fact(check: &CheckGrade) -> Option<&Evidence> {
     let timed = check
         .evidence
         .iter()
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn the_card_tells_the_earliest_moment_of_all_checks_that_lost_points() {
+    fn the_card_shows_the_earliest_moment_of_all_checks_that_lost_points() {
         let mut grade = moving();
         let last = grade.tasks[0].checks.len() - 1;
         let check = &mut grade.tasks[0].checks[last];
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stopped_a_task_is_told_before_its_checks() {
+    fn what_stopped_a_task_is_shown_before_its_checks() {
         let mut grade = moving();
         grade.tasks[0].stopped = Some(Stopped {
             message: "`q` has no `x`".to_owned(),
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_told_where_nothing_was_lost_or_decided() {
+    fn nothing_is_shown_where_nothing_was_lost_or_decided() {
         let mut grade = moving();
         grade.verdict = Verdict::HostLimit;
         assert!(look(&grade, |_| true).into_string().is_empty());

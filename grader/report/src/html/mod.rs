@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn what_hidden_runs_cost_is_told_once_a_task() {
+    fn what_hidden_runs_cost_is_shown_once_a_task() {
         let mut graded = sample::graded();
         let task = &mut graded.grade.tasks[3];
         let class = "an arm of other lengths".to_owned();
@@ -273,16 +273,16 @@ mod tests {
             .iter()
             .map(|check| check.title.as_str())
             .collect();
-        let told = format!("<td><bdi>{}</bdi></td>", titles.join("; "));
+        let cell = format!("<td><bdi>{}</bdi></td>", titles.join("; "));
         let page = own(&page(&graded));
         assert!(!page.contains(message));
-        assert_eq!(page.matches(&told).count(), 1, "{told}");
+        assert_eq!(page.matches(&cell).count(), 1, "{cell}");
         assert_eq!(page.matches("href=\"#task-4-hidden\"").count(), count);
         assert_eq!(page.matches("id=\"task-4-hidden\"").count(), 1);
     }
 
     #[test]
-    fn why_a_check_was_not_judged_is_told() {
+    fn why_a_check_was_not_judged_is_shown() {
         let mut graded = sample::graded();
         let check = &mut graded.grade.tasks[3].checks[0];
         check.outcome = kinemark_grader::record::grade::Outcome::NotJudged;

@@ -50,9 +50,9 @@ pub(super) fn section(
             @if has_replay { (place(index, &task.name)) }
             // a task without a mistake is read by who wants to know more
             @if passed {
-                details class="more" { summary { (contents(task, plots)) } (told_of(&id, task, plots, &of)) }
+                details class="more" { summary { (contents(task, plots)) } (details_of(&id, task, plots, &of)) }
             } @else {
-                (told_of(&id, task, plots, &of))
+                (details_of(&id, task, plots, &of))
             }
         }
     }
@@ -85,9 +85,9 @@ fn contents(task: &TaskGrade, plots: &[Plot]) -> String {
     }
 }
 
-/// What is told of a task below its replay: checks, those that lost points first and each with the picture of what it judged; then
+/// What a task shows below its replay: checks, those that lost points first and each with the picture of what it judged; then
 /// cases, hidden ones, the other pictures, and what happened.
-fn told_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) -> Markup {
+fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) -> Markup {
     let (full, lost): (Vec<&CheckGrade>, Vec<&CheckGrade>) = task
         .checks
         .iter()
@@ -188,7 +188,7 @@ fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
 }
 
 fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
-    let told_by = match kind {
+    let noun = match kind {
         TaskKind::Function => "answers in",
         TaskKind::Motion => "moments at",
     };
@@ -197,7 +197,7 @@ fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
             h3 { "It looks like this" }
             p { (prose(&diagnosis.says)) }
             p class="where" {
-                span { (diagnosis.agreeing) " of the " (diagnosis.telling) " " (told_by) " which this mistake would show agree with it" }
+                span { (diagnosis.agreeing) " of the " (diagnosis.telling) " " (noun) " which this mistake would show agree with it" }
             }
         }
     }

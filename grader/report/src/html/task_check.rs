@@ -9,7 +9,7 @@ use super::head::earned;
 use super::task_shown::TaskShown;
 use super::{foreign, prose};
 use crate::plot::Plot;
-use crate::text::untold;
+use crate::text::loss_without_evidence;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Outcome, TaskKind};
 use kinemark_grader::record::quantity::with_unit;
@@ -35,7 +35,7 @@ pub(super) fn checked(
                 h4 { (foreign(&check.title)) }
                 p { (outcome(check)) " " (earned(check.points, check.max_points)) }
             }
-            div class="told" {
+            div class="findings" {
                 @if let Some(measure) = &check.measure {
                     @let measured = measure_text(measure);
                     div class="measure" {
@@ -60,7 +60,7 @@ pub(super) fn checked(
                 @if hides { p class="where" { a href={ "#" (id) "-hidden" } { "Points were lost in hidden runs" @if has_shown { ", too" } } } }
                 @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
             }
-            @if let Some(first) = untold(check) {
+            @if let Some(first) = loss_without_evidence(check) {
                 p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
             }
             @if let Some(plot) = plot { div class="plots" { (figure(plot, of.name)) } }
@@ -68,7 +68,7 @@ pub(super) fn checked(
     }
 }
 
-/// Whether a fact of a motion task tells of hidden runs, by their class.
+/// Whether a fact of a motion task is about hidden runs, by their class.
 pub(super) fn is_of_hidden_run(fact: &Evidence) -> bool {
     fact.tick.is_none() && fact.case.is_some()
 }

@@ -21,7 +21,7 @@ const MOST_CASES: usize = 200;
 
 /// Visible cases with what was answered.
 pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
-    let tells = cases.iter().any(|case| case.expected.is_some());
+    let shows_expected = cases.iter().any(|case| case.expected.is_some());
     html! {
         h3 { "Visible cases" }
         div class="wide" tabindex="0" role="group" aria-label="Visible cases" {
@@ -31,7 +31,7 @@ pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
                         th scope="col" { "Case" }
                         th scope="col" { "Given" }
                         th scope="col" { "Your answer" }
-                        @if tells { th scope="col" { "Expected" } }
+                        @if shows_expected { th scope="col" { "Expected" } }
                         th scope="col" class="number" { "Error" }
                         th scope="col" { "Good" }
                     }
@@ -42,7 +42,7 @@ pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
                             th scope="row" { (foreign(&case.name)) }
                             td { code { (foreign(&shortened(&case.given, 300))) } }
                             td { code { (foreign(&shortened(&case.answer, 300))) } }
-                            @if tells { td { @if let Some(expected) = &case.expected { code { (foreign(&shortened(expected, 300))) } } } }
+                            @if shows_expected { td { @if let Some(expected) = &case.expected { code { (foreign(&shortened(expected, 300))) } } } }
                             td class="number" { @match (case.error_m, case.relative_error) { (Some(error_m), _) => (with_unit(error_m, "m")), (_, Some(relative)) => (with_unit(relative, "")), _ => "–" } }
                             td { @if case.good { span class="pill full" { "yes" } } @else { span class="pill none" { "no" } } }
                         }
@@ -54,7 +54,7 @@ pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
     }
 }
 
-/// Hidden cases or runs by class: only their number is told, and of runs the checks that lost points in them.
+/// Hidden cases or runs by class: only their number is shown, and of runs the checks that lost points in them.
 pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
     let what = match task.kind {
         TaskKind::Function => "Hidden cases",
@@ -67,7 +67,7 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
         });
         lost.map(|check| check.title.as_str()).collect()
     };
-    let tells =
+    let shows_losses =
         task.kind == TaskKind::Motion && task.hidden.iter().any(|class| !lost_in(class).is_empty());
     html! {
         h3 id={ (id) "-hidden" } { (what) }
@@ -78,7 +78,7 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
                         th scope="col" { "Class" }
                         th scope="col" class="number" { "Good" }
                         th scope="col" class="number" { "Of" }
-                        @if tells { th scope="col" { "Points lost by" } }
+                        @if shows_losses { th scope="col" { "Points lost by" } }
                     }
                 }
                 tbody {
@@ -87,7 +87,7 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
                             th scope="row" { (foreign(&class.class)) }
                             td class="number" { (class.good) }
                             td class="number" { (class.total) }
-                            @if tells { td { (foreign(&lost_in(class).join("; "))) } }
+                            @if shows_losses { td { (foreign(&lost_in(class).join("; "))) } }
                         }
                     }
                 }
@@ -98,7 +98,7 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
 
 /// What happened in the run.
 pub(super) fn events(events: &[EventRecord], of: &TaskShown<'_>) -> Markup {
-    // what stood on another before the arm moved is no news; it is told below
+    // that something rested on another before the arm moved is no news; it is listed below
     let resting: Vec<(u64, String)> = of.run.map_or_else(Vec::new, |run| {
         let names = run.names();
         let standing = run

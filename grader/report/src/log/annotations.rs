@@ -1,4 +1,4 @@
-//! What is told of a run: what the submission drew, what checks judged, and lines of events, prints and marks.
+//! Notes on a run: what the submission drew, what checks judged, and lines of events, prints and marks.
 
 use std::borrow::Cow;
 

@@ -12,7 +12,7 @@ pub(super) const MOST_COLUMNS: usize = 16_384;
 /// Characters of a column's name.
 pub(super) const MOST_NAME: usize = 1_000;
 
-/// What a list of things is told apart by, if all of its items have it and no two have the same.
+/// What distinguishes the items of a list, if all of them have it and no two have the same.
 const NAMES: [&str; 3] = ["name", "child_frame_id", "id"];
 
 /// Columns of all tables of a log, and bytes of their names: what is held while they are written.
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn things_with_names_are_told_by_them() {
+    fn things_with_names_are_identified_by_them() {
         let joints =
             r#"{"joints": [{"name": "hip", "position": 1}, {"position": 2, "name": "knee.2"}]}"#;
         assert_eq!(
@@ -250,7 +250,7 @@ mod tests {
                 "transforms.b.t.y"
             ]
         );
-        // two of one name are told by their places
+        // two of one name are identified by their indices
         assert_eq!(
             names(&[r#"[{"name": "a", "x": 1}, {"name": "a", "x": 2}]"#]),
             ["0.name", "0.x", "1.name", "1.x"]

@@ -231,7 +231,7 @@ fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, St
         for part in parts(column) {
             at = match at.get("properties") {
                 Some(properties) => properties.get(part)?,
-                // a list's things are told by name or place
+                // the items of a list are identified by name or index
                 None => at.get("items")?,
             };
         }
@@ -304,7 +304,7 @@ fn time_s(ns: u64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// What stands in a field. Numbers have as many digits as tell them from every other.
+/// The text of a field. Numbers have as many digits as distinguish them from every other.
 fn written(value: &Json) -> String {
     match value {
         Json::Null => String::new(),

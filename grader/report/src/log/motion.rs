@@ -1,4 +1,4 @@
-//! What moves, as a log tells it: the scene once, then frames, TCP and joints, and the reference's where it is to be shown.
+//! What moves, as a log records it: the scene once, then frames, TCP and joints, and the reference's where it is to be shown.
 
 use kinemark_sim::kinematics::FramePoses;
 

@@ -118,7 +118,7 @@ pub(super) struct LogMessage<'a> {
 /// Calls `each` with every message of a log, in the order in which they are written.
 ///
 /// # Errors
-/// What is wrong with the log, and what `each` finds. A log whose bytes are not those that were written is told as damaged, whatever
+/// What is wrong with the log, and what `each` finds. A log whose bytes are not those that were written is reported as damaged, whatever
 /// the damage looks like.
 pub(super) fn messages(
     log: &[u8],
@@ -217,7 +217,7 @@ fn stream(
                 messages: *count,
                 why: "the records of a chunk are longer than the chunk".to_owned(),
             },
-            (error, _) => told(error, *count),
+            (error, _) => read_error(error, *count),
         })?;
         let (opcode, data) = match event {
             LinearReadEvent::ReadRequest(need) => {
@@ -231,7 +231,7 @@ fn stream(
         };
         let size = data.len();
         taken.unpack(size)?;
-        let record = parse_record(opcode, data).map_err(|error| told(error, *count))?;
+        let record = parse_record(opcode, data).map_err(|error| read_error(error, *count))?;
         if matches!(record, Record::Schema { .. } | Record::Channel(_)) {
             taken.keep(size)?;
         }
@@ -258,13 +258,13 @@ fn stream(
             }
             _ => Ok(()),
         };
-        known.map_err(|error| told(error, *count))?;
+        known.map_err(|error| read_error(error, *count))?;
     }
     Ok(())
 }
 
 /// The reader's errors, in words.
-fn told(error: McapError, messages: u64) -> ReadError {
+fn read_error(error: McapError, messages: u64) -> ReadError {
     match error {
         McapError::UnexpectedEof => ReadError::CutOff { messages },
         McapError::UnsupportedCompression(name) => ReadError::Compression { name },

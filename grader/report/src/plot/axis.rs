@@ -33,7 +33,7 @@ impl Axis {
     /// Holds all finite `values` with some air, and spans at least `least`.
     pub(super) fn around(values: impl Iterator<Item = f64>, least: f64) -> Self {
         let (min, max) = extent(values).unwrap_or((0.0, 1.0));
-        // what differs by less has nothing to see, and its ticks would be told apart by digits that nobody reads
+        // smaller differences cannot be seen, and the labels of their ticks would differ only in digits that nobody reads
         let least = least.max(1e-3 * min.abs().max(max.abs())).max(1e-12);
         let air = (0.07 * (max - min)).max(0.5 * (least - (max - min)));
         Self::exact(min - air, max + air)

@@ -111,8 +111,8 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
         if of == Of::Efforts {
             let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
             if let Some(greatest) = cut(&mut command, 1.5 * limit) {
-                let told = joined(&typeset(greatest, 3), unit);
-                heading.push_str(&format!(" \u{2013} commands up to ±{told} are cut off"));
+                let cut_at = joined(&typeset(greatest, 3), unit);
+                heading.push_str(&format!(" \u{2013} commands up to ±{cut_at} are cut off"));
             }
         }
         lines.insert(0, command);
@@ -140,7 +140,7 @@ fn joint_panel(run: &TaskRun, of: Of, i: usize, joint: &Joint) -> Panel {
     if of == Of::Efforts {
         let limit = run.effort_limits.get(i).copied().unwrap_or(f64::INFINITY);
         if limit.is_finite() {
-            // a limit far away would flatten the curve: it is told instead
+            // a limit far away would flatten the curve: it is named in the heading instead
             let greatest = reach.0.abs().max(reach.1.abs());
             if limit > 8.0 * greatest {
                 levels.clear();

@@ -51,7 +51,7 @@ pub(crate) struct Head {
 }
 
 impl Plot {
-    /// The picture as a file of its own, which tells in a line at its foot where it is from, as `01-kinematics · move`.
+    /// The picture as a file of its own, with a line at its foot that says where it is from, as `01-kinematics · move`.
     pub fn captioned(&self, caption: &str) -> String {
         canvas::captioned(&self.svg, caption)
     }
@@ -185,7 +185,7 @@ mod tests {
 
     /// Values read off a picture are those of the run.
     #[test]
-    fn axes_tell_where_values_lie() {
+    fn axes_show_where_values_lie() {
         let run = sample::task_run();
         let plots = plots(&run);
         let axes = |name: &str| -> serde_json::Value {
@@ -220,7 +220,7 @@ mod tests {
         assert!((across(&path[1]) - middle).abs() < 2.0);
     }
 
-    /// What is read off a panel at every so many ticks holds the value of the run, and tells it within `most` of the panel's height,
+    /// What is read off a panel at every so many ticks holds the value of the run, and gives it within `most` of the panel's height,
     /// or as a range.
     fn read_at_ticks(
         plots: &[Plot],
@@ -233,10 +233,10 @@ mod tests {
         let reader = Reader::new(plot, panel, series);
         for tick in ticks.step_by(7) {
             let (low, high) = reader.at(0.001 * tick as f64).expect("a value");
-            let told = value(tick);
+            let exact = value(tick);
             assert!(
-                low <= told && told <= high,
-                "{} at {tick}: {told} is not within {low} and {high}",
+                low <= exact && exact <= high,
+                "{} at {tick}: {exact} is not within {low} and {high}",
                 plot.name
             );
             // a jump is read as from where to where
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_of_its_own_tells_where_it_is_from() {
+    fn a_file_of_its_own_says_where_it_is_from() {
         for plot in plots(&sample::task_run()) {
             let file = plot.captioned("01-kinematics \u{b7} <move>");
             assert!(file.contains("\n01-kinematics \u{b7} &lt;move&gt;\n"));

@@ -74,7 +74,7 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>)> {
     Some((svg, title, axes))
 }
 
-/// The frame the path is told in, as it stands at home.
+/// The frame of the path's coordinates, with the arm at home.
 fn frame_from_world(run: &TaskRun) -> Pose {
     let frame = run.robot.frame(&run.seen_from);
     frame.map_or_else(Pose::identity, |frame| {

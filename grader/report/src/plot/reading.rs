@@ -99,12 +99,12 @@ impl Axes {
             let is_new = known.all(|known| known.colour != colour || known.dashes != dashes);
             // marks look like where the effort stands at its limit, and like how far other goals are
             if is_new && ![RED, MUTED_DASHED].contains(&line.colour) {
-                let told = legend.iter().find(|entry| match entry.swatch {
+                let entry = legend.iter().find(|entry| match entry.swatch {
                     Swatch::Line(colour) => colour == line.colour,
                     _ => false,
                 });
                 series.push(Series {
-                    name: visible(told.map_or("value", |entry| &entry.text)).into_owned(),
+                    name: visible(entry.map_or("value", |entry| &entry.text)).into_owned(),
                     colour,
                     dashes,
                     off: course.off + ROUNDING,

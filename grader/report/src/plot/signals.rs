@@ -95,18 +95,18 @@ pub(super) fn values(lines: &[Line]) -> impl Iterator<Item = f64> + '_ {
 
 /// Words of a band's two lines.
 fn band_entries(full: Option<f64>, zero: Option<f64>, unit: &str, scale: f64) -> Vec<Entry> {
-    let told = |value: f64| joined(&typeset(value * scale, 4), unit);
+    let limit = |value: f64| joined(&typeset(value * scale, 4), unit);
     let mut entries = Vec::new();
     if let Some(full) = full {
         entries.push(Entry::new(
             Swatch::Line(GREEN_DASHED),
-            format!("full points at {}", told(full)),
+            format!("full points at {}", limit(full)),
         ));
     }
     if let Some(zero) = zero {
         entries.push(Entry::new(
             Swatch::Line(VERMILLION_DASHED),
-            format!("none at {}", told(zero)),
+            format!("none at {}", limit(zero)),
         ));
     }
     entries
@@ -235,8 +235,8 @@ fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
         let target = format!("target {target}");
         entries.push(Entry::new(Swatch::Line(MUTED_DASHED), target));
     }
-    if let Some((_, _, told)) = &step.band {
-        entries.push(Entry::new(Swatch::Area(GREEN), shortened(told, 70)));
+    if let Some((_, _, words)) = &step.band {
+        entries.push(Entry::new(Swatch::Area(GREEN), shortened(words, 70)));
     }
     entries
 }

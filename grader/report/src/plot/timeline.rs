@@ -62,7 +62,7 @@ const RIGHT: f64 = WIDTH - 20.0;
 pub(super) const MOST_POINTS: usize = 5000;
 /// A held value that is new more often than this makes no corners, which nobody would see, in units of the picture: a fifth of a pixel.
 const NARROWEST_STEP: i32 = 2;
-/// Marks that are numbered and told.
+/// Marks that are numbered and listed.
 const MOST_MARKS: usize = 6;
 
 /// Says when a run stopped, beside its line.
@@ -77,7 +77,7 @@ fn stopped_here(canvas: &mut Canvas, t_s: f64, x: f64, heading_y: f64) {
 }
 
 impl Timeline {
-    /// Draws it, and tells where its axes lie and what is above them.
+    /// Draws it, and returns where its axes lie and what is above them.
     pub(super) fn draw(&self) -> (String, Vec<Axes>, Head) {
         let mut axes = Vec::new();
         let panel_height = match self.panels.len() {
@@ -156,8 +156,8 @@ impl Timeline {
     /// The legend, and below it the words and times of the marks by their numbers.
     fn legend_with_marks(&self) -> Vec<Entry> {
         let mut legend = self.legend.clone();
-        let told = self.marks.iter().take(MOST_MARKS).enumerate();
-        legend.extend(told.map(|(i, (t_s, text))| {
+        let marks = self.marks.iter().take(MOST_MARKS).enumerate();
+        legend.extend(marks.map(|(i, (t_s, text))| {
             Entry::new(
                 Swatch::Number(i + 1),
                 format!("{}, {}", shortened(text, 60), seconds(*t_s)),

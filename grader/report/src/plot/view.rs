@@ -56,11 +56,11 @@ impl View {
         }
     }
 
-    /// Grid, ticks and frame; `scale` and `zero` turn metres into what the labels tell.
+    /// Grid, ticks and frame; `scale` and `zero` turn metres into what the labels show.
     pub(super) fn ground(&self, canvas: &mut Canvas, zero: (f64, f64), scale: f64, plane: &Plane) {
         let (w, h) = (self.width(), self.height());
         let (right, bottom) = (self.left + w, self.top + h);
-        let told = |axis: &Axis, zero: f64| {
+        let label_axis = |axis: &Axis, zero: f64| {
             Axis::exact((axis.min - zero) * scale, (axis.max - zero) * scale)
         };
         let minus = |label: &str| match label.strip_prefix('\u{2212}') {
@@ -68,12 +68,12 @@ impl View {
             None if label.trim_matches(['0', '.']).is_empty() => label.to_owned(),
             None => format!("\u{2212}{label}"),
         };
-        for tick in told(&self.x, zero.0).ticks(((w / 66.0) as usize).max(4)) {
+        for tick in label_axis(&self.x, zero.0).ticks(((w / 66.0) as usize).max(4)) {
             let x = self.at((zero.0 + tick.value / scale, 0.0)).0;
             canvas.line(&[(x, self.top), (x, bottom)], GRID, 1.0);
             canvas.text(&tick.label, (x, bottom + 13.0), Align::Middle, MUTED);
         }
-        for tick in told(&self.y, zero.1).ticks(((h / 44.0) as usize).max(4)) {
+        for tick in label_axis(&self.y, zero.1).ticks(((h / 44.0) as usize).max(4)) {
             let y = self.at((0.0, zero.1 + tick.value / scale)).1;
             let label = if plane.up.backwards {
                 minus(&tick.label)

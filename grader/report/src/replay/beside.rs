@@ -52,7 +52,7 @@ pub(super) fn tcp_path(theirs: &TaskRun, ours: &TaskRun) -> ReferencePath {
     }
 }
 
-/// The pose of the frame in which a run's TCP is told, if it never moves.
+/// The pose of the frame in which a run's TCP is given, if it never moves.
 fn world_from_lab(robot: &Robot, name: &str) -> Option<Pose> {
     let attachment = &robot.frame(name)?.attachment;
     attachment
@@ -91,7 +91,7 @@ pub(super) fn surroundings(nodes: &mut Nodes, theirs: &TaskRun, ours: &TaskRun, 
     }
     let place = |run: &TaskRun| world_from_lab(&run.robot, &run.seen_from);
     let same_place = place(theirs) == place(ours);
-    // what is told in a frame that moves stands nowhere
+    // what is given in a moving frame has no fixed pose
     let Some(world_from_lab) = place(theirs) else {
         return;
     };
@@ -127,7 +127,7 @@ pub(super) fn surroundings(nodes: &mut Nodes, theirs: &TaskRun, ours: &TaskRun, 
     }
 }
 
-/// Segments between points as thin rods, told from `origin`.
+/// Segments between points as thin rods, relative to `origin`.
 fn rods(points_m: &[[f64; 3]], origin: Vector3<f64>) -> Vec<Shape> {
     let points: Vec<Vector3<f64>> = points_m.iter().map(|p| Vector3::from(*p)).collect();
     // a long path keeps its ends and leaves out points between

@@ -1,21 +1,21 @@
-//! Columns of numbers that change evenly, written small: whole multiples of a quantum, told by how far they are from where the two
+//! Columns of numbers that change evenly, written small: whole multiples of a quantum, given by how far they are from where the two
 //! before them lead.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-/// What is farther from zero than so many quanta is told as if it were there: all differences stay whole numbers in a script.
+/// A number farther from zero than so many quanta is written as this many: all differences stay exact integers in a script.
 const MOST_QUANTA: f64 = (1u64 << 40) as f64;
 
-/// How many quanta a number is; what is beyond reason is told as far as reason goes.
+/// How many quanta a number is, limited to [`MOST_QUANTA`] in either direction.
 pub(super) fn quanta_of(value: f64, quantum: f64) -> i64 {
     (value / quantum).round().clamp(-MOST_QUANTA, MOST_QUANTA) as i64
 }
 
 /// `width` columns of `count` numbers each, one at each of its frames.
 ///
-/// Column after column: each number is a whole multiple of its column's quantum. Of these the first is told, the first difference, and
+/// Column after column: each number is a whole multiple of its column's quantum. Written are the first of them, the first difference, and
 /// then how far each is from the line through the two before it, at its tick, rounded to the nearest whole (half up). All are zigzag
 /// (0, -1, 1, -2 ... become 0, 1, 2, 3 ...) and LEB128: seven bits a byte, the lowest first, the eighth set where more follow.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -106,12 +106,12 @@ fn ratio(ticks: Option<&[usize]>, i: usize) -> f64 {
 
 fn write(column: &[i64], ticks: Option<&[usize]>, bytes: &mut Vec<u8>) {
     for (i, value) in column.iter().enumerate() {
-        let told = match i {
+        let difference = match i {
             0 => *value,
             1 => value - column[0],
             _ => value - ahead(column[i - 2], column[i - 1], ratio(ticks, i)),
         };
-        let mut rest = ((told << 1) ^ (told >> 63)) as u64;
+        let mut rest = ((difference << 1) ^ (difference >> 63)) as u64;
         while rest >= 0x80 {
             bytes.push(rest as u8 | 0x80);
             rest >>= 7;
@@ -133,20 +133,20 @@ pub(super) fn read(
     for quantum in quanta {
         let mut column: Vec<i64> = Vec::new();
         for i in 0..count {
-            let (mut told, mut shift) = (0u64, 0);
+            let (mut coded, mut shift) = (0u64, 0);
             loop {
                 let byte = bytes.next().expect("a number a frame");
-                told |= u64::from(byte & 0x7F) << shift;
+                coded |= u64::from(byte & 0x7F) << shift;
                 shift += 7;
                 if byte < 0x80 {
                     break;
                 }
             }
-            let told = (told >> 1) as i64 ^ -((told & 1) as i64);
+            let difference = (coded >> 1) as i64 ^ -((coded & 1) as i64);
             column.push(match i {
-                0 => told,
-                1 => column[0] + told,
-                _ => ahead(column[i - 2], column[i - 1], ratio(ticks, i)) + told,
+                0 => difference,
+                1 => column[0] + difference,
+                _ => ahead(column[i - 2], column[i - 1], ratio(ticks, i)) + difference,
             });
         }
         columns.push(column.iter().map(|value| *value as f64 * quantum).collect());

@@ -1,4 +1,4 @@
-//! Where one thing was at every moment, and the frames that tell it: few where it moves evenly, every tick where it is knocked.
+//! Where one thing was at every moment, and the frames that record it: few where it moves evenly, every tick where it is knocked.
 
 use super::between::weights;
 use super::column::{Track, quanta_of};
@@ -6,7 +6,7 @@ use super::column::{Track, quanta_of};
 /// Frames are at most so far apart \[s\].
 const APART_S: f64 = 0.256;
 
-/// What is told of a thing, and so how far two of its rows are apart.
+/// What is recorded of a thing, and so how far two of its rows are apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum What {
     /// One number \[rad, or m by the unit of length\].
@@ -97,7 +97,7 @@ impl Course {
         (!self.rows.is_empty()).then(|| self.row(0))
     }
 
-    /// Whether it never leaves where it is first, by what can be told.
+    /// Whether it never leaves where it is first, as far as the record can show.
     pub(super) fn stands_still(&self) -> bool {
         let Some(start) = self.start() else {
             return true;
@@ -178,20 +178,20 @@ impl Course {
             frames[(k + 2).min(frames.len() - 1)],
         ];
         let width = self.what.width();
-        let mut told = [[0.0; 7]; 4];
-        for (told, at) in told.iter_mut().zip(around) {
+        let mut rounded = [[0.0; 7]; 4];
+        for (rounded, at) in rounded.iter_mut().zip(around) {
             let row = self.row(at);
             for c in 0..width {
-                told[c] = quanta_of(row[c], self.quanta[c]) as f64 * self.quanta[c];
+                rounded[c] = quanta_of(row[c], self.quanta[c]) as f64 * self.quanta[c];
             }
         }
         let at = around.map(|at| ticks[at] as f64);
         let off = |i: usize| {
             let weights = weights(at, ticks[i] as f64);
             let mut blend = [0.0; 7];
-            for (told, weight) in told.iter().zip(weights) {
+            for (rounded, weight) in rounded.iter().zip(weights) {
                 for c in 0..width {
-                    blend[c] += weight * told[c];
+                    blend[c] += weight * rounded[c];
                 }
             }
             self.what.apart(&blend[..width], self.row(i), self.unit_m)
@@ -246,7 +246,7 @@ mod tests {
         assert!(frames.contains(&1003) && frames.len() < 60, "{frames:?}");
         assert!(worst(&knock, &ticks, &frames) <= 3e-4);
 
-        // a buzz of every tick is told tick by tick
+        // a buzz of every tick is recorded tick by tick
         let (buzz, ticks) = numbers((0..501).map(|i| f64::from(i % 2)));
         assert_eq!(buzz.frames(&ticks, 0.001, 3e-4).len(), 501);
     }

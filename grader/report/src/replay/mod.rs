@@ -36,11 +36,11 @@ const WITHIN: f64 = 3e-4;
 /// TCP and joints, which are read as numbers of four decimals, to this \[m or rad\].
 const NUMBERS_WITHIN: f64 = 1e-4;
 /// Characters of coded motion of a run of ten seconds or less; longer runs may have as much more as they are longer. Beyond, what takes
-/// the most is told less truly, and the record says how much.
+/// the most is recorded less accurately, and the record says how much.
 const MOST_CHARACTERS: usize = 90_000;
-/// So much less truly each time.
+/// So much less accurately each time.
 const LESS_TRUE: f64 = 3.0;
-/// Nothing is told less truly than this \[m or rad\].
+/// Nothing is recorded less accurately than this \[m or rad\].
 const LEAST_TRUE: f64 = 10.0;
 /// Points of a reference path or of a path to follow.
 const MOST_POINTS: usize = 20_000;
@@ -120,11 +120,11 @@ impl<'a> Replay<'a> {
         }
         let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let step_s = run.trace.step_s;
-        let told = self.tracked(ticks, &moments);
+        let tracked = self.tracked(ticks, &moments);
         let steps = tick_column(&steps(step_s, ticks, &moments));
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
         let most = ((tens * MOST_CHARACTERS as f64) as usize).saturating_sub(steps.len());
-        let mut tracks = told.tracks(step_s, most);
+        let mut tracks = tracked.tracks(step_s, most);
         let nodes = tracks.split_off(1 + run.robot.n());
         let q = tracks.split_off(1);
         let tcp = tracks.pop().unwrap_or_default();
@@ -142,8 +142,8 @@ impl<'a> Replay<'a> {
             title: shortened(self.task.map_or(&run.task, |task| &task.title), 200),
             step_s,
             ticks: steps,
-            nodes: told.nodes.nodes,
-            meshes: told.nodes.meshes.records(),
+            nodes: tracked.nodes.nodes,
+            meshes: tracked.nodes.meshes.records(),
             tcp,
             q,
             tracks: nodes,
@@ -181,15 +181,15 @@ impl<'a> Replay<'a> {
     fn events(&self) -> Vec<EventMark> {
         let mut marks = events(self.run, self.task);
         if let Some((ghost, (run, task))) = self.ghost.and_then(|g| Some((g, g.run?))) {
-            let told = |label: &str, mut mark: EventMark| {
+            let labelled = |label: &str, mut mark: EventMark| {
                 mark.text = format!("{}: {}", shortened(label, MOST_OF_A_NAME), mark.text);
                 mark
             };
             let ours = marks.into_iter();
-            let ours = ours.map(|mark| told(self.label.unwrap_or("A"), mark));
+            let ours = ours.map(|mark| labelled(self.label.unwrap_or("A"), mark));
             let theirs = events(run, task).into_iter();
             marks = ours
-                .chain(theirs.map(|mark| told(ghost.label, mark)))
+                .chain(theirs.map(|mark| labelled(ghost.label, mark)))
                 .collect();
             marks.sort_by_key(|mark| mark.tick);
         }
@@ -278,7 +278,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// The frame in which the TCP, goals and paths are told.
+    /// The frame in which the TCP, goals and paths are given.
     fn lab(&self) -> FrameRecord {
         let robot = &self.run.robot;
         let name = &self.run.seen_from;
@@ -329,13 +329,13 @@ impl<'a> Replay<'a> {
             return ours;
         };
         let label = self.label.unwrap_or("A");
-        let told = [(label, ours), (ghost.label, ended(run, task))];
-        let told = told.into_iter().filter_map(|(label, why)| {
+        let endings = [(label, ours), (ghost.label, ended(run, task))];
+        let endings = endings.into_iter().filter_map(|(label, why)| {
             let label = shortened(label, MOST_OF_A_NAME);
             why.map(|why| format!("{label}: {why}"))
         });
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| told.join("; "))
+        let endings: Vec<String> = endings.collect();
+        (!endings.is_empty()).then(|| endings.join("; "))
     }
 }
 
@@ -349,7 +349,7 @@ struct Tracked {
 
 impl Tracked {
     /// The tracks of the TCP, of the joints, and of the nodes, in at most `most` characters: while they take more, whatever takes the
-    /// most is told less truly.
+    /// most is recorded less accurately.
     fn tracks(&self, step_s: f64, most: usize) -> Vec<Track> {
         let courses: Vec<&Course> = [&self.tcp]
             .into_iter()

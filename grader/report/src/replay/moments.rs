@@ -10,11 +10,11 @@ use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::with_unit;
 
-/// Events that are told.
+/// Events of a replay.
 const MOST_EVENTS: usize = 200;
 /// Events of one kind that come in heaps: saturated efforts, breaches.
 const MOST_OF_A_KIND: usize = 20;
-/// Contacts that are told.
+/// Contacts of a replay.
 const MOST_CONTACTS: usize = 200;
 /// Characters of an event's text.
 const MOST_CHARACTERS: usize = 160;
@@ -112,8 +112,8 @@ fn breaches(task: Option<&TaskGrade>) -> Vec<EventMark> {
     let first = checks.filter(|check| has_lost(check)).filter_map(|check| {
         let first = check.first_lost?;
         let mut evidence = check.evidence.iter();
-        let told = evidence.find(|fact| fact.tick == Some(first.tick));
-        let why = match (told, &check.measure) {
+        let first_fact = evidence.find(|fact| fact.tick == Some(first.tick));
+        let why = match (first_fact, &check.measure) {
             (Some(fact), _) => format!(": {}", fact.message),
             (None, Some(measure)) => {
                 format!(

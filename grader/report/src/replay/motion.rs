@@ -7,12 +7,12 @@ use kinemark_sim::trace::{Trace, pose_numbers};
 use super::course::{Course, What};
 use super::frames::sound_ticks;
 
-/// Positions are told to this part of the unit of length; joint positions that are angles to this \[rad\].
+/// Positions are rounded to this part of the unit of length; joint positions that are angles to this \[rad\].
 pub(super) const PLACE: f64 = 1e-5;
-/// Elements of quaternions are told to this.
+/// Elements of quaternions are rounded to this.
 const TURN: f64 = 2e-5;
 
-/// A course of poses, told as finely as `unit_m` asks \[m\].
+/// A course of poses, rounded as finely as `unit_m` \[m\] requires.
 pub(super) fn poses(unit_m: f64) -> Course {
     let place = PLACE * unit_m;
     let quanta = [place, place, place, TURN, TURN, TURN, TURN];

@@ -71,10 +71,10 @@ fn shown((ticks, rows): &(Vec<usize>, Vec<Vec<f64>>), tick: usize) -> Vec<f64> {
 /// How far the pose shown is from a pose \[m\], \[rad\].
 fn apart(shown: &[f64], pose: &Pose) -> (f64, f64) {
     let place = nalgebra::Vector3::from_column_slice(&shown[..3]) - pose.translation.vector;
-    let told = nalgebra::Quaternion::new(shown[3], shown[4], shown[5], shown[6]);
-    let told = nalgebra::UnitQuaternion::from_quaternion(told).to_rotation_matrix();
+    let quaternion = nalgebra::Quaternion::new(shown[3], shown[4], shown[5], shown[6]);
+    let rotation = nalgebra::UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix();
     // of a small turn the greatest element of the difference is the sine at most
-    let turn = (told.matrix() - pose.rotation.matrix()).abs().max();
+    let turn = (rotation.matrix() - pose.rotation.matrix()).abs().max();
     (place.norm(), turn)
 }
 
@@ -99,7 +99,7 @@ fn poses_are_those_of_the_trace() {
         .collect();
     assert_eq!(names, ["base", "upper", "forearm"]);
     assert_eq!(nodes[0]["pose"].as_array().map(Vec::len), Some(7));
-    // every tick is shown, not those that are told alone
+    // every tick is shown, not only those that have a row
     let tcp = rows(&record["tcp"]);
     let q: Vec<_> = record["q"]
         .as_array()
@@ -125,9 +125,9 @@ fn poses_are_those_of_the_trace() {
                 "{link} at {tick}: {place} m, {turn}"
             );
         }
-        let told = shown(&tcp, tick);
-        for (told, place) in told.iter().zip(run.trace.tcp.at(tick)) {
-            assert!((told - place).abs() <= NUMBERS_WITHIN);
+        let position = shown(&tcp, tick);
+        for (coordinate, expected) in position.iter().zip(run.trace.tcp.at(tick)) {
+            assert!((coordinate - expected).abs() <= NUMBERS_WITHIN);
         }
         for (joint, course) in q.iter().enumerate() {
             assert!((shown(course, tick)[0] - run.trace.q.at(tick)[joint]).abs() <= NUMBERS_WITHIN);
@@ -181,8 +181,8 @@ fn frames_hang_on_their_nodes() {
     let course = rows(&record["tracks"][track]);
     for (tick, forearm) in course.0.iter().zip(&course.1) {
         let put_together = world_from_lab.inverse() * pose_of(forearm) * forearm_from_tcp;
-        let told = run.trace.tcp_position(*tick);
-        let apart = (put_together.translation.vector - told).norm();
+        let recorded = run.trace.tcp_position(*tick);
+        let apart = (put_together.translation.vector - recorded).norm();
         // half a quantum of each place, and of each element of the turn over a metre or so
         assert!(apart < 1e-4, "{apart} m at tick {tick}");
     }
@@ -259,9 +259,9 @@ fn runs_without_sound_rows_are_shown_at_home() {
     assert_eq!(steps_of(&record), [0, 10, 20, 30, 40, 50, 54]);
 }
 
-/// Of a chain of joints of which one buzzes at every tick, all others are told truly, and the record says what is not.
+/// Of a chain of joints of which one buzzes at every tick, all others are recorded accurately, and the record says what is not.
 #[test]
-fn what_takes_most_is_told_less_truly_and_the_record_says_so() {
+fn what_takes_most_is_recorded_less_accurately_and_the_record_says_so() {
     let run = sample::chain(25, 10_001, |tick, joint| match joint {
         24 => 0.3 * f64::from(tick as u32 % 2),
         _ => 0.1 * libm::sin(0.001 * (tick * (1 + joint as u64 % 3)) as f64 + joint as f64),
@@ -297,9 +297,9 @@ fn what_takes_most_is_told_less_truly_and_the_record_says_so() {
     assert_eq!(untrue, 1, "the last link buzzes");
 }
 
-/// A millimetre's arm is told as truly as a metre's, by its size.
+/// An arm of a millimetre is recorded as accurately as one of a metre, by its size.
 #[test]
-fn small_arms_are_told_more_finely() {
+fn small_arms_are_recorded_more_finely() {
     let run = sample::chain(2, 1001, |tick, _| libm::sin(0.003 * tick as f64));
     let metre = unit_m(&run, run.trace.len());
     assert!(metre > 0.05 && metre <= 1.0, "{metre}");

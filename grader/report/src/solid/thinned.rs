@@ -43,7 +43,7 @@ pub(super) fn thinned(vertices: &[[f64; 3]], triangles: &[[u32; 3]], most: usize
         for triangle in triangles {
             let [a, b, c] = triangle.map(|i| of_vertex[i as usize]);
             if a != b && b != c && c != a {
-                // the same triangle whichever corner is told first
+                // the same triangle whichever corner comes first
                 let least = a.min(b).min(c);
                 kept.insert(match least {
                     _ if least == a => [a, b, c],

@@ -139,11 +139,11 @@ impl Board<'_> {
 
     /// All captions, for a screen reader.
     fn description(&self) -> String {
-        let told = self.panels.iter().map(|panel| {
+        let captions = self.panels.iter().map(|panel| {
             let words: Vec<String> = panel.moment.words.iter().map(|w| sentence(w)).collect();
             format!("{}: {}.", self.shown_time(panel), words.join("; "))
         });
-        shortened(&told.collect::<Vec<_>>().join(" "), 2000)
+        shortened(&captions.collect::<Vec<_>>().join(" "), 2000)
     }
 
     fn time_s(&self, panel: &Panel) -> f64 {

@@ -1,4 +1,4 @@
-//! What a storyboard may tell of a run: where points were lost, what was touched, goals, events, and where it left the reference.
+//! What a storyboard may show of a run: where points were lost, what was touched, goals, events, and where it left the reference.
 
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::text::number::seconds;
@@ -31,8 +31,8 @@ pub(super) struct Cause {
 }
 
 impl Cause {
-    /// It in words as the caption of a panel at `tick`, which may be a little off.
-    pub(super) fn told_at(&self, tick: usize, step_s: f64) -> String {
+    /// The caption of a panel at `tick`, which may be a little off.
+    pub(super) fn caption_at(&self, tick: usize, step_s: f64) -> String {
         let time = || seconds(self.tick as f64 * step_s);
         let is_here = self.tick as usize == tick;
         match (&self.lost, is_here) {
@@ -73,7 +73,7 @@ pub(super) fn causes(run: &TaskRun, grade: &TaskGrade) -> Vec<Cause> {
             add(60.0, from, format!("at goal {}, {off} off", i + 1), None);
         }
     }
-    let mut told = Vec::new();
+    let mut event_words = Vec::new();
     for event in &run.trace.events {
         let rank = match event.kind {
             EventKind::BodyFell { .. } => 90.0,
@@ -87,11 +87,11 @@ pub(super) fn causes(run: &TaskRun, grade: &TaskGrade) -> Vec<Cause> {
         };
         let words = names.event(&event.kind);
         // a loop that buzzes at its limit says so a thousand times
-        if !told.contains(&words) {
+        if !event_words.contains(&words) {
             add(rank, event.tick, words.clone(), None);
-            told.push(words);
+            event_words.push(words);
         }
-        if told.len() > 40 {
+        if event_words.len() > 40 {
             break;
         }
     }
@@ -147,10 +147,10 @@ fn losses(grade: &TaskGrade) -> Vec<Cause> {
             let rank = if i == 0 { LOSS } else { FURTHER_LOSS };
             add(rank, tick, evidence.message.clone());
         }
-        let untold = check
+        let without_evidence = check
             .first_lost
             .filter(|first| timed.clone().all(|(tick, _)| tick != first.tick));
-        if let Some(began) = untold {
+        if let Some(began) = without_evidence {
             let beyond = check.measure.as_ref().map_or_else(
                 || "from here on".to_owned(),
                 |measure| {

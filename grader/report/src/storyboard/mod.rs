@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_never_run_is_told_with_its_line_beside_the_arm() {
+    fn what_was_never_run_is_shown_with_its_line_beside_the_arm() {
         let mut graded = sample::graded();
         let stopped = graded
             .grade

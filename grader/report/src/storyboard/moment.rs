@@ -18,7 +18,7 @@ use kinemark_sim::text::number::typeset;
 const MOMENTS: usize = 6;
 /// Moments nearer to each other than this part of a run are one.
 const APART: f64 = 0.015;
-/// Causes that are told in full of one moment.
+/// Causes of one moment that are shown in full.
 const MOST_WORDS: usize = 2;
 
 /// A moment of a run.
@@ -54,27 +54,27 @@ impl Chosen {
         }
     }
 
-    /// Takes in what happened here, too, unless it is told already.
+    /// Adds what also happened here, unless it is there already.
     fn take(&mut self, new: Cause) {
-        let told = self.causes.iter().any(|cause| match &new.lost {
+        let is_known = self.causes.iter().any(|cause| match &new.lost {
             Some(_) => cause.lost == new.lost,
             // why it cost points says what happened, too
             None => said_in(&new.words, &cause.words),
         });
-        if !told {
+        if !is_known {
             self.causes.push(new);
         }
     }
 
     /// The moment with its causes in words.
-    fn told(mut self, step_s: f64) -> Moment {
+    fn into_moment(mut self, step_s: f64) -> Moment {
         let tick = self.moment.tick;
         // the costliest first; of equal ones the more telling
         self.causes.sort_by(|a, b| b.cost.total_cmp(&a.cost));
         let (full, more) = self.causes.split_at(self.causes.len().min(MOST_WORDS));
         let mut words: Vec<String> = full
             .iter()
-            .map(|cause| cause.told_at(tick, step_s))
+            .map(|cause| cause.caption_at(tick, step_s))
             .collect();
         let also: Vec<&str> = more.iter().filter_map(|c| c.lost.as_deref()).collect();
         if !also.is_empty() {
@@ -121,7 +121,7 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
         }
     }
     let step_s = run.trace.step_s;
-    let mut chosen: Vec<Moment> = chosen.into_iter().map(|c| c.told(step_s)).collect();
+    let mut chosen: Vec<Moment> = chosen.into_iter().map(|c| c.into_moment(step_s)).collect();
     chosen.sort_by_key(|moment| moment.tick);
     let progress = progress(run);
     // the middle of the longest part that nothing is shown of, not near to what is shown as long as there is another
@@ -155,7 +155,7 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
     chosen
 }
 
-/// Whether one message tells what another begins with: its first two words.
+/// Whether one message contains the beginning of another: its first two words.
 fn said_in(said: &str, message: &str) -> bool {
     let mut ends = said.match_indices(' ').map(|(at, _)| at);
     ends.nth(1)
@@ -210,8 +210,8 @@ fn whereabouts(run: &TaskRun, targets: &[Target], tick: usize) -> Option<String>
         return Some(format!("TCP {far} from goal {}", goal + 1));
     }
     if !targets.is_empty() {
-        let told: Vec<String> = targets.iter().map(|t| t.told(run, tick)).collect();
-        return Some(told.join(", "));
+        let words: Vec<String> = targets.iter().map(|t| t.describe(run, tick)).collect();
+        return Some(words.join(", "));
     }
     let shown = [p.x, p.y, p.z].map(|x| {
         // a thousandth of a millimetre is noise here
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_told_in_six_moments_in_order() {
+    fn a_run_is_shown_in_six_moments_in_order() {
         let run = sample::task_run();
         let moments = of(&run);
         assert_eq!(moments.len(), 6);
@@ -273,7 +273,7 @@ mod tests {
         }
     }
 
-    fn told(checks: Vec<CheckGrade>) -> Vec<String> {
+    fn captions(checks: Vec<CheckGrade>) -> Vec<String> {
         let mut graded = sample::graded();
         let grade = &mut graded.grade.tasks[3];
         grade.checks = checks;
@@ -287,37 +287,46 @@ mod tests {
 
     #[test]
     fn the_costliest_losses_and_the_first_come_before_all_else() {
-        let told = told(vec![
+        let captions = captions(vec![
             lost("first", 0.1, &[300]),
             lost("cheap", 0.5, &[1500]),
             lost("dear", 6.0, &[7000, 4000]),
             lost("middling", 2.0, &[5500]),
             lost("cheaper", 0.4, &[6300]),
         ]);
-        assert_eq!(told[1], "lost: Check first (0 of 0.1): first at tick 300");
-        assert_eq!(told[2], "lost: Check cheap (0 of 0.5): cheap at tick 1500");
-        assert!(
-            told[3].starts_with("lost: Check middling (0 of 2)"),
-            "{told:?}"
+        assert_eq!(
+            captions[1],
+            "lost: Check first (0 of 0.1): first at tick 300"
         );
-        assert!(told[4].starts_with("lost: Check dear (0 of 6)"), "{told:?}");
+        assert_eq!(
+            captions[2],
+            "lost: Check cheap (0 of 0.5): cheap at tick 1500"
+        );
+        assert!(
+            captions[3].starts_with("lost: Check middling (0 of 2)"),
+            "{captions:?}"
+        );
+        assert!(
+            captions[4].starts_with("lost: Check dear (0 of 6)"),
+            "{captions:?}"
+        );
         // no more room: neither the cheapest check nor a goal
         assert!(
-            !told.iter().any(|words| words.contains("cheaper")),
-            "{told:?}"
+            !captions.iter().any(|words| words.contains("cheaper")),
+            "{captions:?}"
         );
     }
 
     #[test]
     fn causes_of_one_moment_share_a_panel_the_costliest_first() {
-        let told = told(vec![
+        let captions = captions(vec![
             lost("small", 1.0, &[8000]),
             lost("large", 6.0, &[8000]),
             lost("late", 2.0, &[7950]),
             lost("untimed", 3.0, &[]),
         ]);
         assert_eq!(
-            told[5],
+            captions[5],
             "end; lost: Check large (0 of 6): large at tick 8000; \
              lost at 7.95 s: Check late (0 of 2): late at tick 7950; lost here, too: Check small (0 of 1)"
         );
@@ -330,16 +339,16 @@ mod tests {
             tick: 1900,
             time_s: 1.9,
         });
-        let told = told(vec![check]);
+        let captions = captions(vec![check]);
         let began = "lost: Check slow (0 of 2): beyond 50.0 mm from here on";
         assert!(
-            told.iter().any(|words| words.starts_with(began)),
-            "{told:?}"
+            captions.iter().any(|words| words.starts_with(began)),
+            "{captions:?}"
         );
     }
 
     #[test]
-    fn the_reference_is_told_of_in_words_and_with_its_own_time() {
+    fn the_reference_is_described_in_words_and_with_its_own_time() {
         let mut run = sample::task_run();
         run.divergence = Some(Divergence {
             tick: 50,

@@ -19,14 +19,14 @@ pub(super) struct Scenery {
 
 impl Scenery {
     pub(super) fn of(run: &TaskRun, stage: &Stage<'_>) -> Self {
-        let world_from_told = stage.world_from_told();
-        let placed = |p: &[f64; 3]| world_from_told * Point3::from(*p);
+        let world_from_lab = stage.world_from_lab();
+        let placed = |p: &[f64; 3]| world_from_lab * Point3::from(*p);
         let reference = run.reference_tcp.iter().flat_map(|path| &path.points_m);
         let paths = run.paths.iter().take(MOST_PATHS);
         let goals = run.goals.iter().take(MOST_GOALS);
         Self {
             trail: (0..run.trace.len())
-                .map(|tick| world_from_told * Point3::from(run.trace.tcp_position(tick)))
+                .map(|tick| world_from_lab * Point3::from(run.trace.tcp_position(tick)))
                 .collect(),
             reference: reference.map(placed).collect(),
             paths: paths

@@ -189,8 +189,8 @@ impl<'a> Stage<'a> {
         (joints.collect(), place(robot.tcp()))
     }
 
-    /// The frame in which TCP, goals and paths are told, in the world, at the start.
-    pub(super) fn world_from_told(&self) -> Pose {
+    /// The pose of the frame in which TCP, goals and paths are given, in the world, at the start.
+    pub(super) fn world_from_lab(&self) -> Pose {
         let poses = self.poses((!self.run.trace.is_empty()).then_some(0));
         let frame = self.run.robot.frame(&self.run.seen_from);
         frame.map_or_else(Pose::identity, |frame| poses.world_from(frame))

@@ -6,7 +6,7 @@ use super::stage::Stage;
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::with_unit;
 
-/// Targets that are told.
+/// Targets that are described.
 const MOST_TARGETS: usize = 2;
 
 /// A joint and where it was to go, or how fast.
@@ -48,7 +48,7 @@ pub(super) fn targets(run: &TaskRun) -> Vec<Target> {
 
 impl Target {
     /// Where the joint is at a tick, and where it was to be.
-    pub(super) fn told(&self, run: &TaskRun, tick: usize) -> String {
+    pub(super) fn describe(&self, run: &TaskRun, tick: usize) -> String {
         let column = if self.of_velocity {
             &run.trace.qd
         } else {

@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jolt_is_told_with_its_time() {
+    fn a_jolt_is_reported_with_its_time() {
         let kind = "jerk = { full_m_s3 = 0.0, zero_m_s3 = 1.0 }";
         let finding = judged(MOTION, kind, |t_s| HandRow {
             q: [if t_s > 0.495 { 1e-4 } else { 0.0 }, 0.0],

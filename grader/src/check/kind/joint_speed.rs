@@ -74,10 +74,10 @@ mod tests {
         // the last tick of the run is 1 s
         assert!((value(&finding) - 2.0).abs() < 1e-12, "{finding:?}");
         assert!((finding.score - 0.5).abs() < 1e-12);
-        let told = &finding.evidence[0].message;
+        let message = &finding.evidence[0].message;
         assert!(
-            told.contains("joint `elbow`") && told.contains("first passed at 0.501 s"),
-            "{told}"
+            message.contains("joint `elbow`") && message.contains("first passed at 0.501 s"),
+            "{message}"
         );
         assert_eq!(judged(MOTION, KIND, |_| HandRow::default()).score, 1.0);
     }

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_that_still_shrinks_is_told_as_moving() {
+    fn an_error_that_still_shrinks_is_reported_as_moving() {
         let nears = |t_s: f64| HandRow {
             q: [
                 0.0,

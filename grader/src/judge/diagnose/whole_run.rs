@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mutant_like_the_reference_but_for_a_shift_tells_nothing() {
+    fn a_mutant_like_the_reference_but_for_a_shift_proves_nothing() {
         let reference = trace(step(0.2, 1.0));
         let mutant = trace(step(0.28, 1.0));
         assert_eq!(compared(&mutant, &mutant, &reference).0, None);

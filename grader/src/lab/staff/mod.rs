@@ -77,13 +77,13 @@ pub struct HiddenCases {
 /// A motion task that is run again with other numbers.
 #[derive(Debug, Clone)]
 pub struct HiddenRun {
-    /// All that students are told of it.
+    /// All that students get to know about it.
     pub class: String,
     /// The lab with its numbers.
     pub lab: Lab,
 }
 
-/// A known mistake: a submission that makes it, and what to tell a student who does.
+/// A submission that makes a common mistake, and what to tell a student who makes it.
 #[derive(Debug, Clone)]
 pub struct Mutant {
     /// Its name, which is its file's.

@@ -14,7 +14,7 @@ use crate::spatial::{Pose, rotation_from_rpy_deg};
 const SAME_ROTATION: f64 = 1e-15;
 
 impl Robot {
-    /// Writes the robot file of this robot; `mesh_path` tells where a mesh lies, seen from the new file.
+    /// Writes the robot file of this robot; `mesh_path` gives the path of a mesh relative to the new file.
     ///
     /// Expressions have become numbers, so there are no dimensions. Reading it again gives the same robot but for rounding.
     pub fn to_toml(&self, mesh_path: &mut dyn FnMut(&str) -> String) -> String {

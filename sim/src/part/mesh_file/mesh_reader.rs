@@ -4,7 +4,7 @@ use super::{obj, stl};
 use crate::model::mesh::{Mesh, MeshProblem};
 
 impl Mesh {
-    /// Reads a mesh; `name` tells its format by its extension, `.stl` (binary or text) or `.obj`, in any case.
+    /// Reads a mesh; the extension of `name` gives its format, `.stl` (binary or text) or `.obj`, in any case.
     ///
     /// Corners with the same coordinates become one vertex; triangles with two equal corners are dropped. Binary STL holds
     /// single precision; text is read in double precision, in both formats. Polygons become fans. Colours, normals, textures, names and groups are passed over: the winding says which side is out.

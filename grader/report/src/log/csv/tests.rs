@@ -148,17 +148,17 @@ fn a_file_that_may_not_grow_is_no_fault_of_the_log() {
 }
 
 #[test]
-fn every_log_that_is_none_is_told() {
+fn every_file_that_is_no_log_is_refused() {
     let whole = log_of(&[("/t", "json", 0, br#"{"a": 1}"#)]);
-    let told = |bytes: &[u8]| tables(bytes).unwrap_err().to_string();
-    assert_eq!(told(b""), "it is empty");
+    let refusal = |bytes: &[u8]| tables(bytes).unwrap_err().to_string();
+    assert_eq!(refusal(b""), "it is empty");
     assert_eq!(
-        told(b"%PDF-1.7"),
+        refusal(b"%PDF-1.7"),
         "it is not an MCAP log: it does not begin as one"
     );
-    assert_eq!(told(&log_of(&[])), "it holds no messages");
+    assert_eq!(refusal(&log_of(&[])), "it holds no messages");
     assert_eq!(
-        told(&log_of(&[("/t", "json", 0, b"{1}")])),
+        refusal(&log_of(&[("/t", "json", 0, b"{1}")])),
         "message 1 of topic `/t` is no JSON: key must be a string at line 1 column 2"
     );
     // wherever it is cut off, and whichever byte is turned over: an error or the same rows, never a panic
@@ -188,7 +188,7 @@ fn without_sums(log: &mut [u8]) {
     log[end - 4..end].fill(0);
 }
 
-/// Each bit of a log, turned over alone: damage, or nothing that tells.
+/// Each bit of a log, flipped alone: damage, or no difference.
 #[test]
 fn a_bit_that_turned_over_is_damage() {
     let whole = log_of(&[

@@ -27,8 +27,8 @@ fn the_path_is_that_of_the_other_run_up_to_where_it_ended() {
     let every = every.round() as usize;
     assert_eq!(path.len(), b.trace.len().div_ceil(every));
     for (i, tick) in (0..b.trace.len()).step_by(every).enumerate() {
-        for (told, place) in path[i].iter().zip(b.trace.tcp.at(tick)) {
-            assert!((told - place).abs() < 0.6 * PLACE);
+        for (coordinate, place) in path[i].iter().zip(b.trace.tcp.at(tick)) {
+            assert!((coordinate - place).abs() < 0.6 * PLACE);
         }
     }
     assert_eq!(record["ended"], "B: the submission was stopped");
@@ -69,8 +69,8 @@ fn what_stands_elsewhere_is_shown_where_it_stands() {
         points_m: vec![[0.0, 1.0, 0.0], [0.0, 1.0, 0.5], [0.0, 1.0, 0.0]],
         tube_m: None,
     }];
-    let told = record(Replay::of(&a, None).beside("A", ghost(&b)));
-    let nodes = told["nodes"].as_array().expect("nodes");
+    let different = record(Replay::of(&a, None).beside("A", ghost(&b)));
+    let nodes = different["nodes"].as_array().expect("nodes");
     let named = |name: &str| nodes.iter().find(|node| node["name"] == name);
     let goal = named("B/goal 1").expect("the goal that differs");
     assert_eq!(goal["kind"], "ghost");
@@ -78,8 +78,8 @@ fn what_stands_elsewhere_is_shown_where_it_stands() {
     // (x, y, z) of the lab is (Z, X, Y) of the world
     let at = b.goals[0].position_m;
     let pose = numbers(&goal["pose"]);
-    for (told, expected) in pose.iter().zip([at[1], at[2], at[0]]) {
-        assert!((told - expected).abs() < 1e-8, "{pose:?}");
+    for (coordinate, expected) in pose.iter().zip([at[1], at[2], at[0]]) {
+        assert!((coordinate - expected).abs() < 1e-8, "{pose:?}");
     }
     // there and back, each a rod
     let edge = named("B/edge").expect("the path that differs");

@@ -13,7 +13,7 @@ fn the_place_is_that_of_the_innermost_mistake() {
 }
 
 #[test]
-fn mistakes_are_told_with_names_values_and_a_way_out() {
+fn mistakes_are_reported_with_names_values_and_a_way_out() {
     assert_words([
         ("sinn(1)", "`sinn` is not a function: did you mean `sin`?"),
         ("sin(1, [2, 3", "a `]` or a `,` is missing before this"),
@@ -273,7 +273,7 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
 }
 
 #[test]
-fn values_of_the_wrong_shape_and_names_out_of_sight_are_told() {
+fn values_of_the_wrong_shape_and_names_out_of_sight_are_reported() {
     assert_words([
         (
             "matrix([[1, 2], [3]])",
@@ -299,7 +299,7 @@ fn values_of_the_wrong_shape_and_names_out_of_sight_are_told() {
 }
 
 #[test]
-fn a_call_without_end_is_told_where_it_can_be() {
+fn a_call_without_end_is_reported_where_it_can_be() {
     for (source, line) in [
         (
             "fn spin(x) {\n while true { let y = x; } }\nfn control(o) {\n let a = 2 * 3;\n spin(a) }",
@@ -342,7 +342,7 @@ fn unbuilt(source: &str) -> String {
 }
 
 #[test]
-fn a_slip_is_told_where_it_is_and_not_where_the_parser_stops() {
+fn a_slip_is_reported_where_it_is_and_not_where_the_parser_stops() {
     for (source, wanted) in [
         (
             "fn control(o) { let x = 3 // three\n  [x, 0] }",
@@ -370,7 +370,7 @@ fn a_slip_is_told_where_it_is_and_not_where_the_parser_stops() {
 }
 
 #[test]
-fn of_two_slips_the_first_in_the_file_is_told() {
+fn of_two_slips_the_first_in_the_file_is_reported() {
     let source = "fn z(x) { x ^ 2 }\nfn a(x) { x ^ 2 }\nfn control(o) { o.q[-1] }";
     let Stop::DidNotBuild(mistake) = stop(source) else {
         panic!("it builds");
@@ -385,7 +385,7 @@ fn of_two_slips_the_first_in_the_file_is_told() {
 }
 
 #[test]
-fn an_unfinished_file_is_told_at_its_end() {
+fn an_unfinished_file_is_reported_at_its_end() {
     let Stop::DidNotBuild(mistake) = stop("fn control(o) {\n    let x = 1;\n") else {
         panic!("it builds");
     };
