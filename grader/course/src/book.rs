@@ -44,6 +44,8 @@ pub struct Inputs {
     pub staff: Option<String>,
     /// The student whose variant it is, if it is one.
     pub variant_of: Option<String>,
+    /// The name of the submission's file, which the grade shows.
+    pub file: String,
     /// The submission.
     pub submission: String,
     /// The version of the lab's files in the book.
@@ -65,6 +67,7 @@ impl Inputs {
             &self.lab_name,
             &self.lab,
             &self.robot,
+            &self.file,
             &self.submission,
             &self.lab_version,
         ] {
@@ -370,6 +373,7 @@ mod tests {
             scenes: vec![text("s")],
             staff: Some(text("t")),
             variant_of: None,
+            file: text("f"),
             submission: text("u"),
             lab_version: text("v"),
             staff_version: Some(text("w")),
@@ -407,6 +411,10 @@ mod tests {
             },
             Inputs {
                 variant_of: Some(String::new()),
+                ..inputs()
+            },
+            Inputs {
+                file: text("x"),
                 ..inputs()
             },
             Inputs {

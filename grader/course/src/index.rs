@@ -46,7 +46,8 @@ pub struct Index {
 }
 
 impl Index {
-    /// The index of `book` with everything that is in it now; `history` is its journal.
+    /// The index of `book` with everything that is in it now; `history` is its journal in the state `state`
+    /// ([`crate::journal::Journal::state`]).
     ///
     /// # Errors
     /// [`IndexError`]; a damaged index is none, it is made anew.
@@ -465,4 +466,131 @@ fn write_standings(
         params![digest],
     )?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use kinemark_grader::record::sample;
+
+    use super::*;
+    use crate::book::Inputs;
+    use crate::journal::{Event, Graded, HandIn};
+    use crate::student::StudentId;
+
+    fn record(submission: &str) -> Record {
+        let text = str::to_owned;
+        let inputs = Inputs {
+            engine: text("kinemark 0.1.0"),
+            lab_name: text("01"),
+            lab: text("l"),
+            robot: text("r"),
+            scenes: Vec::new(),
+            staff: None,
+            variant_of: None,
+            file: text("submission.rhai"),
+            submission: text(submission),
+            lab_version: text("v"),
+            staff_version: None,
+        };
+        Record::new(inputs, sample::graded().grade)
+    }
+
+    fn book_with(records: &[&Record]) -> (tempfile::TempDir, Book) {
+        let bed = tempfile::tempdir().unwrap();
+        // a name that a URI has to escape
+        let book = Book::open(&bed.path().join("my book? #1 %41")).unwrap();
+        for record in records {
+            book.put_record(record).unwrap();
+        }
+        (bed, book)
+    }
+
+    #[test]
+    fn the_index_follows_the_book() {
+        let (one, two) = (record("aa"), record("bb"));
+        let (_bed, book) = book_with(&[&one]);
+        let history = History::default();
+        let index = Index::refresh(&book, &history, "1").unwrap();
+        let summaries = index.summaries("01").unwrap();
+        let summary = &summaries[&one.key];
+        assert_eq!(summary.points, one.grade.points);
+        let checks: usize = one.grade.tasks.iter().map(|task| task.checks.len()).sum();
+        assert_eq!(summary.checks.len(), checks);
+        book.put_record(&two).unwrap();
+        let index = Index::refresh(&book, &history, "1").unwrap();
+        assert_eq!(index.summaries("01").unwrap().len(), 2);
+        assert!(index.summaries("02").unwrap().is_empty());
+        std::fs::remove_file(
+            book.root()
+                .join("records")
+                .join(&one.key[..2])
+                .join(format!("{}.json", one.key)),
+        )
+        .unwrap();
+        let index = Index::refresh(&book, &history, "1").unwrap();
+        assert_eq!(index.summaries("01").unwrap().len(), 1);
+    }
+
+    #[test]
+    fn a_damaged_index_is_made_anew() {
+        let one = record("aa");
+        let (_bed, book) = book_with(&[&one]);
+        let path = book.root().join(INDEX_FILE);
+        let history = History::default();
+        Index::refresh(&book, &history, "1").unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        for damage in [
+            b"garbage".to_vec(),
+            Vec::new(),
+            whole[..whole.len() / 2].to_vec(),
+        ] {
+            std::fs::write(&path, damage).unwrap();
+            let index = Index::refresh(&book, &history, "1").unwrap();
+            assert_eq!(index.summaries("01").unwrap().len(), 1);
+            assert!(Index::existing(&path).is_some());
+        }
+    }
+
+    #[test]
+    fn hand_ins_and_their_grades_are_rows() {
+        let one = record("aa");
+        let (_bed, book) = book_with(&[&one]);
+        let hand_in = HandIn {
+            id: String::new(),
+            student: StudentId::new("s1").unwrap(),
+            lab: "01".to_owned(),
+            submission: "aa".to_owned(),
+            file: "submission.rhai".to_owned(),
+            matched_by: "id".to_owned(),
+            submitted_at: None,
+            marked_late: None,
+            attempt: None,
+            lms_number: None,
+            variant_of: None,
+            made_with: None,
+        }
+        .identified();
+        let at = jiff::Timestamp::from_second(1).unwrap();
+        let entry = |event| crate::journal::Entry {
+            at,
+            by: "ta".to_owned(),
+            event,
+        };
+        let graded = Graded {
+            hand_in: hand_in.id.clone(),
+            record: one.key.clone(),
+            why: None,
+        };
+        let history = History::of([entry(Event::HandIn(hand_in)), entry(Event::Graded(graded))]);
+        let index = Index::refresh(&book, &history, "1").unwrap();
+        let joined: (String, f64) = index
+            .connection()
+            .query_row(
+                "SELECT student, points FROM hand_ins JOIN grades ON hand_in = id JOIN records ON key = record",
+                [],
+                |row| Ok((row.get(0)?, row.get(1)?)),
+            )
+            .unwrap();
+        assert_eq!(joined, ("s1".to_owned(), one.grade.points));
+    }
 }

@@ -178,6 +178,20 @@ impl Journal {
         Ok(files)
     }
 
+    /// What changes whenever something is appended: a digest of the names and sizes of its files.
+    ///
+    /// # Errors
+    /// A folder that cannot be listed.
+    pub fn state(&self) -> io::Result<String> {
+        let mut hasher = blake3::Hasher::new();
+        for path in self.files()? {
+            let size = path.metadata()?.len();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            hasher.update(format!("{name} {size}\n").as_bytes());
+        }
+        Ok(hasher.finalize().to_hex().to_string())
+    }
+
     /// Everything that happened, in the order of time. What two joined books both have is there once.
     ///
     /// # Errors

@@ -13,6 +13,8 @@
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
+//! | [`staffed_lab`] | a lab with its staff part, ready for every student |
+//! | [`grading`] | one hand-in to its record |
 //!
 //! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
 
@@ -28,10 +30,12 @@ pub mod book;
 pub mod course_file;
 pub mod course_text;
 pub mod fixes;
+pub mod grading;
 pub mod history;
 pub mod index;
 pub mod journal;
 mod private_files;
 pub mod roster;
+pub mod staffed_lab;
 pub mod standing;
 pub mod student;

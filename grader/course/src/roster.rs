@@ -1,6 +1,6 @@
 //! `roster.csv`: who takes the course. The only place with names.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::course_text::decoded;
 use crate::student::{StudentId, folded};
@@ -164,7 +164,6 @@ impl Taken {
 /// Where the columns are.
 fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, (String, String)> {
     let mut at = BTreeMap::new();
-    let mut unknown = BTreeSet::new();
     for (i, name) in header.iter().enumerate() {
         match COLUMNS.iter().find(|known| folded(name) == **known) {
             Some(known) => {
@@ -175,15 +174,14 @@ fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, 
                     ));
                 }
             }
-            None => {
-                unknown.insert(name.to_owned());
-            }
+            // a column for people
+            None => {}
         }
     }
     if at.contains_key("id") {
         return Ok(at);
     }
-    let found: Vec<String> = unknown.into_iter().collect();
+    let found: Vec<&str> = header.iter().collect();
     Err((
         format!("there is no column `id`; found: {}", found.join(", ")),
         format!("the first line names the columns: {}", COLUMNS.join(",")),

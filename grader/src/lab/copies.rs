@@ -28,7 +28,8 @@ impl Copies {
             .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
     }
 
-    fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) {
+    /// Adds a file; one that is there already stays.
+    pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) {
         let path = path.into();
         if !self.0.iter().any(|(known, _)| *known == path) {
             self.0.push((path, bytes.into()));

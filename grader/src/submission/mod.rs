@@ -1,7 +1,8 @@
-//! The interface to a student's code ([`controller`]), the hosts that open it ([`host`]), the parsing of answers ([`answer`]), and the
+//! The interface to a student's code ([`controller`]), the hosts that open it ([`host`], [`not_text`]), the parsing of answers ([`answer`]), and the
 //! script language ([`rhai`]).
 
 pub mod answer;
 pub mod controller;
 pub mod host;
+pub mod not_text;
 pub mod rhai;

@@ -1,0 +1,128 @@
+//! One hand-in to its record: from the book if the same was graded before, else graded now and kept.
+
+use std::path::Path;
+
+use kinemark_grader::judge::{self, Interrupted};
+use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::submission::host::Host;
+use kinemark_grader::submission::not_text::NotText;
+use kinemark_grader::task::problem::LoadError;
+use kinemark_sim::text::Source;
+
+use crate::book::{Book, BookError, Record};
+use crate::journal::HandIn;
+use crate::staffed_lab::{StaffedLab, StudentLab};
+
+/// A hand-in, graded.
+#[derive(Debug)]
+pub enum Outcome {
+    /// Its record is in the book.
+    Recorded {
+        /// The key of the record.
+        record: String,
+        /// Its points.
+        points: f64,
+        /// The maximum.
+        max_points: f64,
+        /// Whether the record was there before.
+        was_known: bool,
+    },
+    /// This machine or the grader failed: no grade, and nothing is kept.
+    NotGraded {
+        /// `host-limit` or `grader-fault`.
+        verdict: Verdict,
+        /// What happened, in words.
+        what: String,
+    },
+}
+
+/// Why a hand-in was not graded at all.
+#[derive(Debug, thiserror::Error)]
+pub enum GradingError {
+    /// The user interrupted it.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
+    /// The lab, with the numbers of this student.
+    #[error(transparent)]
+    Lab(Box<LoadError>),
+    /// The book.
+    #[error(transparent)]
+    Book(#[from] BookError),
+}
+
+impl From<LoadError> for GradingError {
+    fn from(error: LoadError) -> Self {
+        Self::Lab(Box::new(error))
+    }
+}
+
+/// What is made of a graded run besides its record, such as a report.
+pub type Keep<'a> =
+    dyn Fn(&HandIn, &StudentLab<'_>, &Source, &GradedRun) -> Result<(), BookError> + Sync + 'a;
+
+/// Grades `hand_in` in `lab`, unless the book has its record; `keep` is called with a run that was graded now.
+///
+/// # Errors
+/// [`GradingError`].
+pub fn grade(
+    lab: &StaffedLab,
+    book: &Book,
+    hand_in: &HandIn,
+    host: &mut dyn Host,
+    keep: Option<&Keep<'_>>,
+) -> Result<Outcome, GradingError> {
+    let bytes = book.submission(&hand_in.submission)?;
+    let not_text = NotText::of(&bytes);
+    let text = match &not_text {
+        Some(not_text) => not_text.shown.clone(),
+        None => String::from_utf8_lossy(&bytes).into_owned(),
+    };
+    let source = Source::new(file_name(&hand_in.file), text);
+    let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
+    let student_lab = lab.for_student(whose)?;
+    let inputs = lab.inputs(&student_lab, &source, &hand_in.submission);
+    let key = inputs.key();
+    if let Some(record) = book.record(&key)? {
+        return Ok(recorded(&record, true));
+    }
+    let (lab, staff) = (student_lab.lab(), student_lab.staff());
+    let graded = match not_text {
+        Some(mut not_text) => judge::grade(lab, staff, &source, &mut not_text)?,
+        None => judge::grade(lab, staff, &source, host)?,
+    };
+    let verdict = graded.grade.verdict;
+    if !verdict.is_decided() {
+        let mut stops = graded.grade.tasks.iter();
+        let stop =
+            stops.find_map(|task| (task.verdict == verdict).then(|| task.stopped.clone())?);
+        return Ok(Outcome::NotGraded {
+            verdict,
+            what: stop.map_or_else(|| verdict.name().to_owned(), |stop| stop.message),
+        });
+    }
+    if let Some(keep) = keep {
+        keep(hand_in, &student_lab, &source, &graded)?;
+    }
+    let record = Record::new(inputs, graded.grade);
+    book.put_record(&record)?;
+    Ok(recorded(&record, false))
+}
+
+fn recorded(record: &Record, was_known: bool) -> Outcome {
+    Outcome::Recorded {
+        record: record.key.clone(),
+        points: record.grade.points,
+        max_points: record.grade.max_points,
+        was_known,
+    }
+}
+
+/// The name of a file without its folders, however they were written.
+fn file_name(path: &str) -> &str {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+    Path::new(name)
+        .file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or("submission.rhai")
+}

@@ -1,0 +1,103 @@
+//! A submission that is not text: it does not build, and the place of the first byte that cannot be read says why.
+
+use super::controller::{Controller, Mistake, Opening, SourcePosition, Stop};
+use super::host::Host;
+
+/// Files that are handed in instead of a script, by their first bytes.
+const OTHERS: [(&[u8], &str); 7] = [
+    (b"PK\x03\x04", "a ZIP archive"),
+    (b"Rar!", "a RAR archive"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
+    (b"\x1f\x8b", "a gzip archive"),
+    (b"%PDF", "a PDF"),
+    (b"\xff\xfe", "text in UTF-16"),
+    (b"\xfe\xff", "text in UTF-16"),
+];
+
+/// A submission that no host can open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NotText {
+    /// What of it can be shown: bytes that cannot be read are U+FFFD.
+    pub shown: String,
+    mistake: Mistake,
+}
+
+impl NotText {
+    /// What is wrong with the bytes of a file; `None` where they are UTF-8.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let other = OTHERS.iter().find(|(first, _)| bytes.starts_with(first));
+        let valid = match std::str::from_utf8(bytes) {
+            Ok(_) if other.is_none() => return None,
+            // an archive may be UTF-8 by chance
+            Ok(_) => 0,
+            Err(error) => error.valid_up_to(),
+        };
+        let mistake = match other {
+            Some((_, what)) => Mistake {
+                message: format!("the file is {what}, not a script"),
+                place: None,
+                help: Some("hand in the script itself, saved as UTF-8 text".to_owned()),
+            },
+            None => {
+                let before = String::from_utf8_lossy(&bytes[..valid]);
+                let line = before.matches('\n').count() + 1;
+                let column = before
+                    .rsplit('\n')
+                    .next()
+                    .unwrap_or_default()
+                    .chars()
+                    .count()
+                    + 1;
+                Mistake {
+                    message: format!("the file is not UTF-8 text: byte 0x{:02x}", bytes[valid]),
+                    place: Some(SourcePosition { line, column }),
+                    help: Some(
+                        "save it as UTF-8: an editor on Windows may have saved it as Windows-1252"
+                            .to_owned(),
+                    ),
+                }
+            }
+        };
+        Some(Self {
+            shown: String::from_utf8_lossy(bytes).into_owned(),
+            mistake,
+        })
+    }
+}
+
+impl Host for NotText {
+    fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Stop> {
+        Err(Stop::DidNotBuild(self.mistake.clone()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_byte_that_is_no_text_has_its_place() {
+        assert_eq!(NotText::of("// Straße\n".as_bytes()), None);
+        let latin = NotText::of(b"let a = 1;\n// Stra\xdfe\n").expect("not UTF-8");
+        let place = latin.mistake.place.expect("a place");
+        assert_eq!((place.line, place.column), (2, 8));
+        assert!(latin.mistake.message.contains("byte 0xdf"));
+        assert!(latin.shown.contains('\u{fffd}'));
+    }
+
+    #[test]
+    fn other_files_are_named() {
+        for (bytes, what) in [
+            (&b"PK\x03\x04rest"[..], "a ZIP archive"),
+            (b"%PDF-1.7", "a PDF"),
+            (b"\xff\xfel\0e\0t\0", "UTF-16"),
+        ] {
+            let found = NotText::of(bytes).expect("no script");
+            assert!(
+                found.mistake.message.contains(what),
+                "{}",
+                found.mistake.message
+            );
+        }
+    }
+}
