@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, completions, grade, lab_check, lab_list, lab_variant, log_export, new, robot_convert,
-    robot_eval, robot_show, scene_check, verify, view, watch,
+    compare, completions, course_check, course_grade, course_status, grade, lab_check, lab_list,
+    lab_variant, log_export, new, robot_convert, robot_eval, robot_show, scene_check, verify, view,
+    watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -46,6 +47,9 @@ pub(crate) enum Command {
     /// Check a lab, or generate a student's variant of it: for course staff
     #[command(subcommand)]
     Lab(LabCommand),
+    /// Grade a class: from what the LMS exported to what it takes back: for course staff
+    #[command(subcommand)]
+    Course(CourseCommand),
     Completions(completions::Args),
     /// Runs a submission for another process; not for people
     #[command(hide = true)]
@@ -75,6 +79,13 @@ pub(crate) enum LabCommand {
     Variant(lab_variant::Args),
 }
 
+#[derive(Debug, Subcommand)]
+pub(crate) enum CourseCommand {
+    Check(course_check::Args),
+    Grade(course_grade::Args),
+    Status(course_status::Args),
+}
+
 impl CommandLine {
     /// Runs what was typed.
     pub(crate) fn run(self) -> Result<ExitCode, Failure> {
@@ -95,6 +106,9 @@ impl CommandLine {
             Command::Log(LogCommand::Export(args)) => log_export::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
+            Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
+            Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),
+            Command::Course(CourseCommand::Status(args)) => course_status::run(&args),
             Command::Completions(args) => completions::run(&args),
             Command::Worker => Ok(worker::serve()),
         }

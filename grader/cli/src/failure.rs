@@ -65,6 +65,15 @@ impl Failure {
         )
     }
 
+    /// Ctrl-C, where what was done so far stands.
+    pub(crate) fn paused() -> Self {
+        Self::words(
+            INTERRUPTED,
+            "interrupted; what was graded so far stands".to_owned(),
+            Some("the same command goes on from here".to_owned()),
+        )
+    }
+
     /// A diagnostic with a place in a file.
     pub(crate) fn diagnostic(
         code: u8,

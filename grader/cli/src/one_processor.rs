@@ -10,11 +10,45 @@ use rustix::thread::{CpuSet, sched_getaffinity, sched_getcpu, sched_setaffinity}
 /// The processors this thread may run on, given back when dropped.
 #[derive(Debug, Default)]
 pub(crate) struct OneProcessor {
+    /// The only one to choose; where there is none, that on which the thread runs.
+    #[cfg(target_os = "linux")]
+    fixed: Option<usize>,
     #[cfg(target_os = "linux")]
     before: Option<CpuSet>,
 }
 
+/// The processors that this process may use; empty where the system does not say.
+#[cfg(target_os = "linux")]
+pub(crate) fn processors() -> Vec<usize> {
+    match sched_getaffinity(None) {
+        Ok(set) => (0..CpuSet::MAX_CPU)
+            .filter(|cpu| set.is_set(*cpu))
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// The processors that this process may use: this system does not say.
+#[cfg(not(target_os = "linux"))]
+pub(crate) fn processors() -> Vec<usize> {
+    Vec::new()
+}
+
 impl OneProcessor {
+    /// Always that one.
+    #[cfg_attr(
+        not(target_os = "linux"),
+        expect(unused_variables, reason = "there is no choice on this system")
+    )]
+    pub(crate) fn fixed(processor: Option<usize>) -> Self {
+        Self {
+            #[cfg(target_os = "linux")]
+            fixed: processor,
+            #[cfg(target_os = "linux")]
+            before: None,
+        }
+    }
+
     /// Stays where the thread runs now, and with it every process started from now on.
     ///
     /// Chosen anew for each worker, so that a choice that turns out busy does not last.
@@ -25,7 +59,7 @@ impl OneProcessor {
             return;
         };
         let mut here = CpuSet::new();
-        let processor = sched_getcpu();
+        let processor = self.fixed.unwrap_or_else(sched_getcpu);
         if processor < CpuSet::MAX_CPU {
             here.set(processor);
             if sched_setaffinity(None, &here).is_ok() {

@@ -121,6 +121,14 @@ impl WorkerHost {
         }
     }
 
+    /// One without progress, whose workers run on `processor`.
+    pub(crate) fn on(processor: Option<usize>) -> Self {
+        Self {
+            progress: None,
+            processor: OneProcessor::fixed(processor),
+        }
+    }
+
     /// Takes the progress bar off the terminal.
     pub(crate) fn finish(&self) {
         if let Some(progress) = &self.progress {

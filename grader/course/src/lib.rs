@@ -13,6 +13,9 @@
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
+//! | [`question`] | what waits for a person |
+//! | [`intake`] | from what the LMS exported to hand-ins |
+//! | [`public`] | what anybody can read in Kinemark's own repository |
 //! | [`staffed_lab`] | a lab with its staff part, ready for every student |
 //! | [`grading`] | one hand-in to its record |
 //!
@@ -33,8 +36,11 @@ pub mod fixes;
 pub mod grading;
 pub mod history;
 pub mod index;
+pub mod intake;
 pub mod journal;
 mod private_files;
+pub mod public;
+pub mod question;
 pub mod roster;
 pub mod staffed_lab;
 pub mod standing;

@@ -110,6 +110,11 @@ impl StaffedLab {
         self.staff.is_some()
     }
 
+    /// The salt that draws hidden cases and variants, where there is one.
+    pub fn salt(&self) -> Option<&str> {
+        self.salt.as_deref()
+    }
+
     /// Whether each student has numbers of their own.
     pub fn has_variants(&self) -> bool {
         self.has_variants

@@ -2,6 +2,9 @@
 
 pub(crate) mod compare;
 pub(crate) mod completions;
+pub(crate) mod course_check;
+pub(crate) mod course_grade;
+pub(crate) mod course_status;
 pub(crate) mod grade;
 pub(crate) mod lab_check;
 pub(crate) mod lab_list;

@@ -1,0 +1,202 @@
+//! `kinemark course check`: what is wrong with a course before anything is graded in it.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use kinemark_course::course_file::CourseLab;
+use kinemark_course::public::public_part;
+use kinemark_course::staffed_lab::{StaffedLab, engine_id};
+use owo_colors::OwoColorize as _;
+use serde::Serialize;
+
+use crate::course_folder::{Course, CourseArgs};
+use crate::failure::{Failure, LOST};
+use crate::output;
+
+/// Check a course: its files, its labs and their digests, its salt
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark course check\n  kinemark course check --course robots-1 --json\n\n\
+    Reads course.toml, roster.csv, fixes.toml and every lab; grades nothing. See docs/ta-guide.md.\n\
+    Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 a file cannot be read."
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) course: CourseArgs,
+    /// Print what was checked as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// One thing that was checked.
+#[derive(Debug, Serialize)]
+pub(crate) struct Row {
+    /// What.
+    pub(crate) what: String,
+    /// What it is.
+    pub(crate) found: String,
+    /// What is wrong with it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) problem: Option<String>,
+    /// What to do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) help: Option<String>,
+}
+
+/// A salt shorter than this can be guessed.
+const LEAST_SALT: usize = 12;
+
+/// Checks and prints.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let course = Course::open(&args.course)?;
+    let mut rows = vec![roster(&course), engine(&course)];
+    rows.extend(salt(&course));
+    for rules in &course.file.labs {
+        let lab = course.lab(rules)?;
+        rows.push(lab_row(&course, rules, &lab));
+    }
+    if args.json {
+        output::print_json(&rows)?;
+    } else {
+        output::print(&text(&course, &rows))?;
+    }
+    let bad = rows.iter().any(|row| row.problem.is_some());
+    Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// What keeps a course from grading a lab: checked here, and before every grade.
+pub(crate) fn refusal(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Option<Row> {
+    let engine = engine(course);
+    if engine.problem.is_some() {
+        return Some(engine);
+    }
+    let row = lab_row(course, rules, lab);
+    row.problem.is_some().then_some(row)
+}
+
+fn roster(course: &Course) -> Row {
+    let people = course.roster.people();
+    let mut sections: Vec<&str> = people
+        .iter()
+        .map(|person| person.section.as_str())
+        .collect();
+    sections.sort_unstable();
+    sections.dedup();
+    sections.retain(|section| !section.is_empty());
+    let of_sections = match sections.len() {
+        0 => String::new(),
+        1 => ", 1 section".to_owned(),
+        count => format!(", {count} sections"),
+    };
+    Row {
+        what: "roster".to_owned(),
+        found: format!("{} students{of_sections}", people.len()),
+        problem: None,
+        help: None,
+    }
+}
+
+fn engine(course: &Course) -> Row {
+    let own = engine_id();
+    let problem = match &course.file.engine {
+        Some(engine) if *engine != own => Some(format!("the course grades with {engine}")),
+        _ => None,
+    };
+    let help = problem.is_some().then(|| {
+        format!("use that version, or write `engine = \"{own}\"` into course.toml and regrade")
+    });
+    Row {
+        what: "engine".to_owned(),
+        found: own,
+        problem,
+        help,
+    }
+}
+
+fn salt(course: &Course) -> Option<Row> {
+    let salt = course.salt.as_ref()?;
+    let is_short = salt.chars().count() < LEAST_SALT;
+    Some(Row {
+        what: "salt".to_owned(),
+        found: "of the course".to_owned(),
+        problem: is_short
+            .then(|| format!("it has fewer than {LEAST_SALT} characters, so it can be guessed")),
+        help: is_short.then(|| {
+            "write a longer one before the first hand-out: it also draws the variants".to_owned()
+        }),
+    })
+}
+
+fn lab_row(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Row {
+    let version = &lab.lab_version;
+    let solution = lab.staff_files();
+    let solution = solution
+        .iter()
+        .find(|(path, _)| path.ends_with("/solution.rhai"))
+        .map_or(&[][..], |(_, bytes)| bytes.as_slice());
+    let public = public_part(solution, lab.salt());
+    let public = public.filter(|_| !course.file.public_solutions);
+    let (problem, help) = match (&rules.digest, public) {
+        (_, Some(part)) => (
+            Some(format!("its {part} is public, in Kinemark's repository")),
+            Some(
+                "write a solution and a salt of your own, or allow it with `public_solutions = true` in course.toml"
+                    .to_owned(),
+            ),
+        ),
+        (None, None) => (
+            Some("course.toml has no digest of it".to_owned()),
+            Some(format!("write `digest = \"{version}\"` below `name = \"{}\"`", rules.name)),
+        ),
+        (Some(digest), None) if digest != version => (
+            Some("its files are not those that course.toml names".to_owned()),
+            Some(format!(
+                "restore them, or accept them with `digest = \"{version}\"` and look at `kinemark course regrade {}`",
+                rules.name
+            )),
+        ),
+        (Some(_), None) => (None, None),
+    };
+    let points: f64 = lab
+        .lab
+        .tasks
+        .iter()
+        .map(kinemark_grader::lab::Task::max_points)
+        .sum();
+    let variants = if lab.has_variants() {
+        ", a variant each"
+    } else {
+        ""
+    };
+    Row {
+        what: rules.name.clone(),
+        found: format!("{points} points{variants}"),
+        problem,
+        help,
+    }
+}
+
+fn text(course: &Course, rows: &[Row]) -> String {
+    let mut out = format!("{}\n\n", course.file.title.bold());
+    for row in rows {
+        let mark = match row.problem {
+            Some(_) => "-".red().to_string(),
+            None => "+".green().to_string(),
+        };
+        let _ = writeln!(out, "{mark} {:<28} {}", row.what, row.found);
+        if let Some(problem) = &row.problem {
+            let _ = writeln!(out, "    {problem}");
+        }
+        if let Some(help) = &row.help {
+            let _ = writeln!(out, "    {} {help}", "next:".cyan());
+        }
+    }
+    let problems = rows.iter().filter(|row| row.problem.is_some()).count();
+    let sum = match problems {
+        0 => "nothing is wrong".green().to_string(),
+        1 => "1 problem".red().to_string(),
+        _ => format!("{problems} problems").red().to_string(),
+    };
+    let _ = writeln!(out, "\n{sum}");
+    out
+}

@@ -1,0 +1,333 @@
+//! `kinemark course grade`: what the LMS exported, read, matched to students and graded; again, it goes on where it stopped.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use jiff::Timestamp;
+use kinemark_course::course_file::{Attempts, CourseLab};
+use kinemark_course::grading::{self, GradingError, Outcome};
+use kinemark_course::history::{Attempt, History};
+use kinemark_course::intake::{self, Decision};
+use kinemark_course::journal::{Event, Graded, HandIn, Writer};
+use kinemark_course::staffed_lab::StaffedLab;
+use kinemark_course::standing::{Standing, Status};
+use kinemark_grader::record::verdict::Verdict;
+use owo_colors::OwoColorize as _;
+
+use super::course_check;
+use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::failure::{FAULT, Failure, LOST};
+use crate::operator::operator;
+use crate::shard::Shard;
+use crate::worker::WorkerHost;
+use crate::{interrupt, output, pool};
+
+/// Grade what was handed in: an archive or a folder of the LMS, or whatever of a lab is not graded yet
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark course grade ~/Downloads/lab1.zip 01-kinematics\n  kinemark course grade 01-kinematics\n  \
+    kinemark course grade lab1.zip 01-kinematics --shard 2/4\n\n\
+    SOURCE is what Moodle, Canvas or Gradescope exported, a folder of repositories, or files named by id. The same command again \
+    goes on where it stopped; without SOURCE it grades what is in the book and reads fixes.toml again.\n\
+    Exit codes: 0 everybody who handed in has a grade, 1 something needs a person, 2 usage, 3 the course or the lab is broken, \
+    4 the grader or this machine failed."
+)]
+pub(crate) struct Args {
+    /// What the LMS exported, if anything is new, and the lab
+    #[arg(value_names = ["SOURCE", "LAB"], num_args = 1..=2, required = true)]
+    pub(crate) what: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) course: CourseArgs,
+    /// Number of submissions graded at once [default: one a processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) jobs: Option<usize>,
+    /// Grade only a part of the class, such as 2/4: parts are graded on several machines and joined by copying their books
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+    /// Print how everybody stands as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// The journal of this command, begun with its first line.
+pub(crate) struct Log<'c> {
+    course: &'c Course,
+    writer: Option<Writer>,
+}
+
+impl<'c> Log<'c> {
+    pub(crate) fn new(course: &'c Course) -> Self {
+        Self {
+            course,
+            writer: None,
+        }
+    }
+
+    pub(crate) fn append(&mut self, event: Event) -> Result<(), Failure> {
+        let at = Timestamp::now();
+        let writer = match &mut self.writer {
+            Some(writer) => writer,
+            None => {
+                let journal = self.course.book.journal();
+                let begun = journal
+                    .begin(at, &operator())
+                    .map_err(|error| self.failed(&error))?;
+                self.writer.insert(begun)
+            }
+        };
+        let appended = writer.append(at, event);
+        appended.map_err(|error| self.failed(&error))
+    }
+
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        let finished = self.writer.take().map(Writer::finish);
+        finished
+            .unwrap_or(Ok(()))
+            .map_err(|error| self.failed(&error))
+    }
+
+    fn failed(&self, error: &std::io::Error) -> Failure {
+        Failure::fault(
+            format!(
+                "the journal in `{}` cannot be written: {}",
+                output::path(self.course.book.root()),
+                crate::disk::plain(error)
+            ),
+            "free some space; what was graded so far stands, and the same command goes on from there",
+        )
+    }
+}
+
+/// Reads, grades, prints.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let (source, lab) = match args.what.as_slice() {
+        [source, lab] => (Some(source), lab),
+        [lab] => (None, lab),
+        // clap lets no more through
+        _ => {
+            return Err(Failure::usage(
+                "name what the LMS exported and the lab".to_owned(),
+                "such as `kinemark course grade lab1.zip 01-kinematics`",
+            ));
+        }
+    };
+    let course = Course::open(&args.course)?;
+    let rules = course.rules(&lab.to_string_lossy())?;
+    let staffed = course.lab(rules)?;
+    if let Some(row) = course_check::refusal(&course, rules, &staffed) {
+        return Err(Failure::broken(
+            format!("{}: {}", row.what, row.problem.unwrap_or_default()),
+            &row.help.unwrap_or_default(),
+        ));
+    }
+    let version = course.book.put_lab(&staffed.lab_files());
+    version.map_err(book_failure)?;
+    let version = course.book.put_staff(&staffed.staff_files());
+    version.map_err(book_failure)?;
+
+    let mut log = Log::new(&course);
+    take_in(&course, rules, source, &mut log)?;
+    let history = course.history()?;
+    let waiting = waiting(rules, &history, args.shard);
+    let result = grade(&course, &staffed, &waiting, args.jobs, &mut log);
+    log.finish()?;
+    result?;
+    if interrupt::asked() {
+        return Err(Failure::paused());
+    }
+    if let Some(shard) = args.shard {
+        // the index is made where the books are joined
+        output::print(&format!("part {shard}: {} graded\n", waiting.len()))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    summary(&course, rules, args.json)
+}
+
+/// Reads the source, and what people decided since.
+fn take_in(
+    course: &Course,
+    rules: &CourseLab,
+    source: Option<&PathBuf>,
+    log: &mut Log<'_>,
+) -> Result<(), Failure> {
+    let history = course.history()?;
+    let mut seen = BTreeSet::new();
+    let mut is_new =
+        |hand_in: &HandIn| !history.knows(&hand_in.id) && seen.insert(hand_in.id.clone());
+    if let Some(source) = source {
+        let found =
+            intake::read(source, &rules.name, &course.fixes, &course.book).map_err(book_failure)?;
+        for hand_in in found.hand_ins {
+            if is_new(&hand_in) {
+                log.append(Event::HandIn(hand_in))?;
+            }
+        }
+        for question in found.questions {
+            course.book.put_question(&question).map_err(book_failure)?;
+        }
+    }
+    for question in course.book.questions().map_err(book_failure)? {
+        if question.lab != rules.name {
+            continue;
+        }
+        match intake::decision(&question, &course.fixes) {
+            None => continue,
+            Some(Decision::Ignored) => {}
+            Some(Decision::HandIn(hand_in)) => {
+                if is_new(&hand_in) {
+                    log.append(Event::HandIn(*hand_in))?;
+                }
+            }
+        }
+        course
+            .book
+            .remove_question(&question)
+            .map_err(book_failure)?;
+    }
+    Ok(())
+}
+
+/// The hand-ins that count, or may count, and have no grade yet.
+fn waiting(rules: &CourseLab, history: &History, shard: Option<Shard>) -> Vec<HandIn> {
+    let mut waiting = Vec::new();
+    for (student, attempts) in history.of_lab(&rules.name) {
+        if shard.is_some_and(|shard| !shard.has(student.as_str())) {
+            continue;
+        }
+        let counting: &[Attempt] = match rules.attempts {
+            Attempts::Best => attempts,
+            Attempts::Last => attempts.last().map_or(&[], std::slice::from_ref),
+            Attempts::First => attempts.first().map_or(&[], std::slice::from_ref),
+        };
+        let ungraded = counting.iter().filter(|attempt| attempt.record().is_none());
+        waiting.extend(ungraded.map(|attempt| attempt.hand_in.clone()));
+    }
+    waiting
+}
+
+/// Grades hand-ins, each twice at most: what this machine failed at is tried once more, alone.
+fn grade(
+    course: &Course,
+    lab: &StaffedLab,
+    waiting: &[HandIn],
+    jobs: Option<usize>,
+    log: &mut Log<'_>,
+) -> Result<(), Failure> {
+    let name = |hand_in: &HandIn| hand_in.student.to_string();
+    let book = &course.book;
+    let work =
+        |hand_in: &HandIn, host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, None);
+    let mut failed: Vec<HandIn> = Vec::new();
+    pool::run(
+        waiting,
+        jobs.unwrap_or_else(pool::default_jobs),
+        name,
+        work,
+        |hand_in, result| match record(log, hand_in, result)? {
+            None => Ok(false),
+            Some(_) => {
+                failed.push(hand_in.clone());
+                Ok(true)
+            }
+        },
+    )?;
+    pool::run(&failed, 1, name, work, |hand_in, result| {
+        let failure = record(log, hand_in, result)?;
+        let has_failed = failure.is_some();
+        if let Some((verdict, what)) = failure {
+            log.append(Event::NotGraded {
+                hand_in: hand_in.id.clone(),
+                verdict,
+                what,
+            })?;
+        }
+        Ok(has_failed)
+    })
+}
+
+/// Writes the grade of a hand-in into the journal; gives the failure of this machine or the grader, if that is all there is.
+fn record(
+    log: &mut Log<'_>,
+    hand_in: &HandIn,
+    result: Result<Outcome, GradingError>,
+) -> Result<Option<(Verdict, String)>, Failure> {
+    match result {
+        Ok(Outcome::Recorded { record, .. }) => {
+            log.append(Event::Graded(Graded {
+                hand_in: hand_in.id.clone(),
+                record,
+                why: None,
+            }))?;
+            Ok(None)
+        }
+        Ok(Outcome::NotGraded { verdict, what }) => Ok(Some((verdict, what))),
+        // said once everything else has ended
+        Err(GradingError::Interrupted(_)) => Ok(None),
+        Err(GradingError::Lab(error)) => Err(Failure::from(*error)),
+        Err(GradingError::Book(error)) => Err(book_failure(error)),
+    }
+}
+
+/// Brings the index up to date, and prints how the lab stands.
+fn summary(course: &Course, rules: &CourseLab, json: bool) -> Result<ExitCode, Failure> {
+    let history = course.history()?;
+    let mut index = course.index(&history)?;
+    let questions = course.book.questions().map_err(book_failure)?;
+    let mut all: Vec<Standing> = Vec::new();
+    let mut of_lab: Vec<Standing> = Vec::new();
+    for other in &course.file.labs {
+        let open: Vec<_> = questions
+            .iter()
+            .filter(|question| question.lab == other.name)
+            .filter_map(|question| question.student.clone())
+            .collect();
+        let standings = course.standings(other, &history, &index, &open)?;
+        if other.name == rules.name {
+            of_lab.clone_from(&standings);
+        }
+        all.extend(standings);
+    }
+    index.put_standings(&all).map_err(index_failure)?;
+    let open = questions
+        .iter()
+        .filter(|question| question.lab == rules.name)
+        .count();
+    if json {
+        output::print_json(&of_lab)?;
+    } else {
+        output::print(&text(rules, &of_lab, open))?;
+    }
+    let has_failed =
+        |standing: &Standing| matches!(standing.status, Status::HostLimit | Status::GraderFault);
+    Ok(if of_lab.iter().any(has_failed) {
+        ExitCode::from(FAULT)
+    } else if open > 0 {
+        ExitCode::from(LOST)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// `287 graded, 9 missing, 4 need you`, and what to do next.
+fn text(rules: &CourseLab, standings: &[Standing], open: usize) -> String {
+    let mut counts: BTreeMap<Status, usize> = BTreeMap::new();
+    for standing in standings {
+        *counts.entry(standing.status).or_default() += 1;
+    }
+    let mut parts: Vec<String> = counts
+        .iter()
+        .map(|(status, count)| format!("{count} {}", status.words()))
+        .collect();
+    match open {
+        0 => {}
+        1 => parts.push("1 needs you".to_owned()),
+        count => parts.push(format!("{count} need you")),
+    }
+    let mut out = format!("{}: {}\n", rules.name.bold(), parts.join(", "));
+    if open > 0 {
+        out += &format!("{} kinemark course status {}\n", "next:".cyan(), rules.name);
+    }
+    out
+}

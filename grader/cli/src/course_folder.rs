@@ -1,0 +1,305 @@
+//! The folder of a course: found, read, and its labs loaded with the staff part.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_course::book::{Book, BookError};
+use kinemark_course::course_file::{COURSE_FILE, CourseFile, CourseLab};
+use kinemark_course::course_text::{decoded, read};
+use kinemark_course::fixes::{FIXES_FILE, Fixes};
+use kinemark_course::history::History;
+use kinemark_course::index::{Index, IndexError};
+use kinemark_course::journal::JournalError;
+use kinemark_course::roster::Roster;
+use kinemark_course::staffed_lab::StaffedLab;
+use kinemark_course::standing::{Standing, standings};
+use kinemark_course::student::StudentId;
+use kinemark_grader::task::files::Files;
+use kinemark_sim::text::{Source, suggest};
+
+use crate::disk::Folder;
+use crate::failure::{BROKEN, Failure};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{self, StaffPart};
+
+/// Which course.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct CourseArgs {
+    /// The course's folder [default: the one with a course.toml, here or above]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) course: Option<PathBuf>,
+}
+
+/// The folder that the program writes, in the course's.
+const BOOK: &str = "book";
+
+/// A course, read.
+pub(crate) struct Course {
+    pub(crate) root: PathBuf,
+    pub(crate) file: CourseFile,
+    pub(crate) roster: Roster,
+    pub(crate) fixes: Fixes,
+    pub(crate) book: Book,
+    /// The course's salt, where it has one of its own.
+    pub(crate) salt: Option<String>,
+    labs: Box<dyn Files>,
+    reference: Option<Folder>,
+}
+
+impl Course {
+    /// Finds and reads the course; nothing of a lab is loaded.
+    pub(crate) fn open(args: &CourseArgs) -> Result<Self, Failure> {
+        let root = root(args)?;
+        let file = CourseFile::parse(text(&root.join(COURSE_FILE))?)
+            .map_err(|error| Failure::diagnostic(BROKEN, error))?;
+        let roster = roster(&root.join(&file.roster))?;
+        let fixes = root.join(FIXES_FILE);
+        let fixes = if fixes.exists() {
+            Fixes::parse(&text(&fixes)?).map_err(|error| Failure::diagnostic(BROKEN, error))?
+        } else {
+            Fixes::default()
+        };
+        let salt = salt(&root, &file)?;
+        let from = LabsFolderArgs {
+            labs: file.labs_folder.as_ref().map(|labs| root.join(labs)),
+        };
+        let (labs, labs_folder) = labs_folder::open(&from)?;
+        let part = StaffPart {
+            reference: file.reference.as_ref().map(|folder| root.join(folder)),
+            salt: None,
+        };
+        let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
+        let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
+        let book = Book::open(&root.join(BOOK)).map_err(book_failure)?;
+        let course = Self {
+            root,
+            file,
+            roster,
+            fixes,
+            book,
+            salt,
+            labs,
+            reference,
+        };
+        course.check_fixes()?;
+        Ok(course)
+    }
+
+    /// Refuses decisions on people and labs that are not of the course: a slip would be without effect.
+    fn check_fixes(&self) -> Result<(), Failure> {
+        let fixes = &self.fixes;
+        let of_files = fixes.files.iter();
+        let of_files = of_files.map(|fix| (fix.student.as_ref(), &fix.lab));
+        let of_points = fixes
+            .points
+            .iter()
+            .map(|fix| (Some(&fix.student), &fix.lab));
+        let of_excuses = fixes
+            .excuses
+            .iter()
+            .map(|fix| (Some(&fix.student), &fix.lab));
+        let more = fixes.extensions.iter();
+        let more = more.map(|fix| (Some(&fix.student), &fix.lab));
+        for (student, lab) in of_files.chain(of_points).chain(of_excuses).chain(more) {
+            if let Some(student) = student {
+                self.person(student.as_str()).map_err(|_| {
+                    let known = self.roster.people().iter().map(|person| person.id.as_str());
+                    Failure::broken(
+                        format!(
+                            "{FIXES_FILE} names the student `{student}`, who is not in the roster"
+                        ),
+                        &suggest(student.as_str(), "ids", known.take(20)),
+                    )
+                })?;
+            }
+            if self.file.lab(lab).is_none() {
+                let known = self.file.labs.iter().map(|lab| lab.name.as_str());
+                return Err(Failure::broken(
+                    format!("{FIXES_FILE} names the lab `{lab}`, which is not one of the course"),
+                    &suggest(lab, "labs", known),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The student of an id as typed.
+    pub(crate) fn person(&self, typed: &str) -> Result<StudentId, Failure> {
+        let id = StudentId::new(typed)
+            .map_err(|why| Failure::usage(why, "write the id as roster.csv has it"))?;
+        if self.roster.get(&id).is_some() {
+            return Ok(id);
+        }
+        let known = self.roster.people().iter().map(|person| person.id.as_str());
+        Err(Failure::usage(
+            format!("no student `{id}` is in the roster"),
+            &suggest(id.as_str(), "ids", known.take(2000)),
+        ))
+    }
+
+    /// The rules of a lab of the course.
+    pub(crate) fn rules(&self, lab: &str) -> Result<&CourseLab, Failure> {
+        self.file.lab(lab).ok_or_else(|| {
+            let known = self.file.labs.iter().map(|lab| lab.name.as_str());
+            Failure::usage(
+                format!("lab `{lab}` is not one of the course"),
+                &suggest(lab, "labs", known),
+            )
+        })
+    }
+
+    /// A lab with its staff part.
+    pub(crate) fn lab(&self, rules: &CourseLab) -> Result<StaffedLab, Failure> {
+        let reference = self.reference.as_ref().map(|folder| folder as &dyn Files);
+        let salt = self.salt.as_deref();
+        let lab = StaffedLab::load(
+            self.labs.as_ref(),
+            reference,
+            &rules.name,
+            salt,
+            rules.variants,
+        )?;
+        if !lab.has_staff() {
+            return Err(Failure::broken(
+                format!(
+                    "lab `{}` has no reference solution, so nothing hidden can be graded",
+                    rules.name
+                ),
+                "write `reference = \"FOLDER\"` of the course staff's part into course.toml",
+            ));
+        }
+        Ok(lab)
+    }
+
+    /// What happened so far.
+    pub(crate) fn history(&self) -> Result<History, Failure> {
+        let entries = self.book.journal().entries().map_err(journal_failure)?;
+        Ok(History::of(entries))
+    }
+
+    /// The book as tables, with everything that is in it now.
+    pub(crate) fn index(&self, history: &History) -> Result<Index, Failure> {
+        let state = self.book.journal().state().map_err(|error| {
+            book_failure(BookError {
+                path: self.book.root().join("journal"),
+                why: error.to_string(),
+            })
+        })?;
+        Index::refresh(&self.book, history, &state).map_err(index_failure)
+    }
+
+    /// How everybody stands in a lab; `open` are students of whom a file waits for a person.
+    pub(crate) fn standings(
+        &self,
+        rules: &CourseLab,
+        history: &History,
+        index: &Index,
+        open: &[StudentId],
+    ) -> Result<Vec<Standing>, Failure> {
+        let summaries = index.summaries(&rules.name).map_err(index_failure)?;
+        let known = |key: &str| summaries.get(key).cloned();
+        Ok(standings(
+            rules,
+            &self.roster,
+            &self.fixes,
+            history,
+            open,
+            known,
+        ))
+    }
+}
+
+/// The folder with a `course.toml`: the one named, else here or above.
+fn root(args: &CourseArgs) -> Result<PathBuf, Failure> {
+    let help = "a course is a folder with a course.toml and a roster.csv: see docs/ta-guide.md";
+    if let Some(given) = &args.course {
+        if given.join(COURSE_FILE).is_file() {
+            return Ok(given.clone());
+        }
+        return Err(Failure::usage(
+            format!("`{}` has no {COURSE_FILE}", given.display()),
+            help,
+        ));
+    }
+    let here = Path::new(".");
+    let mut above = PathBuf::new();
+    let depth = here
+        .canonicalize()
+        .map_or(0, |here| here.ancestors().count());
+    for _ in 0..depth {
+        if above.join(COURSE_FILE).is_file() {
+            let is_here = above.as_os_str().is_empty();
+            return Ok(if is_here { here.to_owned() } else { above });
+        }
+        above.push("..");
+    }
+    Err(Failure::usage(
+        format!("there is no {COURSE_FILE} here or above"),
+        help,
+    ))
+}
+
+fn text(path: &Path) -> Result<Source, Failure> {
+    let shown = path.display().to_string();
+    let bytes = read(path).and_then(kinemark_grader::task::files::text);
+    match bytes {
+        Ok(text) => Ok(Source::new(shown, text)),
+        Err(why) => Err(Failure::broken(
+            format!("`{shown}` cannot be read: {why}"),
+            "save it as UTF-8 text",
+        )),
+    }
+}
+
+fn roster(path: &Path) -> Result<Roster, Failure> {
+    let shown = path.display().to_string();
+    let bytes = read(path).map_err(|why| {
+        Failure::broken(
+            format!("the roster `{shown}` cannot be read: {why}"),
+            "write it as CSV with the columns id,name,email,section, or name it in course.toml: roster = \"FILE\"",
+        )
+    })?;
+    Roster::parse(&shown, &bytes).map_err(|error| Failure::diagnostic(BROKEN, error))
+}
+
+/// The salt of the course's file, without the line end.
+fn salt(root: &Path, file: &CourseFile) -> Result<Option<String>, Failure> {
+    let Some(name) = &file.salt_file else {
+        return Ok(None);
+    };
+    let path = root.join(name);
+    let help = "write a line that nobody can guess into it, and keep it from students";
+    let broken = |why: &str| Failure::broken(format!("the salt `{}`: {why}", path.display()), help);
+    let bytes = read(&path).map_err(|why| broken(&why))?;
+    let text = decoded(&bytes).trim().to_owned();
+    if text.is_empty() {
+        return Err(broken("the file is empty"));
+    }
+    if text.lines().count() > 1 {
+        return Err(broken("the file has several lines, and a salt is one"));
+    }
+    Ok(Some(text))
+}
+
+/// A failure of the book, for people.
+pub(crate) fn book_failure(error: BookError) -> Failure {
+    Failure::fault(
+        format!("the book: {error}"),
+        "check that the folder can be written to and that the disk has space",
+    )
+}
+
+/// A failure of the index, for people.
+pub(crate) fn index_failure(error: IndexError) -> Failure {
+    Failure::fault(
+        format!("the index of the book: {error}"),
+        "it can be deleted at any time: the next command makes it anew",
+    )
+}
+
+/// A failure of the journal, for people.
+pub(crate) fn journal_failure(error: JournalError) -> Failure {
+    Failure::broken(
+        format!("the journal of the book: {error}"),
+        "restore the file from a copy of the book",
+    )
+}

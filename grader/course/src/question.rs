@@ -1,0 +1,217 @@
+//! What waits for a person: a file that nobody could be sure about, with the lines that would decide it. Kept until it is decided,
+//! because its path may hold a name.
+
+use std::io;
+use std::path::PathBuf;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::book::{Book, BookError};
+use crate::private_files::put;
+use crate::student::StudentId;
+
+/// A file or folder that a person has to decide on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Question {
+    /// The lab.
+    pub lab: String,
+    /// The file or folder of the person, as the LMS named it.
+    pub path: String,
+    /// What is not clear, in words.
+    pub problem: String,
+    /// What to do, in words.
+    pub help: String,
+    /// Whose it is, where that is clear and something else is not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub student: Option<StudentId>,
+    /// Ids that come near to what was found.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub near: Vec<StudentId>,
+    /// When it was handed in, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub submitted_at: Option<Timestamp>,
+    /// Whether the LMS marked it as late, where it marks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marked_late: Option<bool>,
+    /// The number of the attempt at the LMS, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attempt: Option<u32>,
+    /// The number by which the LMS knows the student in its files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lms_number: Option<String>,
+    /// The submissions in it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub candidates: Vec<Candidate>,
+}
+
+/// A submission that may be meant.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// Its path, as the LMS named it.
+    pub path: String,
+    /// Its digest in the book.
+    pub submission: String,
+}
+
+impl Question {
+    /// Its name in the book: the same question asked again is the same.
+    fn id(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.lab.as_bytes());
+        hasher.update(b"\n");
+        hasher.update(self.path.as_bytes());
+        for candidate in &self.candidates {
+            hasher.update(b"\n");
+            hasher.update(candidate.submission.as_bytes());
+        }
+        hasher.finalize().to_hex()[..32].to_owned()
+    }
+
+    /// The tables for `fixes.toml` that decide it, to choose one from and to write the reason into: one a candidate, and one that
+    /// ignores it.
+    pub fn fixes(&self, by: &str) -> Vec<String> {
+        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+        let table = |path: &str, whose: &str| {
+            format!(
+                "[[files]]\nlab = {}\npath = {}\n{whose}\nwhy = \"\"\nby = {}\n",
+                quoted(&self.lab),
+                quoted(path),
+                quoted(by)
+            )
+        };
+        let student = self.student.as_ref().or(self.near.first());
+        let whose = format!(
+            "student = {}",
+            quoted(student.map_or("ID", StudentId::as_str))
+        );
+        let mut tables: Vec<String> = match self.candidates.as_slice() {
+            [_] => vec![table(&self.path, &whose)],
+            candidates => {
+                let of_each = candidates.iter().map(|file| table(&file.path, &whose));
+                of_each.collect()
+            }
+        };
+        tables.push(table(&self.path, "ignore = true"));
+        tables
+    }
+}
+
+impl Book {
+    fn question_path(&self, id: &str) -> PathBuf {
+        self.root().join("questions").join(format!("{id}.json"))
+    }
+
+    /// Keeps a question.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_question(&self, question: &Question) -> Result<(), BookError> {
+        let path = self.question_path(&question.id());
+        let json = serde_json::to_vec(question);
+        let written = json
+            .map_err(io::Error::other)
+            .and_then(|json| put(&path, &json));
+        written.map_err(|error| BookError {
+            path,
+            why: error.to_string(),
+        })
+    }
+
+    /// Forgets a question that was decided.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn remove_question(&self, question: &Question) -> Result<(), BookError> {
+        let path = self.question_path(&question.id());
+        match std::fs::remove_file(&path) {
+            Ok(()) => Ok(()),
+            // another command was first
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            Err(error) => Err(BookError {
+                path,
+                why: error.to_string(),
+            }),
+        }
+    }
+
+    /// All open questions, by lab and path.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn questions(&self) -> Result<Vec<Question>, BookError> {
+        let folder = self.root().join("questions");
+        let unread = |path: PathBuf, why: String| BookError { path, why };
+        let entries = match std::fs::read_dir(&folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(unread(folder, error.to_string())),
+        };
+        let mut questions = Vec::new();
+        for entry in entries {
+            let path = entry
+                .map_err(|error| unread(folder.clone(), error.to_string()))?
+                .path();
+            if path.extension().is_none_or(|ending| ending != "json") {
+                continue;
+            }
+            let bytes =
+                std::fs::read(&path).map_err(|error| unread(path.clone(), error.to_string()))?;
+            let question: Question = serde_json::from_slice(&bytes)
+                .map_err(|error| unread(path.clone(), error.to_string()))?;
+            questions.push(question);
+        }
+        questions.sort_by(|one, other| (&one.lab, &one.path).cmp(&(&other.lab, &other.path)));
+        Ok(questions)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn question() -> Question {
+        let file = |name: &str| Candidate {
+            path: format!("Müller \"x\"/{name}"),
+            submission: name.to_owned(),
+        };
+        Question {
+            lab: "01".to_owned(),
+            path: "Müller \"x\"".to_owned(),
+            problem: "two scripts".to_owned(),
+            help: "say which".to_owned(),
+            student: None,
+            near: vec![StudentId::new("s1").unwrap()],
+            submitted_at: None,
+            marked_late: None,
+            attempt: None,
+            lms_number: None,
+            candidates: vec![file("a.rhai"), file("b.rhai")],
+        }
+    }
+
+    #[test]
+    fn a_question_is_kept_once_and_removed_when_decided() {
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::open(bed.path()).unwrap();
+        assert!(book.questions().unwrap().is_empty());
+        book.put_question(&question()).unwrap();
+        book.put_question(&question()).unwrap();
+        assert_eq!(book.questions().unwrap(), [question()]);
+        book.remove_question(&question()).unwrap();
+        book.remove_question(&question()).unwrap();
+        assert!(book.questions().unwrap().is_empty());
+    }
+
+    #[test]
+    fn its_lines_are_fixes() {
+        let lines = question().fixes("ta");
+        assert_eq!(lines.len(), 3);
+        let reason = |table: &str| table.replace("why = \"\"", "why = \"asked them\"");
+        let text = format!("format = 1\n{}\n{}", reason(&lines[0]), reason(&lines[2]));
+        let source = kinemark_sim::text::Source::new("fixes.toml", text);
+        let fixes = crate::fixes::Fixes::parse(&source).unwrap();
+        assert_eq!(fixes.files[0].path, "Müller \"x\"/a.rhai");
+        assert_eq!(fixes.files[1].student, None);
+    }
+}
