@@ -34,7 +34,6 @@ const BOOK: &str = "book";
 
 /// A course, read.
 pub(crate) struct Course {
-    pub(crate) root: PathBuf,
     pub(crate) file: CourseFile,
     pub(crate) roster: Roster,
     pub(crate) fixes: Fixes,
@@ -71,7 +70,6 @@ impl Course {
         let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
         let book = Book::open(&root.join(BOOK)).map_err(book_failure)?;
         let course = Self {
-            root,
             file,
             roster,
             fixes,

@@ -8,6 +8,7 @@ mod chosen_variant;
 mod command_line;
 mod commands;
 mod course_folder;
+mod course_log;
 mod disk;
 mod failure;
 mod fresh_folder;

@@ -118,6 +118,15 @@ pub struct Standing {
     pub failure: Option<String>,
 }
 
+/// The attempts that have to be graded to know which counts.
+pub fn counting(rule: Attempts, attempts: &[Attempt]) -> &[Attempt] {
+    match rule {
+        Attempts::Best => attempts,
+        Attempts::Last => attempts.last().map_or(&[], std::slice::from_ref),
+        Attempts::First => attempts.first().map_or(&[], std::slice::from_ref),
+    }
+}
+
 /// How everybody of the roster stands in `lab`, in the roster's order. `summary` knows the records; `open` are students of whom a file
 /// waits for a person.
 pub fn standings(

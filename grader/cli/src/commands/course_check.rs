@@ -9,7 +9,7 @@ use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
-use crate::course_folder::{Course, CourseArgs};
+use crate::course_folder::{Course, CourseArgs, book_failure};
 use crate::failure::{Failure, LOST};
 use crate::output;
 
@@ -64,14 +64,22 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(if bad { LOST } else { 0 }))
 }
 
-/// What keeps a course from grading a lab: checked here, and before every grade.
-pub(crate) fn refusal(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Option<Row> {
-    let engine = engine(course);
-    if engine.problem.is_some() {
-        return Some(engine);
+/// A lab with which the course may grade, its files kept in the book.
+///
+/// # Errors
+/// Exit code 3 where this engine or this lab is not the course's.
+pub(crate) fn ready(course: &Course, rules: &CourseLab) -> Result<StaffedLab, Failure> {
+    let lab = course.lab(rules)?;
+    for row in [engine(course), lab_row(course, rules, &lab)] {
+        if let Some(problem) = row.problem {
+            let help = row.help.unwrap_or_default();
+            return Err(Failure::broken(format!("{}: {problem}", row.what), &help));
+        }
     }
-    let row = lab_row(course, rules, lab);
-    row.problem.is_some().then_some(row)
+    let book = &course.book;
+    book.put_lab(&lab.lab_files()).map_err(book_failure)?;
+    book.put_staff(&lab.staff_files()).map_err(book_failure)?;
+    Ok(lab)
 }
 
 fn roster(course: &Course) -> Row {

@@ -4,21 +4,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use jiff::Timestamp;
-use kinemark_course::course_file::{Attempts, CourseLab};
+use kinemark_course::course_file::CourseLab;
 use kinemark_course::grading::{self, GradingError, Outcome};
-use kinemark_course::history::{Attempt, History};
+use kinemark_course::history::History;
 use kinemark_course::intake::{self, Decision};
-use kinemark_course::journal::{Event, Graded, HandIn, Writer};
+use kinemark_course::journal::{Event, Graded, HandIn};
 use kinemark_course::staffed_lab::StaffedLab;
-use kinemark_course::standing::{Standing, Status};
+use kinemark_course::standing::{Standing, Status, counting};
 use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
 use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
-use crate::operator::operator;
 use crate::shard::Shard;
 use crate::worker::WorkerHost;
 use crate::{interrupt, output, pool};
@@ -50,55 +49,6 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 }
 
-/// The journal of this command, begun with its first line.
-pub(crate) struct Log<'c> {
-    course: &'c Course,
-    writer: Option<Writer>,
-}
-
-impl<'c> Log<'c> {
-    pub(crate) fn new(course: &'c Course) -> Self {
-        Self {
-            course,
-            writer: None,
-        }
-    }
-
-    pub(crate) fn append(&mut self, event: Event) -> Result<(), Failure> {
-        let at = Timestamp::now();
-        let writer = match &mut self.writer {
-            Some(writer) => writer,
-            None => {
-                let journal = self.course.book.journal();
-                let begun = journal
-                    .begin(at, &operator())
-                    .map_err(|error| self.failed(&error))?;
-                self.writer.insert(begun)
-            }
-        };
-        let appended = writer.append(at, event);
-        appended.map_err(|error| self.failed(&error))
-    }
-
-    pub(crate) fn finish(mut self) -> Result<(), Failure> {
-        let finished = self.writer.take().map(Writer::finish);
-        finished
-            .unwrap_or(Ok(()))
-            .map_err(|error| self.failed(&error))
-    }
-
-    fn failed(&self, error: &std::io::Error) -> Failure {
-        Failure::fault(
-            format!(
-                "the journal in `{}` cannot be written: {}",
-                output::path(self.course.book.root()),
-                crate::disk::plain(error)
-            ),
-            "free some space; what was graded so far stands, and the same command goes on from there",
-        )
-    }
-}
-
 /// Reads, grades, prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
@@ -115,19 +65,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     };
     let course = Course::open(&args.course)?;
     let rules = course.rules(&lab.to_string_lossy())?;
-    let staffed = course.lab(rules)?;
-    if let Some(row) = course_check::refusal(&course, rules, &staffed) {
-        return Err(Failure::broken(
-            format!("{}: {}", row.what, row.problem.unwrap_or_default()),
-            &row.help.unwrap_or_default(),
-        ));
-    }
-    let version = course.book.put_lab(&staffed.lab_files());
-    version.map_err(book_failure)?;
-    let version = course.book.put_staff(&staffed.staff_files());
-    version.map_err(book_failure)?;
+    let staffed = course_check::ready(&course, rules)?;
 
-    let mut log = Log::new(&course);
+    let mut log = CourseLog::new(&course);
     take_in(&course, rules, source, &mut log)?;
     let history = course.history()?;
     let waiting = waiting(rules, &history, args.shard);
@@ -150,7 +90,7 @@ fn take_in(
     course: &Course,
     rules: &CourseLab,
     source: Option<&PathBuf>,
-    log: &mut Log<'_>,
+    log: &mut CourseLog<'_>,
 ) -> Result<(), Failure> {
     let history = course.history()?;
     let mut seen = BTreeSet::new();
@@ -196,12 +136,9 @@ fn waiting(rules: &CourseLab, history: &History, shard: Option<Shard>) -> Vec<Ha
         if shard.is_some_and(|shard| !shard.has(student.as_str())) {
             continue;
         }
-        let counting: &[Attempt] = match rules.attempts {
-            Attempts::Best => attempts,
-            Attempts::Last => attempts.last().map_or(&[], std::slice::from_ref),
-            Attempts::First => attempts.first().map_or(&[], std::slice::from_ref),
-        };
-        let ungraded = counting.iter().filter(|attempt| attempt.record().is_none());
+        let ungraded = counting(rules.attempts, attempts)
+            .iter()
+            .filter(|attempt| attempt.record().is_none());
         waiting.extend(ungraded.map(|attempt| attempt.hand_in.clone()));
     }
     waiting
@@ -213,7 +150,7 @@ fn grade(
     lab: &StaffedLab,
     waiting: &[HandIn],
     jobs: Option<usize>,
-    log: &mut Log<'_>,
+    log: &mut CourseLog<'_>,
 ) -> Result<(), Failure> {
     let name = |hand_in: &HandIn| hand_in.student.to_string();
     let book = &course.book;
@@ -225,31 +162,37 @@ fn grade(
         jobs.unwrap_or_else(pool::default_jobs),
         name,
         work,
-        |hand_in, result| match record(log, hand_in, result)? {
-            None => Ok(false),
-            Some(_) => {
+        |hand_in, result| -> Result<bool, Failure> {
+            let failure = record(log, hand_in, result)?;
+            if failure.is_some() {
                 failed.push(hand_in.clone());
-                Ok(true)
             }
+            Ok(failure.is_some())
         },
     )?;
-    pool::run(&failed, 1, name, work, |hand_in, result| {
-        let failure = record(log, hand_in, result)?;
-        let has_failed = failure.is_some();
-        if let Some((verdict, what)) = failure {
-            log.append(Event::NotGraded {
-                hand_in: hand_in.id.clone(),
-                verdict,
-                what,
-            })?;
-        }
-        Ok(has_failed)
-    })
+    pool::run(
+        &failed,
+        1,
+        name,
+        work,
+        |hand_in, result| -> Result<bool, Failure> {
+            let failure = record(log, hand_in, result)?;
+            let has_failed = failure.is_some();
+            if let Some((verdict, what)) = failure {
+                log.append(Event::NotGraded {
+                    hand_in: hand_in.id.clone(),
+                    verdict,
+                    what,
+                })?;
+            }
+            Ok(has_failed)
+        },
+    )
 }
 
 /// Writes the grade of a hand-in into the journal; gives the failure of this machine or the grader, if that is all there is.
 fn record(
-    log: &mut Log<'_>,
+    log: &mut CourseLog<'_>,
     hand_in: &HandIn,
     result: Result<Outcome, GradingError>,
 ) -> Result<Option<(Verdict, String)>, Failure> {

@@ -4,6 +4,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod course_check;
 pub(crate) mod course_grade;
+pub(crate) mod course_regrade;
 pub(crate) mod course_status;
 pub(crate) mod grade;
 pub(crate) mod lab_check;

@@ -1,0 +1,343 @@
+//! `kinemark course regrade`: what a new lab, staff part or engine would change, as a table; and the change, once somebody says why.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use kinemark_course::book::Record;
+use kinemark_course::course_file::CourseLab;
+use kinemark_course::grading::{self, GradingError, Outcome};
+use kinemark_course::history::History;
+use kinemark_course::journal::{Event, Graded, HandIn};
+use kinemark_course::staffed_lab::{StaffedLab, engine_id};
+use kinemark_course::standing::counting;
+use kinemark_grader::record::quantity::points;
+use owo_colors::OwoColorize as _;
+use serde::Serialize;
+
+use super::course_check;
+use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::course_log::CourseLog;
+use crate::failure::{FAULT, Failure, LOST};
+use crate::worker::WorkerHost;
+use crate::{interrupt, output, pool};
+
+/// Show who would gain and who would fall if a lab were graded again as it is now, and do so with --apply
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  kinemark course regrade 01-kinematics\n  \
+    kinemark course regrade 01-kinematics --apply --why \"the band of ik was too narrow\"\n\n\
+    Without --apply nothing changes but the cache of records. Nobody's points fall without --allow-lower: who would fall keeps the \
+    grade they have. Points by hand stay, and are marked as stale where their record changed.\n\
+    Exit codes: 0 done, or nothing is out of date, 1 grades are out of date or would fall, 2 usage, 3 the course or the lab is \
+    broken, 4 the grader or this machine failed.")]
+pub(crate) struct Args {
+    /// A lab of the course
+    pub(crate) lab: String,
+    #[command(flatten)]
+    pub(crate) course: CourseArgs,
+    /// Write the new grades
+    #[arg(long, requires = "why")]
+    pub(crate) apply: bool,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) why: Option<String>,
+    /// Lower points, too
+    #[arg(long, requires = "apply")]
+    pub(crate) allow_lower: bool,
+    /// Number of submissions graded at once [default: one a processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) jobs: Option<usize>,
+    /// Print the changes as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What becomes of one hand-in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Change {
+    student: String,
+    hand_in: String,
+    points_before: f64,
+    points_after: f64,
+    /// Checks whose points change.
+    checks: Vec<CheckChange>,
+    record_before: String,
+    record_after: String,
+    /// Whether the new grade was written.
+    applied: bool,
+}
+
+/// How the points of a check change; absent on a side where there is no such check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct CheckChange {
+    check: String,
+    before: Option<f64>,
+    after: Option<f64>,
+}
+
+/// Grades what is out of date, prints the table, and writes it if that is wanted.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let course = Course::open(&args.course)?;
+    let rules = course.rules(&args.lab)?;
+    if args.why.as_ref().is_some_and(|why| why.trim().is_empty()) {
+        return Err(Failure::usage(
+            "--why is empty".to_owned(),
+            "write the sentence that students may read",
+        ));
+    }
+    let staffed = course_check::ready(&course, rules)?;
+    let history = course.history()?;
+    let old = out_of_date(&course, rules, &history, &staffed)?;
+    let (mut changes, failed) = graded_again(&course, &staffed, &old, args.jobs)?;
+    if interrupt::asked() {
+        return Err(Failure::paused());
+    }
+    if args.apply {
+        let why = args.why.as_deref().unwrap_or_default();
+        apply(&course, &mut changes, why, args.allow_lower)?;
+        let history = course.history()?;
+        course.index(&history)?;
+    }
+    if args.json {
+        output::print_json(&changes)?;
+    } else {
+        output::print(&text(args, &changes, &failed))?;
+    }
+    let is_open = |change: &Change| !change.applied;
+    Ok(if !failed.is_empty() {
+        ExitCode::from(FAULT)
+    } else if changes.iter().any(is_open) {
+        ExitCode::from(LOST)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// Hand-ins that count, or may count, with a grade of another lab, staff part or engine than today's, and that record's key.
+fn out_of_date(
+    course: &Course,
+    rules: &CourseLab,
+    history: &History,
+    lab: &StaffedLab,
+) -> Result<Vec<(HandIn, String)>, Failure> {
+    let index = course.index(history)?;
+    let summaries = index.summaries(&rules.name).map_err(index_failure)?;
+    let mut old = Vec::new();
+    for (_, attempts) in history.of_lab(&rules.name) {
+        for attempt in counting(rules.attempts, attempts) {
+            let Some(key) = attempt.record() else {
+                continue;
+            };
+            let is_of_today = summaries.get(key).is_some_and(|summary| {
+                summary.engine == engine_id()
+                    && summary.lab_version == lab.lab_version
+                    && summary.staff_version == lab.staff_version
+            });
+            if !is_of_today {
+                old.push((attempt.hand_in.clone(), key.to_owned()));
+            }
+        }
+    }
+    Ok(old)
+}
+
+/// The changes, by student, and the students whose work this machine failed at.
+fn graded_again(
+    course: &Course,
+    lab: &StaffedLab,
+    old: &[(HandIn, String)],
+    jobs: Option<usize>,
+) -> Result<(Vec<Change>, Vec<String>), Failure> {
+    let book = &course.book;
+    let mut changes = Vec::new();
+    let mut failed = Vec::new();
+    pool::run(
+        old,
+        jobs.unwrap_or_else(pool::default_jobs),
+        |(hand_in, _)| hand_in.student.to_string(),
+        |(hand_in, _), host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, None),
+        |(hand_in, before), result| -> Result<bool, Failure> {
+            match result {
+                Ok(Outcome::Recorded { record, .. }) => {
+                    let read = |key: &str| book.record(key).map_err(book_failure);
+                    changes.push(change(
+                        hand_in,
+                        before,
+                        read(before)?,
+                        &record,
+                        read(&record)?,
+                    ));
+                    Ok(false)
+                }
+                Ok(Outcome::NotGraded { .. }) => {
+                    failed.push(hand_in.student.to_string());
+                    Ok(true)
+                }
+                Err(GradingError::Interrupted(_)) => Ok(false),
+                Err(GradingError::Lab(error)) => Err(Failure::from(*error)),
+                Err(GradingError::Book(error)) => Err(book_failure(error)),
+            }
+        },
+    )?;
+    changes.sort_by(|one: &Change, other| {
+        (&one.student, &one.hand_in).cmp(&(&other.student, &other.hand_in))
+    });
+    failed.sort();
+    Ok((changes, failed))
+}
+
+fn change(
+    hand_in: &HandIn,
+    key_before: &str,
+    before: Option<Record>,
+    key_after: &str,
+    after: Option<Record>,
+) -> Change {
+    let earned =
+        |record: &Option<Record>| record.as_ref().map_or(0.0, |record| record.grade.points);
+    let before_checks = check_points(before.as_ref());
+    let after_checks = check_points(after.as_ref());
+    let of = |checks: &[(String, f64)], name: &str| {
+        let mut checks = checks.iter();
+        checks
+            .find(|(known, _)| known == name)
+            .map(|(_, points)| *points)
+    };
+    let mut names: Vec<&String> = before_checks.iter().map(|(name, _)| name).collect();
+    let new = after_checks.iter().map(|(name, _)| name);
+    names.extend(new.filter(|name| of(&before_checks, name).is_none()));
+    let checks = names.into_iter().filter_map(|name| {
+        let (before, after) = (of(&before_checks, name), of(&after_checks, name));
+        (before != after).then(|| CheckChange {
+            check: name.clone(),
+            before,
+            after,
+        })
+    });
+    Change {
+        student: hand_in.student.to_string(),
+        hand_in: hand_in.id.clone(),
+        points_before: earned(&before),
+        points_after: earned(&after),
+        checks: checks.collect(),
+        record_before: key_before.to_owned(),
+        record_after: key_after.to_owned(),
+        applied: false,
+    }
+}
+
+/// Points of each check by `TASK/CHECK`, in order.
+fn check_points(record: Option<&Record>) -> Vec<(String, f64)> {
+    let tasks = record.into_iter().flat_map(|record| &record.grade.tasks);
+    let checks = tasks.flat_map(|task| {
+        let name = |check: &str| format!("{}/{check}", task.name);
+        task.checks
+            .iter()
+            .map(move |check| (name(&check.name), check.points))
+    });
+    checks.collect()
+}
+
+/// Writes the changes into the history, but for those who would fall, unless that is allowed.
+fn apply(
+    course: &Course,
+    changes: &mut [Change],
+    why: &str,
+    allow_lower: bool,
+) -> Result<(), Failure> {
+    let mut log = CourseLog::new(course);
+    for change in changes {
+        if change.points_after < change.points_before && !allow_lower {
+            continue;
+        }
+        log.append(Event::Graded(Graded {
+            hand_in: change.hand_in.clone(),
+            record: change.record_after.clone(),
+            why: Some(why.to_owned()),
+        }))?;
+        change.applied = true;
+    }
+    log.finish()
+}
+
+fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
+    let mut out = String::new();
+    if changes.is_empty() && failed.is_empty() {
+        return format!(
+            "{}: every grade is of today's lab and engine\n",
+            args.lab.bold()
+        );
+    }
+    let gain = |change: &&Change| change.points_after > change.points_before;
+    let fall = |change: &&Change| change.points_after < change.points_before;
+    for (title, chosen) in [
+        ("gain", changes.iter().filter(gain).collect::<Vec<_>>()),
+        ("would fall", changes.iter().filter(fall).collect()),
+    ] {
+        if chosen.is_empty() {
+            continue;
+        }
+        let _ = writeln!(out, "{} {title}:", chosen.len());
+        for change in chosen {
+            let _ = writeln!(
+                out,
+                "  {:<20} {:>6} -> {:<6} {}",
+                change.student,
+                points(change.points_before),
+                points(change.points_after),
+                by_check(change)
+            );
+        }
+    }
+    let same = changes
+        .iter()
+        .filter(|change| !gain(change) && !fall(change))
+        .count();
+    if same > 0 {
+        let _ = writeln!(out, "{same} keep their points");
+    }
+    if !failed.is_empty() {
+        let _ = writeln!(
+            out,
+            "not graded, because this machine or the grader failed: {}",
+            failed.join(", ")
+        );
+    }
+    let applied = changes.iter().filter(|change| change.applied).count();
+    if args.apply {
+        let _ = writeln!(
+            out,
+            "{applied} written, with why: {}",
+            args.why.as_deref().unwrap_or_default()
+        );
+        let kept = changes.len() - applied;
+        if kept > 0 {
+            let _ = writeln!(
+                out,
+                "{kept} keep the grade they have: --allow-lower lowers them"
+            );
+        }
+    } else {
+        let _ = writeln!(
+            out,
+            "{} kinemark course regrade {} --apply --why \"...\"",
+            "next:".cyan(),
+            args.lab
+        );
+    }
+    out
+}
+
+/// Which checks change, in a line: `ik/reach 0 -> 5`.
+fn by_check(change: &Change) -> String {
+    let shown = |earned: Option<f64>| earned.map_or_else(|| "none".to_owned(), points);
+    let checks = change.checks.iter().map(|check| {
+        format!(
+            "{} {} -> {}",
+            check.check,
+            shown(check.before),
+            shown(check.after)
+        )
+    });
+    checks.collect::<Vec<_>>().join(", ")
+}
