@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, completions, course_check, course_grade, course_regrade, course_status, grade,
-    lab_check, lab_list, lab_variant, log_export, new, robot_convert, robot_eval, robot_show,
-    scene_check, verify, view, watch,
+    compare, completions, course_check, course_forget, course_grade, course_regrade, course_status,
+    grade, lab_check, lab_list, lab_variant, log_export, new, robot_convert, robot_eval,
+    robot_show, scene_check, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -85,6 +85,7 @@ pub(crate) enum CourseCommand {
     Grade(course_grade::Args),
     Status(course_status::Args),
     Regrade(course_regrade::Args),
+    Forget(course_forget::Args),
 }
 
 impl CommandLine {
@@ -109,6 +110,7 @@ impl CommandLine {
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),
+            Command::Course(CourseCommand::Forget(args)) => course_forget::run(&args),
             Command::Course(CourseCommand::Regrade(args)) => course_regrade::run(&args),
             Command::Course(CourseCommand::Status(args)) => course_status::run(&args),
             Command::Completions(args) => completions::run(&args),

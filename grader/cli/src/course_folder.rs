@@ -8,7 +8,7 @@ use kinemark_course::course_text::{decoded, read};
 use kinemark_course::fixes::{FIXES_FILE, Fixes};
 use kinemark_course::history::History;
 use kinemark_course::index::{Index, IndexError};
-use kinemark_course::journal::JournalError;
+use kinemark_course::journal::{Event, JournalError};
 use kinemark_course::roster::Roster;
 use kinemark_course::staffed_lab::StaffedLab;
 use kinemark_course::standing::{Standing, standings};
@@ -171,7 +171,17 @@ impl Course {
     /// What happened so far.
     pub(crate) fn history(&self) -> Result<History, Failure> {
         let entries = self.book.journal().entries().map_err(journal_failure)?;
-        Ok(History::of(entries))
+        // a book that was joined may still have somebody who was removed from this one
+        let is_gone = |event: &Event| match event {
+            Event::HandIn(hand_in) => {
+                self.roster.get(&hand_in.student).is_none()
+                    && self.book.has_forgotten(&hand_in.student)
+            }
+            _ => false,
+        };
+        Ok(History::of(
+            entries.into_iter().filter(|entry| !is_gone(&entry.event)),
+        ))
     }
 
     /// The book as tables, with everything that is in it now.

@@ -141,7 +141,7 @@ impl Book {
         Journal::new(self.root.join("journal"))
     }
 
-    fn record_path(&self, key: &str) -> PathBuf {
+    pub(crate) fn record_path(&self, key: &str) -> PathBuf {
         let shelf = key.get(..2).unwrap_or("--");
         self.root
             .join("records")
@@ -240,7 +240,7 @@ impl Book {
         Ok(digest)
     }
 
-    fn submission_path(&self, digest: &str) -> PathBuf {
+    pub(crate) fn submission_path(&self, digest: &str) -> PathBuf {
         let shelf = digest.get(..2).unwrap_or("--");
         self.root.join("submissions").join(shelf).join(digest)
     }

@@ -14,6 +14,7 @@
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
 //! | [`question`] | what waits for a person |
+//! | [`forget`] | removing a person from a book |
 //! | [`intake`] | from what the LMS exported to hand-ins |
 //! | [`public`] | what anybody can read in Kinemark's own repository |
 //! | [`staffed_lab`] | a lab with its staff part, ready for every student |
@@ -33,6 +34,7 @@ pub mod book;
 pub mod course_file;
 pub mod course_text;
 pub mod fixes;
+pub mod forget;
 pub mod grading;
 pub mod history;
 pub mod index;

@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod course_check;
+pub(crate) mod course_forget;
 pub(crate) mod course_grade;
 pub(crate) mod course_regrade;
 pub(crate) mod course_status;
