@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::book::{Book, BookError};
 use crate::journal::{Entry, Event};
 use crate::private_files::put;
+use crate::reports::page_path;
 use crate::student::StudentId;
 
 /// What was removed.
@@ -70,6 +71,9 @@ impl Book {
         }
         // the journal last: until then another call finds what is left
         for key in records.unneeded() {
+            if let Some(record) = self.record(key)? {
+                removed(&self.root().join(page_path(&record.inputs.lab_name, key)))?;
+            }
             forgotten.records += removed(&self.record_path(key))?;
         }
         for digest in submissions.unneeded() {

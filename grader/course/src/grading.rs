@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use kinemark_grader::judge::{self, Interrupted};
-use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::not_text::NotText;
@@ -12,7 +11,7 @@ use kinemark_sim::text::Source;
 
 use crate::book::{Book, BookError, Record};
 use crate::journal::HandIn;
-use crate::staffed_lab::{StaffedLab, StudentLab};
+use crate::staffed_lab::StaffedLab;
 
 /// A hand-in, graded.
 #[derive(Debug)]
@@ -57,11 +56,7 @@ impl From<LoadError> for GradingError {
     }
 }
 
-/// What is made of a graded run besides its record, such as a report.
-pub type Keep<'a> =
-    dyn Fn(&HandIn, &StudentLab<'_>, &Source, &GradedRun) -> Result<(), BookError> + Sync + 'a;
-
-/// Grades `hand_in` in `lab`, unless the book has its record; `keep` is called with a run that was graded now.
+/// Grades `hand_in` in `lab`, unless the book has its record; with `pages`, a run that is graded now leaves its page in the book.
 ///
 /// # Errors
 /// [`GradingError`].
@@ -70,7 +65,7 @@ pub fn grade(
     book: &Book,
     hand_in: &HandIn,
     host: &mut dyn Host,
-    keep: Option<&Keep<'_>>,
+    pages: bool,
 ) -> Result<Outcome, GradingError> {
     let bytes = book.submission(&hand_in.submission)?;
     let not_text = NotText::of(&bytes);
@@ -101,8 +96,9 @@ pub fn grade(
             what: stop.map_or_else(|| verdict.name().to_owned(), |stop| stop.message),
         });
     }
-    if let Some(keep) = keep {
-        keep(hand_in, &student_lab, &source, &graded)?;
+    if pages {
+        // before the record: a record that is there has its page
+        book.put_page(&key, &graded)?;
     }
     let record = Record::new(inputs, graded.grade);
     book.put_record(&record)?;

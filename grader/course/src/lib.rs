@@ -14,6 +14,7 @@
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
 //! | [`question`] | what waits for a person |
+//! | [`reports`] | pages of graded hand-ins |
 //! | [`forget`] | removing a person from a book |
 //! | [`intake`] | from what the LMS exported to hand-ins |
 //! | [`public`] | what anybody can read in Kinemark's own repository |
@@ -43,6 +44,7 @@ pub mod journal;
 mod private_files;
 pub mod public;
 pub mod question;
+pub mod reports;
 pub mod roster;
 pub mod staffed_lab;
 pub mod standing;

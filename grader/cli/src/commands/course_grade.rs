@@ -41,6 +41,9 @@ pub(crate) struct Args {
     /// Number of submissions graded at once [default: one a processor]
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
+    /// Write no page of each submission: faster, and smaller
+    #[arg(long)]
+    pub(crate) no_reports: bool,
     /// Grade only a part of the class, such as 2/4: parts are graded on several machines and joined by copying their books
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
@@ -71,7 +74,13 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     take_in(&course, rules, source, &mut log)?;
     let history = course.history()?;
     let waiting = waiting(rules, &history, args.shard);
-    let result = grade(&course, &staffed, &waiting, args.jobs, &mut log);
+    let result = grade(
+        &course,
+        &staffed,
+        &waiting,
+        (args.jobs, !args.no_reports),
+        &mut log,
+    );
     log.finish()?;
     result?;
     if interrupt::asked() {
@@ -149,13 +158,13 @@ fn grade(
     course: &Course,
     lab: &StaffedLab,
     waiting: &[HandIn],
-    jobs: Option<usize>,
+    (jobs, pages): (Option<usize>, bool),
     log: &mut CourseLog<'_>,
 ) -> Result<(), Failure> {
     let name = |hand_in: &HandIn| hand_in.student.to_string();
     let book = &course.book;
     let work =
-        |hand_in: &HandIn, host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, None);
+        |hand_in: &HandIn, host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, pages);
     let mut failed: Vec<HandIn> = Vec::new();
     pool::run(
         waiting,

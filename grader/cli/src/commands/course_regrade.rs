@@ -155,7 +155,7 @@ fn graded_again(
         old,
         jobs.unwrap_or_else(pool::default_jobs),
         |(hand_in, _)| hand_in.student.to_string(),
-        |(hand_in, _), host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, None),
+        |(hand_in, _), host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, true),
         |(hand_in, before), result| -> Result<bool, Failure> {
             match result {
                 Ok(Outcome::Recorded { record, .. }) => {

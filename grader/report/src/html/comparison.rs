@@ -5,7 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::figure::figure;
 use super::foreign;
-use super::viewer::{self, seek};
+use super::viewer::{self, ViewerCode, seek};
 use crate::compare_text::{change, together};
 use crate::palette::plot_css;
 use crate::plot::differences;
@@ -38,7 +38,7 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(viewer::policy(shows));
+                meta http-equiv="Content-Security-Policy" content=(viewer::policy(shows, ViewerCode::Inside));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
@@ -58,7 +58,7 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
                     }
                 }
                 @for (i, json) in &replays { (viewer::data(*i, json)) }
-                @if shows { (viewer::script()) }
+                @if shows { (viewer::script(ViewerCode::Inside)) }
             }
         }
     };

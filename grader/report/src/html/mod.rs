@@ -15,6 +15,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub use self::comparison::comparison;
 use self::head::{facts, head, scores};
+pub use self::viewer::{ViewerCode, whole};
 use crate::palette::plot_css;
 use crate::plot::Plot;
 use crate::replay::Replay;
@@ -27,6 +28,11 @@ use kinemark_grader::record::quantity::points;
 /// Everything a submission wrote is shown as text, with characters that hide, reorder or steer what is around them written out.
 /// The same grade gives the same bytes.
 pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
+    html_with(graded, plots, ViewerCode::Inside)
+}
+
+/// The same page with the viewer's code where `code` says.
+pub fn html_with(graded: &GradedRun, plots: &[Vec<Plot>], code: ViewerCode<'_>) -> String {
     let grade = &graded.grade;
     let drawn = |name: &str| {
         let at = graded.runs.iter().position(|run| run.task == name)?;
@@ -62,7 +68,7 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
         }
         (facts(grade))
     };
-    page(&title, &grade.engine, &body, &replays)
+    page(&title, &grade.engine, &body, &replays, code)
 }
 
 /// What the lab is called: its title, or its name where it has none.
@@ -81,13 +87,14 @@ pub(crate) fn page(
     engine: &str,
     body: &Markup,
     replays: &[(usize, String)],
+    code: ViewerCode<'_>,
 ) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(viewer::policy(!replays.is_empty()));
+                meta http-equiv="Content-Security-Policy" content=(viewer::policy(!replays.is_empty(), code));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
@@ -98,7 +105,7 @@ pub(crate) fn page(
             body {
                 (body)
                 @for (i, json) in replays { (viewer::data(*i, json)) }
-                @if !replays.is_empty() { (viewer::script()) }
+                @if !replays.is_empty() { (viewer::script(code)) }
             }
         }
     };
@@ -147,6 +154,17 @@ mod tests {
         let (head, tail) = page.rsplit_once("<script>").expect("the viewer");
         let (_, tail) = tail.split_once("</script>").expect("its end");
         format!("{head}{tail}")
+    }
+
+    #[test]
+    fn a_page_with_the_viewer_beside_it_becomes_whole() {
+        let graded = sample::graded();
+        let plots: Vec<_> = graded.runs.iter().map(plots).collect();
+        let address = "../../viewer-0123.js";
+        let beside = html_with(&graded, &plots, ViewerCode::Beside(address));
+        assert!(beside.len() + 300_000 < page(&graded).len());
+        assert!(beside.contains("<script src=\"../../viewer-0123.js\"></script>"));
+        assert_eq!(whole(&beside, address), page(&graded));
     }
 
     #[test]

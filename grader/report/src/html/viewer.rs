@@ -12,15 +12,32 @@ const DIGEST: &str = include_str!("../../../web/dist/viewer.js.sha256");
 /// How the viewer looks.
 const STYLE: &str = include_str!("../../../web/dist/viewer.css");
 
+/// Where a page has the viewer's code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ViewerCode<'a> {
+    /// In the page, which is then one file with everything in it.
+    Inside,
+    /// In a file that pages share: its address, seen from the page.
+    Beside(&'a str),
+}
+
+impl ViewerCode<'_> {
+    /// The code, for the file that pages share.
+    pub fn text() -> &'static str {
+        CODE
+    }
+}
+
 /// What a browser may load for a page: its own styles, and the viewer's code where it has replays.
-pub(crate) fn policy(has_replays: bool) -> String {
-    let (script, images) = if has_replays {
-        (
+pub(crate) fn policy(has_replays: bool, code: ViewerCode<'_>) -> String {
+    let (script, images) = match (has_replays, code) {
+        (true, ViewerCode::Inside) => (
             format!("script-src 'sha256-{}'; ", DIGEST.trim()),
             "data: blob:",
-        )
-    } else {
-        (String::new(), "data:")
+        ),
+        // a page that was opened as a file has no origin of its own
+        (true, ViewerCode::Beside(_)) => ("script-src 'self' file:; ".to_owned(), "data: blob:"),
+        (false, _) => (String::new(), "data:"),
     };
     format!(
         "default-src 'none'; {script}style-src 'unsafe-inline'; img-src {images}; base-uri 'none'; form-action 'none'"
@@ -47,8 +64,29 @@ pub(crate) fn data(index: usize, json: &str) -> Markup {
 }
 
 /// The viewer, once, after all data.
-pub(crate) fn script() -> Markup {
-    html! { script { (PreEscaped(CODE)) } }
+pub(crate) fn script(code: ViewerCode<'_>) -> Markup {
+    match code {
+        ViewerCode::Inside => html! { script { (PreEscaped(CODE)) } },
+        ViewerCode::Beside(address) => html! { script src=(address) {} },
+    }
+}
+
+/// A page whose viewer's code is at `address`, with the code in it instead: the same bytes as a page that was made so.
+pub fn whole(page: &str, address: &str) -> String {
+    let beside = ViewerCode::Beside(address);
+    let meta =
+        |code| html! { meta http-equiv="Content-Security-Policy" content=(policy(true, code)); };
+    let pairs = [
+        (meta(beside), meta(ViewerCode::Inside)),
+        (script(beside), script(ViewerCode::Inside)),
+    ];
+    pairs.into_iter().fold(page.to_owned(), |page, (from, to)| {
+        // the last one: text before it may show the same characters
+        match page.rsplit_once(&from.0) {
+            Some((before, after)) => format!("{before}{}{after}", to.0),
+            None => page,
+        }
+    })
 }
 
 /// Words that lead to a moment of a task's replay.
@@ -80,8 +118,8 @@ mod tests {
 
     #[test]
     fn a_page_without_replays_runs_nothing() {
-        assert!(!policy(false).contains("script-src"));
-        assert!(policy(true).contains("script-src 'sha256-"));
+        assert!(!policy(false, ViewerCode::Inside).contains("script-src"));
+        assert!(policy(true, ViewerCode::Inside).contains("script-src 'sha256-"));
         assert_eq!(style(false).into_string(), "");
     }
 }
