@@ -42,10 +42,14 @@ fn crates_depend_on_each_other_as_drawn() {
         ["kinemark-sim -> kinemark-reference"]
     );
     let drawn: BTreeSet<String> = [
+        "kinemark -> kinemark-course",
         "kinemark -> kinemark-grader",
         "kinemark -> kinemark-report",
         "kinemark -> kinemark-sim",
         "kinemark -> kinemark-toolbox",
+        "kinemark-course -> kinemark-grader",
+        "kinemark-course -> kinemark-report",
+        "kinemark-course -> kinemark-sim",
         "kinemark-grader -> kinemark-sim",
         "kinemark-toolbox -> kinemark-sim",
         "kinemark-report -> kinemark-grader",

@@ -10,11 +10,12 @@ use crate::testbed::root;
 const LONGEST: usize = 80;
 
 /// Folders with code of the product.
-const SOURCES: [&str; 6] = [
+const SOURCES: [&str; 7] = [
     "sim/src",
     "sim/toolbox/src",
     "grader/src",
     "grader/report/src",
+    "grader/course/src",
     "grader/cli/src",
     "reference/src",
 ];
