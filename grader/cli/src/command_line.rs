@@ -2,8 +2,10 @@
 
 use std::ffi::OsStr;
 use std::process::ExitCode;
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand};
+use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
     compare, completions, course_check, course_forget, course_grade, course_regrade, course_status,
@@ -15,7 +17,7 @@ use crate::worker;
 
 /// Grades robotics coursework: the same bits everywhere, every lost point explained. Without a command it lists the labs.
 #[derive(Debug, Parser)]
-#[command(name = "kinemark", version, max_term_width = 100)]
+#[command(name = "kinemark", version = version(), max_term_width = 100)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Start with `kinemark new 01-kinematics`.\n\
     Exit codes: 0 full marks or done, 1 points lost or answers with errors, 2 usage, 3 the lab, robot or scene is broken, \
@@ -25,6 +27,18 @@ pub(crate) struct CommandLine {
     lab_list: lab_list::Args,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
+}
+
+/// The version, and the digest of the engine's sources: what a course names as the engine that grades.
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> = LazyLock::new(|| {
+        let engine = engine_id();
+        engine
+            .strip_prefix("kinemark ")
+            .unwrap_or(&engine)
+            .to_owned()
+    });
+    &VERSION
 }
 
 #[derive(Debug, Subcommand)]
