@@ -348,21 +348,29 @@ struct Weight {
 
 impl Weight {
     fn add(&mut self, value: &Dynamic) {
-        if value.is_float() || value.is_int() {
+        // asked once: most values are numbers, and this is done whenever a list or map is mentioned
+        let kind = value.type_id();
+        if kind == TypeId::of::<f64>() || kind == TypeId::of::<bool>() {
             return;
         }
-        if let Ok(list) = value.as_array_ref() {
-            let list: &Array = &list;
-            self.elements += list.len();
-            list.iter().for_each(|element| self.add(element));
-        } else if let Ok(map) = value.as_map_ref() {
-            let map: &Map = &map;
-            self.entries += map.len();
-            map.values().for_each(|element| self.add(element));
-        } else if let Ok(text) = value.as_immutable_string_ref() {
-            self.bytes += text.len();
-        } else if let Some(vector) = value.read_lock::<Vector>() {
-            self.numbers += vector.len();
+        if kind == TypeId::of::<Vector>() {
+            self.numbers += value.read_lock::<Vector>().map_or(0, |vector| vector.len());
+        } else if kind == TypeId::of::<Array>() {
+            if let Ok(list) = value.as_array_ref() {
+                let list: &Array = &list;
+                self.elements += list.len();
+                list.iter().for_each(|element| self.add(element));
+            }
+        } else if kind == TypeId::of::<Map>() {
+            if let Ok(map) = value.as_map_ref() {
+                let map: &Map = &map;
+                self.entries += map.len();
+                map.values().for_each(|element| self.add(element));
+            }
+        } else if kind == TypeId::of::<ImmutableString>() {
+            if let Ok(text) = value.as_immutable_string_ref() {
+                self.bytes += text.len();
+            }
         } else if let Some(matrix) = value.read_lock::<Matrix>() {
             self.numbers += matrix.rows() * matrix.columns();
         }
