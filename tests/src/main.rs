@@ -9,6 +9,7 @@ mod architecture;
 mod brief_pictures;
 mod commands;
 mod compare;
+mod course;
 mod determinism;
 mod docs;
 mod errors;

@@ -8,6 +8,7 @@ use kinemark_course::course_text::{decoded, read};
 use kinemark_course::fixes::{FIXES_FILE, Fixes};
 use kinemark_course::history::History;
 use kinemark_course::index::{Index, IndexError};
+use kinemark_course::intake::IntakeError;
 use kinemark_course::journal::{Event, JournalError};
 use kinemark_course::roster::Roster;
 use kinemark_course::staffed_lab::StaffedLab;
@@ -17,7 +18,7 @@ use kinemark_grader::task::files::Files;
 use kinemark_sim::text::{Source, suggest};
 
 use crate::disk::Folder;
-use crate::failure::{BROKEN, Failure};
+use crate::failure::{BROKEN, Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
 
@@ -310,4 +311,12 @@ pub(crate) fn journal_failure(error: JournalError) -> Failure {
         format!("the journal of the book: {error}"),
         "restore the file from a copy of the book",
     )
+}
+
+/// A source that cannot be read, for people.
+pub(crate) fn intake_failure(error: IntakeError) -> Failure {
+    match error {
+        IntakeError::Tree(error) => Failure::diagnostic(USAGE, error),
+        IntakeError::Book(error) => book_failure(error),
+    }
 }

@@ -1,18 +1,30 @@
 //! From what the LMS exported to hand-ins: each file to its student, or to a person as a question.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+
+use kinemark_grader::lab::Variant;
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_sim::text::Source;
 
 use crate::book::{Book, BookError};
 use crate::fixes::{FileFix, Fixes};
 use crate::journal::HandIn;
-use crate::question::Question;
+use crate::layout::{PersonFiles, arrange};
+use crate::matching::{Matched, Matcher, Unmatched};
+use crate::question::{Candidate, Question};
+use crate::roster::Roster;
+use crate::selection::{Found, select};
 use crate::student::StudentId;
+use crate::tree::{Limits, Tree, TreeError};
 
 /// What a source held.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Intake {
-    /// How its files are arranged, in words.
+    /// The name of the layout in which its files are.
     pub layout: String,
+    /// Why it is that one, in words.
+    pub reason: String,
     /// Attempts whose student is clear.
     pub hand_ins: Vec<HandIn>,
     /// What is not clear.
@@ -83,10 +95,209 @@ fn decided(question: &Question, student: &StudentId, path: &str, submission: &st
     .identified()
 }
 
-/// Reads a source: an archive or a folder.
+/// Why a source cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum IntakeError {
+    /// The source as a whole.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// The book, which keeps what is read.
+    #[error(transparent)]
+    Book(#[from] BookError),
+}
+
+/// Reads a source, an archive or a folder, and keeps the submissions in it. Nothing is guessed: whatever is not clear is a question.
 ///
 /// # Errors
 /// A source that cannot be read at all, or a book that cannot be written to.
-pub fn read(_source: &Path, _lab: &str, _fixes: &Fixes, _book: &Book) -> Result<Intake, BookError> {
-    Ok(Intake::default())
+pub fn read(
+    source: &Path,
+    lab: &str,
+    roster: &Roster,
+    fixes: &Fixes,
+    book: &Book,
+) -> Result<Intake, IntakeError> {
+    let tree = Tree::open(source, &Limits::default())?;
+    let arrangement = arrange(&tree);
+    let matches = Matcher::new(roster).students_of_all(&arrangement.people);
+    let reading = Reading {
+        tree: &tree,
+        lab,
+        fixes,
+        book,
+    };
+    let mut rows = Vec::new();
+    for (person, matched) in arrangement.people.iter().zip(matches) {
+        rows.extend(reading.row(person, matched)?);
+    }
+    let mut intake = Intake {
+        layout: arrangement.layout.name.to_owned(),
+        reason: arrangement.reason,
+        ..Intake::default()
+    };
+    sort_out(rows, &mut intake);
+    Ok(intake)
+}
+
+/// What a person's files come to.
+enum Row {
+    /// A hand-in, and the question that it becomes if the student has another one without any order between the two.
+    HandIn(Box<(HandIn, Question)>),
+    Question(Question),
+}
+
+struct Reading<'r> {
+    tree: &'r Tree,
+    lab: &'r str,
+    fixes: &'r Fixes,
+    book: &'r Book,
+}
+
+impl Reading<'_> {
+    /// The rows of a person's files: one a student, or one question; none where a person decided that they do not count.
+    fn row(
+        &self,
+        person: &PersonFiles,
+        matched: Result<Matched, Unmatched>,
+    ) -> Result<Vec<Row>, BookError> {
+        let mut fixes = self.fixes.files.iter();
+        let fix = fixes.find(|fix| fix.lab == self.lab && fix.path == person.label);
+        let matched = match fix.map(|fix| &fix.student) {
+            Some(None) => return Ok(Vec::new()),
+            Some(Some(student)) => Ok(Matched {
+                students: vec![student.clone()],
+                by: "fixes",
+            }),
+            None => matched,
+        };
+        let mut question = Question {
+            lab: self.lab.to_owned(),
+            path: person.label.clone(),
+            problem: String::new(),
+            help: String::new(),
+            student: None,
+            near: Vec::new(),
+            submitted_at: person.submitted_at,
+            marked_late: person.marked_late,
+            attempt: person.attempt,
+            lms_number: person.lms_number.clone(),
+            candidates: Vec::new(),
+        };
+        if let Ok(matched) = &matched {
+            question.student = matched.students.first().cloned();
+        }
+        if let Some(problem) = person.problems.first() {
+            question.problem.clone_from(&problem.what);
+            question.help.clone_from(&problem.help);
+            return Ok(vec![Row::Question(question)]);
+        }
+        let found = match select(self.tree, person, &|_| false) {
+            Ok(found) => found,
+            Err(unselected) => {
+                question.problem = unselected.what();
+                question.help = unselected.help();
+                for found in unselected.candidates() {
+                    question.candidates.push(self.candidate(found)?);
+                }
+                return Ok(vec![Row::Question(question)]);
+            }
+        };
+        let candidate = self.candidate(&found)?;
+        question.candidates.push(candidate.clone());
+        match matched {
+            Ok(matched) => Ok(self.hand_ins(&matched, &found, &candidate, &question)),
+            Err(unmatched) => {
+                question.problem = unmatched.why;
+                question.help = unmatched.help;
+                question.near = unmatched.nearest;
+                Ok(vec![Row::Question(question)])
+            }
+        }
+    }
+
+    /// A hand-in for every student of `matched`: one, or the members of a group.
+    fn hand_ins(
+        &self,
+        matched: &Matched,
+        found: &Found,
+        candidate: &Candidate,
+        question: &Question,
+    ) -> Vec<Row> {
+        let owner = self.owner_of_variant(found);
+        if let Some(owner) = owner.filter(|owner| !matched.students.contains(owner)) {
+            return vec![Row::Question(Question {
+                problem: format!(
+                    "the variant.toml beside the submission is that of `{owner}`, who is somebody else"
+                ),
+                help: "ask whose work it is; a fix with `student` grades it as that student's".to_owned(),
+                ..question.clone()
+            })];
+        }
+        let rows = matched.students.iter().map(|student| {
+            let hand_in = decided(question, student, &found.name, &candidate.submission);
+            let hand_in = HandIn {
+                matched_by: matched.by.to_owned(),
+                ..hand_in
+            };
+            let question = Question {
+                student: Some(student.clone()),
+                ..question.clone()
+            };
+            Row::HandIn(Box::new((hand_in, question)))
+        });
+        rows.collect()
+    }
+
+    fn candidate(&self, found: &Found) -> Result<Candidate, BookError> {
+        Ok(Candidate {
+            path: found.path.clone(),
+            submission: self.book.put_submission(&found.bytes)?,
+        })
+    }
+
+    /// The student whom a `variant.toml` in the folder of the submission names, if there is one and it can be read.
+    fn owner_of_variant(&self, found: &Found) -> Option<StudentId> {
+        let folder = found.path.strip_suffix(found.name.as_str())?;
+        let path = format!("{folder}{VARIANT_FILE}");
+        let mut entries = self.tree.entries().iter();
+        let entry = entries.find(|entry| entry.path == path)?;
+        let bytes = self.tree.bytes(entry, MOST_VARIANT_BYTES).ok()?;
+        let text = String::from_utf8(bytes).ok()?;
+        let variant = Variant::parse(Source::new(VARIANT_FILE, text)).ok()?;
+        StudentId::new(variant.student()?).ok()
+    }
+}
+
+/// A variant is a few lines.
+const MOST_VARIANT_BYTES: u64 = 64 << 10;
+
+/// Hand-ins and questions; two hand-ins of a student that nothing puts in an order are questions, unless they are the same file.
+fn sort_out(rows: Vec<Row>, intake: &mut Intake) {
+    let mut of_student: BTreeMap<StudentId, Vec<(HandIn, Question)>> = BTreeMap::new();
+    for row in rows {
+        match row {
+            Row::Question(question) => intake.questions.push(question),
+            Row::HandIn(row) => of_student.entry(row.0.student.clone()).or_default().push(*row),
+        }
+    }
+    for (student, mut all) in of_student {
+        all.dedup_by(|one, other| one.0.id == other.0.id);
+        let order = |hand_in: &HandIn| (hand_in.submitted_at, hand_in.attempt);
+        let has_twin = |at: usize| {
+            let mut others = all.iter().enumerate();
+            others.any(|(i, (other, _))| i != at && order(other) == order(&all[at].0))
+        };
+        let twins: Vec<bool> = (0..all.len()).map(has_twin).collect();
+        for ((hand_in, question), is_twin) in all.into_iter().zip(twins) {
+            if is_twin && hand_in.matched_by != "fixes" {
+                intake.questions.push(Question {
+                    problem: format!("`{student}` has another file, and nothing says which is the later one"),
+                    help: "name the one that counts in fixes.toml, and ignore the other".to_owned(),
+                    ..question
+                });
+            } else {
+                intake.hand_ins.push(hand_in);
+            }
+        }
+    }
 }

@@ -15,7 +15,7 @@ use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
-use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::course_folder::{Course, CourseArgs, book_failure, index_failure, intake_failure};
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
 use crate::shard::Shard;
@@ -107,7 +107,7 @@ fn take_in(
         |hand_in: &HandIn| !history.knows(&hand_in.id) && seen.insert(hand_in.id.clone());
     if let Some(source) = source {
         let found =
-            intake::read(source, &rules.name, &course.fixes, &course.book).map_err(book_failure)?;
+            intake::read(source, &rules.name, &course.roster, &course.fixes, &course.book).map_err(intake_failure)?;
         for hand_in in found.hand_ins {
             if is_new(&hand_in) {
                 log.append(Event::HandIn(hand_in))?;
