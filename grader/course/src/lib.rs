@@ -7,6 +7,11 @@
 //! | [`roster`] | `roster.csv`: who takes the course |
 //! | [`course_file`] | `course.toml`: which labs, by which rules |
 //! | [`fixes`] | `fixes.toml`: what people decided |
+//! | [`tree`] | what an LMS exported, as a tree of files |
+//! | `submission_name` | what the name of a file says: a script, a hand-in file, an archive, a copy |
+//! | [`layout`] | how the files of a class are arranged: whose folder is which |
+//! | [`selection`] | which of a person's files is the submission |
+//! | [`matching`] | which student of the roster a folder belongs to |
 //! | `private_files` | files that their owner alone can read |
 //! | [`journal`] | what happened: hand-ins and grades, one line each |
 //! | [`history`] | the journal read: attempts and their grades |
@@ -36,16 +41,23 @@ pub mod course_file;
 pub mod course_text;
 pub mod fixes;
 pub mod forget;
+#[cfg(test)]
+mod generated_class;
 pub mod grading;
 pub mod history;
 pub mod index;
 pub mod intake;
 pub mod journal;
+pub mod layout;
+pub mod matching;
 mod private_files;
 pub mod public;
 pub mod question;
 pub mod reports;
 pub mod roster;
+pub mod selection;
 pub mod staffed_lab;
 pub mod standing;
 pub mod student;
+mod submission_name;
+pub mod tree;
