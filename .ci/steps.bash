@@ -169,12 +169,13 @@ step_test() { # the README's command
   $command --locked
 }
 
-# The same bytes from a build without optimisation and from WebAssembly: what `cargo test` leaves out, since both build everything again.
+# The same bytes from a build without optimisation and from WebAssembly, since both build everything again, and every submission explained:
+# what `cargo test` leaves out.
 step_exact() {
   local skipped=${KINEMARK_SKIP:-}
   need wasm || skipped="$skipped wasm"
   # of the whole workspace, so that dependencies have the features they were built with
-  KINEMARK_EXACT=all KINEMARK_SKIP=$skipped cargo test --workspace --locked --test system -- determinism wasm
+  KINEMARK_EXACT=all KINEMARK_SKIP=$skipped cargo test --workspace --locked --test system -- determinism wasm explained
 }
 
 release() { cargo run --release --quiet --locked -- "$@"; }

@@ -20,6 +20,7 @@ mod eval_refusals;
 mod eval_trajectories;
 mod every_case;
 mod exact;
+mod explained;
 mod export;
 mod free_function_task;
 mod function_length;

@@ -1,6 +1,6 @@
 //! Graded submissions get the verdicts they must get: `tests/submissions/LAB/CASE/{submission.rhai, expect.toml}`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
@@ -28,26 +28,40 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn every_submission_gets_the_verdict_it_must_get() {
-    let folder = root().join("tests/submissions");
-    let both = |name: &String| {
-        let lab = lab(name);
-        let staff = staff(&lab, None);
-        (lab, staff)
-    };
-    let labs: Vec<(Lab, Staff)> = names(&folder).iter().map(both).collect();
-    let mut cases = Vec::new();
-    for (lab, staff) in &labs {
-        let folder = folder.join(&lab.name);
-        for case in names(&folder) {
-            let path = folder.join(&case);
-            cases.push((format!("{}/{case}", lab.name), (lab, staff, path)));
-        }
-    }
+    let labs = labs_with_staff();
+    let cases = all_submissions(&labs);
     assert!(cases.len() >= 98, "{} submissions", cases.len());
     every_case(&cases, |(lab, staff, path)| {
         gets_its_verdict(lab, staff, path)
     });
 }
+
+/// The labs that have submissions, with the course staff's part of each.
+pub(crate) fn labs_with_staff() -> Vec<(Lab, Staff)> {
+    let both = |name: &String| {
+        let lab = lab(name);
+        let staff = staff(&lab, None);
+        (lab, staff)
+    };
+    let folder = root().join("tests/submissions");
+    names(&folder).iter().map(both).collect()
+}
+
+/// Every submission: its name, its lab with the course staff's part, and its folder.
+pub(crate) fn all_submissions(labs: &[(Lab, Staff)]) -> Vec<(String, Submission<'_>)> {
+    let mut cases = Vec::new();
+    for (lab, staff) in labs {
+        let folder = root().join("tests/submissions").join(&lab.name);
+        for case in names(&folder) {
+            let path = folder.join(&case);
+            cases.push((format!("{}/{case}", lab.name), (lab, staff, path)));
+        }
+    }
+    cases
+}
+
+/// A lab, the course staff's part of it, and the folder of a submission.
+pub(crate) type Submission<'l> = (&'l Lab, &'l Staff, PathBuf);
 
 fn gets_its_verdict(lab: &Lab, staff: &Staff, folder: &Path) {
     let read = |file: &str| {

@@ -9,7 +9,7 @@ use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
     compare, completions, course_check, course_forget, course_grade, course_regrade, course_status,
-    grade, lab_check, lab_list, lab_variant, log_export, new, robot_convert, robot_eval,
+    grade, lab_check, lab_draws, lab_list, lab_variant, log_export, new, robot_convert, robot_eval,
     robot_show, scene_check, verify, view, watch,
 };
 use crate::failure::Failure;
@@ -58,7 +58,7 @@ pub(crate) enum Command {
     /// Read the log of a run
     #[command(subcommand)]
     Log(LogCommand),
-    /// Check a lab, or generate a student's variant of it: for course staff
+    /// Check a lab, list what is hidden in it, or generate a student's variant of it: for course staff
     #[command(subcommand)]
     Lab(LabCommand),
     /// Grade a class: from what the LMS exported to what it takes back: for course staff
@@ -90,6 +90,7 @@ pub(crate) enum LogCommand {
 #[derive(Debug, Subcommand)]
 pub(crate) enum LabCommand {
     Check(lab_check::Args),
+    Draws(lab_draws::Args),
     Variant(lab_variant::Args),
 }
 
@@ -121,6 +122,7 @@ impl CommandLine {
             Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
             Command::Log(LogCommand::Export(args)) => log_export::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
+            Command::Lab(LabCommand::Draws(args)) => lab_draws::run(&args),
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),

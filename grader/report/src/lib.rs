@@ -10,6 +10,7 @@
 
 pub mod brief_page;
 pub mod compare_text;
+pub mod explain_text;
 pub(crate) mod goal;
 pub mod html;
 mod initial_contact;
@@ -26,5 +27,6 @@ pub mod replay;
 mod shown_unit;
 mod solid;
 pub mod storyboard;
+pub mod student_reply;
 pub mod text;
 pub mod visible;

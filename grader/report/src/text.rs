@@ -139,7 +139,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
 }
 
 /// What is hidden in a task of this kind.
-fn hidden_word(kind: TaskKind) -> &'static str {
+pub(crate) fn hidden_word(kind: TaskKind) -> &'static str {
     match kind {
         TaskKind::Function => "cases",
         TaskKind::Motion => "runs",

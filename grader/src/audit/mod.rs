@@ -4,6 +4,7 @@
 //! An [`Audit`] collects rows. A lab with several forms, such as variants, is audited form by form: each call takes the lab in one form
 //! and the name of that form.
 
+mod hidden_losses;
 mod staff_code;
 mod variants;
 
@@ -11,17 +12,19 @@ use kinemark_sim::text::Source;
 use kinemark_sim::text::number::{metres, seconds};
 use serde::Serialize;
 
+use self::hidden_losses::{hidden_losses, lines_of};
 use crate::judge::grade;
 use crate::lab::Lab;
 use crate::lab::TaskWork;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::staff::{Mutant, Staff};
-use crate::record::grade::{Outcome, Stopped, TaskGrade};
+use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped, TaskGrade};
 use crate::record::graded::{GradedRun, TcpPath};
 use crate::record::quantity::points;
 use crate::record::verdict::Verdict;
 use crate::submission::host::InProcess;
 
+pub use self::hidden_losses::LostDraw;
 pub use self::staff_code::staff_code;
 pub use self::variants::{VariantMargin, Variants};
 
@@ -96,6 +99,27 @@ pub struct Row {
     pub problem: Option<String>,
     /// What to do about the problem.
     pub help: Option<String>,
+    /// The hidden cases and runs in which points were lost, if that is the problem.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hidden: Vec<LostDraw>,
+}
+
+/// What is wrong with a part of a lab.
+struct Problem {
+    what: String,
+    help: String,
+    /// The hidden cases and runs in which it shows.
+    hidden: Vec<LostDraw>,
+}
+
+impl<H: Into<String>> From<(String, H)> for Problem {
+    fn from((what, help): (String, H)) -> Self {
+        Self {
+            what,
+            help: help.into(),
+            hidden: Vec::new(),
+        }
+    }
 }
 
 impl Audit {
@@ -119,19 +143,22 @@ impl Audit {
         (tried, name): (Tried, &str),
         task: Option<&str>,
         earned: Option<(f64, f64)>,
-        problem: Option<(String, impl Into<String>)>,
+        problem: Option<impl Into<Problem>>,
     ) {
-        let (problem, help) = problem.map_or((None, None), |(problem, help)| {
-            (Some(problem), Some(help.into()))
-        });
+        let (mut what, mut help, mut hidden) = (None, None, Vec::new());
+        if let Some(problem) = problem.map(Into::into) {
+            (what, help) = (Some(problem.what), Some(problem.help));
+            hidden = problem.hidden;
+        }
         self.rows.push(Row {
             tried,
             name: name.to_owned(),
             task: task.map(str::to_owned),
             points: earned.map(|earned| earned.0),
             max_points: earned.map(|earned| earned.1),
-            problem,
+            problem: what,
             help,
+            hidden,
         });
     }
 
@@ -169,27 +196,28 @@ impl Audit {
         let most = MOST_STARTER_SHARE * grade.max_points;
         let named = grade.tasks.iter().find(|task| !task.diagnoses.is_empty());
         let problem = if let Some(task) = failed {
-            let stopped = task.stopped.as_ref();
-            let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, starter));
-            let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
-            Some((what, "a starter runs as it is, and misses"))
+            let help = "a starter runs as it is, and misses";
+            let problem = stop_problem(lab, staff, task, starter, help);
+            let what = format!("task `{}`: {}", task.name, problem.what);
+            Some(Problem { what, ..problem })
         } else if grade.points > most {
             let what = format!(
                 "{} points for nothing done, and at most {} may be",
                 points(grade.points),
                 points(most)
             );
-            Some((what, "let the checks that it passes need one that it fails"))
+            let help = "let the checks that it passes need one that it fails";
+            Some(Problem::from((what, help)))
         } else {
             named.map(|task| {
                 let what = format!(
                     "task `{}` is diagnosed with the mistake `{}`",
                     task.name, task.diagnoses[0].mistake
                 );
-                (
+                Problem::from((
                     what,
                     "a starter makes no mistake yet: change it or the mutant",
-                )
+                ))
             })
         };
         let earned = Some((grade.points, grade.max_points));
@@ -204,18 +232,7 @@ impl Audit {
             .tasks
             .iter()
             .find(|task| task.verdict != Verdict::Passed);
-        let problem = lost.map(|task| match &task.stopped {
-            Some(stopped) => {
-                let place = place_of(stopped, &staff.solution);
-                let what = format!("task `{}`: {}{place}", task.name, stop_of(task));
-                let help = "mend the solution: it runs, and has full marks";
-                (what, help.to_owned())
-            }
-            None => {
-                let what = format!("task `{}` loses points: {}", task.name, loss_of(task));
-                (what, mending(task))
-            }
-        });
+        let problem = lost.map(|task| reference_problem(lab, staff, task));
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Reference, form), None, earned, problem);
         Some(run)
@@ -257,7 +274,7 @@ impl Audit {
         };
         for task in &grade.tasks {
             let earned = Some((task.points, task.max_points));
-            let problem = mutant_problem(task, mutant);
+            let problem = mutant_problem(lab, staff, task, mutant);
             self.add(
                 (Tried::Mutant, &mutant.name),
                 Some(&task.name),
@@ -274,18 +291,64 @@ fn graded(lab: &Lab, staff: &Staff, submission: &Source) -> Option<GradedRun> {
     grade(lab, Some(staff), submission, &mut InProcess).ok()
 }
 
-fn mutant_problem(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static str)> {
+/// What is wrong where the reference solution does not pass `task`.
+fn reference_problem(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Problem {
+    let name = &task.name;
+    if task.stopped.is_some() {
+        let help = "mend the solution: it runs, and has full marks";
+        let problem = stop_problem(lab, staff, task, &staff.solution, help);
+        let what = format!("task `{name}`: {}", problem.what);
+        return Problem { what, ..problem };
+    }
+    let hidden = hidden_losses(lab, staff, name, &staff.solution);
+    let (loss, lines) = (loss_of(task), lines_of(&hidden));
+    Problem {
+        what: format!("task `{name}` loses points: {loss}{lines}"),
+        help: mending(task),
+        hidden,
+    }
+}
+
+/// What is wrong where a submission of the course staff was stopped in `task`: in a hidden case or run, with its numbers and its line.
+fn stop_problem(
+    lab: &Lab,
+    staff: &Staff,
+    task: &TaskGrade,
+    source: &Source,
+    help: &str,
+) -> Problem {
+    let stopped = task.stopped.as_ref();
+    let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, source));
+    let mut what = format!("{}{place}", stop_of(task));
+    let mut hidden = Vec::new();
+    let class = stopped.and_then(|stopped| stopped.case.as_ref());
+    if task.hidden.iter().any(|known| Some(&known.class) == class) {
+        hidden = hidden_losses(lab, staff, &task.name, source);
+        hidden.retain(|lost| lost.check.is_none());
+        what += &lines_of(&hidden);
+    }
+    Problem {
+        what,
+        help: help.to_owned(),
+        hidden,
+    }
+}
+
+fn mutant_problem(lab: &Lab, staff: &Staff, task: &TaskGrade, mutant: &Mutant) -> Option<Problem> {
     if task.verdict == Verdict::Passed {
         let what = "loses no point".to_owned();
-        return Some((what, "narrow the band, or add cases in which it shows"));
+        return Some((what, "narrow the band, or add cases in which it shows").into());
     }
     if !matches!(task.verdict, Verdict::Missed | Verdict::InvalidOutput) {
-        let stopped = task.stopped.as_ref();
-        let place = stopped.map_or_else(String::new, |stopped| place_of(stopped, &mutant.source));
-        let what = format!("{}{place}", stop_of(task));
-        return Some((what, "a mutant runs to its end, and is wrong"));
+        let help = "a mutant runs to its end, and is wrong";
+        return Some(stop_problem(lab, staff, task, &mutant.source, help));
     }
-    let hidden = |of: fn(&crate::record::grade::HiddenClass) -> u32| -> usize {
+    shown_and_named(task, mutant).map(Into::into)
+}
+
+/// What is wrong where a mutant that ran to its end shows in too few cases, or is not named.
+fn shown_and_named(task: &TaskGrade, mutant: &Mutant) -> Option<(String, &'static str)> {
+    let hidden = |of: fn(&HiddenClass) -> u32| -> usize {
         task.hidden.iter().map(|class| of(class) as usize).sum()
     };
     let total = task.cases.len() + hidden(|class| class.total);
@@ -354,8 +417,16 @@ fn loss_of(task: &TaskGrade) -> String {
         .checks
         .iter()
         .find(|check| check.outcome != Outcome::Full);
+    // what hidden cases and runs cost is listed by itself
+    let is_of_hidden = |fact: &Evidence| {
+        let of_all_runs = fact.signal == "control" && fact.tick.is_none() && fact.run.is_none();
+        let class = |class: &HiddenClass| fact.case.as_ref() == Some(&class.class);
+        of_all_runs || task.hidden.iter().any(class)
+    };
     lost.map_or_else(String::new, |check| {
-        let why = check.evidence.first().map(|evidence| &evidence.message);
+        let mut evidence = check.evidence.iter();
+        let why = evidence.find(|fact| !is_of_hidden(fact));
+        let why = why.map(|fact| &fact.message);
         match why {
             Some(why) => format!("{} ({why})", check.title),
             None => check.title.clone(),

@@ -3,7 +3,7 @@
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
-use super::{Audit, Tried, graded, loss_of, mending, staff_code};
+use super::{Audit, LostDraw, Problem, Tried, graded, reference_problem, staff_code};
 use crate::lab::Lab;
 use crate::lab::Variant;
 use crate::lab::staff::Staff;
@@ -20,12 +20,13 @@ pub struct Variants {
     rooms: Vec<VariantMargin>,
 }
 
-/// A student in whose variant the reference solution lost points. In the order of students, whoever tried them.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+/// A student in whose variant the reference solution lost points.
+#[derive(Debug, Clone, PartialEq)]
 struct Lost {
     student: String,
     problem: String,
     help: String,
+    hidden: Vec<LostDraw>,
 }
 
 /// The margin of the reference solution in a check's band, over the variants that were tried. Similar margins make variants equally hard.
@@ -69,6 +70,7 @@ impl Variants {
                     student: student.to_owned(),
                     problem: format!("it cannot be loaded ({numbers}): {why}"),
                     help: "or mend what the error names".to_owned(),
+                    hidden: Vec::new(),
                 });
                 return;
             }
@@ -78,10 +80,12 @@ impl Variants {
         };
         let tasks = &run.grade.tasks;
         if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
+            let problem = reference_problem(&lab, &staff, task);
             self.lost.push(Lost {
                 student: student.to_owned(),
-                problem: format!("task `{}` loses points: {}", task.name, loss_of(task)),
-                help: mending(task),
+                problem: problem.what,
+                help: problem.help,
+                hidden: problem.hidden,
             });
         }
         self.measure(&run.grade);
@@ -147,11 +151,14 @@ impl Variants {
 impl Audit {
     /// Records the results of the variants.
     pub fn variants(&mut self, mut tried: Variants) {
-        tried.lost.sort();
+        tried.lost.sort_by(|a, b| a.student.cmp(&b.student));
         let problem = tried.lost.first().map(|lost| {
             let (count, student, problem) = (tried.lost.len(), &lost.student, &lost.problem);
-            let what = format!("in {count} of them, such as that of `{student}`: {problem}");
-            (what, format!("narrow [variants], {}", lost.help))
+            Problem {
+                what: format!("in {count} of them, such as that of `{student}`: {problem}"),
+                help: format!("narrow [variants], {}", lost.help),
+                hidden: lost.hidden.clone(),
+            }
         });
         let form = format!("{} variants", tried.students);
         self.add((Tried::Reference, &form), None, None, problem);
@@ -195,6 +202,7 @@ mod tests {
                 student: student.to_owned(),
                 problem: "a point".to_owned(),
                 help: String::new(),
+                hidden: Vec::new(),
             }],
             rooms,
         };

@@ -8,37 +8,21 @@ use crate::attempt::measure::as_slice;
 use crate::check::function_cases::written;
 use crate::lab::Lab;
 use crate::record::grade::{CaseGrade, HiddenClass};
-use crate::task::model::{Band, Given};
+use crate::task::model::{Band, Case, Given};
 use crate::task::tcp::tcp_in;
 
 pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGrade {
-    let (given, expected) = match &facts.case.given {
-        Given::Q(q) => {
-            let truth = match &facts.error {
-                CaseError::Jacobian { truth, .. } => Some(lists(truth)),
-                _ => {
-                    tcp_in(&facts.robot, &lab.frame, q).map(|p| format!("{} m", list(p.as_slice())))
-                }
-            };
-            (format!("q = {} rad", list(q)), truth)
+    let expected = match &facts.case.given {
+        Given::Q(q) => match &facts.error {
+            CaseError::Jacobian { truth, .. } => Some(lists(truth)),
+            _ => tcp_in(&facts.robot, &lab.frame, q).map(|p| format!("{} m", list(p.as_slice()))),
+        },
+        // the expected angles would be the answer of the task
+        Given::Position { branches, .. } => {
+            (*branches == 0).then(|| "[] (out of reach)".to_owned())
         }
-        Given::Position {
-            position_m,
-            branches,
-        } => (
-            format!("position = {} m", list(position_m)),
-            // the expected angles would be the answer of the task
-            (*branches == 0).then(|| "[] (out of reach)".to_owned()),
-        ),
-        Given::Values { given, expected } => (entries(given), Some(entries(expected))),
+        Given::Values { expected, .. } => Some(entries(expected)),
     };
-    let changed = facts.case.dimensions.iter().map(|(name, dimension)| {
-        let value = match dimension {
-            Dimension::Number(number) => trimmed(*number, 4),
-            Dimension::List(numbers) => list(numbers),
-        };
-        format!(", {name} = {value}")
-    });
     let error_m = match &facts.error {
         CaseError::Position(error_m) => Some(*error_m),
         CaseError::Reach { branches_m, .. } => branches_m.first().copied(),
@@ -51,7 +35,7 @@ pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGr
     };
     CaseGrade {
         name: facts.case.name.clone(),
-        given: given + changed.collect::<String>().as_str(),
+        given: given_in_words(facts.case),
         answer: match &facts.answer {
             Answered::Position(p) => format!("{} m", list(p.as_slice())),
             Answered::Branches(rows) | Answered::Matrix(rows) => lists(rows),
@@ -72,6 +56,23 @@ pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGr
         relative_error: relative_error.filter(|relative| relative.is_finite()),
         good: is_good(facts, band),
     }
+}
+
+/// The input of a case in words, with the dimensions that are its own.
+pub(super) fn given_in_words(case: &Case) -> String {
+    let given = match &case.given {
+        Given::Q(q) => format!("q = {} rad", list(q)),
+        Given::Position { position_m, .. } => format!("position = {} m", list(position_m)),
+        Given::Values { given, .. } => entries(given),
+    };
+    let changed = case.dimensions.iter().map(|(name, dimension)| {
+        let value = match dimension {
+            Dimension::Number(number) => trimmed(*number, 4),
+            Dimension::List(numbers) => list(numbers),
+        };
+        format!(", {name} = {value}")
+    });
+    given + changed.collect::<String>().as_str()
 }
 
 pub(super) fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenClass> {
@@ -109,7 +110,7 @@ fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
 }
 
 /// Entries as people read them: `kp = 100, inertia = 0.1668`.
-fn entries(entries: &[(String, Dimension)]) -> String {
+pub(super) fn entries(entries: &[(String, Dimension)]) -> String {
     named(
         entries
             .iter()

@@ -5,9 +5,10 @@ use super::case_grades::{case_grade, hidden_classes};
 use super::check_grades::check_grades;
 use super::diagnose;
 use super::expected::with_expected;
-use super::grader::{Grader, MOST_LOG_LINES};
+use super::grader::{GradedTask, Grader, MOST_LOG_LINES, TaskScores};
 use super::hidden_attempts::HiddenAttempts;
 use super::judged::{JudgedCheck, all_full, judge};
+use super::single_case::single_cases;
 use crate::attempt::answers::{Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
 use crate::check::{self, Check, FunctionCheck};
@@ -28,7 +29,7 @@ impl Grader<'_> {
         work: &FunctionTask,
         checks: &[Check<dyn FunctionCheck>],
         host: &mut dyn Host,
-    ) -> Result<TaskGrade, Interrupted> {
+    ) -> Result<GradedTask, Interrupted> {
         let (cases, fault) = self.cases(task, work);
         let opening = self.opening(task, self.submission);
         let cell = self.lab.workcell();
@@ -52,8 +53,21 @@ impl Grader<'_> {
             self.function_diagnoses(task, (&work.function, band), &cases, &attempt)
         };
         let explained = stopped.is_some() || !diagnoses.is_empty();
+        let scores = TaskScores {
+            checks: judged.iter().map(|check| check.score).collect(),
+            cases: if self.judges_each_case {
+                single_cases(self.lab, checks, &work.function, facts)
+            } else {
+                Vec::new()
+            },
+        };
         let checks = function_checks(checks, &judged, explained);
-        Ok(self.function_grade((task, band), verdict, stopped, checks, diagnoses, attempt))
+        let outcome = (verdict, stopped);
+        Ok(GradedTask {
+            grade: self.function_grade((task, band), outcome, checks, diagnoses, attempt),
+            run: None,
+            scores,
+        })
     }
 
     /// All cases of a task, hidden ones with their expected answers; with a fault, if the reference solution does not give them,
@@ -95,8 +109,7 @@ impl Grader<'_> {
     fn function_grade(
         &self,
         (task, band): (&Task, Band),
-        verdict: Verdict,
-        stopped: Option<Stopped>,
+        (verdict, stopped): (Verdict, Option<Stopped>),
         checks: Vec<CheckGrade>,
         diagnoses: Vec<Diagnosis>,
         attempt: Attempt<Answers<'_>>,

@@ -7,6 +7,7 @@ use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
 
 use super::opening::opening;
+use super::single_case::SingleCase;
 use super::staff_faults::staff_fault;
 use crate::attempt::Ended;
 use crate::lab::Staff;
@@ -16,7 +17,7 @@ use crate::lab::{Lab, Task};
 use crate::record::grade::{
     FORMAT, Grade, GradeMode, ParameterValue, Part, TaskGrade, VariantRecord,
 };
-use crate::record::graded::GradedRun;
+use crate::record::graded::{GradedRun, TaskRun};
 use crate::record::quantity::sum_of_points;
 use crate::record::staff_fault::{StaffFault, StaffSubmission};
 use crate::record::verdict::Verdict;
@@ -42,38 +43,8 @@ pub fn grade(
     submission: &Source,
     host: &mut dyn Host,
 ) -> Result<GradedRun, Interrupted> {
-    let mut grader = Grader {
-        lab,
-        staff,
-        submission,
-        passed: Vec::new(),
-        staff_faults: RefCell::new(Vec::new()),
-    };
-    let mut tasks = Vec::new();
-    let mut runs = Vec::new();
-    for task in &lab.tasks {
-        host.begins(&task.title);
-        let (grade, run) = match &task.work {
-            TaskWork::Function(function, checks) => {
-                (grader.function(task, function, checks, host)?, None)
-            }
-            TaskWork::Motion(motion, checks) => {
-                let (grade, run) = grader.motion(task, motion, checks, host)?;
-                (grade, Some(run))
-            }
-        };
-        if run.is_none() && grade.verdict == Verdict::Passed {
-            grader.passed.push(task.name.clone());
-        }
-        tasks.push(grade);
-        runs.extend(run);
-    }
-    Ok(GradedRun {
-        grade: record(lab, staff, submission, tasks),
-        title: lab.title.clone(),
-        staff_faults: grader.staff_faults.into_inner(),
-        runs,
-    })
+    let (graded, _) = Grader::new(lab, staff, submission).graded(host)?;
+    Ok(graded)
 }
 
 /// The grade of all tasks together, with the digests of lab, robot, submission and reference.
@@ -195,12 +166,78 @@ pub(super) struct Grader<'a> {
     pub(super) staff: Option<&'a Staff>,
     pub(super) submission: &'a Source,
     /// Function tasks so far that passed.
-    passed: Vec<String>,
+    pub(super) passed: Vec<String>,
+    /// Whether the cases of function tasks are also judged one by one, which a record has no place for.
+    pub(super) judges_each_case: bool,
     /// Submissions of the course staff that failed.
     staff_faults: RefCell<Vec<Arc<StaffFault>>>,
 }
 
-impl Grader<'_> {
+/// A task, graded.
+pub(super) struct GradedTask {
+    /// Its record.
+    pub(super) grade: TaskGrade,
+    /// The run of a motion task.
+    pub(super) run: Option<TaskRun>,
+    /// What its record is made from and does not hold.
+    pub(super) scores: TaskScores,
+}
+
+/// The scores from which a task's points are made, before they are rounded.
+#[derive(Default)]
+pub(super) struct TaskScores {
+    /// The share of points of each check, in `[0, 1]`: of a motion task in the visible run alone.
+    pub(super) checks: Vec<f64>,
+    /// Each case of a function task by itself, if the grader judges each.
+    pub(super) cases: Vec<SingleCase>,
+}
+
+impl<'a> Grader<'a> {
+    pub(super) fn new(lab: &'a Lab, staff: Option<&'a Staff>, submission: &'a Source) -> Self {
+        Self {
+            lab,
+            staff,
+            submission,
+            passed: Vec::new(),
+            judges_each_case: false,
+            staff_faults: RefCell::new(Vec::new()),
+        }
+    }
+
+    /// Grades every task, in order; the scores are one entry per task.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if the host says so.
+    pub(super) fn graded(
+        mut self,
+        host: &mut dyn Host,
+    ) -> Result<(GradedRun, Vec<TaskScores>), Interrupted> {
+        let lab = self.lab;
+        let (mut tasks, mut runs, mut scores) = (Vec::new(), Vec::new(), Vec::new());
+        for task in &lab.tasks {
+            host.begins(&task.title);
+            let graded = match &task.work {
+                TaskWork::Function(function, checks) => {
+                    self.function(task, function, checks, host)?
+                }
+                TaskWork::Motion(motion, checks) => self.motion(task, motion, checks, host)?,
+            };
+            if graded.run.is_none() && graded.grade.verdict == Verdict::Passed {
+                self.passed.push(task.name.clone());
+            }
+            tasks.push(graded.grade);
+            runs.extend(graded.run);
+            scores.push(graded.scores);
+        }
+        let graded = GradedRun {
+            grade: record(lab, self.staff, self.submission, tasks),
+            title: lab.title.clone(),
+            staff_faults: self.staff_faults.into_inner(),
+            runs,
+        };
+        Ok((graded, scores))
+    }
+
     pub(super) fn opening(&self, task: &Task, submission: &Source) -> Opening {
         opening(self.lab, task, submission)
     }

@@ -169,7 +169,7 @@ const HIDDEN_STEPS: f64 = 20.0;
 
 /// The score of a hidden run, rounded down to a step, so that it is full only if it was full. A score above zero does not become zero,
 /// because other checks may need one that earned something.
-fn counted_score(score: f64) -> f64 {
+pub(super) fn counted_score(score: f64) -> f64 {
     let steps = (score * HIDDEN_STEPS).floor();
     let least = if score > 0.0 { 1.0 } else { 0.0 };
     steps.max(least) / HIDDEN_STEPS

@@ -6,6 +6,8 @@ mod check_grades;
 pub mod diagnose;
 pub mod divergence;
 mod expected;
+mod explanation;
+mod exposed;
 mod first_lost;
 mod function_task;
 mod grader;
@@ -17,8 +19,13 @@ mod motion_task;
 mod opening;
 pub mod reference_run;
 mod robustness_sweep;
+mod single_case;
 pub(crate) mod staff_faults;
 
 pub use expected::with_expected;
+pub use explanation::{
+    DrawCheck, ExplainedAttempt, ExplainedDraw, ExplainedTask, Explanation, explain,
+};
+pub use exposed::{ExposedLab, HiddenDraw, NoAnswer, expose};
 pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};
 pub(crate) use opening::opening;

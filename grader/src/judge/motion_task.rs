@@ -8,7 +8,7 @@ use super::check_grades::check_grades;
 use super::diagnose;
 use super::divergence;
 use super::first_lost::first_lost;
-use super::grader::Grader;
+use super::grader::{GradedTask, Grader, TaskScores};
 use super::hidden_attempts::HiddenAttempts;
 use super::judged::JudgedCheck;
 use super::motion_judge::MotionJudge;
@@ -18,8 +18,8 @@ use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck};
 use crate::lab::Task;
 use crate::lab::staff::Mutant;
-use crate::record::grade::{Diagnosis, Digests, Divergence, Instant, Outcome, TaskGrade};
-use crate::record::graded::{Curve, TaskRun, TcpPath};
+use crate::record::grade::{Diagnosis, Digests, Divergence, Instant, Outcome};
+use crate::record::graded::{Curve, TcpPath};
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::host::{Host, InProcess};
@@ -32,7 +32,7 @@ impl Grader<'_> {
         work: &MotionTask,
         checks: &[Check<dyn MotionCheck>],
         host: &mut dyn Host,
-    ) -> Result<(TaskGrade, TaskRun), Interrupted> {
+    ) -> Result<GradedTask, Interrupted> {
         let path = self.reference_path(&task.name);
         let judge = MotionJudge::new(self.lab, task, (work, checks), self.submission, path);
         let attempt = judge.attempt(host);
@@ -79,9 +79,17 @@ impl Grader<'_> {
             },
             divergence: differs,
         };
+        let scores = TaskScores {
+            checks: visible.checks.iter().map(|check| check.score).collect(),
+            cases: Vec::new(),
+        };
         let grade = result.grade(&judge, &attempt);
         let run = result.run(&judge, attempt, &visible.dwells, curves(visible.checks));
-        Ok((grade, run))
+        Ok(GradedTask {
+            grade,
+            run: Some(run),
+            scores,
+        })
     }
 
     /// Where a run that lost points first differs from the reference solution's, and which mutant it matches.

@@ -9,6 +9,7 @@ pub(crate) mod course_regrade;
 pub(crate) mod course_status;
 pub(crate) mod grade;
 pub(crate) mod lab_check;
+pub(crate) mod lab_draws;
 pub(crate) mod lab_list;
 pub(crate) mod lab_variant;
 pub(crate) mod log_export;

@@ -2,6 +2,7 @@
 
 mod band;
 mod comparison;
+mod explanation;
 mod figure;
 mod head;
 mod look;
@@ -14,6 +15,7 @@ pub(crate) mod viewer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub use self::comparison::comparison;
+pub use self::explanation::{OVERVIEW_FILE, StaffPage, explanation};
 use self::head::{facts, head, scores};
 pub use self::viewer::{ViewerCode, whole};
 use crate::palette::plot_css;
@@ -33,6 +35,16 @@ pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
 
 /// The same page with the viewer's code where `code` says.
 pub fn html_with(graded: &GradedRun, plots: &[Vec<Plot>], code: ViewerCode<'_>) -> String {
+    page_with_notice(graded, plots, code, &html! {})
+}
+
+/// The page of a graded run, with a notice at its top.
+fn page_with_notice(
+    graded: &GradedRun,
+    plots: &[Vec<Plot>],
+    code: ViewerCode<'_>,
+    notice: &Markup,
+) -> String {
     let grade = &graded.grade;
     let drawn = |name: &str| {
         let at = graded.runs.iter().position(|run| run.task == name)?;
@@ -59,6 +71,7 @@ pub fn html_with(graded: &GradedRun, plots: &[Vec<Plot>], code: ViewerCode<'_>) 
     );
     let body = html! {
         a class="skip" href="#scores" { "Skip to the scores" }
+        (notice)
         (head(grade, title_of(graded), &look::look(grade, has_replay)))
         main {
             (scores(grade))

@@ -64,7 +64,9 @@ pub(super) fn hidden_runs(
             let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
             Ok(HiddenRun {
                 class: class.clone(),
-                lab: with(drawn)?,
+                number: number + 1,
+                lab: with(drawn.clone())?,
+                drawn,
             })
         })
         .collect()

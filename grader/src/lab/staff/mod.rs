@@ -5,7 +5,7 @@ mod hidden_runs;
 
 use std::ops::Range;
 
-use kinemark_sim::text::Source;
+use kinemark_sim::text::{Dimension, Source};
 use toml::Spanned;
 
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
@@ -79,6 +79,10 @@ pub struct HiddenCases {
 pub struct HiddenRun {
     /// All that students get to know about it.
     pub class: String,
+    /// Its number within its table, from one.
+    pub number: u32,
+    /// The parameters that were drawn.
+    pub drawn: Vec<(String, Dimension)>,
     /// The lab with its numbers.
     pub lab: Lab,
 }
@@ -168,6 +172,19 @@ impl Staff {
         let table: HiddenTable = tables(&source)?;
         let salt = own_salt(Reporter { source: &source }, &table)?;
         Ok(Some(salt.to_owned()))
+    }
+
+    /// The solution and the mutants with nothing hidden: for a lab that shows what is hidden in this one.
+    pub(crate) fn without_hidden(&self) -> Self {
+        Self {
+            solution: self.solution.clone(),
+            mutants: self.mutants.clone(),
+            hidden_source: None,
+            draws: Vec::new(),
+            runs: Vec::new(),
+            digest: self.digest,
+            key: self.key,
+        }
     }
 
     /// The hidden runs of a task.

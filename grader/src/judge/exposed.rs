@@ -1,0 +1,214 @@
+//! What is hidden in a lab, exposed for the course staff: a lab of one task whose visible cases, or whose run, are the hidden ones. It
+//! is graded and shown like any other.
+
+use kinemark_sim::text::{Dimension, Dimensions};
+use serde::Serialize;
+
+use super::case_grades::{case_grade, entries, given_in_words};
+use super::expected::with_expected;
+use super::opening::opening;
+use crate::attempt::function;
+use crate::check;
+use crate::lab::staff::HiddenRun;
+use crate::lab::{Lab, Staff, Task, TaskWork};
+use crate::record::grade::TaskKind;
+use crate::submission::host::InProcess;
+use crate::task::model::{Case, FunctionTask, Given};
+
+/// A hidden case or run with its numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HiddenDraw {
+    /// The task.
+    pub task: String,
+    /// Whether it is a case of a function or a run.
+    pub kind: TaskKind,
+    /// Its class, which is all that students see of it.
+    pub class: String,
+    /// Its number within its class, from one.
+    pub number: u32,
+    /// What was drawn: the input of a case and the dimensions of its robot, or the parameters of a run.
+    #[serde(serialize_with = "by_name")]
+    pub numbers: Dimensions,
+    /// The numbers in words, with fewer digits.
+    pub words: String,
+    /// The right answer to a case in words. For inverse kinematics it is that of the reference solution.
+    pub expected: Option<String>,
+}
+
+impl HiddenDraw {
+    /// Its class and number in words: `case 3 of the class "a longer forearm"`.
+    pub fn name(&self) -> String {
+        let what = match self.kind {
+            TaskKind::Function => "case",
+            TaskKind::Motion => "run",
+        };
+        format!("{what} {} of the class \"{}\"", self.number, self.class)
+    }
+}
+
+/// A lab of one task that shows what is hidden in another lab.
+#[derive(Debug, Clone)]
+pub struct ExposedLab {
+    /// The lab. The cases of a function task are all that are judged, in their order: first the visible ones, then one for each draw.
+    /// A motion task is that of one hidden run.
+    pub lab: Lab,
+    /// The hidden cases, or the one hidden run.
+    pub draws: Vec<HiddenDraw>,
+}
+
+impl ExposedLab {
+    /// Its one task.
+    pub fn task(&self) -> &Task {
+        &self.lab.tasks[0]
+    }
+
+    /// The number of cases of a function task that are visible in the lab itself.
+    pub(super) fn visible_cases(&self) -> usize {
+        match &self.task().work {
+            TaskWork::Function(work, _) => work.cases.len() - self.draws.len(),
+            TaskWork::Motion(..) => 0,
+        }
+    }
+}
+
+/// The reference solution has no answer to the hidden cases of a task, so they cannot be judged.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("task `{task}`: {why}")]
+pub struct NoAnswer {
+    /// The task.
+    pub task: String,
+    /// Why it has none, in words.
+    pub why: String,
+}
+
+/// The labs that show what is hidden in `task` of `lab`: one for all cases of a function task, one for each run of a motion task. There
+/// is none where nothing is hidden.
+///
+/// # Errors
+/// [`NoAnswer`] if the reference solution does not define the expected answers; [`crate::audit::staff_code`] finds that earlier.
+pub fn expose(lab: &Lab, staff: &Staff, task: &Task) -> Result<Vec<ExposedLab>, NoAnswer> {
+    match &task.work {
+        TaskWork::Function(work, _) => {
+            let exposed = cases(lab, staff, task, work).map_err(|why| NoAnswer {
+                task: task.name.clone(),
+                why,
+            })?;
+            Ok(exposed.into_iter().collect())
+        }
+        TaskWork::Motion(..) => {
+            let runs = staff.runs(&task.name).into_iter();
+            Ok(runs.filter_map(|hidden| run(hidden, &task.name)).collect())
+        }
+    }
+}
+
+/// The lab of a hidden run; `None` if the lab of the run does not have the task, which loading excludes.
+fn run(hidden: &HiddenRun, task: &str) -> Option<ExposedLab> {
+    let draw = HiddenDraw {
+        task: task.to_owned(),
+        kind: TaskKind::Motion,
+        class: hidden.class.clone(),
+        number: hidden.number,
+        numbers: Dimensions::from_pairs(hidden.drawn.iter().cloned()),
+        words: entries(&hidden.drawn),
+        expected: None,
+    };
+    let task = hidden.lab.tasks.iter().find(|known| known.name == task)?;
+    Some(ExposedLab {
+        lab: of_one_task(&hidden.lab, task.clone()),
+        draws: vec![draw],
+    })
+}
+
+/// `lab` with `task` alone. A hidden attempt is never compared with the path that students see.
+fn of_one_task(lab: &Lab, task: Task) -> Lab {
+    let mut own = Lab {
+        tasks: vec![task],
+        ..lab.clone()
+    };
+    own.reference_paths.paths.clear();
+    own
+}
+
+/// The lab of all cases of a function task; nothing where none are hidden.
+fn cases(
+    lab: &Lab,
+    staff: &Staff,
+    task: &Task,
+    work: &FunctionTask,
+) -> Result<Option<ExposedLab>, String> {
+    let mut draws = Vec::new();
+    let mut all = work.cases.clone();
+    for hidden in staff.draws_of(&task.name) {
+        let cases = with_expected(lab, task, &hidden.cases, &staff.solution)?;
+        for (number, mut case) in (1..).zip(cases) {
+            // with a class it would be hidden from the record
+            let class = case.hidden_class.take().unwrap_or_default();
+            draws.push(HiddenDraw {
+                task: task.name.clone(),
+                kind: TaskKind::Function,
+                class,
+                number,
+                numbers: numbers_of(&case),
+                words: given_in_words(&case),
+                expected: None,
+            });
+            all.push(case);
+        }
+    }
+    if draws.is_empty() {
+        return Ok(None);
+    }
+    let mut task = task.clone();
+    if let TaskWork::Function(work, _) = &mut task.work {
+        work.cases = all;
+    }
+    let mut exposed = ExposedLab {
+        lab: of_one_task(lab, task),
+        draws,
+    };
+    let first = exposed.visible_cases();
+    let expected = expected(&exposed, staff);
+    for (draw, expected) in exposed.draws.iter_mut().zip(&expected[first..]) {
+        draw.expected.clone_from(expected);
+    }
+    Ok(Some(exposed))
+}
+
+/// The right answer to each case of an exposed function task in words; `None` where neither the case nor the reference solution has one.
+fn expected(exposed: &ExposedLab, staff: &Staff) -> Vec<Option<String>> {
+    let (lab, task) = (&exposed.lab, exposed.task());
+    let TaskWork::Function(work, checks) = &task.work else {
+        return Vec::new();
+    };
+    let opening = opening(lab, task, &staff.solution);
+    let cell = lab.workcell();
+    let attempt = function::run(cell, &work.function, &work.cases, &opening, &mut InProcess);
+    let band = check::answer_band(checks);
+    let facts = attempt.recorded.facts.iter();
+    facts
+        .map(|facts| {
+            let case = case_grade(lab, facts, band);
+            let of_solution = case.good.then_some(case.answer);
+            case.expected.or(of_solution)
+        })
+        .collect()
+}
+
+/// What was drawn for a case, by name.
+fn numbers_of(case: &Case) -> Dimensions {
+    let given = match &case.given {
+        Given::Q(q) => vec![("q".to_owned(), Dimension::List(q.clone()))],
+        Given::Position { position_m, .. } => {
+            let position = Dimension::List(position_m.to_vec());
+            vec![("position_m".to_owned(), position)]
+        }
+        Given::Values { given, .. } => given.clone(),
+    };
+    Dimensions::from_pairs(given.into_iter().chain(case.dimensions.iter().cloned()))
+}
+
+/// Numbers as a map.
+fn by_name<S: serde::Serializer>(numbers: &Dimensions, into: S) -> Result<S::Ok, S::Error> {
+    into.collect_map(numbers.iter())
+}
