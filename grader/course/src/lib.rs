@@ -13,6 +13,7 @@
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
+//! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
 //! | [`question`] | what waits for a person |
 //! | [`intake`] | from what the LMS exported to hand-ins |
 //! | [`public`] | what anybody can read in Kinemark's own repository |
@@ -41,6 +42,7 @@ pub mod journal;
 mod private_files;
 pub mod public;
 pub mod question;
+pub mod release;
 pub mod roster;
 pub mod staffed_lab;
 pub mod standing;

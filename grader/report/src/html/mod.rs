@@ -2,6 +2,7 @@
 
 mod band;
 mod comparison;
+pub mod feedback;
 mod figure;
 mod head;
 mod look;
