@@ -18,6 +18,7 @@
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
+//! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
 //! | [`question`] | what waits for a person |
 //! | [`reports`] | pages of graded hand-ins |
 //! | [`forget`] | removing a person from a book |
@@ -54,6 +55,7 @@ mod private_files;
 pub mod public;
 pub mod question;
 pub mod reports;
+pub mod release;
 pub mod roster;
 pub mod selection;
 pub mod staffed_lab;

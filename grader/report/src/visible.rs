@@ -51,7 +51,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 }
 
 /// [`visible`] text of at most `max` characters, the last an ellipsis where something was cut.
-pub(crate) fn shortened(text: &str, max: usize) -> String {
+pub fn shortened(text: &str, max: usize) -> String {
     // no more than `max` characters can be shown, so no more need be looked at
     let mut chars = text.chars();
     let head: String = chars.by_ref().take(max + 1).collect();

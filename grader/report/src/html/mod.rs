@@ -3,6 +3,7 @@
 mod band;
 mod comparison;
 mod explanation;
+pub mod feedback;
 mod figure;
 mod head;
 mod look;

@@ -138,7 +138,7 @@ fn first_lost(loss: &FirstLoss<'_>, of: &TaskShown<'_>) -> Markup {
 }
 
 /// What stopped the submission, with the line it happened in.
-fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
+pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
     html! {
         div class="note bad" {
             h3 { "What stopped it" }
@@ -187,7 +187,7 @@ fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
     }
 }
 
-fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
+pub(super) fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
     let noun = match kind {
         TaskKind::Function => "answers in",
         TaskKind::Motion => "moments at",
