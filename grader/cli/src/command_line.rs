@@ -8,9 +8,9 @@ use clap::{Parser, Subcommand};
 use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
-    compare, completions, course_check, course_forget, course_grade, course_regrade, course_status,
-    grade, lab_check, lab_draws, lab_list, lab_variant, log_export, new, robot_convert, robot_eval,
-    robot_show, scene_check, verify, view, watch,
+    autograder, compare, completions, course_check, course_forget, course_grade, course_regrade,
+    course_status, grade, lab_check, lab_draws, lab_list, lab_pack, lab_variant, log_export, new,
+    robot_convert, robot_eval, robot_show, scene_check, submit, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -48,6 +48,7 @@ pub(crate) enum Command {
     Watch(watch::Args),
     View(view::Args),
     Compare(compare::Args),
+    Submit(submit::Args),
     Verify(verify::Args),
     /// Show, convert or query a robot: kinematics, dynamics, simulation
     #[command(subcommand)]
@@ -58,7 +59,7 @@ pub(crate) enum Command {
     /// Read the log of a run
     #[command(subcommand)]
     Log(LogCommand),
-    /// Check a lab, list what is hidden in it, or generate a student's variant of it: for course staff
+    /// Check a lab, list what is hidden in it, generate a student's variant of it, or pack it to hand out: for course staff
     #[command(subcommand)]
     Lab(LabCommand),
     /// Grade a class: from what the LMS exported to what it takes back: for course staff
@@ -68,6 +69,9 @@ pub(crate) enum Command {
     /// Runs a submission for another process; not for people
     #[command(hide = true)]
     Worker,
+    /// Grades an upload for Gradescope; not for people
+    #[command(hide = true)]
+    Autograder(autograder::Args),
 }
 
 #[derive(Debug, Subcommand)]
@@ -92,6 +96,7 @@ pub(crate) enum LabCommand {
     Check(lab_check::Args),
     Draws(lab_draws::Args),
     Variant(lab_variant::Args),
+    Pack(lab_pack::Args),
 }
 
 #[derive(Debug, Subcommand)]
@@ -115,6 +120,7 @@ impl CommandLine {
             Command::Watch(args) => watch::run(&args),
             Command::View(args) => view::run(&args),
             Command::Compare(args) => compare::run(&args),
+            Command::Submit(args) => submit::run(&args),
             Command::Verify(args) => verify::run(&args),
             Command::Robot(RobotCommand::Show(args)) => robot_show::run(&args),
             Command::Robot(RobotCommand::Convert(args)) => robot_convert::run(&args),
@@ -124,6 +130,7 @@ impl CommandLine {
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
             Command::Lab(LabCommand::Draws(args)) => lab_draws::run(&args),
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
+            Command::Lab(LabCommand::Pack(args)) => lab_pack::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),
             Command::Course(CourseCommand::Forget(args)) => course_forget::run(&args),
@@ -131,6 +138,7 @@ impl CommandLine {
             Command::Course(CourseCommand::Status(args)) => course_status::run(&args),
             Command::Completions(args) => completions::run(&args),
             Command::Worker => Ok(worker::serve()),
+            Command::Autograder(args) => autograder::run(&args),
         }
     }
 }

@@ -151,8 +151,20 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Reads the file that a person named `path`, which should be `what`, of at most `most` bytes.
+/// Reads the text that a person named `path`, which should be `what`, of at most `most` bytes.
 pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure> {
+    let text = text(read_bytes(path, what, most)?)
+        .map_err(|why| unread(path, what, &why, "save it as UTF-8 text"))?;
+    Ok(Source::new(path.display().to_string(), text))
+}
+
+fn unread(path: &Path, what: &str, why: &str, help: &str) -> Failure {
+    let shown = path.display();
+    Failure::usage(format!("`{shown}` cannot be read as {what}: {why}"), help)
+}
+
+/// Reads the file that a person named `path`, which should be `what`, of at most `most` bytes.
+pub(crate) fn read_bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, Failure> {
     let shown = path.display();
     if path.is_dir() {
         return Err(Failure::usage(
@@ -172,22 +184,34 @@ pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure
             "save it to a file first",
         ));
     }
-    let unread = |why: &str, help: &str| {
-        Failure::usage(format!("`{shown}` cannot be read as {what}: {why}"), help)
-    };
-    let bytes = bytes_of(path, most).map_err(|why| {
+    bytes_of(path, most).map_err(|why| {
         if why == too_large(most) {
             let help = format!("{what} has at most {most} bytes: is it the right file?");
-            return unread(&why, &help);
+            return unread(path, what, &why, &help);
         }
-        unread(&why, "check the file and its permissions")
-    })?;
-    let text = text(bytes).map_err(|why| unread(&why, "save it as UTF-8 text"))?;
-    Ok(Source::new(shown.to_string(), text))
+        unread(path, what, &why, "check the file and its permissions")
+    })
 }
 
 /// Reads a submission of at most `most` bytes; its name is that of the file alone, for records are the same wherever it lies.
 pub(crate) fn read_submission(path: &Path, most: u64) -> Result<Source, Failure> {
+    refuse_toml(path)?;
+    let read = read(path, "a submission", most)?;
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Ok(Source::new(
+        name.to_string_lossy().into_owned(),
+        read.text(),
+    ))
+}
+
+/// Reads the bytes of a submission of at most `most`, whether they are text or not.
+pub(crate) fn read_submission_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+    refuse_toml(path)?;
+    read_bytes(path, "a submission", most)
+}
+
+/// Refuses a variant, a lab or a robot in place of a submission.
+fn refuse_toml(path: &Path) -> Result<(), Failure> {
     let is_toml = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
@@ -200,12 +224,7 @@ pub(crate) fn read_submission(path: &Path, most: u64) -> Result<Source, Failure>
             "name the program, such as submission.rhai",
         ));
     }
-    let read = read(path, "a submission", most)?;
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    Ok(Source::new(
-        name.to_string_lossy().into_owned(),
-        read.text(),
-    ))
+    Ok(())
 }
 
 fn too_large(most: u64) -> String {

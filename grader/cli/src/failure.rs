@@ -100,6 +100,14 @@ pub(crate) fn warn(what: &str, diagnostic: &dyn Diagnostic) {
     show(diagnostic);
 }
 
+/// Prints, in words, what ends nothing but should be looked at.
+pub(crate) fn warn_in_words(message: &str, help: &str) {
+    use std::io::Write as _;
+    let text = format!("warning: {message}\n  help: {help}\n");
+    // without standard error there is no one to warn
+    let _ = anstream::stderr().write_all(text.as_bytes());
+}
+
 fn show(diagnostic: &dyn Diagnostic) {
     use std::io::Write as _;
     let mut text = String::new();

@@ -68,6 +68,11 @@ pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<Path
     }
 }
 
+/// The labs built in.
+pub(crate) fn built_in() -> impl Files {
+    BuiltIn
+}
+
 /// A text that every lab has: `starter.rhai` or `brief.md`.
 pub(crate) fn text(files: &dyn Files, lab: &str, name: &str) -> Result<String, Failure> {
     match files.read(&format!("{lab}/{name}")) {

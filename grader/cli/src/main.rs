@@ -12,6 +12,7 @@ mod course_log;
 mod disk;
 mod failure;
 mod fresh_folder;
+mod hand_in_warnings;
 mod interrupt;
 mod labs_folder;
 mod one_processor;

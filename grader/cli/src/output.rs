@@ -63,20 +63,30 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Fa
     write_whole(path, bytes).map_err(|error| unwritten(path, &error, help))
 }
 
+/// Writes a file that its owner alone can read, whole, or says why not and what helps.
+pub(crate) fn write_private_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
+    let builder = tempfile::Builder::new();
+    put(builder, path, bytes).map_err(|error| unwritten(path, &error, help))
+}
+
 /// Why there is no file or folder at `path`.
 pub(crate) fn unwritten(path: &Path, error: &std::io::Error, help: &str) -> Failure {
     let message = format!("`{}` cannot be written: {}", path.display(), plain(error));
     Failure::fault(message, help)
 }
 
-/// Writes to a temporary file beside `path`, then renames it.
 fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    readable(&mut builder);
+    put(builder, path, bytes)
+}
+
+/// Writes to a temporary file beside `path`, then renames it.
+fn put(builder: tempfile::Builder<'_, '_>, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut builder = tempfile::Builder::new();
-    readable(&mut builder);
     let mut file = builder.tempfile_in(folder)?;
     file.write_all(bytes)?;
     file.persist(path).map_err(|error| error.error)?;

@@ -1,17 +1,14 @@
 //! One hand-in to its record: from the book if the same was graded before, else graded now and kept.
 
-use std::path::Path;
-
-use kinemark_grader::judge::{self, Interrupted};
+use kinemark_grader::judge::Interrupted;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::Host;
-use kinemark_grader::submission::not_text::NotText;
 use kinemark_grader::task::problem::LoadError;
-use kinemark_sim::text::Source;
 
 use crate::book::{Book, BookError, Record};
 use crate::journal::HandIn;
 use crate::staffed_lab::StaffedLab;
+use crate::submission_source::SubmissionSource;
 
 /// A hand-in, graded.
 #[derive(Debug)]
@@ -68,24 +65,17 @@ pub fn grade(
     pages: bool,
 ) -> Result<Outcome, GradingError> {
     let bytes = book.submission(&hand_in.submission)?;
-    let not_text = NotText::of(&bytes);
-    let text = match &not_text {
-        Some(not_text) => not_text.shown.clone(),
-        None => String::from_utf8_lossy(&bytes).into_owned(),
-    };
-    let source = Source::new(file_name(&hand_in.file), text);
+    let submission = SubmissionSource::new(&hand_in.file, &bytes);
+    let source = &submission.source;
     let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
     let student_lab = lab.for_student(whose)?;
-    let inputs = lab.inputs(&student_lab, &source, &hand_in.submission);
+    let inputs = lab.inputs(&student_lab, source, &hand_in.submission);
     let key = inputs.key();
     if let Some(record) = book.record(&key)? {
         return Ok(recorded(&record, true));
     }
     let (lab, staff) = (student_lab.lab(), student_lab.staff());
-    let graded = match not_text {
-        Some(mut not_text) => judge::grade(lab, staff, &source, &mut not_text)?,
-        None => judge::grade(lab, staff, &source, host)?,
-    };
+    let graded = submission.grade(lab, staff, host)?;
     let verdict = graded.grade.verdict;
     if !verdict.is_decided() {
         let mut stops = graded.grade.tasks.iter();
@@ -112,13 +102,4 @@ fn recorded(record: &Record, was_known: bool) -> Outcome {
         max_points: record.grade.max_points,
         was_known,
     }
-}
-
-/// The name of a file without its folders, however they were written.
-fn file_name(path: &str) -> &str {
-    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
-    Path::new(name)
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or("submission.rhai")
 }

@@ -19,13 +19,21 @@
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
 //! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
+//! | [`fixed_zip`] | archives whose bytes follow from their files alone |
+//! | [`hand_in_file`] | the one file that a student uploads |
+//! | [`submission_file`] | which of a folder's files is the submission |
 //! | [`question`] | what waits for a person |
 //! | [`reports`] | pages of graded hand-ins |
 //! | [`forget`] | removing a person from a book |
 //! | [`intake`] | from what the LMS exported to hand-ins |
 //! | [`public`] | what anybody can read in Kinemark's own repository |
 //! | [`staffed_lab`] | a lab with its staff part, ready for every student |
+//! | [`submission_source`] | a submission's bytes as what is graded |
 //! | [`grading`] | one hand-in to its record |
+//! | [`handed_out`] | the note of which lab and engine the course uses |
+//! | [`working_folder`] | what a student begins a lab with |
+//! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
+//! | [`gradescope_results`] | a grade as Gradescope's autograder reports it |
 //!
 //! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
 
@@ -40,17 +48,22 @@
 pub mod book;
 pub mod course_file;
 pub mod course_text;
+pub mod fixed_zip;
 pub mod fixes;
 pub mod forget;
 #[cfg(test)]
 mod generated_class;
+pub mod gradescope_results;
 pub mod grading;
+pub mod hand_in_file;
+pub mod handed_out;
 pub mod history;
 pub mod index;
 pub mod intake;
 pub mod journal;
 pub mod layout;
 pub mod matching;
+pub mod pack;
 mod private_files;
 pub mod public;
 pub mod question;
@@ -63,3 +76,6 @@ pub mod standing;
 pub mod student;
 mod submission_name;
 pub mod tree;
+pub mod submission_file;
+pub mod submission_source;
+pub mod working_folder;

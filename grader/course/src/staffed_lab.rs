@@ -20,6 +20,11 @@ pub fn engine_id() -> String {
     format!("{} (engine {})", engine(), engine_digest())
 }
 
+/// The version of a lab's files, as [`StaffedLab::lab_version`] has it; `lab` has the default numbers.
+pub fn lab_version(lab: &Lab) -> String {
+    version_of(&owned(&lab.copies()))
+}
+
 /// A lab with the staff part.
 #[derive(Debug)]
 pub struct StaffedLab {

@@ -93,6 +93,11 @@ impl Variant {
         Self::parse(Source::new(VARIANT_FILE, written(lab, student, named)))
     }
 
+    /// The lab of which it is one.
+    pub fn lab(&self) -> &str {
+        self.lab.get_ref()
+    }
+
     /// Whose it is, where it says so.
     pub fn student(&self) -> Option<&str> {
         self.student.as_deref()

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_course::hand_in_file::MOST_SUBMISSION_BYTES;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
@@ -58,9 +59,6 @@ pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) from: LabArgs,
 }
-
-/// A submission larger than this is not read; its own budget, which is counted, is far below.
-const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
 
 /// A submission, graded.
 pub(crate) struct Work {
@@ -209,7 +207,8 @@ fn staff_of(reference: &dyn Files, lab: &Lab, args: &StaffArgs) -> Result<Option
     Ok(staff)
 }
 
-fn progress(tasks: usize) -> indicatif::ProgressBar {
+/// The tasks of a lab that are done so far.
+pub(crate) fn progress(tasks: usize) -> indicatif::ProgressBar {
     let bar = indicatif::ProgressBar::new(tasks as u64);
     if let Ok(style) = indicatif::ProgressStyle::with_template("{pos}/{len} {msg}") {
         bar.set_style(style);

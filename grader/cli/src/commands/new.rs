@@ -3,14 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::lab::brief::{with_grading, with_numbers};
-use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_report::brief_page::brief_page;
+use kinemark_course::working_folder::working_folder;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, Chosen, LabArgs};
-use crate::failure::Failure;
-use crate::{interrupt, labs_folder, output};
+use crate::failure::{BROKEN, Failure};
+use crate::{interrupt, output};
 
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
@@ -39,27 +37,12 @@ struct Written {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let Chosen { lab, files, .. } = chosen_variant::choose(&args.lab, &args.from, None)?;
     let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
-    let read = |name: &str| labs_folder::text(files.as_ref(), &lab.name, name);
-    let brief = with_numbers(&with_grading(&read("brief.md")?, &lab), &lab).map_err(|why| {
-        Failure::broken(
-            format!("brief.md: {why}"),
-            "a mark is `<!-- = expression -->` after the number it computes",
-        )
-    })?;
-    let page = brief_page(&lab.title, &brief);
-    let mut written = vec![
-        (dir.join("submission.rhai"), read("starter.rhai")?),
-        (dir.join("brief.html"), page),
-        (dir.join("brief.md"), brief),
-    ];
-    if let Some(variant) = &lab.variant {
-        written.push((dir.join(VARIANT_FILE), variant.text()));
-    }
-    for name in files.list(&lab.name) {
-        if name.ends_with(".svg") {
-            written.push((dir.join(&name), read(&name)?));
-        }
-    }
+    let written =
+        working_folder(files.as_ref(), &lab).map_err(|error| Failure::diagnostic(BROKEN, error))?;
+    let written: Vec<(PathBuf, String)> = written
+        .into_iter()
+        .map(|(name, text)| (dir.join(name), text))
+        .collect();
     if let Some((there, _)) = written.iter().find(|(path, _)| path.exists()) {
         return Err(Failure::usage(
             format!("`{}` already exists", there.display()),

@@ -1,0 +1,297 @@
+//! `kinemark submit`: the one file to upload, with the submission and its grade in practice.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use kinemark_course::hand_in_file::{
+    HandInFile, HandedIn, MOST_BYTES, MOST_SUBMISSION_BYTES, Statement, file_name, is_hand_in,
+};
+use kinemark_course::journal::MadeWith;
+use kinemark_course::staffed_lab::{engine_id, lab_version};
+use kinemark_course::student::StudentId;
+use kinemark_course::submission_source::SubmissionSource;
+use kinemark_course::working_folder::SUBMISSION_FILE;
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::lab::{Lab, Variant};
+use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::task::files::Files;
+use kinemark_report::visible::visible;
+use serde::Serialize;
+
+use super::grade::progress;
+use crate::chosen_variant::{self, Chosen, LabArgs, VariantArgs};
+use crate::failure::{self, FAULT, Failure};
+use crate::hand_in_warnings::{self, BeforeUpload, Warning};
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::staff_folder::{StaffArgs, StaffPart};
+use crate::worker::WorkerHost;
+use crate::{disk, interrupt, output};
+
+/// Write the one file to upload
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark submit\n  kinemark submit 01-kinematics submission.rhai\n  \
+    kinemark submit 01-kinematics submission.rhai --student s1234567\n\n\
+    Grades in practice, writes LAB.kinemark (with the id of your variant in its name), and warns of what looks like a slip; \
+    a warning stops nothing.\n\
+    Without LAB it is the lab of variant.toml, of the folder, or of the last report; without FILE it is submission.rhai.\n\
+    Exit codes: 0 written, 2 usage, 3 the lab is broken, 4 it cannot be written, or this machine could not grade it."
+)]
+pub(crate) struct Args {
+    /// The lab, as `kinemark` lists it
+    pub(crate) lab: Option<String>,
+    /// The submission [default: submission.rhai]
+    #[arg(value_name = "FILE")]
+    pub(crate) submission: Option<PathBuf>,
+    /// File or folder to write to [default: LAB.kinemark]; an earlier hand-in file there is replaced
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Your id, as the course writes it: warns if the variant is somebody else's
+    #[arg(long, value_name = "ID")]
+    pub(crate) student: Option<String>,
+    /// Your variant [default: variant.toml beside the submission]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) variant: Option<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
+/// What was written, for programs.
+#[derive(Serialize)]
+struct Written<'a> {
+    written: &'a Path,
+    #[serde(flatten)]
+    statement: &'a Statement,
+    verdict: Verdict,
+    warnings: &'a [Warning],
+}
+
+/// Grades, writes the file, prints what is in it.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let student = args.student.as_deref().map(StudentId::new).transpose();
+    let student =
+        student.map_err(|why| Failure::usage(why, "write the id as the course writes it"))?;
+    let (lab, path) = lab_and_file(args)?;
+    let bytes = submission(&path)?;
+    let Chosen { lab, files, .. } = chosen_variant::choose(&lab, &practice(args), Some(&path))?;
+    let default = Lab::load(files.as_ref(), &lab.name)?;
+    let variant_of = lab.variant.as_ref().and_then(Variant::student);
+    let variant_of = variant_of.and_then(|id| StudentId::new(id).ok());
+    let out = out_path(args, &lab.name, variant_of.as_ref());
+    refuse_foreign(&out)?;
+
+    let shown = path.file_name().unwrap_or(path.as_os_str());
+    let source = SubmissionSource::new(&shown.to_string_lossy(), &bytes);
+    let mut workers = WorkerHost::new(Some(progress(lab.tasks.len())));
+    let graded = source.grade(&lab, None, &mut workers);
+    workers.finish();
+    let grade = graded.map_err(|_| Failure::interrupted())?.grade;
+    let warnings = BeforeUpload {
+        files: files.as_ref(),
+        lab: &default,
+        variant: lab.variant.as_ref(),
+        student: student.as_ref(),
+        submission: (&path, &bytes),
+        practice: &grade,
+    }
+    .warnings();
+    let handed_in = HandedIn {
+        made_with: MadeWith {
+            engine: engine_id(),
+            lab: lab_version(&default),
+        },
+        student,
+        file: source.source.name(),
+        submission: &bytes,
+        practice: &grade,
+    };
+    let hand_in = HandInFile::new(handed_in)
+        .and_then(|hand_in| hand_in.write().map(|bytes| (hand_in.statement, bytes)));
+    let (statement, bytes) = hand_in.map_err(|error| Failure::diagnostic(FAULT, error))?;
+    let help = "free some space, or name another place with --out";
+    output::write_file(&out, &bytes, help)?;
+    print(args, &out, &statement, grade.verdict, &warnings)?;
+    Ok(if grade.verdict.is_decided() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(FAULT)
+    })
+}
+
+/// The lab and the submission that are meant.
+fn lab_and_file(args: &Args) -> Result<(String, PathBuf), Failure> {
+    let (lab, file) = match (&args.lab, &args.submission) {
+        // one word that can only be a file
+        (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
+        (lab, file) => (lab.clone(), file.clone()),
+    };
+    let file = file.unwrap_or_else(|| {
+        let here = PathBuf::from(SUBMISSION_FILE);
+        // `kinemark new` has made a folder of the lab's name
+        let below = lab.as_deref().map(|lab| Path::new(lab).join(&here));
+        below
+            .filter(|below| !here.exists() && below.is_file())
+            .unwrap_or(here)
+    });
+    let lab = match lab {
+        Some(lab) => lab,
+        None => lab_of(&file, args)?,
+    };
+    Ok((lab, file))
+}
+
+fn is_program(word: &str) -> bool {
+    [".rhai", ".wasm", ".txt"]
+        .iter()
+        .any(|ending| word.ends_with(ending))
+}
+
+/// The lab of a submission where none is named: that of its variant, of its folder, or of the last report.
+fn lab_of(file: &Path, args: &Args) -> Result<String, Failure> {
+    let variant = args
+        .variant
+        .clone()
+        .unwrap_or_else(|| file.with_file_name(VARIANT_FILE));
+    if variant.is_file() {
+        disk::refuse_link(&variant)?;
+        let text = disk::read(&variant, "a variant", MOST_SUBMISSION_BYTES)?;
+        let variant =
+            Variant::parse(text).map_err(|error| Failure::diagnostic(failure::BROKEN, error))?;
+        return Ok(variant.lab().to_owned());
+    }
+    let (labs, _) = labs_folder::open(&args.labs_folder)?;
+    let folder = disk::real(file).parent().map(Path::to_owned);
+    let folder = folder.as_deref().and_then(Path::file_name);
+    let folder = folder.and_then(|name| name.to_str());
+    if let Some(name) = folder.filter(|name| is_lab(labs.as_ref(), name)) {
+        return Ok(name.to_owned());
+    }
+    hand_in_warnings::last_lab()
+        .filter(|name| is_lab(labs.as_ref(), name))
+        .ok_or_else(|| {
+            Failure::usage(
+                "it is not clear which lab this is: there is no variant.toml, no report in `out`, and the folder is not \
+                 called like a lab"
+                    .to_owned(),
+                "name the lab, such as `kinemark submit 01-kinematics submission.rhai`",
+            )
+        })
+}
+
+fn is_lab(labs: &dyn Files, name: &str) -> bool {
+    labs.bytes(&format!("{name}/lab.toml"))
+        .is_ok_and(|file| file.is_some())
+}
+
+/// The bytes of the submission, text or not.
+fn submission(path: &Path) -> Result<Vec<u8>, Failure> {
+    disk::refuse_link(path)?;
+    let bytes = disk::read_submission_bytes(path, MOST_SUBMISSION_BYTES)?;
+    if is_hand_in(&bytes) {
+        return Err(Failure::usage(
+            format!("`{}` is a hand-in file already", path.display()),
+            "upload it as it is, or name the program, such as submission.rhai",
+        ));
+    }
+    Ok(bytes)
+}
+
+/// The lab as a student grades it, wherever this runs.
+fn practice(args: &Args) -> LabArgs {
+    LabArgs {
+        labs_folder: args.labs_folder.clone(),
+        variant: VariantArgs {
+            variant: args.variant.clone(),
+            student: None,
+        },
+        staff: StaffArgs {
+            part: StaffPart {
+                reference: None,
+                salt: None,
+            },
+            practice: true,
+        },
+    }
+}
+
+fn out_path(args: &Args, lab: &str, variant_of: Option<&StudentId>) -> PathBuf {
+    let name = file_name(lab, variant_of);
+    match &args.out {
+        Some(folder) if folder.is_dir() => folder.join(name),
+        Some(file) => file.clone(),
+        None => PathBuf::from(name),
+    }
+}
+
+/// Refuses to replace anything but an earlier hand-in file.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    if out.symlink_metadata().is_err() {
+        return Ok(());
+    }
+    let is_ours = disk::bytes_of(out, MOST_BYTES).is_ok_and(|bytes| is_hand_in(&bytes));
+    if is_ours {
+        return Ok(());
+    }
+    Err(Failure::usage(
+        format!("`{}` exists and is not a hand-in file", out.display()),
+        "name another file with --out",
+    ))
+}
+
+fn print(
+    args: &Args,
+    out: &Path,
+    statement: &Statement,
+    verdict: Verdict,
+    warnings: &[Warning],
+) -> Result<(), Failure> {
+    if args.json {
+        return output::print_json(&Written {
+            written: out,
+            statement,
+            verdict,
+            warnings,
+        });
+    }
+    for warning in warnings {
+        failure::warn_in_words(&warning.message, &warning.help);
+    }
+    output::print(&text(out, statement))
+}
+
+/// What is in the file, and what to do with it.
+fn text(out: &Path, statement: &Statement) -> String {
+    let id = |id: &Option<StudentId>| {
+        let id = id.as_ref()?;
+        Some(visible(id.as_str()).into_owned())
+    };
+    let mut rows = vec![
+        (
+            "lab",
+            format!("{} (digest {})", statement.lab, &statement.lab_digest[..12]),
+        ),
+        ("submission", visible(&statement.file).into_owned()),
+        (
+            "practice",
+            format!(
+                "{} of {} points: visible cases only",
+                points(statement.points),
+                points(statement.max_points)
+            ),
+        ),
+    ];
+    rows.extend(id(&statement.student).map(|id| ("student", id)));
+    rows.extend(id(&statement.variant_of).map(|id| ("variant", format!("of {id}"))));
+    rows.push(("made with", statement.engine.clone()));
+    let mut text = format!("wrote {}\n", output::path(out));
+    for (name, value) in rows {
+        text += &format!("  {name:<10}  {value}\n");
+    }
+    text + "\nUpload this one file, as it is, where your course collects hand-ins. The course grades it again, with hidden cases.\n\
+        After a change to the submission, run this command again.\n"
+}

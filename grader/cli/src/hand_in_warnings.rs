@@ -1,0 +1,255 @@
+//! What a student should look at before they upload a hand-in: none of it stops them.
+
+use std::path::{Path, PathBuf};
+
+use kinemark_course::handed_out::{HANDED_OUT_FILE, HandedOut};
+use kinemark_course::staffed_lab::{engine_id, lab_version};
+use kinemark_course::student::StudentId;
+use kinemark_course::working_folder::STARTER_FILE;
+use kinemark_grader::lab::{Lab, Variant};
+use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::task::files::Files;
+use kinemark_report::output::RECORD_FILE;
+use kinemark_report::visible::visible;
+use serde::Serialize;
+
+use crate::{disk, labs_folder, output};
+
+/// The folder to which `kinemark grade` writes unless it is given another.
+const REPORT_FOLDER: &str = "out";
+/// Records are far smaller.
+const MOST_RECORD_BYTES: u64 = 64 << 20;
+
+/// Something to look at.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Warning {
+    /// Which, for programs.
+    kind: &'static str,
+    /// What, in words.
+    pub(crate) message: String,
+    /// What to do about it.
+    pub(crate) help: String,
+}
+
+impl Warning {
+    fn new(kind: &'static str, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            kind,
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+}
+
+/// What is about to be handed in.
+pub(crate) struct BeforeUpload<'a> {
+    /// The folder of labs.
+    pub(crate) files: &'a dyn Files,
+    /// The lab with the default numbers.
+    pub(crate) lab: &'a Lab,
+    /// The variant that was graded, if it was one.
+    pub(crate) variant: Option<&'a Variant>,
+    /// Who hands it in, where they said so.
+    pub(crate) student: Option<&'a StudentId>,
+    /// The submission's file, and its bytes.
+    pub(crate) submission: (&'a Path, &'a [u8]),
+    /// Its grade in practice.
+    pub(crate) practice: &'a Grade,
+}
+
+impl BeforeUpload<'_> {
+    /// All warnings, those first that cost most.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let last = last_report(self.submission.0, &self.lab.name);
+        let mut warnings = Vec::new();
+        warnings.extend(self.did_not_build());
+        warnings.extend(self.is_not_decided());
+        warnings.extend(self.is_starter());
+        warnings.extend(self.of_variant());
+        warnings.extend(self.of_lab());
+        warnings.extend(last.and_then(|(folder, grade)| self.of_last(&folder, &grade)));
+        warnings
+    }
+
+    fn did_not_build(&self) -> Option<Warning> {
+        let mut tasks = self.practice.tasks.iter();
+        let stopped = tasks.find_map(|task| {
+            let is_unbuilt = task.verdict == Verdict::DidNotBuild;
+            task.stopped.as_ref().filter(|_| is_unbuilt)
+        })?;
+        let place = stopped.line.map(|line| format!(" in line {line}"));
+        let message = format!(
+            "the submission does not build{}: {}",
+            place.unwrap_or_default(),
+            visible(&stopped.message)
+        );
+        let help = stopped
+            .help
+            .as_deref()
+            .map(|help| visible(help).into_owned());
+        let help =
+            help.unwrap_or_else(|| "it earns no points like this: correct it first".to_owned());
+        Some(Warning::new("did-not-build", message, help))
+    }
+
+    fn is_not_decided(&self) -> Option<Warning> {
+        (!self.practice.verdict.is_decided()).then(|| {
+            Warning::new(
+                "not-decided",
+                "this machine could not grade all of it, so the points in the file mean little",
+                "you can upload it: the course grades it again. `kinemark grade` shows what failed here",
+            )
+        })
+    }
+
+    fn is_starter(&self) -> Option<Warning> {
+        let path = format!("{}/{STARTER_FILE}", self.lab.name);
+        let starter = self.files.read(&path).ok()??;
+        let submission = std::str::from_utf8(self.submission.1).ok()?;
+        (without_line_ends(&starter) == without_line_ends(submission)).then(|| {
+            Warning::new(
+                "starter",
+                "the submission is the starter, unchanged",
+                "name the file that you worked in, or save it in your editor first",
+            )
+        })
+    }
+
+    fn of_variant(&self) -> Option<Warning> {
+        let Some(variant) = self.variant else {
+            return (!self.lab.variants.is_empty()).then(|| {
+                Warning::new(
+                    "no-variant",
+                    format!(
+                        "lab `{}` can have other numbers for each student, and there is no variant.toml beside the submission",
+                        self.lab.name
+                    ),
+                    "if your course gave you a variant.toml, put it there and run this again; if not, all is well",
+                )
+            });
+        };
+        let (own, named) = (self.student?, StudentId::new(variant.student()?).ok()?);
+        (named != *own).then(|| {
+            Warning::new(
+                "other-variant",
+                format!(
+                    "the variant is that of `{}`, and you are `{}`",
+                    visible(named.as_str()),
+                    visible(own.as_str())
+                ),
+                "use the variant.toml that your course gave you: your work is graded with your own numbers",
+            )
+        })
+    }
+
+    fn of_lab(&self) -> Vec<Warning> {
+        let (name, version) = (&self.lab.name, lab_version(self.lab));
+        let shown = self.files.name();
+        let path = format!("{name}/{HANDED_OUT_FILE}");
+        let note = self.files.bytes(&path).ok().flatten();
+        let Some(note) = note.and_then(|bytes| HandedOut::parse(&bytes)) else {
+            return of_built_in(name, &version, &shown).into_iter().collect();
+        };
+        let mut warnings = Vec::new();
+        if note.lab_digest != version {
+            warnings.push(Warning::new(
+                "lab-changed",
+                format!("lab `{name}` in `{shown}` was changed after your course handed it out"),
+                "unpack the archive that your course gave you once more, and copy your submission there",
+            ));
+        }
+        let own = engine_id();
+        if note.engine != own {
+            warnings.push(Warning::new(
+                "other-engine",
+                format!(
+                    "your course uses {}, and this is {own}",
+                    visible(&note.engine)
+                ),
+                "points may differ between the two: use the version of your course",
+            ));
+        }
+        warnings
+    }
+
+    fn of_last(&self, folder: &Path, last: &Grade) -> Option<Warning> {
+        let now = self.practice;
+        let report = output::path(folder);
+        if last.submission.digest != now.submission.digest {
+            return Some(Warning::new(
+                "not-graded-last",
+                format!(
+                    "this is not the file that you graded last: the report in `{report}` is of `{}`, when it was another",
+                    visible(&last.submission.name)
+                ),
+                "if it is the file that you mean, all is well; `kinemark grade` shows its report",
+            ));
+        }
+        let lab_changed = last.variant == now.variant && last.lab.digest != now.lab.digest;
+        lab_changed.then(|| {
+            Warning::new(
+                "lab-since-graded",
+                format!("lab `{}` has changed since you graded last", self.lab.name),
+                format!("compare the points below with those of the report in `{report}`"),
+            )
+        })
+    }
+}
+
+/// Whether the lab of a folder is another than the one built in; which of the two is older nobody can say.
+fn of_built_in(name: &str, version: &str, folder: &str) -> Option<Warning> {
+    let built_in = Lab::load(&labs_folder::built_in(), name).ok()?;
+    (lab_version(&built_in) != version).then(|| {
+        Warning::new(
+            "other-lab",
+            format!("lab `{name}` in `{folder}` is not the one that is built into this kinemark"),
+            "one of the two is older: ask your course which it uses. Without a folder `labs` here or above, the built-in one is used",
+        )
+    })
+}
+
+/// The last report of this lab, in the working folder or beside the submission.
+fn last_report(submission: &Path, lab: &str) -> Option<(PathBuf, Grade)> {
+    let folders = [
+        PathBuf::from(REPORT_FOLDER),
+        submission.with_file_name(REPORT_FOLDER),
+    ];
+    folders.into_iter().find_map(|folder| {
+        let grade = last_grade(&folder)?;
+        (grade.lab.name == lab).then_some((folder, grade))
+    })
+}
+
+/// The record of the report in a folder, if there is one that this version reads.
+fn last_grade(folder: &Path) -> Option<Grade> {
+    let bytes = disk::bytes_of(&folder.join(RECORD_FILE), MOST_RECORD_BYTES).ok()?;
+    serde_json::from_slice(&bytes).ok()
+}
+
+/// The lab of the last report in the working folder.
+pub(crate) fn last_lab() -> Option<String> {
+    Some(last_grade(Path::new(REPORT_FOLDER))?.lab.name)
+}
+
+/// Text without what an editor changes by itself: line ends, and spaces and lines at the end.
+fn without_line_ends(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    lines.join("\n").trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_editor_changes_is_no_change() {
+        let starter = "fn control() {\n    [0.0]\n}\n";
+        let saved = "fn control() {  \r\n    [0.0]\r\n}\r\n\r\n";
+        assert_eq!(without_line_ends(starter), without_line_ends(saved));
+        assert_ne!(
+            without_line_ends(starter),
+            without_line_ends("fn control() {}")
+        );
+    }
+}

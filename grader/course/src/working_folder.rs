@@ -1,0 +1,108 @@
+//! What a student begins a lab with: the starter, the brief with their numbers, its pictures, and their variant.
+
+use kinemark_grader::lab::Lab;
+use kinemark_grader::lab::brief::{with_grading, with_numbers};
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::task::files::Files;
+use kinemark_report::brief_page::brief_page;
+
+/// The file that a student works in.
+pub const SUBMISSION_FILE: &str = "submission.rhai";
+/// The brief as text, which links the pictures beside it.
+pub const BRIEF_FILE: &str = "brief.md";
+/// The brief as a page.
+pub const BRIEF_PAGE: &str = "brief.html";
+/// The starter in the folder of a lab.
+pub const STARTER_FILE: &str = "starter.rhai";
+
+/// Why there is no such folder.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+pub enum WorkingFolderError {
+    /// A file that every lab has.
+    #[error("lab `{lab}` has no {name}")]
+    #[diagnostic(
+        code(lab::incomplete),
+        help("a lab needs a {STARTER_FILE} and a {BRIEF_FILE} beside its lab.toml")
+    )]
+    Missing {
+        /// The lab.
+        lab: String,
+        /// The file.
+        name: &'static str,
+    },
+    /// A file that is not text.
+    #[error("{path}: {why}")]
+    #[diagnostic(code(lab::unreadable), help("save it as UTF-8 text"))]
+    Unreadable {
+        /// The file.
+        path: String,
+        /// Why.
+        why: String,
+    },
+    /// A mark of the brief.
+    #[error("{BRIEF_FILE}: {why}")]
+    #[diagnostic(
+        code(lab::brief),
+        help("a mark is `<!-- = expression -->` after the number it computes")
+    )]
+    Brief {
+        /// What is wrong, in words.
+        why: String,
+    },
+}
+
+/// The files of such a folder by name, the submission first; `lab` was read from `files`.
+///
+/// # Errors
+/// [`WorkingFolderError`] where the lab is not complete.
+pub fn working_folder(
+    files: &dyn Files,
+    lab: &Lab,
+) -> Result<Vec<(String, String)>, WorkingFolderError> {
+    let brief = required(files, lab, BRIEF_FILE)?;
+    let brief = with_numbers(&with_grading(&brief, lab), lab)
+        .map_err(|why| WorkingFolderError::Brief { why })?;
+    let page = brief_page(&lab.title, &brief);
+    let mut written = vec![
+        (
+            SUBMISSION_FILE.to_owned(),
+            required(files, lab, STARTER_FILE)?,
+        ),
+        (BRIEF_PAGE.to_owned(), page),
+        (BRIEF_FILE.to_owned(), brief),
+    ];
+    if let Some(variant) = &lab.variant {
+        written.push((VARIANT_FILE.to_owned(), variant.text()));
+    }
+    for name in files.list(&lab.name) {
+        if is_picture(&name)
+            && let Some(picture) = text(files, &lab.name, &name)?
+        {
+            written.push((name, picture));
+        }
+    }
+    Ok(written)
+}
+
+/// Whether a file of a lab's folder is a picture of its brief.
+pub fn is_picture(name: &str) -> bool {
+    name.ends_with(".svg") && !name.starts_with('.')
+}
+
+fn required(
+    files: &dyn Files,
+    lab: &Lab,
+    name: &'static str,
+) -> Result<String, WorkingFolderError> {
+    text(files, &lab.name, name)?.ok_or_else(|| WorkingFolderError::Missing {
+        lab: lab.name.clone(),
+        name,
+    })
+}
+
+fn text(files: &dyn Files, lab: &str, name: &str) -> Result<Option<String>, WorkingFolderError> {
+    let path = format!("{lab}/{name}");
+    files
+        .read(&path)
+        .map_err(|why| WorkingFolderError::Unreadable { path, why })
+}
