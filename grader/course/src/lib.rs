@@ -20,6 +20,11 @@
 //! | [`public`] | what anybody can read in Kinemark's own repository |
 //! | [`staffed_lab`] | a lab with its staff part, ready for every student |
 //! | [`grading`] | one hand-in to its record |
+//! | `lab_rows` | the records of a lab as the index has them |
+//! | [`statistics`] | the numbers of a class in a lab |
+//! | [`clusters`] | equal wrong answers without a name |
+//! | [`similarity`] | what is worth a conversation |
+//! | [`page`] | the class as a page, and the page for course staff |
 //!
 //! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
 
@@ -32,6 +37,7 @@
 )]
 
 pub mod book;
+pub mod clusters;
 pub mod course_file;
 pub mod course_text;
 pub mod fixes;
@@ -41,11 +47,17 @@ pub mod history;
 pub mod index;
 pub mod intake;
 pub mod journal;
+mod lab_rows;
+#[cfg(test)]
+mod made_up_class;
+pub mod page;
 mod private_files;
 pub mod public;
 pub mod question;
 pub mod reports;
 pub mod roster;
+pub mod similarity;
 pub mod staffed_lab;
 pub mod standing;
+pub mod statistics;
 pub mod student;
