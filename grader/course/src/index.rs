@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use kinemark_grader::record::grade::{CheckGrade, Grade, Outcome, TaskGrade};
 use kinemark_grader::record::verdict::Verdict;
-use rusqlite::{Connection, OpenFlags, Transaction, params};
+use rusqlite::{Connection, OpenFlags, Row, Transaction, params};
 
 use crate::book::{Book, BookError, Record};
 use crate::history::History;
@@ -206,10 +206,31 @@ impl Index {
     /// # Errors
     /// An index that cannot be read.
     pub fn summaries(&self, lab: &str) -> Result<BTreeMap<String, Summary>, IndexError> {
-        self.read_summaries(lab).map_err(|error| IndexError::File {
+        self.read_summaries(lab)
+            .map_err(|error| self.failed(&error))
+    }
+
+    /// The rows of a query, each made by `read`.
+    pub(crate) fn rows<T>(
+        &self,
+        query: &str,
+        params: impl rusqlite::Params,
+        read: impl FnMut(&Row<'_>) -> rusqlite::Result<T>,
+    ) -> Result<Vec<T>, IndexError> {
+        let rows = || {
+            self.connection
+                .prepare(query)?
+                .query_map(params, read)?
+                .collect()
+        };
+        rows().map_err(|error| self.failed(&error))
+    }
+
+    fn failed(&self, error: &rusqlite::Error) -> IndexError {
+        IndexError::File {
             path: self.path.clone(),
             why: error.to_string(),
-        })
+        }
     }
 
     fn read_summaries(&self, lab: &str) -> rusqlite::Result<BTreeMap<String, Summary>> {

@@ -34,6 +34,11 @@
 //! | [`working_folder`] | what a student begins a lab with |
 //! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
 //! | [`gradescope_results`] | a grade as Gradescope's autograder reports it |
+//! | `lab_rows` | the records of a lab as the index has them |
+//! | [`statistics`] | the numbers of a class in a lab |
+//! | [`clusters`] | equal wrong answers without a name |
+//! | [`similarity`] | what is worth a conversation |
+//! | [`page`] | the class as a page, and the page for course staff |
 //!
 //! A module imports only from those above it. This crate reads no clock and starts no process; it reads and writes files.
 
@@ -46,6 +51,7 @@
 )]
 
 pub mod book;
+pub mod clusters;
 pub mod course_file;
 pub mod course_text;
 pub mod fixed_zip;
@@ -64,6 +70,10 @@ pub mod journal;
 pub mod layout;
 pub mod matching;
 pub mod pack;
+mod lab_rows;
+#[cfg(test)]
+mod made_up_class;
+pub mod page;
 mod private_files;
 pub mod public;
 pub mod question;
@@ -71,8 +81,10 @@ pub mod reports;
 pub mod release;
 pub mod roster;
 pub mod selection;
+pub mod similarity;
 pub mod staffed_lab;
 pub mod standing;
+pub mod statistics;
 pub mod student;
 mod submission_name;
 pub mod tree;

@@ -7,6 +7,7 @@ pub mod feedback;
 mod figure;
 mod head;
 mod look;
+mod static_page;
 mod task;
 mod task_check;
 mod task_shown;
@@ -17,7 +18,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub use self::comparison::comparison;
 pub use self::explanation::{OVERVIEW_FILE, StaffPage, explanation};
+pub use self::figure::still_figure;
 use self::head::{facts, head, scores};
+pub use self::static_page::{SmallScript, StaticPage};
 pub use self::viewer::{ViewerCode, whole};
 use crate::palette::plot_css;
 use crate::plot::Plot;
@@ -127,12 +130,12 @@ pub(crate) fn page(
 }
 
 /// Text from outside, isolated so that its direction cannot reach what stands beside it.
-fn foreign(text: &str) -> Markup {
+pub fn foreign(text: &str) -> Markup {
     html! { bdi { (visible(text)) } }
 }
 
 /// A sentence from outside, with what stands in backticks as code.
-fn prose(text: &str) -> Markup {
+pub fn prose(text: &str) -> Markup {
     let text = visible(text);
     let parts: Vec<&str> = text.split('`').collect();
     if parts.len().is_multiple_of(2) {

@@ -1,10 +1,11 @@
-//! The plots of a motion task, as SVG that follows a reader's light or dark screen.
+//! The plots of a motion task and of a class, as SVG that follows a reader's light or dark screen.
 
 mod axis;
 mod canvas;
 mod course;
 mod differences;
 mod given_paths;
+mod histogram;
 mod joints;
 mod path;
 mod plane;
@@ -19,6 +20,7 @@ mod view;
 use kinemark_sim::control::Mode;
 
 pub use self::differences::differences;
+pub use self::histogram::{Histogram, histogram};
 use self::joints::Of;
 use self::reading::Axes;
 use crate::visible::{file_stem, shortened};
