@@ -217,11 +217,9 @@ impl Index {
         params: impl rusqlite::Params,
         read: impl FnMut(&Row<'_>) -> rusqlite::Result<T>,
     ) -> Result<Vec<T>, IndexError> {
-        let rows = || {
-            self.connection
-                .prepare(query)?
-                .query_map(params, read)?
-                .collect()
+        let rows = || -> rusqlite::Result<Vec<T>> {
+            let mut query = self.connection.prepare(query)?;
+            query.query_map(params, read)?.collect()
         };
         rows().map_err(|error| self.failed(&error))
     }

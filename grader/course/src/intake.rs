@@ -229,7 +229,8 @@ impl Reading<'_> {
                 problem: format!(
                     "the variant.toml beside the submission is that of `{owner}`, who is somebody else"
                 ),
-                help: "ask whose work it is; a fix with `student` grades it as that student's".to_owned(),
+                help: "ask whose work it is; a fix with `student` grades it as that student's"
+                    .to_owned(),
                 ..question.clone()
             })];
         }
@@ -277,7 +278,10 @@ fn sort_out(rows: Vec<Row>, intake: &mut Intake) {
     for row in rows {
         match row {
             Row::Question(question) => intake.questions.push(question),
-            Row::HandIn(row) => of_student.entry(row.0.student.clone()).or_default().push(*row),
+            Row::HandIn(row) => of_student
+                .entry(row.0.student.clone())
+                .or_default()
+                .push(*row),
         }
     }
     for (student, mut all) in of_student {
@@ -291,7 +295,9 @@ fn sort_out(rows: Vec<Row>, intake: &mut Intake) {
         for ((hand_in, question), is_twin) in all.into_iter().zip(twins) {
             if is_twin && hand_in.matched_by != "fixes" {
                 intake.questions.push(Question {
-                    problem: format!("`{student}` has another file, and nothing says which is the later one"),
+                    problem: format!(
+                        "`{student}` has another file, and nothing says which is the later one"
+                    ),
                     help: "name the one that counts in fixes.toml, and ignore the other".to_owned(),
                     ..question
                 });

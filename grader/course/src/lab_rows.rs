@@ -93,7 +93,8 @@ pub(crate) fn records(index: &Index, lab: &str) -> Result<BTreeMap<String, Recor
             record.tasks.push(task);
         }
     }
-    let of_task = |row: &Row<'_>| Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?));
+    let of_task =
+        |row: &Row<'_>| -> rusqlite::Result<(String, String)> { Ok((row.get(0)?, row.get(1)?)) };
     for ((key, task), check) in
         index.rows(CHECKS, params![lab], |row| Ok((of_task(row)?, check(row)?)))?
     {

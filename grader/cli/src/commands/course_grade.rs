@@ -106,8 +106,14 @@ fn take_in(
     let mut is_new =
         |hand_in: &HandIn| !history.knows(&hand_in.id) && seen.insert(hand_in.id.clone());
     if let Some(source) = source {
-        let found =
-            intake::read(source, &rules.name, &course.roster, &course.fixes, &course.book).map_err(intake_failure)?;
+        let found = intake::read(
+            source,
+            &rules.name,
+            &course.roster,
+            &course.fixes,
+            &course.book,
+        )
+        .map_err(intake_failure)?;
         for hand_in in found.hand_ins {
             if is_new(&hand_in) {
                 log.append(Event::HandIn(hand_in))?;

@@ -8,6 +8,7 @@ use super::task::{diagnosed, stopped};
 use super::task_check::checked;
 use super::task_shown::TaskShown;
 use super::task_tables::hidden;
+use super::viewer::ViewerCode;
 use super::{foreign, page, prose};
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::{CheckGrade, Grade, Outcome, Stopped, TaskGrade};
@@ -81,7 +82,7 @@ fn with_detail(shown: &FeedbackPage<'_>, detail: Detail) -> String {
             @if matches!(detail, Detail::Facts(_)) { (facts(grade)) }
         }
     };
-    page(&title, engine, &body, &[])
+    page(&title, engine, &body, &[], ViewerCode::Inside)
 }
 
 fn head(shown: &FeedbackPage<'_>) -> Markup {
