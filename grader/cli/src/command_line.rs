@@ -8,9 +8,10 @@ use clap::{Parser, Subcommand};
 use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
-    autograder, compare, completions, course_check, course_forget, course_grade, course_regrade,
-    course_status, grade, lab_check, lab_draws, lab_list, lab_pack, lab_variant, log_export, new,
-    robot_convert, robot_eval, robot_show, scene_check, submit, verify, view, watch,
+    autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
+    course_regrade, course_release, course_status, grade, lab_check, lab_draws, lab_list, lab_pack,
+    lab_variant, log_export, new, robot_convert, robot_eval, robot_show, scene_check, submit,
+    verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -104,7 +105,9 @@ pub(crate) enum CourseCommand {
     Check(course_check::Args),
     Grade(course_grade::Args),
     Status(course_status::Args),
+    Explain(course_explain::Args),
     Regrade(course_regrade::Args),
+    Release(course_release::Args),
     Forget(course_forget::Args),
 }
 
@@ -133,6 +136,8 @@ impl CommandLine {
             Command::Lab(LabCommand::Pack(args)) => lab_pack::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),
+            Command::Course(CourseCommand::Explain(args)) => course_explain::run(&args),
+            Command::Course(CourseCommand::Release(args)) => course_release::run(&args),
             Command::Course(CourseCommand::Forget(args)) => course_forget::run(&args),
             Command::Course(CourseCommand::Regrade(args)) => course_regrade::run(&args),
             Command::Course(CourseCommand::Status(args)) => course_status::run(&args),

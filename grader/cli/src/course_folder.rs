@@ -35,6 +35,7 @@ const BOOK: &str = "book";
 
 /// A course, read.
 pub(crate) struct Course {
+    root: PathBuf,
     pub(crate) file: CourseFile,
     pub(crate) roster: Roster,
     pub(crate) fixes: Fixes,
@@ -71,6 +72,7 @@ impl Course {
         let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
         let book = Book::open(&root.join(BOOK)).map_err(book_failure)?;
         let course = Self {
+            root,
             file,
             roster,
             fixes,
@@ -81,6 +83,11 @@ impl Course {
         };
         course.check_fixes()?;
         Ok(course)
+    }
+
+    /// Its folder.
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
     }
 
     /// Refuses decisions on people and labs that are not of the course: a slip would be without effect.

@@ -114,7 +114,7 @@ pub(crate) fn run<I: Sync, R: Send, E>(
             if interrupt::asked() {
                 break;
             }
-            set(&slots[number], Some((name(item), Instant::now())));
+            set(&slots[number], Some((name(item), now())));
             let result = work(item, &mut host);
             set(&slots[number], None);
             if results.send((at, result)).is_err() {
@@ -155,6 +155,14 @@ pub(crate) fn run<I: Sync, R: Send, E>(
         progress.bar.finish_and_clear();
         ended
     })
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the progress of people's terminals; no grade knows it"
+)]
+fn now() -> Instant {
+    Instant::now()
 }
 
 fn set(slot: &Mutex<Slot>, working: Option<(String, Instant)>) {

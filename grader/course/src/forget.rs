@@ -288,7 +288,7 @@ mod tests {
                 record: record.key.clone(),
                 why: None,
             };
-            log.append(at, Event::HandIn(hand_in)).unwrap();
+            log.append(at, Event::HandIn(Box::new(hand_in))).unwrap();
             log.append(at, Event::Graded(graded)).unwrap();
         }
         let released = Event::Released {

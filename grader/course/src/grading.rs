@@ -3,11 +3,13 @@
 use kinemark_grader::judge::Interrupted;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::Host;
+use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
+use kinemark_sim::text::Source;
 
 use crate::book::{Book, BookError, Record};
 use crate::journal::HandIn;
-use crate::staffed_lab::StaffedLab;
+use crate::staffed_lab::{SALT_FILE, StaffedLab};
 use crate::submission_source::SubmissionSource;
 
 /// A hand-in, graded.
@@ -93,6 +95,38 @@ pub fn grade(
     let record = Record::new(inputs, graded.grade);
     book.put_record(&record)?;
     Ok(recorded(&record, false))
+}
+
+/// What a grade was made from, as the book kept it.
+#[derive(Debug)]
+pub struct Reopened {
+    /// The lab with its staff part, of that day.
+    pub lab: StaffedLab,
+    /// The submission.
+    pub submission: Source,
+}
+
+/// The lab and the submission of a record, whatever has become of the lab since.
+///
+/// # Errors
+/// A version that the book has lost, or a lab that this engine refuses.
+pub fn reopen(book: &Book, record: &Record, hand_in: &HandIn) -> Result<Reopened, GradingError> {
+    let inputs = &record.inputs;
+    let files = book.lab(&inputs.lab_version);
+    let staff = inputs
+        .staff_version
+        .as_ref()
+        .map(|version| book.staff(version));
+    let staff = staff.as_ref().map(|staff| staff as &dyn Files);
+    let name = &inputs.lab_name;
+    // the salt of the course is kept with its staff part
+    let salt = staff.and_then(|staff| staff.read(&format!("{name}/{SALT_FILE}")).ok().flatten());
+    let has_variant = inputs.variant_of.is_some();
+    let bytes = book.submission(&hand_in.submission)?;
+    Ok(Reopened {
+        lab: StaffedLab::load(&files, staff, name, salt.as_deref(), has_variant)?,
+        submission: SubmissionSource::new(&hand_in.file, &bytes).source,
+    })
 }
 
 fn recorded(record: &Record, was_known: bool) -> Outcome {

@@ -86,7 +86,7 @@ impl History {
         for entry in entries {
             let Entry { at, by, event } = entry;
             match event {
-                Event::HandIn(hand_in) => history.hand_in(at, hand_in),
+                Event::HandIn(hand_in) => history.hand_in(at, *hand_in),
                 Event::Graded(graded) => history.graded(at, by, graded),
                 Event::NotGraded {
                     hand_in,
@@ -225,9 +225,9 @@ mod tests {
         let (first, second) = (hand_in(Some(5), "aa"), hand_in(Some(9), "bb"));
         let student = first.student.clone();
         let history = History::of([
-            entry(10, Event::HandIn(second.clone())),
-            entry(11, Event::HandIn(first.clone())),
-            entry(12, Event::HandIn(first.clone())),
+            entry(10, Event::HandIn(Box::new(second.clone()))),
+            entry(11, Event::HandIn(Box::new(first.clone()))),
+            entry(12, Event::HandIn(Box::new(first.clone()))),
             entry(13, graded(&first, "k1")),
             entry(14, graded(&first, "k1")),
             entry(15, graded(&first, "k2")),

@@ -600,7 +600,10 @@ mod tests {
             record: one.key.clone(),
             why: None,
         };
-        let history = History::of([entry(Event::HandIn(hand_in)), entry(Event::Graded(graded))]);
+        let history = History::of([
+            entry(Event::HandIn(Box::new(hand_in))),
+            entry(Event::Graded(graded)),
+        ]);
         let index = Index::refresh(&book, &history, "1").unwrap();
         let joined: (String, f64) = index
             .connection()

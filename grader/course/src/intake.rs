@@ -143,7 +143,13 @@ pub fn read(
 enum Row {
     /// A hand-in, and the question that it becomes if the student has another one without any order between the two.
     HandIn(Box<(HandIn, Question)>),
-    Question(Question),
+    Question(Box<Question>),
+}
+
+impl Row {
+    fn question(question: Question) -> Self {
+        Self::Question(Box::new(question))
+    }
 }
 
 struct Reading<'r> {
@@ -189,7 +195,7 @@ impl Reading<'_> {
         if let Some(problem) = person.problems.first() {
             question.problem.clone_from(&problem.what);
             question.help.clone_from(&problem.help);
-            return Ok(vec![Row::Question(question)]);
+            return Ok(vec![Row::question(question)]);
         }
         let found = match select(self.tree, person, &|_| false) {
             Ok(found) => found,
@@ -199,7 +205,7 @@ impl Reading<'_> {
                 for found in unselected.candidates() {
                     question.candidates.push(self.candidate(found)?);
                 }
-                return Ok(vec![Row::Question(question)]);
+                return Ok(vec![Row::question(question)]);
             }
         };
         let candidate = self.candidate(&found)?;
@@ -210,7 +216,7 @@ impl Reading<'_> {
                 question.problem = unmatched.why;
                 question.help = unmatched.help;
                 question.near = unmatched.nearest;
-                Ok(vec![Row::Question(question)])
+                Ok(vec![Row::question(question)])
             }
         }
     }
@@ -225,7 +231,7 @@ impl Reading<'_> {
     ) -> Vec<Row> {
         let owner = self.owner_of_variant(found);
         if let Some(owner) = owner.filter(|owner| !matched.students.contains(owner)) {
-            return vec![Row::Question(Question {
+            return vec![Row::question(Question {
                 problem: format!(
                     "the variant.toml beside the submission is that of `{owner}`, who is somebody else"
                 ),
@@ -277,7 +283,7 @@ fn sort_out(rows: Vec<Row>, intake: &mut Intake) {
     let mut of_student: BTreeMap<StudentId, Vec<(HandIn, Question)>> = BTreeMap::new();
     for row in rows {
         match row {
-            Row::Question(question) => intake.questions.push(question),
+            Row::Question(question) => intake.questions.push(*question),
             Row::HandIn(row) => of_student
                 .entry(row.0.student.clone())
                 .or_default()

@@ -29,7 +29,7 @@ pub struct Entry {
 #[serde(rename_all = "kebab-case")]
 pub enum Event {
     /// Something was handed in.
-    HandIn(HandIn),
+    HandIn(Box<HandIn>),
     /// A record became the grade of a hand-in.
     Graded(Graded),
     /// A hand-in could not be graded: this machine or the grader failed, twice. It has no grade, and no points.
@@ -319,9 +319,13 @@ mod tests {
         let journal = Journal::new(bed.path().join("journal"));
         assert!(journal.entries().unwrap().is_empty());
         let mut later = journal.begin(at(20), "b").unwrap();
-        later.append(at(21), Event::HandIn(hand_in("s2"))).unwrap();
+        later
+            .append(at(21), Event::HandIn(Box::new(hand_in("s2"))))
+            .unwrap();
         let mut sooner = journal.begin(at(10), "a").unwrap();
-        sooner.append(at(11), Event::HandIn(hand_in("s1"))).unwrap();
+        sooner
+            .append(at(11), Event::HandIn(Box::new(hand_in("s1"))))
+            .unwrap();
         sooner.finish().unwrap();
         later.file.write_all(b"{\"at\":").unwrap();
         let students: Vec<String> = journal
@@ -341,7 +345,9 @@ mod tests {
         let bed = tempfile::tempdir().unwrap();
         let journal = Journal::new(bed.path().to_owned());
         let mut writer = journal.begin(at(1), "a").unwrap();
-        writer.append(at(1), Event::HandIn(hand_in("s1"))).unwrap();
+        writer
+            .append(at(1), Event::HandIn(Box::new(hand_in("s1"))))
+            .unwrap();
         let path = writer.path.clone();
         writer.finish().unwrap();
         std::fs::copy(&path, bed.path().join("copy.jsonl")).unwrap();

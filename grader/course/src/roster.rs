@@ -165,17 +165,15 @@ impl Taken {
 fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, (String, String)> {
     let mut at = BTreeMap::new();
     for (i, name) in header.iter().enumerate() {
-        match COLUMNS.iter().find(|known| folded(name) == **known) {
-            Some(known) => {
-                if at.insert(*known, i).is_some() {
-                    return Err((
-                        format!("the column `{known}` is there twice"),
-                        "keep one of the two".to_owned(),
-                    ));
-                }
-            }
-            // a column for people
-            None => {}
+        // any other is a column for people
+        let known = COLUMNS.iter().find(|known| folded(name) == **known);
+        if let Some(known) = known
+            && at.insert(*known, i).is_some()
+        {
+            return Err((
+                format!("the column `{known}` is there twice"),
+                "keep one of the two".to_owned(),
+            ));
         }
     }
     if at.contains_key("id") {

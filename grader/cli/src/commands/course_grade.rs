@@ -116,7 +116,7 @@ fn take_in(
         .map_err(intake_failure)?;
         for hand_in in found.hand_ins {
             if is_new(&hand_in) {
-                log.append(Event::HandIn(hand_in))?;
+                log.append(Event::HandIn(Box::new(hand_in)))?;
             }
         }
         for question in found.questions {
@@ -132,7 +132,7 @@ fn take_in(
             Some(Decision::Ignored) => {}
             Some(Decision::HandIn(hand_in)) => {
                 if is_new(&hand_in) {
-                    log.append(Event::HandIn(*hand_in))?;
+                    log.append(Event::HandIn(hand_in))?;
                 }
             }
         }

@@ -22,7 +22,7 @@ fn labels(arrangement: &Arrangement) -> Vec<&str> {
 fn moodle_with_folders() {
     let class = arranged(&[
         (
-            "Ana Lima_11_assignsubmission_file_/work/submission.rhai",
+            "Ana Lima_11_assignsubmission_file_/lab1/submission.rhai",
             "a",
         ),
         (
@@ -308,7 +308,7 @@ fn a_class_of_one_is_known_by_any_name_on_the_way() {
     for files in [
         [("s1/submission.rhai", "a"), ("s1/brief.md", "b")],
         [("lab1/s1/submission.rhai", "a"), ("lab1/s1/brief.md", "b")],
-        [("s1/work/submission.rhai", "a"), ("s1/work/brief.md", "b")],
+        [("s1/lab1/submission.rhai", "a"), ("s1/lab1/brief.md", "b")],
         [("lab1/s1.rhai", "a"), ("lab1/s1.pdf", "b")],
     ] {
         let class = arranged(&files);

@@ -58,7 +58,7 @@ fn row(check: &CheckStatistics) -> Markup {
     html! {
         tr role="row" {
             th scope="row" role="rowheader" {
-                (foreign(&check.title)) " " small { (points(check.max_points)) @if check.max_points == 1.0 { " point" } @else { " points" } }
+                (foreign(&check.title)) " " small { (points(check.max_points)) (if points(check.max_points) == "1" { " point" } else { " points" }) }
                 @for pile in check.values.iter().flat_map(|values| &values.piles) { p class="pile" { (pile.says) } }
             }
             td role="cell" { (stack(check)) }

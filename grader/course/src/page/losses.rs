@@ -47,7 +47,7 @@ pub(super) fn hidden(statistics: &LabStatistics) -> Markup {
 /// Named mistakes with what they keep.
 pub(super) fn mistakes(statistics: &LabStatistics) -> Markup {
     if statistics.mistakes.is_empty() {
-        return html! { p { "No answer agrees with a known mistake." } };
+        return html! { p { "No answer agrees with a common mistake." } };
     }
     let head = [
         ("Mistake", false),
@@ -97,7 +97,7 @@ pub(super) fn clusters(clusters: &[Cluster]) -> Markup {
         }
     };
     html! {
-        p class="lead" { "The same wrong answer from different files, which no known mistake explains: worth a word to the class, and next year a mutant." }
+        p class="lead" { "The same wrong answer from different files, which no common mistake explains: worth a word to the class, and next year a mutant." }
         (table("Equal wrong answers without a name", "clusters", &head, &rows))
     }
 }

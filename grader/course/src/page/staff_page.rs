@@ -133,7 +133,7 @@ fn with_ids(clusters: &[Cluster]) -> Markup {
         }
     };
     html! {
-        p class="lead" { "Different files with the same wrong answer, which no known mistake explains. The example is the beginning of a record's key." }
+        p class="lead" { "Different files with the same wrong answer, which no common mistake explains. The example is the beginning of a record's key." }
         (table("Clusters with ids", "clusters", &head, &rows))
     }
 }

@@ -85,14 +85,14 @@ pub fn class_files(
     Ok(files)
 }
 
+/// The parameters of each student's variant, by name.
+pub type VariantNumbers = BTreeMap<StudentId, Vec<(String, Vec<f64>)>>;
+
 /// The numbers of everybody's variant; empty where the lab has none.
 ///
 /// # Errors
 /// An id that cannot have one.
-pub fn variants_of(
-    lab: &StaffedLab,
-    roster: &Roster,
-) -> Result<BTreeMap<StudentId, Vec<(String, Vec<f64>)>>, LabError> {
+pub fn variants_of(lab: &StaffedLab, roster: &Roster) -> Result<VariantNumbers, LabError> {
     let Some(salt) = lab.salt().filter(|_| lab.has_variants()) else {
         return Ok(BTreeMap::new());
     };

@@ -22,6 +22,8 @@ pub mod passages;
 mod search;
 mod token;
 
-pub use self::class_file::{ClassFile, Material, class_files, default_numbers, variants_of};
+pub use self::class_file::{
+    ClassFile, Material, VariantNumbers, class_files, default_numbers, variants_of,
+};
 pub use self::finding::{Finding, Found, Kind, Whose};
 pub use self::search::{Class, findings};

@@ -119,10 +119,8 @@ pub(super) fn checks(graded: &[&RecordRow]) -> Vec<CheckStatistics> {
             }
         }
     }
-    let mut order: Vec<((usize, usize), (&str, &str))> = places
-        .into_iter()
-        .map(|(names, place)| (place, names))
-        .collect();
+    let by_place = places.into_iter().map(|(names, place)| (place, names));
+    let mut order: Vec<_> = by_place.collect();
     order.sort_unstable();
     let names = order.into_iter().map(|(_, names)| names);
     names

@@ -1,5 +1,5 @@
-//! The numbers of a class in a lab: how points are distributed, what each check tells apart, where hidden runs cost points, and how
-//! sections, attempts and lateness compare. No name and no id is in them.
+//! The numbers of a class in a lab: how points are distributed, which students each check distinguishes, where hidden runs cost points,
+//! and how sections, attempts and lateness compare. No name and no id is in them.
 //!
 //! Every number is made from sorted values in one order, so that the same class gives the same bits on every machine.
 

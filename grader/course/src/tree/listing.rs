@@ -1,4 +1,4 @@
-//! The names of a source collected: each file once, those that cannot be told apart marked, folders and repositories known.
+//! The names of a source collected: each file once, those that look alike marked, folders and repositories known.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;

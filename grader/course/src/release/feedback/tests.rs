@@ -24,7 +24,7 @@ fn feedback_says_what_matters() {
         change(
             Some("fk/mean-error"),
             1.5,
-            "the projector hid a line, see /home/ta/notes/x.md",
+            "the projector hid a line, see /srv/ta/notes/x.md",
             false,
         ),
         change(None, -0.5, "no name in the header", false),

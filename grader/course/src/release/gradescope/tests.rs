@@ -78,7 +78,7 @@ fn points_by_hand_are_in_the_test_and_paths_are_not() {
     class.of("s1").by_hand = vec![change(
         Some("fk/mean-error"),
         1.8,
-        "see /home/ta/x/y.md",
+        "see /srv/ta/x/y.md",
         false,
     )];
     let (_, results) = results_of(&class).remove(0);

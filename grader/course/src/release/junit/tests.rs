@@ -64,7 +64,7 @@ fn the_counts_are_those_of_the_cases() {
 fn hostile_text_is_well_formed() {
     let mut class = Class::of_roster("id,name\ns1,Ada\n");
     class.grade("s1", 10.0);
-    let hostile = "]]> <!-- & \"'\u{0}\u{7}\u{1b}[31m\u{85}\u{FFFE}\u{FFFF}\u{202E} \r\n <script> 日本 😀 /home/ta/labs/x";
+    let hostile = "]]> <!-- & \"'\u{0}\u{7}\u{1b}[31m\u{85}\u{FFFE}\u{FFFF}\u{202E} \r\n <script> 日本 😀 /srv/ta/labs/x";
     class.of("s1").by_hand = vec![change(Some("fk/mean-error"), 0.5, hostile, false)];
     let grade = &mut class.records[0].as_mut().unwrap().grade;
     for task in &mut grade.tasks {
