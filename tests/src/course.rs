@@ -266,6 +266,7 @@ fn a_person_is_forgotten_and_a_typo_is_answered() {
     let ran = bed.run(&["course", "status"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
     assert!(ran.stderr.contains("did you mean `s100`?"), "{ran:?}");
+    std::fs::remove_file(bed.path("fixes.toml")).expect("removed");
     let ran = bed.run(&["course", "grade", "in", "01-kinematic"]);
     assert!(
         ran.code == Some(2) && ran.stderr.contains("did you mean `01-kinematics`?"),

@@ -85,7 +85,7 @@ fn every_command_is_in_the_table_of_the_readme() {
     let mut seen = 0;
     for command in commands.map(|rest| rest.trim_end_matches('`')) {
         // a group of commands is documented by its members
-        if ["robot", "scene", "log", "lab"].contains(&command) {
+        if ["robot", "scene", "log", "lab", "course"].contains(&command) {
             continue;
         }
         seen += 1;

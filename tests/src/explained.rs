@@ -1,8 +1,9 @@
 //! What the course staff see of hidden cases and runs is what was graded: counts and scores of the exposed draws make the grade.
 
 use kinemark_grader::attempt::measure::as_slice;
-use kinemark_grader::judge::{ExplainedTask, Explanation, explain};
+use kinemark_grader::judge::explain;
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::record::explanation::{ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{HiddenClass, TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::whole_hundredths;
 use kinemark_grader::submission::host::InProcess;
@@ -258,7 +259,7 @@ fn lab_check_names_the_draw_in_which_points_are_lost() {
     assert_eq!(ran.code, Some(1), "{ran:?}");
     for words in [
         "task `touch` loses points: The tip is there\n      in run 1 of the class \"nearer places\", out = 0.",
-        "(all points up to 20 mm, none from 0.1 m)",
+        "(all points up to 20.0 mm, none from 0.100 m)",
         "in run 2 of the class \"nearer places\", out = 0.",
         "such as that of `student ",
     ] {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::book::{Book, BookError};
+use crate::index::INDEX_FILE;
 use crate::journal::{Entry, Event};
 use crate::private_files::put;
 use crate::reports::page_path;
@@ -79,6 +80,8 @@ impl Book {
         for digest in submissions.unneeded() {
             forgotten.submissions += removed(&self.submission_path(digest))?;
         }
+        // deleted rows stay readable in a database until it is made anew
+        removed(&self.root().join(INDEX_FILE))?;
         forgotten.lines = self.rewrite(&theirs, student)?;
         Ok(forgotten)
     }

@@ -32,8 +32,8 @@
 //! | [`grading`] | one hand-in to its record |
 //! | [`handed_out`] | the note of which lab and engine the course uses |
 //! | [`working_folder`] | what a student begins a lab with |
-//! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
 //! | [`gradescope_results`] | a grade as Gradescope's autograder reports it |
+//! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
 //! | `lab_rows` | the records of a lab as the index has them |
 //! | [`statistics`] | the numbers of a class in a lab |
 //! | [`clusters`] | equal wrong answers without a name |

@@ -12,8 +12,8 @@ const STARTER: &str = "starter";
 /// Words that systems add to the name of a copy, in front of a number or not.
 const COPY_WORDS: [&str; 6] = ["copy", "kopie", "copie", "copia", "kopia", "コピー"];
 
-/// What a name says, the most certain first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+/// What a name says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NameKind {
     /// A hand-in file.
     HandIn,

@@ -7,7 +7,7 @@ use owo_colors::OwoColorize as _;
 use super::student_reply::paragraph;
 use super::text::hidden_word;
 use super::visible::visible;
-use kinemark_grader::judge::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
+use kinemark_grader::record::explanation::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{CaseGrade, Evidence, Stopped, TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::{points, with_unit};
 

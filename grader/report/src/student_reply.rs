@@ -4,7 +4,7 @@
 
 use super::text::hidden_word;
 use super::visible::visible;
-use kinemark_grader::judge::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
+use kinemark_grader::record::explanation::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::points;
 

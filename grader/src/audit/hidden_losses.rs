@@ -4,8 +4,9 @@ use kinemark_sim::text::Source;
 use serde::Serialize;
 
 use super::place_of;
-use crate::judge::{DrawCheck, ExplainedDraw, HiddenDraw, explain};
+use crate::judge::explain;
 use crate::lab::{Lab, Staff};
+use crate::record::explanation::{DrawCheck, ExplainedDraw, HiddenDraw};
 use crate::record::grade::Measure;
 use crate::submission::host::InProcess;
 

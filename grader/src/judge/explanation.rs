@@ -1,144 +1,21 @@
 //! A grade explained to the course staff: the submission graded once more on every hidden case and run with nothing withheld.
 
 use kinemark_sim::text::Source;
-use serde::Serialize;
 
 use super::Interrupted;
-use super::exposed::{ExposedLab, HiddenDraw, expose};
+use super::exposed::{ExposedLab, expose};
 use super::grader::{Grader, TaskScores, grade};
 use super::hidden_attempts::counted_score;
 use super::single_case::SingleCase;
 use crate::check::{Criterion, Finding};
 use crate::lab::{Lab, Staff, Task, TaskWork};
-use crate::record::grade::{CaseGrade, CheckGrade, Evidence, Measure, Outcome, Stopped, TaskKind};
+use crate::record::explanation::{
+    DrawCheck, ExplainedAttempt, ExplainedDraw, ExplainedTask, Explanation,
+};
+use crate::record::grade::{CheckGrade, Outcome, TaskKind};
 use crate::record::graded::GradedRun;
-use crate::record::quantity::with_unit_unlike;
 use crate::record::verdict::Verdict;
 use crate::submission::host::{Host, InProcess};
-
-/// A grade with everything that is hidden in it. It is for the course staff: it has hidden numbers and the reference solution's runs.
-#[derive(Debug, Clone)]
-pub struct Explanation {
-    /// The grade, made again: equal to the record of it where engine, lab and submission are the same.
-    pub graded: GradedRun,
-    /// The tasks with hidden cases or runs, in the lab's order.
-    pub tasks: Vec<ExplainedTask>,
-}
-
-/// A task with hidden cases or runs.
-#[derive(Debug, Clone)]
-pub struct ExplainedTask {
-    /// Its name.
-    pub name: String,
-    /// Its title.
-    pub title: String,
-    /// Its kind.
-    pub kind: TaskKind,
-    /// The share of points of each check before it is rounded, in `[0, 1]`: of a motion task in the visible run alone, of a function
-    /// task over all cases.
-    pub scores: Vec<f64>,
-    /// Whether the hidden ones count in the grade. Hidden runs do not if the visible run did not reach its end.
-    pub counts: bool,
-    /// All cases of a function task as one attempt; each hidden run as one.
-    pub attempts: Vec<ExplainedAttempt>,
-}
-
-/// An attempt at an exposed lab.
-#[derive(Debug, Clone)]
-pub struct ExplainedAttempt {
-    /// The lab, of this task alone.
-    pub lab: Lab,
-    /// The grade in that lab, with the reference solution's motion in its runs.
-    pub graded: GradedRun,
-    /// The hidden cases, or the one hidden run.
-    pub draws: Vec<ExplainedDraw>,
-}
-
-/// A hidden case or run with what the submission made of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ExplainedDraw {
-    /// The case or run.
-    pub draw: HiddenDraw,
-    /// Whether it counts as good in its class.
-    pub good: bool,
-    /// Of a case: answer, expected answer and error.
-    pub case: Option<CaseGrade>,
-    /// Of a case of inverse kinematics: the distance of each answered branch from the target, in the order of the answer \[m\].
-    pub branches_m: Vec<f64>,
-    /// The stop of the submission in it.
-    pub stopped: Option<Stopped>,
-    /// Its checks, in the lab's order.
-    pub checks: Vec<DrawCheck>,
-}
-
-/// A check in one hidden case or run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DrawCheck {
-    /// Its name.
-    pub name: String,
-    /// Its title.
-    pub title: String,
-    /// What earns all points and what earns none, in words.
-    pub bounds: [String; 2],
-    /// The share of its points; `None` where it was not judged, or does not look at such a case.
-    pub score: Option<f64>,
-    /// The share that goes into the points: that of a run is rounded down to twentieths. The points of a function task are made from
-    /// all its cases, so a case has no share of its own.
-    pub counted: Option<f64>,
-    /// What was measured, with its band.
-    pub measure: Option<Measure>,
-    /// The value of the reference solution in the same run.
-    pub reference: Option<f64>,
-    /// Why points were lost.
-    pub evidence: Vec<Evidence>,
-}
-
-impl DrawCheck {
-    /// Whether points were lost in it, or it was not judged in a run.
-    pub fn is_lost(&self) -> bool {
-        self.counted.or(self.score).is_some_and(|score| score < 1.0)
-    }
-
-    /// What was measured in words: of a run the value, of a case what is wrong with the answer.
-    pub fn words(&self) -> String {
-        let of_run = self.measure.as_ref().filter(|_| self.counted.is_some());
-        if let Some(measure) = of_run {
-            let value = measure.value.map_or_else(
-                || "nothing to measure".to_owned(),
-                |value| with_unit_unlike(value, measure.full, &measure.unit),
-            );
-            return format!("{}: {value}", measure.quantity);
-        }
-        match (self.evidence.first(), self.score) {
-            (Some(fact), _) => fact.message.clone(),
-            (None, Some(_)) => "right".to_owned(),
-            (None, None) => "not judged".to_owned(),
-        }
-    }
-}
-
-impl ExplainedTask {
-    /// Its hidden cases or runs by class, classes in the order of their first draw.
-    pub fn classes(&self) -> Vec<(&str, Vec<&ExplainedDraw>)> {
-        let mut classes: Vec<(&str, Vec<&ExplainedDraw>)> = Vec::new();
-        for draw in self.attempts.iter().flat_map(|attempt| &attempt.draws) {
-            let class = draw.draw.class.as_str();
-            match classes.iter_mut().find(|(known, _)| *known == class) {
-                Some((_, draws)) => draws.push(draw),
-                None => classes.push((class, vec![draw])),
-            }
-        }
-        classes
-    }
-}
-
-impl Explanation {
-    /// All hidden cases and runs, in the order of tasks and draws.
-    pub fn draws(&self) -> impl Iterator<Item = &ExplainedDraw> {
-        let attempts = self.tasks.iter().flat_map(|task| &task.attempts);
-        attempts.flat_map(|attempt| &attempt.draws)
-    }
-}
 
 /// Grades `submission` as [`grade`] does, and once more on everything hidden. Hidden numbers are the same, and so are the calls of a
 /// function task and their order: what was graded is explained.
@@ -223,11 +100,7 @@ impl Exposition<'_> {
             }
             TaskWork::Motion(..) => run(&exposed, &graded, &reference, scores.first()),
         };
-        Ok(ExplainedAttempt {
-            lab: exposed.lab,
-            graded,
-            draws,
-        })
+        Ok(ExplainedAttempt { graded, draws })
     }
 }
 

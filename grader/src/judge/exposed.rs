@@ -2,7 +2,6 @@
 //! is graded and shown like any other.
 
 use kinemark_sim::text::{Dimension, Dimensions};
-use serde::Serialize;
 
 use super::case_grades::{case_grade, entries, given_in_words};
 use super::expected::with_expected;
@@ -11,40 +10,10 @@ use crate::attempt::function;
 use crate::check;
 use crate::lab::staff::HiddenRun;
 use crate::lab::{Lab, Staff, Task, TaskWork};
+use crate::record::explanation::HiddenDraw;
 use crate::record::grade::TaskKind;
 use crate::submission::host::InProcess;
 use crate::task::model::{Case, FunctionTask, Given};
-
-/// A hidden case or run with its numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct HiddenDraw {
-    /// The task.
-    pub task: String,
-    /// Whether it is a case of a function or a run.
-    pub kind: TaskKind,
-    /// Its class, which is all that students see of it.
-    pub class: String,
-    /// Its number within its class, from one.
-    pub number: u32,
-    /// What was drawn: the input of a case and the dimensions of its robot, or the parameters of a run.
-    #[serde(serialize_with = "by_name")]
-    pub numbers: Dimensions,
-    /// The numbers in words, with fewer digits.
-    pub words: String,
-    /// The right answer to a case in words. For inverse kinematics it is that of the reference solution.
-    pub expected: Option<String>,
-}
-
-impl HiddenDraw {
-    /// Its class and number in words: `case 3 of the class "a longer forearm"`.
-    pub fn name(&self) -> String {
-        let what = match self.kind {
-            TaskKind::Function => "case",
-            TaskKind::Motion => "run",
-        };
-        format!("{what} {} of the class \"{}\"", self.number, self.class)
-    }
-}
 
 /// A lab of one task that shows what is hidden in another lab.
 #[derive(Debug, Clone)]
@@ -206,9 +175,4 @@ fn numbers_of(case: &Case) -> Dimensions {
         Given::Values { given, .. } => given.clone(),
     };
     Dimensions::from_pairs(given.into_iter().chain(case.dimensions.iter().cloned()))
-}
-
-/// Numbers as a map.
-fn by_name<S: serde::Serializer>(numbers: &Dimensions, into: S) -> Result<S::Ok, S::Error> {
-    into.collect_map(numbers.iter())
 }

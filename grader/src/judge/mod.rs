@@ -23,9 +23,7 @@ mod single_case;
 pub(crate) mod staff_faults;
 
 pub use expected::with_expected;
-pub use explanation::{
-    DrawCheck, ExplainedAttempt, ExplainedDraw, ExplainedTask, Explanation, explain,
-};
-pub use exposed::{ExposedLab, HiddenDraw, NoAnswer, expose};
+pub use explanation::explain;
+pub use exposed::{ExposedLab, NoAnswer, expose};
 pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};
 pub(crate) use opening::opening;

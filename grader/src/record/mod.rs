@@ -1,6 +1,7 @@
 //! A finished grade: the record, the runs it is based on, and names and numbers for people.
 
 pub mod comparison;
+pub mod explanation;
 pub mod grade;
 pub mod graded;
 pub mod names;

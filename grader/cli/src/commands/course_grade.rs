@@ -73,7 +73,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut log = CourseLog::new(&course);
     take_in(&course, rules, source, &mut log)?;
     let history = course.history()?;
-    let waiting = waiting(rules, &history, args.shard);
+    let waiting = waiting(&course, rules, &history, args.shard);
     let result = grade(
         &course,
         &staffed,
@@ -145,7 +145,12 @@ fn take_in(
 }
 
 /// The hand-ins that count, or may count, and have no grade yet.
-fn waiting(rules: &CourseLab, history: &History, shard: Option<Shard>) -> Vec<HandIn> {
+fn waiting(
+    course: &Course,
+    rules: &CourseLab,
+    history: &History,
+    shard: Option<Shard>,
+) -> Vec<HandIn> {
     let mut waiting = Vec::new();
     for (student, attempts) in history.of_lab(&rules.name) {
         if shard.is_some_and(|shard| !shard.has(student.as_str())) {
@@ -153,7 +158,12 @@ fn waiting(rules: &CourseLab, history: &History, shard: Option<Shard>) -> Vec<Ha
         }
         let ungraded = counting(rules.attempts, attempts)
             .iter()
-            .filter(|attempt| attempt.record().is_none());
+            // a record that a failing disk has lost is made again
+            .filter(|attempt| {
+                attempt
+                    .record()
+                    .is_none_or(|key| !course.book.has_record(key))
+            });
         waiting.extend(ungraded.map(|attempt| attempt.hand_in.clone()));
     }
     waiting

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_course::book::Record;
+use kinemark_course::course_file::CourseLab;
 use kinemark_course::course_text::read;
 use kinemark_course::journal::Event;
 use kinemark_course::release::{Columns, Export, FORMS, Form, Made, Material, Row};
+use kinemark_course::standing::Standing;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
@@ -66,19 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let history = course.history()?;
     let index = course.index(&history)?;
     let standings = course.standings(rules, &history, &index, &[])?;
-    let mut records: BTreeMap<&str, (Record, Option<String>)> = BTreeMap::new();
-    for key in standings
-        .iter()
-        .filter_map(|standing| standing.record.as_deref())
-    {
-        if let Some(record) = course.book.record(key).map_err(book_failure)? {
-            let page = course
-                .book
-                .whole_page(&rules.name, key)
-                .map_err(book_failure)?;
-            records.insert(key, (record, page));
-        }
-    }
+    let records = records(&course, rules, &standings)?;
     let people = course.roster.people().iter();
     let rows: Vec<Row<'_>> = people
         .zip(&standings)
@@ -119,15 +109,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             .join(form.name),
     };
     write(&out, &made)?;
-    let sent = rows.iter().filter(|row| row.standing.points.is_some());
-    let sent = sent.filter_map(|row| Some((row.person.id.clone(), row.standing.record.clone()?)));
-    let mut log = CourseLog::new(&course);
-    log.append(Event::Released {
-        lab: rules.name.clone(),
-        to: form.name.to_owned(),
-        records: sent.collect(),
-    })?;
-    log.finish()?;
+    note_release(&course, rules, form, &rows)?;
     for note in &made.notes {
         output::print(&format!("{} {note}\n", "note:".yellow()))?;
     }
@@ -138,6 +120,43 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::path(&out)
     ))?;
     Ok(ExitCode::from(if made.notes.is_empty() { 0 } else { LOST }))
+}
+
+/// Records that count, with their whole pages, by key.
+fn records<'s>(
+    course: &Course,
+    rules: &CourseLab,
+    standings: &'s [Standing],
+) -> Result<BTreeMap<&'s str, (Record, Option<String>)>, Failure> {
+    let mut records = BTreeMap::new();
+    for key in standings
+        .iter()
+        .filter_map(|standing| standing.record.as_deref())
+    {
+        if let Some(record) = course.book.record(key).map_err(book_failure)? {
+            let page = course.book.whole_page(&rules.name, key);
+            records.insert(key, (record, page.map_err(book_failure)?));
+        }
+    }
+    Ok(records)
+}
+
+/// Writes into the journal whose grades went out.
+fn note_release(
+    course: &Course,
+    rules: &CourseLab,
+    form: &Form,
+    rows: &[Row<'_>],
+) -> Result<(), Failure> {
+    let sent = rows.iter().filter(|row| row.standing.points.is_some());
+    let sent = sent.filter_map(|row| Some((row.person.id.clone(), row.standing.record.clone()?)));
+    let mut log = CourseLog::new(course);
+    log.append(Event::Released {
+        lab: rules.name.clone(),
+        to: form.name.to_owned(),
+        records: sent.collect(),
+    })?;
+    log.finish()
 }
 
 /// The LMS's file: its name and bytes.

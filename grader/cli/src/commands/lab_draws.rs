@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::process::ExitCode;
 
-use kinemark_grader::judge::{HiddenDraw, expose};
+use kinemark_grader::judge::expose;
 use kinemark_grader::lab::{Lab, Staff, Task};
+use kinemark_grader::record::explanation::HiddenDraw;
 use kinemark_grader::record::grade::TaskKind;
 use owo_colors::OwoColorize as _;
 use serde::Serialize;

@@ -50,7 +50,7 @@ fn moodle_with_folders() {
     let ana = &class.people[0];
     assert_eq!(
         paths(ana),
-        ["onlinetext/onlinetext.html", "work/submission.rhai"]
+        ["lab1/submission.rhai", "onlinetext/onlinetext.html"]
     );
     assert_eq!(ana.hints[0], Hint::Name("Ana Lima".to_owned()));
     assert_eq!(ana.lms_number.as_deref(), Some("11"));

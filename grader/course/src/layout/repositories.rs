@@ -14,21 +14,17 @@ fn recognise(tree: &Tree) -> Confidence {
     let Some((level, found)) = level(tree) else {
         return Confidence::No;
     };
-    let all = level.folders.len();
-    let why = format!("{} with a .git inside", count_of(found, all, "folder"));
-    match found * 2 > all {
-        true => Confidence::Certain(why),
-        false => Confidence::Likely(why),
-    }
+    let count = count_of(found, level.folders.len(), "folder");
+    Confidence::Certain(format!("{count} with a .git inside"))
 }
 
-/// The first level with repositories, and how many there are.
+/// The first level on which most folders are repositories, and how many are. One alone may be what a student handed in.
 fn level(tree: &Tree) -> Option<(Level, usize)> {
     levels(tree).into_iter().find_map(|level| {
         let folders = level.folders.iter();
         let found = folders.filter(|folder| tree.repositories().contains(&folder.path));
         let found = found.count();
-        (found > 0).then_some((level, found))
+        (found * 2 > level.folders.len()).then_some((level, found))
     })
 }
 

@@ -23,7 +23,8 @@ pub(super) fn comparable(name: &str) -> String {
         _ => plain,
     };
     let words: Vec<&str> = turned.split_whitespace().collect();
-    words.join(" ")
+    // once more: accents on the two sides of what was taken out may compose now
+    folded(&words.join(" "))
 }
 
 /// Moodle takes out two dots and more in a row, because they lead out of a folder.

@@ -33,6 +33,9 @@ pub struct Unmatched {
 /// So many students that come near are named.
 const MOST_NEAREST: usize = 5;
 
+/// Near students are searched for so many times in a source: with the wrong roster nobody is on it, and the search is slow.
+const MOST_SUGGESTED: usize = 200;
+
 /// Finds students on a roster.
 #[derive(Debug)]
 pub struct Matcher<'r> {
@@ -65,16 +68,21 @@ impl<'r> Matcher<'r> {
                 numbers.entry(name).or_default().extend(number);
             }
         }
-        let student = |person: &PersonFiles| {
+        let mut unmatched = 0;
+        let mut students = Vec::with_capacity(people.len());
+        for person in people {
             let shared = names(&person.hints)
                 .into_iter()
                 .find(|name| numbers.get(name).is_some_and(|numbers| numbers.len() > 1));
-            match shared {
-                None => self.student_of(&person.hints),
-                Some(name) => self.student_of_namesake(&person.hints, &name),
-            }
-        };
-        people.iter().map(student).collect()
+            let suggests = unmatched < MOST_SUGGESTED;
+            let student = match shared {
+                None => self.weighed(&person.hints, suggests),
+                Some(name) => self.student_of_namesake(&person.hints, &name, suggests),
+            };
+            unmatched += usize::from(student.is_err());
+            students.push(student);
+        }
+        students
     }
 
     /// The student whom `hints` lead to.
@@ -82,34 +90,42 @@ impl<'r> Matcher<'r> {
     /// # Errors
     /// Hints that lead to nobody, to several, or to different people.
     pub fn student_of(&self, hints: &[Hint]) -> Result<Matched, Unmatched> {
+        self.weighed(hints, true)
+    }
+
+    fn weighed(&self, hints: &[Hint], suggests: bool) -> Result<Matched, Unmatched> {
         let leads: Vec<Lead<'_>> = hints.iter().filter_map(|hint| self.lead(hint)).collect();
-        if let Some(contradiction) = self.contradiction(hints, &leads) {
+        if let Some(contradiction) = self.contradiction(hints, &leads, suggests) {
             return Err(contradiction);
         }
-        let single = |lead: &&Lead<'_>| lead.by != "group" && lead.people.len() == 1;
-        let people: BTreeSet<usize> = leads
-            .iter()
-            .filter(single)
+        let (groups, others): (Vec<&Lead<'_>>, Vec<&Lead<'_>>) =
+            leads.iter().partition(|lead| lead.by == "group");
+        let single = others.iter().filter(|lead| lead.people.len() == 1);
+        let people: BTreeSet<usize> = single
             .flat_map(|lead| lead.people.iter().copied())
             .collect();
-        let groups: Vec<&Lead<'_>> = leads.iter().filter(|lead| lead.by == "group").collect();
+        let one_group = groups.windows(2).all(|two| two[0].people == two[1].people);
         match (people.first(), groups.first()) {
-            (Some(_), _) if people.len() > 1 => Err(self.different_people(&leads)),
+            _ if people.len() > 1 || !one_group => Err(self.different_people(&leads)),
             (Some(&person), None) => self.one(person, &leads),
             (Some(&person), Some(group)) => self.one_or_group(person, group, &leads),
-            (None, Some(group)) if leads.iter().all(|lead| lead.by == "group") => {
-                Ok(self.matched(&group.people, "group"))
-            }
-            (None, _) if leads.is_empty() => Err(self.nobody(hints)),
-            (None, _) => Err(self.several(&leads)),
+            (None, Some(group)) if others.is_empty() => Ok(self.matched(&group.people, "group")),
+            (None, Some(_)) => Err(self.different_people(&leads)),
+            (None, None) if leads.is_empty() => Err(self.nobody(hints, suggests)),
+            (None, None) => Err(self.several(&leads)),
         }
     }
 
     /// The student of files whose name another person in the source has as well: something else has to say who it is.
-    fn student_of_namesake(&self, hints: &[Hint], name: &str) -> Result<Matched, Unmatched> {
+    fn student_of_namesake(
+        &self,
+        hints: &[Hint],
+        name: &str,
+        suggests: bool,
+    ) -> Result<Matched, Unmatched> {
         let is_name = |hint: &Hint| comparable(hint.text()) == name;
         let (names, others): (Vec<Hint>, Vec<Hint>) = hints.iter().cloned().partition(is_name);
-        self.student_of(&others).map_err(|unmatched| {
+        self.weighed(&others, suggests).map_err(|unmatched| {
             let near = names.iter().filter_map(|hint| self.lead(hint));
             let near: BTreeSet<usize> = near.flat_map(|lead| lead.people).collect();
             let mut nearest = self.ids(near);
@@ -151,7 +167,12 @@ impl<'r> Matcher<'r> {
     }
 
     /// What the roster denies: an id that is not on it, an LMS's id that is another than the one it has of this person.
-    fn contradiction(&self, hints: &[Hint], leads: &[Lead<'_>]) -> Option<Unmatched> {
+    fn contradiction(
+        &self,
+        hints: &[Hint],
+        leads: &[Lead<'_>],
+        suggests: bool,
+    ) -> Option<Unmatched> {
         let led = |hint: &Hint| leads.iter().any(|lead| lead.hint == hint);
         let near = || self.ids(leads.iter().flat_map(|lead| lead.people.iter().copied()));
         for hint in hints {
@@ -169,7 +190,9 @@ impl<'r> Matcher<'r> {
                 _ => continue,
             };
             let mut nearest = near();
-            nearest.extend(self.nearest(std::slice::from_ref(hint)));
+            if suggests {
+                nearest.extend(self.nearest(std::slice::from_ref(hint)));
+            }
             return Some(Unmatched {
                 why: match known {
                     None => format!("no id on the roster is {}", shown(hint)),
@@ -202,13 +225,12 @@ impl<'r> Matcher<'r> {
         group: &Lead<'_>,
         leads: &[Lead<'_>],
     ) -> Result<Matched, Unmatched> {
-        let same_text = |lead: &&Lead<'_>| {
-            lead.by != "group" && folded(lead.hint.text()) == folded(group.hint.text())
+        let text = folded(group.hint.text());
+        let denies = |lead: &Lead<'_>| {
+            let same_text = lead.by != "group" && folded(lead.hint.text()) == text;
+            same_text || !lead.people.contains(&person)
         };
-        if !group.people.contains(&person) || leads.iter().any(|lead| same_text(&lead)) {
-            return Err(self.different_people(leads));
-        }
-        if leads.iter().any(|lead| !lead.people.contains(&person)) {
+        if leads.iter().any(denies) {
             return Err(self.different_people(leads));
         }
         Ok(self.matched(&group.people, "group"))
@@ -240,7 +262,7 @@ impl<'r> Matcher<'r> {
         Unmatched {
             why: format!("it leads to different people: {}", said.join("; ")),
             help: "name the student in fixes.toml".to_owned(),
-            nearest: self.ids(leads.iter().flat_map(|lead| lead.people.iter().copied())),
+            nearest: unique(self.ids(leads.iter().flat_map(|lead| lead.people.iter().copied()))),
         }
     }
 
@@ -256,11 +278,11 @@ impl<'r> Matcher<'r> {
             ),
             help: "add the id of the LMS to roster.csv (lms_id), or name the student in fixes.toml"
                 .to_owned(),
-            nearest: self.ids(lead.people.iter().copied()),
+            nearest: unique(self.ids(lead.people.iter().copied())),
         }
     }
 
-    fn nobody(&self, hints: &[Hint]) -> Unmatched {
+    fn nobody(&self, hints: &[Hint], suggests: bool) -> Unmatched {
         let mut texts: Vec<String> = Vec::new();
         for hint in hints {
             let text = shown(hint);
@@ -277,27 +299,27 @@ impl<'r> Matcher<'r> {
                 ),
             },
             help: "correct roster.csv, or name the student in fixes.toml".to_owned(),
-            nearest: self.nearest(hints),
+            nearest: match suggests {
+                true => self.nearest(hints),
+                false => Vec::new(),
+            },
         }
     }
 
     /// Students whose id, name, login or address is nearly what a hint says.
     fn nearest(&self, hints: &[Hint]) -> Vec<StudentId> {
+        let texts: BTreeSet<String> = hints.iter().map(|hint| comparable(hint.text())).collect();
         let mut found = Vec::new();
-        for hint in hints {
+        for text in &texts {
             for column in self.index.columns() {
                 let values = column.iter().map(|(value, _)| value.as_str());
-                if let Some(near) = nearest(&comparable(hint.text()), values) {
+                if let Some(near) = nearest(text, values) {
                     let same = column.iter().filter(|(value, _)| value == near);
                     found.extend(same.map(|(_, person)| *person));
                 }
             }
         }
-        let mut ids = Vec::new();
-        for person in found {
-            ids.extend(self.ids([person]));
-        }
-        unique(ids)
+        unique(self.ids(found))
     }
 
     fn ids(&self, people: impl IntoIterator<Item = usize>) -> Vec<StudentId> {

@@ -21,6 +21,8 @@ pub(super) struct RosterIndex<'r> {
     slugs: Column,
     repositories: Column,
     groups: Column,
+    /// Groups by the slugs of their names.
+    group_slugs: BTreeMap<String, Vec<String>>,
     /// Values that a typo may have come from, by column.
     columns: Vec<Vec<(String, usize)>>,
 }
@@ -44,6 +46,14 @@ impl<'r> RosterIndex<'r> {
                 by_slug.entry(slug).or_default().insert(i);
             }
         }
+        let groups = by(|person| &person.group, comparable);
+        let mut group_slugs: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for group in groups.keys() {
+            let slug = slug(group);
+            if !slug.is_empty() {
+                group_slugs.entry(slug).or_default().push(group.clone());
+            }
+        }
         let ids = by(|person| person.id.as_str(), folded);
         let usernames = by(|person| &person.username, folded);
         let emails = by(|person| &person.email, folded);
@@ -58,7 +68,8 @@ impl<'r> RosterIndex<'r> {
             columns: [&ids, &names, &usernames, &emails].map(values).to_vec(),
             lms_ids: by(|person| &person.lms_id, folded),
             repositories: by(|person| &person.repository, folded),
-            groups: by(|person| &person.group, comparable),
+            groups,
+            group_slugs,
             slugs: by_slug,
             ids,
             usernames,
@@ -108,12 +119,9 @@ impl<'r> RosterIndex<'r> {
         if !members.is_empty() {
             return members;
         }
-        let wanted = slug(name);
-        let same = |group: &&String| !wanted.is_empty() && slug(group) == wanted;
-        let mut groups = self.groups.keys().filter(same);
         // two groups that differ in spaces alone are none
-        match (groups.next(), groups.next()) {
-            (Some(group), None) => at(&self.groups, group),
+        match self.group_slugs.get(&slug(name)).map(Vec::as_slice) {
+            Some([group]) => at(&self.groups, group),
             _ => BTreeSet::new(),
         }
     }
@@ -128,6 +136,9 @@ impl<'r> RosterIndex<'r> {
         let mut people = BTreeSet::new();
         let cuts = name.match_indices('-').map(|(at, _)| at + 1);
         for from in std::iter::once(0).chain(cuts) {
+            if from > 0 && is_short(&name[from..]) {
+                continue;
+            }
             let mut of_ending = at(&self.usernames, &name[from..]);
             of_ending.append(&mut at(&self.ids, &name[from..]));
             // a person whose repository has another name is not meant

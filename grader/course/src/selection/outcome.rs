@@ -2,10 +2,10 @@
 
 use crate::tree::EntryProblem;
 
-/// The largest submission that is read [bytes].
+/// The largest submission that is read \[bytes\].
 pub const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
 
-/// The largest hand-in file that is read [bytes]: it has a submission and a record in it.
+/// The largest hand-in file that is read \[bytes\]: it has a submission and a record in it.
 pub const MOST_HAND_IN_BYTES: u64 = 8 << 20;
 
 /// A file that is a person's submission, or may be.

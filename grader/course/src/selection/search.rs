@@ -14,6 +14,13 @@ const REPORT_FOLDER: &str = "out";
 /// Files that only a report has, both of them in one folder.
 const REPORT_FILES: [&str; 2] = ["grade.json", "report.json"];
 
+/// What may be the submission on a level, the first kind that is there. Text called `submission` may be notes beside a script.
+const KINDS: [&[NameKind]; 3] = [
+    &[NameKind::HandIn],
+    &[NameKind::Submission],
+    &[NameKind::SubmissionText, NameKind::Script],
+];
+
 /// So many files to choose from are read; nobody chooses among more.
 const MOST_CHOICES: usize = 20;
 
@@ -48,7 +55,7 @@ pub(super) struct Node {
     /// What its name says.
     pub(super) kind: NameKind,
     /// What is wrong with it.
-    problem: Option<EntryProblem>,
+    pub(super) problem: Option<EntryProblem>,
     /// Whether it is inside a report.
     pub(super) in_report: bool,
 }
@@ -149,16 +156,11 @@ impl<'s> Search<'s> {
             .filter(|node| node.level == level && !node.in_report)
             .cloned()
             .collect();
-        for kind in [
-            NameKind::HandIn,
-            NameKind::Submission,
-            NameKind::SubmissionText,
-            NameKind::Script,
-        ] {
-            let of_kind = at_level.iter().filter(|node| node.kind == kind);
+        for kinds in KINDS {
+            let of_kind = at_level.iter().filter(|node| kinds.contains(&node.kind));
             let mut found: Vec<Found> = Vec::new();
             for node in of_kind {
-                match self.read(node, kind) {
+                match self.read(node) {
                     Ok(Some(file)) if found.iter().all(|known| known.bytes != file.bytes) => {
                         found.push(file);
                     }
@@ -189,8 +191,8 @@ impl<'s> Search<'s> {
     }
 
     /// Reads a file as what its name says; `None` where it is no hand-in file.
-    fn read(&mut self, node: &Node, kind: NameKind) -> Result<Option<Found>, EntryProblem> {
-        let is_hand_in = kind == NameKind::HandIn;
+    fn read(&mut self, node: &Node) -> Result<Option<Found>, EntryProblem> {
+        let is_hand_in = node.kind == NameKind::HandIn;
         let most = match is_hand_in {
             true => MOST_HAND_IN_BYTES,
             false => MOST_SUBMISSION_BYTES,
@@ -294,7 +296,7 @@ impl<'s> Search<'s> {
             let is_starter = node.kind == NameKind::Starter && !node.in_report;
             let is_reported = node.kind == NameKind::Submission && node.in_report;
             if (is_starter || is_reported) && possible.len() < MOST_CHOICES {
-                possible.extend(self.read(&node, node.kind).ok().flatten());
+                possible.extend(self.read(&node).ok().flatten());
             }
         }
         let kind = |node: &Node| {

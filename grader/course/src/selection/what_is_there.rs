@@ -61,6 +61,9 @@ fn counted(count: usize, what: &str) -> String {
 
 fn named(node: &Node, kind: Option<&str>) -> String {
     let path = shown(&node.shown);
+    if let Some(problem) = &node.problem {
+        return format!("{path} ({problem})");
+    }
     if node.kind == NameKind::Starter {
         return format!("{path} (a starter)");
     }

@@ -194,7 +194,14 @@ fn triangle(long, short, far) {
                 .lines()
                 .position(|line| line.starts_with("// The elbow"))
                 .unwrap();
-            assert_eq!(place.lines, [(first, first + 6)]);
+            let [(from, to)] = place.lines[..] else {
+                panic!("{place:?}")
+            };
+            // a word after the passage may be the same by chance
+            assert!(
+                from == first && (first + 6..=first + 7).contains(&to),
+                "{place:?}"
+            );
         }
         assert!(
             finding.says.contains("words of comments"),

@@ -15,7 +15,7 @@ pub struct Entry {
     pub path: String,
     /// Its name as the archive or the disk has it.
     pub original: String,
-    /// Its size as the source declares it [bytes]; what is read is counted anyway.
+    /// Its size as the source declares it \[bytes\]; what is read is counted anyway.
     pub declared_size: Option<u64>,
     /// What keeps it from being used.
     pub problem: Option<EntryProblem>,

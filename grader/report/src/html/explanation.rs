@@ -10,7 +10,7 @@ use crate::plot::plots;
 use crate::student_reply::paragraph;
 use crate::text::hidden_word;
 use crate::visible::{file_stem, shortened, visible};
-use kinemark_grader::judge::{
+use kinemark_grader::record::explanation::{
     DrawCheck, ExplainedAttempt, ExplainedDraw, ExplainedTask, Explanation,
 };
 use kinemark_grader::record::grade::{TaskGrade, TaskKind};

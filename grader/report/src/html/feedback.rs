@@ -230,7 +230,7 @@ mod tests {
             message: "<&\">".repeat(500),
             ..Evidence::default()
         };
-        let first = grade.tasks[0].checks[1].clone();
+        let first = grade.tasks[0].checks[0].clone();
         for _ in 0..30 {
             let mut check = first.clone();
             check.evidence = vec![fact.clone(); 20];
