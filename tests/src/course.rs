@@ -275,3 +275,67 @@ fn a_person_is_forgotten_and_a_typo_is_answered() {
     let ran = bed.run(&["course", "grade", "nowhere.zip", LAB]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
 }
+
+#[test]
+fn hand_in_files_say_what_they_are() {
+    let bed = class();
+    let labs = bed.path("labs").display().to_string();
+    let written = |folder: &str, submission: &str, student: &str| {
+        hand_in(&bed, &format!("{folder}/submission.rhai"), submission);
+        let file = bed.path(folder).join("submission.rhai");
+        let out = bed.path(&format!("handed/{folder}.kinemark"));
+        let ran = bed.run(&[
+            "submit",
+            LAB,
+            &file.display().to_string(),
+            "--student",
+            student,
+            "--labs",
+            &labs,
+            "--out",
+            &out.display().to_string(),
+        ]);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+    };
+    std::fs::create_dir_all(bed.path("handed")).expect("a folder");
+    // the name of the file says nothing, the file itself does
+    written("upload", "good", "s100");
+    // a file that says one thing under a name that says another
+    written("s101", "degrees", "s103");
+    // a lab that has changed since
+    let lab = format!("labs/{LAB}/lab.toml");
+    let text = std::fs::read_to_string(bed.path(&lab)).expect("a lab");
+    bed.write(&lab, format!("{text}\n# older\n"));
+    written("s104", "good", "s104");
+    bed.write(&lab, text);
+
+    let ran = bed.run(&["course", "grade", "handed", LAB]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(
+        ran.stdout
+            .contains("1 practised with another lab than the course's: s104"),
+        "{ran:?}"
+    );
+    let rows = standings(&bed);
+    let of = |id: &str| rows.iter().find(|row| row.0 == id).expect("a row");
+    assert_eq!(of("s100").2, 24.0);
+    assert_eq!(of("s104").2, 24.0);
+    assert_eq!(of("s101").1, "needs-person");
+    let status = bed.run(&["course", "status", LAB]).stdout;
+    assert!(
+        status.contains("the hand-in file says that it is of `s103`, who is somebody else"),
+        "{status}"
+    );
+    // the submission in it can be chosen all the same
+    bed.write(
+        "fixes.toml",
+        format!(
+            "format = 1\n[[files]]\nlab = \"{LAB}\"\npath = \"s101.kinemark\"\nstudent = \"s101\"\nwhy = \"typed it wrong\"\nby = \"anna\"\n"
+        ),
+    );
+    let ran = bed.run(&["course", "grade", LAB]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let rows = standings(&bed);
+    let row = rows.iter().find(|row| row.0 == "s101").expect("a row");
+    assert_eq!(row.1, "graded");
+}

@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use kinemark_course::handed_out::{HANDED_OUT_FILE, HandedOut};
-use kinemark_course::staffed_lab::{engine_id, lab_version};
 use kinemark_course::student::StudentId;
 use kinemark_course::working_folder::STARTER_FILE;
 use kinemark_grader::lab::{Lab, Variant};
@@ -12,35 +10,14 @@ use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::task::files::Files;
 use kinemark_report::output::RECORD_FILE;
 use kinemark_report::visible::visible;
-use serde::Serialize;
 
-use crate::{disk, labs_folder, output};
+use crate::handed_out_lab::{self, Warning};
+use crate::{disk, output};
 
 /// The folder to which `kinemark grade` writes unless it is given another.
 const REPORT_FOLDER: &str = "out";
 /// Records are far smaller.
 const MOST_RECORD_BYTES: u64 = 64 << 20;
-
-/// Something to look at.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct Warning {
-    /// Which, for programs.
-    kind: &'static str,
-    /// What, in words.
-    pub(crate) message: String,
-    /// What to do about it.
-    pub(crate) help: String,
-}
-
-impl Warning {
-    fn new(kind: &'static str, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self {
-            kind,
-            message: message.into(),
-            help: help.into(),
-        }
-    }
-}
 
 /// What is about to be handed in.
 pub(crate) struct BeforeUpload<'a> {
@@ -67,7 +44,7 @@ impl BeforeUpload<'_> {
         warnings.extend(self.is_not_decided());
         warnings.extend(self.is_starter());
         warnings.extend(self.of_variant());
-        warnings.extend(self.of_lab());
+        warnings.extend(handed_out_lab::warnings(self.files, self.lab, true));
         warnings.extend(last.and_then(|(folder, grade)| self.of_last(&folder, &grade)));
         warnings
     }
@@ -143,36 +120,6 @@ impl BeforeUpload<'_> {
         })
     }
 
-    fn of_lab(&self) -> Vec<Warning> {
-        let (name, version) = (&self.lab.name, lab_version(self.lab));
-        let shown = self.files.name();
-        let path = format!("{name}/{HANDED_OUT_FILE}");
-        let note = self.files.bytes(&path).ok().flatten();
-        let Some(note) = note.and_then(|bytes| HandedOut::parse(&bytes)) else {
-            return of_built_in(name, &version, &shown).into_iter().collect();
-        };
-        let mut warnings = Vec::new();
-        if note.lab_digest != version {
-            warnings.push(Warning::new(
-                "lab-changed",
-                format!("lab `{name}` in `{shown}` was changed after your course handed it out"),
-                "unpack the archive that your course gave you once more, and copy your submission there",
-            ));
-        }
-        let own = engine_id();
-        if note.engine != own {
-            warnings.push(Warning::new(
-                "other-engine",
-                format!(
-                    "your course uses {}, and this is {own}",
-                    visible(&note.engine)
-                ),
-                "points may differ between the two: use the version of your course",
-            ));
-        }
-        warnings
-    }
-
     fn of_last(&self, folder: &Path, last: &Grade) -> Option<Warning> {
         let now = self.practice;
         let report = output::path(folder);
@@ -195,18 +142,6 @@ impl BeforeUpload<'_> {
             )
         })
     }
-}
-
-/// Whether the lab of a folder is another than the one built in; which of the two is older nobody can say.
-fn of_built_in(name: &str, version: &str, folder: &str) -> Option<Warning> {
-    let built_in = Lab::load(&labs_folder::built_in(), name).ok()?;
-    (lab_version(&built_in) != version).then(|| {
-        Warning::new(
-            "other-lab",
-            format!("lab `{name}` in `{folder}` is not the one that is built into this kinemark"),
-            "one of the two is older: ask your course which it uses. Without a folder `labs` here or above, the built-in one is used",
-        )
-    })
 }
 
 /// The last report of this lab, in the working folder or beside the submission.

@@ -13,6 +13,7 @@ mod disk;
 mod failure;
 mod fresh_folder;
 mod hand_in_warnings;
+mod handed_out_lab;
 mod interrupt;
 mod labs_folder;
 mod one_processor;

@@ -18,6 +18,7 @@ use zip::result::ZipError;
 
 use crate::fixed_zip::{ArchiveFile, archive};
 use crate::journal::MadeWith;
+use crate::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use crate::student::StudentId;
 
 /// How its name ends.
@@ -33,10 +34,6 @@ const PRACTICE: &str = "practice.json";
 const SCRIPT: &str = "submission.rhai";
 const PLUGIN: &str = "submission.wasm";
 
-/// A submission larger than this is not read; its own budget, which is counted, is far below.
-pub const MOST_SUBMISSION_BYTES: u64 = 1 << 20;
-/// A hand-in file larger than this is something else.
-pub const MOST_BYTES: u64 = 8 << 20;
 /// A record of every line that a submission may print is smaller.
 const MOST_PRACTICE_BYTES: u64 = 16 << 20;
 /// A statement is a few lines.
@@ -235,10 +232,10 @@ impl HandInFile {
     /// # Errors
     /// [`HandInFileError`] for everything that `kinemark submit` does not write.
     pub fn read(bytes: &[u8]) -> Result<Self, HandInFileError> {
-        if bytes.len() as u64 > MOST_BYTES {
+        if bytes.len() as u64 > MOST_HAND_IN_BYTES {
             return Err(HandInFileError::TooLarge {
                 entry: "the file".to_owned(),
-                most: MOST_BYTES,
+                most: MOST_HAND_IN_BYTES,
             });
         }
         let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;

@@ -3,10 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use kinemark_grader::lab::Variant;
-use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_sim::text::Source;
-
 use crate::book::{Book, BookError};
 use crate::fixes::{FileFix, Fixes};
 use crate::journal::HandIn;
@@ -14,8 +10,8 @@ use crate::layout::{PersonFiles, arrange};
 use crate::matching::{Matched, Matcher, Unmatched};
 use crate::question::{Candidate, Question};
 use crate::roster::Roster;
-use crate::selection::{Found, select};
 use crate::student::StudentId;
+use crate::submission_file::{SubmissionFile, submission_of};
 use crate::tree::{Limits, Tree, TreeError};
 
 /// What a source held.
@@ -65,32 +61,30 @@ pub fn decision(question: &Question, fixes: &Fixes) -> Option<Decision> {
             _ => None,
         };
         if let Some(file) = named.or(only) {
-            return Some(Decision::HandIn(Box::new(decided(
-                question,
-                student,
-                &file.path,
-                &file.submission,
-            ))));
+            return Some(Decision::HandIn(Box::new(decided(question, student, file))));
         }
     }
     None
 }
 
-/// A hand-in that a person assigned.
-fn decided(question: &Question, student: &StudentId, path: &str, submission: &str) -> HandIn {
+/// A hand-in that a person assigned: graded with the variant of that student, whatever the file says.
+fn decided(question: &Question, student: &StudentId, file: &Candidate) -> HandIn {
+    let name = file.file.as_deref();
     HandIn {
         id: String::new(),
         student: student.clone(),
         lab: question.lab.clone(),
-        submission: submission.to_owned(),
-        file: path.rsplit('/').next().unwrap_or(path).to_owned(),
+        submission: file.submission.clone(),
+        file: name
+            .unwrap_or_else(|| file.path.rsplit('/').next().unwrap_or(&file.path))
+            .to_owned(),
         matched_by: "fixes".to_owned(),
         submitted_at: question.submitted_at,
         marked_late: question.marked_late,
         attempt: question.attempt,
         lms_number: question.lms_number.clone(),
         variant_of: None,
-        made_with: None,
+        made_with: file.made_with.clone(),
     }
     .identified()
 }
@@ -123,6 +117,7 @@ pub fn read(
     let reading = Reading {
         tree: &tree,
         lab,
+        roster,
         fixes,
         book,
     };
@@ -155,6 +150,7 @@ impl Row {
 struct Reading<'r> {
     tree: &'r Tree,
     lab: &'r str,
+    roster: &'r Roster,
     fixes: &'r Fixes,
     book: &'r Book,
 }
@@ -197,21 +193,21 @@ impl Reading<'_> {
             question.help.clone_from(&problem.help);
             return Ok(vec![Row::question(question)]);
         }
-        let found = match select(self.tree, person, &|_| false) {
-            Ok(found) => found,
-            Err(unselected) => {
-                question.problem = unselected.what();
-                question.help = unselected.help();
-                for found in unselected.candidates() {
-                    question.candidates.push(self.candidate(found)?);
+        let file = match submission_of(self.tree, person, self.lab) {
+            Ok(file) => file,
+            Err(unclear) => {
+                question.problem = unclear.what;
+                question.help = unclear.help;
+                for file in &unclear.candidates {
+                    question.candidates.push(self.candidate(file)?);
                 }
                 return Ok(vec![Row::question(question)]);
             }
         };
-        let candidate = self.candidate(&found)?;
+        let candidate = self.candidate(&file)?;
         question.candidates.push(candidate.clone());
-        match matched {
-            Ok(matched) => Ok(self.hand_ins(&matched, &found, &candidate, &question)),
+        match matched.or_else(|unmatched| self.by_claim(&file, unmatched)) {
+            Ok(matched) => Ok(hand_ins(&matched, &file, &candidate, &question)),
             Err(unmatched) => {
                 question.problem = unmatched.why;
                 question.help = unmatched.help;
@@ -221,62 +217,84 @@ impl Reading<'_> {
         }
     }
 
-    /// A hand-in for every student of `matched`: one, or the members of a group.
-    fn hand_ins(
-        &self,
-        matched: &Matched,
-        found: &Found,
-        candidate: &Candidate,
-        question: &Question,
-    ) -> Vec<Row> {
-        let owner = self.owner_of_variant(found);
-        if let Some(owner) = owner.filter(|owner| !matched.students.contains(owner)) {
-            return vec![Row::question(Question {
-                problem: format!(
-                    "the variant.toml beside the submission is that of `{owner}`, who is somebody else"
+    /// The student whom a hand-in file names, where the source says nothing that speaks for anybody.
+    fn by_claim(&self, file: &SubmissionFile, unmatched: Unmatched) -> Result<Matched, Unmatched> {
+        let claimed = file.student.as_ref();
+        let claimed = claimed.filter(|student| self.roster.get(student).is_some());
+        match claimed {
+            Some(student) if unmatched.nearest.is_empty() => Ok(Matched {
+                students: vec![student.clone()],
+                by: "hand-in file",
+            }),
+            Some(student) => Err(Unmatched {
+                help: format!(
+                    "the hand-in file says that it is of `{student}`: name them in fixes.toml if so"
                 ),
-                help: "ask whose work it is; a fix with `student` grades it as that student's"
-                    .to_owned(),
-                ..question.clone()
-            })];
+                nearest: vec![student.clone()],
+                ..unmatched
+            }),
+            None => Err(unmatched),
         }
-        let rows = matched.students.iter().map(|student| {
-            let hand_in = decided(question, student, &found.name, &candidate.submission);
-            let hand_in = HandIn {
-                matched_by: matched.by.to_owned(),
-                ..hand_in
-            };
-            let question = Question {
-                student: Some(student.clone()),
-                ..question.clone()
-            };
-            Row::HandIn(Box::new((hand_in, question)))
-        });
-        rows.collect()
     }
 
-    fn candidate(&self, found: &Found) -> Result<Candidate, BookError> {
+    fn candidate(&self, file: &SubmissionFile) -> Result<Candidate, BookError> {
         Ok(Candidate {
-            path: found.path.clone(),
-            submission: self.book.put_submission(&found.bytes)?,
+            path: file.path.clone(),
+            submission: self.book.put_submission(&file.bytes)?,
+            file: Some(file.name.clone()),
+            made_with: file.made_with.clone(),
         })
-    }
-
-    /// The student whom a `variant.toml` in the folder of the submission names, if there is one and it can be read.
-    fn owner_of_variant(&self, found: &Found) -> Option<StudentId> {
-        let folder = found.path.strip_suffix(found.name.as_str())?;
-        let path = format!("{folder}{VARIANT_FILE}");
-        let mut entries = self.tree.entries().iter();
-        let entry = entries.find(|entry| entry.path == path)?;
-        let bytes = self.tree.bytes(entry, MOST_VARIANT_BYTES).ok()?;
-        let text = String::from_utf8(bytes).ok()?;
-        let variant = Variant::parse(Source::new(VARIANT_FILE, text)).ok()?;
-        StudentId::new(variant.student()?).ok()
     }
 }
 
-/// A variant is a few lines.
-const MOST_VARIANT_BYTES: u64 = 64 << 10;
+/// A hand-in for every student of `matched`: one, or the members of a group.
+fn hand_ins(
+    matched: &Matched,
+    file: &SubmissionFile,
+    candidate: &Candidate,
+    question: &Question,
+) -> Vec<Row> {
+    if let Some(problem) = somebody_else(matched, file) {
+        return vec![Row::question(Question {
+            problem,
+            help: "ask whose work it is; a fix with `student` grades it as that student's"
+                .to_owned(),
+            ..question.clone()
+        })];
+    }
+    let rows = matched.students.iter().map(|student| {
+        // a group works with the numbers of one of them
+        let owner = file.variant_of.clone();
+        let owner = owner.filter(|owner| owner != student && matched.students.contains(owner));
+        let hand_in = HandIn {
+            matched_by: matched.by.to_owned(),
+            variant_of: owner,
+            ..decided(question, student, candidate)
+        };
+        let question = Question {
+            student: Some(student.clone()),
+            ..question.clone()
+        };
+        Row::HandIn(Box::new((hand_in, question)))
+    });
+    rows.collect()
+}
+
+/// What says that the work is of somebody who did not hand it in, in words; nothing where a person has decided.
+fn somebody_else(matched: &Matched, file: &SubmissionFile) -> Option<String> {
+    let is_other = |id: &&StudentId| matched.by != "fixes" && !matched.students.contains(id);
+    if let Some(other) = file.variant_of.as_ref().filter(is_other) {
+        let what = match file.made_with {
+            Some(_) => "the hand-in file was made with the variant",
+            None => "the variant.toml beside the submission is that",
+        };
+        return Some(format!("{what} of `{other}`, who is somebody else"));
+    }
+    let other = file.student.as_ref().filter(is_other)?;
+    Some(format!(
+        "the hand-in file says that it is of `{other}`, who is somebody else"
+    ))
+}
 
 /// Hand-ins and questions; two hand-ins of a student that nothing puts in an order are questions, unless they are the same file.
 fn sort_out(rows: Vec<Row>, intake: &mut Intake) {

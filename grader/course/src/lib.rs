@@ -21,7 +21,7 @@
 //! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
 //! | [`fixed_zip`] | archives whose bytes follow from their files alone |
 //! | [`hand_in_file`] | the one file that a student uploads |
-//! | [`submission_file`] | which of a folder's files is the submission |
+//! | [`submission_file`] | the submission among a person's files, with what says whose it is |
 //! | [`question`] | what waits for a person |
 //! | [`reports`] | pages of graded hand-ins |
 //! | [`forget`] | removing a person from a book |

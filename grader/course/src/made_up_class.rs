@@ -95,6 +95,7 @@ impl MadeUpStudent {
             attempts: self.attempts,
             attempt: (self.attempts > 0).then_some(self.attempts),
             hand_in: None,
+            made_with: None,
             submitted_at: None,
             late_s: self.late_s,
             marked_late: false,

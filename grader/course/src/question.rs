@@ -8,6 +8,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::book::{Book, BookError};
+use crate::journal::MadeWith;
 use crate::private_files::put;
 use crate::student::StudentId;
 
@@ -52,6 +53,12 @@ pub struct Candidate {
     pub path: String,
     /// Its digest in the book.
     pub submission: String,
+    /// The name of the submission's file, where it is in a hand-in file or an archive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// What the hand-in file says of itself, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub made_with: Option<MadeWith>,
 }
 
 impl Question {
@@ -174,6 +181,8 @@ mod tests {
         let file = |name: &str| Candidate {
             path: format!("Müller \"x\"/{name}"),
             submission: name.to_owned(),
+            file: None,
+            made_with: None,
         };
         Question {
             lab: "01".to_owned(),

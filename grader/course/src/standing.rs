@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::course_file::{Attempts, CourseLab};
 use crate::fixes::{Fixes, PointsChange, PointsFix};
 use crate::history::{Attempt, History};
+use crate::journal::MadeWith;
 use crate::roster::{Person, Roster};
 use crate::student::StudentId;
 
@@ -94,6 +95,8 @@ pub struct Standing {
     pub attempt: Option<usize>,
     /// The hand-in that counts.
     pub hand_in: Option<String>,
+    /// The engine and the lab that the student had, where a hand-in file says so.
+    pub made_with: Option<MadeWith>,
     /// When it was handed in, where that is known.
     pub submitted_at: Option<Timestamp>,
     /// How late \[s\]: 0 in time, absent where it is not known.
@@ -206,6 +209,7 @@ fn of_person(
         attempts: attempts.len(),
         attempt: chosen.map(|index| index + 1),
         hand_in: attempt.map(|attempt| attempt.hand_in.id.clone()),
+        made_with: attempt.and_then(|attempt| attempt.hand_in.made_with.clone()),
         submitted_at: attempt.and_then(|attempt| attempt.hand_in.submitted_at),
         late_s: attempt.and_then(|attempt| late_s(attempt, due)),
         marked_late: attempt.is_some_and(|attempt| attempt.hand_in.marked_late == Some(true)),

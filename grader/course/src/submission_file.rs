@@ -1,137 +1,241 @@
-//! Which of a folder's files is the submission: found by name and by how near to the top it lies, never guessed.
+//! The submission among a person's files: as it is, or in a hand-in file, with what stands beside it about whose it is.
 
-use crate::hand_in_file::ENDING;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
-/// What a folder holds.
+use kinemark_grader::lab::Variant;
+use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_sim::text::Source;
+
+use crate::hand_in_file::{HandInFile, HandInFileError, is_hand_in};
+use crate::journal::MadeWith;
+use crate::layout::PersonFiles;
+use crate::selection::{Found, Unselected, select};
+use crate::student::StudentId;
+use crate::tree::Tree;
+
+/// A submission, however it was handed in. Whose it is, is what the student's machine says: good for finding a mix-up.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Found<'p> {
-    /// One submission.
-    One(&'p str),
-    /// Several that are as good, in order.
-    Several(Vec<&'p str>),
-    /// None.
-    None,
+pub struct SubmissionFile {
+    /// The path in the source of the file that was handed in.
+    pub path: String,
+    /// The name of the submission's file.
+    pub name: String,
+    /// The submission's bytes.
+    pub bytes: Vec<u8>,
+    /// Who handed it in, where a hand-in file says so.
+    pub student: Option<StudentId>,
+    /// Whose variant it was made with: as the hand-in file says, or a `variant.toml` in the folder of the submission.
+    pub variant_of: Option<StudentId>,
+    /// The engine and the lab of practice; none where it is no hand-in file.
+    pub made_with: Option<MadeWith>,
 }
 
-/// Names under which every starter is handed out.
-const USUAL: [&str; 3] = ["submission.rhai", "submission.wasm", "submission.rhai.txt"];
-/// How the names of programs end; the last is what mail programs and browsers make of the first.
-const PROGRAMS: [&str; 3] = [".rhai", ".wasm", ".rhai.txt"];
-/// Files by which a folder is a report.
-const REPORT: [&str; 2] = ["grade.json", "report.json"];
+/// Why nobody but a person can say which file it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unclear {
+    /// What is not clear, in words.
+    pub what: String,
+    /// What to do.
+    pub help: String,
+    /// The files that a person can choose from.
+    pub candidates: Vec<SubmissionFile>,
+}
 
-/// The submission among the files of a folder, given by their paths with `/` between names.
+/// Finds the submission for `lab` among a person's files.
 ///
-/// A hand-in file comes first, then `submission.rhai` and its kin, then the only program; of each the one nearest to the top. What lies
-/// in `out`, in a report, in `__MACOSX` or behind a name that begins with a dot does not count.
-pub fn submission_among<'p>(paths: &[&'p str]) -> Found<'p> {
-    let reports = reports(paths);
-    let mut counted: Vec<&str> = paths.to_vec();
-    counted.retain(|path| is_counted(path, &reports));
-    counted.sort_unstable();
-    let kinds: [fn(&str) -> bool; 3] = [
-        |name| name.ends_with(ENDING),
-        |name| USUAL.contains(&name),
-        |name| PROGRAMS.iter().any(|ending| name.ends_with(ending)),
-    ];
-    for kind in kinds {
-        let of_kind = |path: &&&str| kind(&file_name(path).to_ascii_lowercase());
-        let of_kind: Vec<&str> = counted.iter().filter(of_kind).copied().collect();
-        let depth = |path: &&str| path.matches('/').count();
-        let Some(top) = of_kind.iter().map(depth).min() else {
-            continue;
-        };
-        let mut nearest = of_kind;
-        nearest.retain(|path| depth(path) == top);
-        return match nearest.as_slice() {
-            [one] => Found::One(one),
-            _ => Found::Several(nearest),
-        };
+/// # Errors
+/// What only a person can decide.
+pub fn submission_of(
+    tree: &Tree,
+    person: &PersonFiles,
+    lab: &str,
+) -> Result<SubmissionFile, Unclear> {
+    let of_lab = OfLab::new(lab);
+    let found = select(tree, person, &|bytes| of_lab.has(bytes));
+    let found = found.map_err(|unselected| unclear(&unselected, of_lab))?;
+    SubmissionFile::of(&found).map_err(|error| Unclear {
+        what: format!(
+            "`{}`: {error}",
+            kinemark_report::visible::visible(&found.path)
+        ),
+        help: "run `kinemark submit` again, and upload that file as it is".to_owned(),
+        candidates: Vec::new(),
+    })
+}
+
+impl SubmissionFile {
+    fn of(found: &Found) -> Result<Self, HandInFileError> {
+        if !found.is_hand_in {
+            return Ok(Self {
+                path: found.path.clone(),
+                name: found.name.clone(),
+                bytes: found.bytes.clone(),
+                student: None,
+                variant_of: found.variant.as_deref().and_then(owner),
+                made_with: None,
+            });
+        }
+        let file = HandInFile::read(&found.bytes)?;
+        Ok(Self {
+            path: found.path.clone(),
+            made_with: Some(file.made_with()),
+            name: file.statement.file,
+            bytes: file.submission,
+            student: file.statement.student,
+            variant_of: file.statement.variant_of,
+        })
     }
-    Found::None
 }
 
-fn file_name(path: &str) -> &str {
-    path.rsplit('/').next().unwrap_or(path)
+/// The student whom a `variant.toml` names, if it can be read.
+fn owner(bytes: &[u8]) -> Option<StudentId> {
+    let text = String::from_utf8(bytes.to_owned()).ok()?;
+    let variant = Variant::parse(Source::new(VARIANT_FILE, text)).ok()?;
+    StudentId::new(variant.student()?).ok()
 }
 
-/// The folders that are reports, each with a `/` behind it.
-fn reports(paths: &[&str]) -> Vec<String> {
-    let parent = |path: &str, name: &str| Some(path.strip_suffix(name)?.to_owned());
-    let [record, list] = REPORT;
-    let records = paths.iter().filter_map(|path| parent(path, record));
-    records
-        .filter(|folder| paths.contains(&format!("{folder}{list}").as_str()))
-        .collect()
-}
-
-fn is_counted(path: &str, reports: &[String]) -> bool {
-    let hidden = |part: &str| part.starts_with('.');
-    let mut folders: Vec<&str> = path.split('/').collect();
-    let Some(name) = folders.pop() else {
-        return false;
+fn unclear(unselected: &Unselected, of_lab: OfLab<'_>) -> Unclear {
+    let other_labs = match unselected {
+        Unselected::NothingFound { .. } => of_lab.others(),
+        _ => None,
     };
-    let aside = |folder: &&str| hidden(folder) || matches!(*folder, "out" | "__MACOSX");
-    let in_report = |folder: &String| !folder.is_empty() && path.starts_with(folder.as_str());
-    !hidden(name) && !folders.iter().any(aside) && !reports.iter().any(in_report)
+    let files = unselected.candidates().iter();
+    let candidates = files
+        // one that is damaged is named in the problem, and cannot be chosen
+        .filter_map(|found| SubmissionFile::of(found).ok())
+        .collect();
+    match other_labs {
+        Some(labs) => Unclear {
+            what: format!("the hand-in file in it is of another lab: {labs}"),
+            help: "it belongs to that lab: ask for the hand-in file of this one".to_owned(),
+            candidates,
+        },
+        None => Unclear {
+            what: unselected.what(),
+            help: unselected.help(),
+            candidates,
+        },
+    }
+}
+
+/// Sorts hand-in files of a lab from those of others, whose labs it notes.
+struct OfLab<'l> {
+    lab: &'l str,
+    others: RefCell<BTreeSet<String>>,
+}
+
+impl<'l> OfLab<'l> {
+    fn new(lab: &'l str) -> Self {
+        Self {
+            lab,
+            others: RefCell::default(),
+        }
+    }
+
+    /// Whether it is a hand-in file of the lab, or a damaged one of which nobody can say.
+    fn has(&self, bytes: &[u8]) -> bool {
+        match HandInFile::read(bytes) {
+            Ok(file) if file.statement.lab == self.lab => true,
+            Ok(file) => {
+                self.others.borrow_mut().insert(file.statement.lab);
+                false
+            }
+            Err(_) => is_hand_in(bytes),
+        }
+    }
+
+    /// The labs of the other hand-in files, in words; none where there was none.
+    fn others(self) -> Option<String> {
+        let others = self.others.into_inner();
+        let names: Vec<String> = others.iter().map(|lab| format!("`{lab}`")).collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use kinemark_grader::record::grade::VariantRecord;
+    use kinemark_grader::record::sample;
 
-    #[test]
-    fn the_usual_name_nearest_to_the_top_is_taken() {
-        for (paths, found) in [
-            (&["submission.rhai", "brief.md"][..], "submission.rhai"),
-            (
-                &[
-                    "lab1/submission.rhai",
-                    "lab1/old/submission.rhai",
-                    "try.rhai",
-                ],
-                "lab1/submission.rhai",
-            ),
-            (&["Submission.rhai.txt"], "Submission.rhai.txt"),
-            (&["lab1.rhai", "labs/01/starter.rhai"], "lab1.rhai"),
-            (
-                &["lab1.rhai", "out/submission.rhai", "out/grade.json"],
-                "lab1.rhai",
-            ),
-            (
-                &[
-                    "a.rhai",
-                    "r/submission.rhai",
-                    "r/grade.json",
-                    "r/report.json",
-                ],
-                "a.rhai",
-            ),
-            (
-                &["a.rhai", "__MACOSX/._a.rhai", "._a.rhai", ".git/x.rhai"],
-                "a.rhai",
-            ),
-            (&["work/01.kinemark", "submission.rhai"], "work/01.kinemark"),
-            // a report at the top is where the student worked, too
-            (
-                &["submission.rhai", "grade.json", "report.json"],
-                "submission.rhai",
-            ),
-        ] {
-            assert_eq!(submission_among(paths), Found::One(found), "{paths:?}");
-        }
+    use super::*;
+    use crate::hand_in_file::HandedIn;
+    use crate::tree::sample::{tree, zip};
+
+    fn hand_in(lab: &str, variant_of: Option<&str>, submission: &[u8]) -> Vec<u8> {
+        let mut practice = sample::graded().grade;
+        lab.clone_into(&mut practice.lab.name);
+        practice.variant = variant_of.map(|student| VariantRecord {
+            student: Some(student.to_owned()),
+            parameters: std::collections::BTreeMap::new(),
+        });
+        let file = HandInFile::new(HandedIn {
+            made_with: MadeWith {
+                engine: "kinemark 0.1.0".to_owned(),
+                lab: "0".repeat(64),
+            },
+            student: None,
+            file: "work.rhai",
+            submission,
+            practice: &practice,
+        });
+        file.and_then(|file| file.write()).unwrap()
+    }
+
+    fn of(files: &[(&str, &[u8])]) -> Result<SubmissionFile, Unclear> {
+        let tree = tree(files);
+        submission_of(&tree, &PersonFiles::of_all(&tree), "01")
     }
 
     #[test]
-    fn nothing_is_guessed() {
-        let two = ["a/submission.rhai", "b/submission.rhai"];
-        assert_eq!(submission_among(&two), Found::Several(two.to_vec()));
-        let scripts = ["one.rhai", "two.rhai", "deep/three.rhai"];
+    fn a_hand_in_file_says_what_it_holds() {
+        let file = hand_in("01", Some("s7"), b"let a = 1;");
+        let found = of(&[("a.kinemark", &file), ("submission.rhai", b"other")]).unwrap();
+        assert_eq!(found.path, "a.kinemark");
+        assert_eq!(found.name, "work.rhai");
+        assert_eq!(found.bytes, b"let a = 1;");
+        assert_eq!(found.variant_of, StudentId::new("s7").ok());
+        assert_eq!(found.made_with.unwrap().lab, "0".repeat(64));
+    }
+
+    #[test]
+    fn a_hand_in_file_of_another_lab_is_not_graded() {
+        let other = hand_in("02", None, b"x");
+        let unclear = of(&[("a.kinemark", &other)]).unwrap_err();
         assert_eq!(
-            submission_among(&scripts),
-            Found::Several(vec!["one.rhai", "two.rhai"])
+            unclear.what,
+            "the hand-in file in it is of another lab: `02`"
         );
-        assert_eq!(submission_among(&["brief.md", "x.py"]), Found::None);
-        assert_eq!(submission_among(&[]), Found::None);
+        // beside the right one it does not matter
+        let right = hand_in("01", None, b"y");
+        let found = of(&[("a.kinemark", &other), ("b.kinemark", &right)]).unwrap();
+        assert_eq!(found.bytes, b"y");
+    }
+
+    #[test]
+    fn a_damaged_hand_in_file_is_not_passed_over() {
+        let mut file = hand_in("01", None, b"x");
+        file.truncate(file.len() / 2);
+        let unclear = of(&[("a.kinemark", &file), ("submission.rhai", b"old")]).unwrap_err();
+        assert!(
+            unclear
+                .what
+                .starts_with("`a.kinemark`: it is no whole hand-in file")
+        );
+        assert!(unclear.help.contains("kinemark submit"));
+    }
+
+    #[test]
+    fn the_variant_beside_a_submission_is_seen_in_a_zipped_working_folder() {
+        let variant: &[u8] =
+            b"format = 1\nlab = \"01\"\nstudent = \"s9\"\n[parameters]\nline_x = 1.0\n";
+        let folder = zip(&[
+            ("01/submission.rhai", &b"a"[..]),
+            ("01/variant.toml", variant),
+        ]);
+        let found = of(&[("01.zip", &folder)]).unwrap();
+        assert_eq!(found.variant_of, StudentId::new("s9").ok());
+        let found = of(&[("x/variant.toml", variant), ("submission.rhai", b"a")]).unwrap();
+        assert_eq!(found.variant_of, None);
     }
 }

@@ -4,15 +4,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_course::gradescope_results::{FAILED, GradescopeResults, Upload};
-use kinemark_course::hand_in_file::{
-    ENDING, HandInFile, MOST_BYTES, MOST_SUBMISSION_BYTES, is_hand_in,
-};
+use kinemark_course::layout::PersonFiles;
 use kinemark_course::pack::{ROSTER_FILE, SALT_FILE};
 use kinemark_course::roster::{Person, Roster};
 use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_course::student::{StudentId, folded};
-use kinemark_course::submission_file::{Found, submission_among};
+use kinemark_course::submission_file::submission_of;
 use kinemark_course::submission_source::SubmissionSource;
+use kinemark_course::tree::{Limits, Tree};
 use kinemark_course::working_folder::STARTER_FILE;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::Grade;
@@ -50,8 +49,8 @@ pub(crate) struct Args {
     pub(crate) hidden_at_upload: bool,
 }
 
-/// Files of an upload that are looked at; more are no working folder.
-const MOST_FILES: usize = 10_000;
+/// A roster or a salt is smaller.
+const MOST_BYTES: u64 = 16 << 20;
 /// Metadata holds the results of earlier uploads.
 const MOST_METADATA_BYTES: u64 = 64 << 20;
 
@@ -204,130 +203,39 @@ fn graded(source: &SubmissionSource, lab: &Lab, staff: Option<&Staff>) -> Result
     Ok(once()?.grade)
 }
 
-/// Finds the submission in the folder of an upload.
+/// Finds the submission in the folder of an upload; links are never followed, for they may lead to the solution.
 fn uploaded(folder: &Path, lab: &StaffedLab) -> Result<Uploaded, NotGraded> {
-    let paths = files_below(folder);
-    let shown: Vec<&str> = paths.iter().map(String::as_str).collect();
-    let path = match submission_among(&shown) {
-        Found::One(path) => path,
-        Found::Several(paths) => {
-            return Err(NotGraded::Upload(format!(
-                "Nothing was graded: {} may each be your submission. Upload the one file that `kinemark submit` writes.",
-                listed(&paths)
-            )));
-        }
-        Found::None => {
-            let there = match shown.as_slice() {
-                [] => "there is no file in the upload".to_owned(),
-                some => format!("there is no submission.rhai among {}", listed(some)),
-            };
-            return Err(NotGraded::Upload(format!(
-                "Nothing was graded: {there}. Upload the one file that `kinemark submit` writes."
-            )));
-        }
+    let refused = |what: &str| {
+        let what = visible(what);
+        NotGraded::Upload(format!(
+            "Nothing was graded: {what}. Upload the one file that `kinemark submit` writes."
+        ))
     };
-    let bytes =
-        disk::bytes_of(&folder.join(path), MOST_BYTES).map_err(|why| unusable(path, &why))?;
-    if path.ends_with(ENDING) || is_hand_in(&bytes) {
-        return of_hand_in(path, &bytes, lab);
-    }
-    if bytes.len() as u64 > MOST_SUBMISSION_BYTES {
-        return Err(unusable(
-            path,
-            &format!("it has more than {MOST_SUBMISSION_BYTES} bytes"),
-        ));
-    }
-    Ok(Uploaded {
-        source: SubmissionSource::new(path, &bytes),
-        variant_of: None,
-        notes: Vec::new(),
-    })
-}
-
-/// The submission in a hand-in file.
-fn of_hand_in(path: &str, bytes: &[u8], lab: &StaffedLab) -> Result<Uploaded, NotGraded> {
-    let hand_in = HandInFile::read(bytes).map_err(|error| unusable(path, &error.to_string()))?;
-    let statement = hand_in.statement;
-    if statement.lab != lab.lab.name {
-        return Err(NotGraded::Upload(format!(
-            "Nothing was graded: `{}` is of lab `{}`, and this assignment is lab `{}`.",
-            visible(path),
-            visible(&statement.lab),
-            lab.lab.name
-        )));
-    }
+    let tree = Tree::open(folder, &Limits::default());
+    let tree = tree.map_err(|error| refused(&error.what))?;
+    let file = submission_of(&tree, &PersonFiles::of_all(&tree), &lab.lab.name);
+    let file = file.map_err(|unclear| refused(&unclear.what))?;
     let mut notes = Vec::new();
-    if statement.lab_digest != lab.lab_version {
-        notes.push(
-            "Your lab is another version than the course's, so the points at home may be others: get the lab again."
-                .to_owned(),
-        );
-    }
-    if statement.engine != engine_id() {
-        notes.push(format!(
-            "You grade with {}, and the course with {}: points may differ.",
-            statement.engine,
-            engine_id()
-        ));
+    if let Some(made_with) = &file.made_with {
+        if made_with.lab != lab.lab_version {
+            notes.push(
+                "Your lab is another version than the course's, so the points at home may be others: get the lab again."
+                    .to_owned(),
+            );
+        }
+        if made_with.engine != engine_id() {
+            notes.push(format!(
+                "You grade with {}, and the course with {}: points may differ.",
+                made_with.engine,
+                engine_id()
+            ));
+        }
     }
     Ok(Uploaded {
-        source: SubmissionSource::new(&statement.file, &hand_in.submission),
-        variant_of: statement.variant_of,
+        source: SubmissionSource::new(&file.name, &file.bytes),
+        variant_of: file.variant_of,
         notes,
     })
-}
-
-fn unusable(path: &str, why: &str) -> NotGraded {
-    NotGraded::Upload(format!(
-        "Nothing was graded: `{}` cannot be used: {}. Run `kinemark submit` and upload the file that it writes.",
-        visible(path),
-        visible(why)
-    ))
-}
-
-fn listed(paths: &[&str]) -> String {
-    let shown: Vec<String> = paths
-        .iter()
-        .take(5)
-        .map(|path| format!("`{}`", visible(path)))
-        .collect();
-    let more = paths.len() - shown.len();
-    let more = if more > 0 {
-        format!(" and {more} more")
-    } else {
-        String::new()
-    };
-    format!("{}{more}", shown.join(", "))
-}
-
-/// The files below a folder by path, with `/` between names; links are never followed, for they may lead to the solution.
-fn files_below(root: &Path) -> Vec<String> {
-    let mut found = Vec::new();
-    let mut open = vec![String::new()];
-    while let Some(folder) = open.pop() {
-        let entries = std::fs::read_dir(root.join(&folder)).into_iter().flatten();
-        for entry in entries.flatten() {
-            // a name that is no text is none of ours
-            let (Ok(name), Ok(kind)) = (entry.file_name().into_string(), entry.file_type()) else {
-                continue;
-            };
-            let path = if folder.is_empty() {
-                name
-            } else {
-                format!("{folder}/{name}")
-            };
-            if found.len() + open.len() >= MOST_FILES {
-                return found;
-            }
-            if kind.is_dir() {
-                open.push(path);
-            } else if kind.is_file() {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 /// Who uploaded it, by what Gradescope knows of them. Of a group, whoever's variant the hand-in file names, else the first.

@@ -8,8 +8,8 @@ use kinemark_course::course_file::CourseLab;
 use kinemark_course::grading::{self, GradingError, Outcome};
 use kinemark_course::history::History;
 use kinemark_course::intake::{self, Decision};
-use kinemark_course::journal::{Event, Graded, HandIn};
-use kinemark_course::staffed_lab::StaffedLab;
+use kinemark_course::journal::{Event, Graded, HandIn, MadeWith};
+use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_course::standing::{Standing, Status, counting};
 use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
@@ -52,6 +52,9 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 }
 
+/// So many students are named in a line.
+const MOST_NAMED: usize = 10;
+
 /// Reads, grades, prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
@@ -91,7 +94,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::print(&format!("part {shard}: {} graded\n", waiting.len()))?;
         return Ok(ExitCode::SUCCESS);
     }
-    summary(&course, rules, args.json)
+    summary(&course, rules, &staffed, args.json)
 }
 
 /// Reads the source, and what people decided since.
@@ -239,7 +242,12 @@ fn record(
 }
 
 /// Brings the index up to date, and prints how the lab stands.
-fn summary(course: &Course, rules: &CourseLab, json: bool) -> Result<ExitCode, Failure> {
+fn summary(
+    course: &Course,
+    rules: &CourseLab,
+    lab: &StaffedLab,
+    json: bool,
+) -> Result<ExitCode, Failure> {
     let history = course.history()?;
     let mut index = course.index(&history)?;
     let questions = course.book.questions().map_err(book_failure)?;
@@ -266,6 +274,7 @@ fn summary(course: &Course, rules: &CourseLab, json: bool) -> Result<ExitCode, F
         output::print_json(&of_lab)?;
     } else {
         output::print(&text(rules, &of_lab, open))?;
+        output::print(&made_otherwise(lab, &of_lab))?;
     }
     let has_failed =
         |standing: &Standing| matches!(standing.status, Status::HostLimit | Status::GraderFault);
@@ -296,6 +305,39 @@ fn text(rules: &CourseLab, standings: &[Standing], open: usize) -> String {
     let mut out = format!("{}: {}\n", rules.name.bold(), parts.join(", "));
     if open > 0 {
         out += &format!("{} kinemark course status {}\n", "next:".cyan(), rules.name);
+    }
+    out
+}
+
+/// Who practised with another lab or engine than the course's, in lines; such work is graded as all others.
+fn made_otherwise(lab: &StaffedLab, standings: &[Standing]) -> String {
+    let own = engine_id();
+    let with = |is_other: &dyn Fn(&MadeWith) -> bool| -> Vec<&str> {
+        let students = standings.iter().filter(|standing| {
+            let made_with = standing.made_with.as_ref();
+            made_with.is_some_and(is_other)
+        });
+        students.map(|standing| standing.student.as_str()).collect()
+    };
+    let mut out = String::new();
+    for (what, students) in [
+        ("lab", with(&|made_with| made_with.lab != lab.lab_version)),
+        ("engine", with(&|made_with| made_with.engine != own)),
+    ] {
+        if students.is_empty() {
+            continue;
+        }
+        let named = students.iter().take(MOST_NAMED).copied();
+        let more = students.len().saturating_sub(MOST_NAMED);
+        let more = match more {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        out += &format!(
+            "{} practised with another {what} than the course's: {}{more}\n",
+            students.len(),
+            named.collect::<Vec<_>>().join(", ")
+        );
     }
     out
 }

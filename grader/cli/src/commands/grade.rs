@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_course::hand_in_file::MOST_SUBMISSION_BYTES;
+use kinemark_course::selection::MOST_SUBMISSION_BYTES;
 use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
@@ -19,7 +19,7 @@ use crate::chosen_variant::{self, LabArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output, report_folder};
+use crate::{disk, handed_out_lab, interrupt, output, report_folder};
 
 /// Grade a submission
 #[derive(Debug, clap::Args)]
@@ -119,6 +119,10 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     refuse_pixels_without_png(args)?;
     let chosen = chosen_variant::choose(&args.lab, &args.from, Some(&args.submission))?;
     let (lab, mut note) = (chosen.lab, chosen.note);
+    let default = Lab::load(chosen.files.as_ref(), &lab.name)?;
+    for warning in handed_out_lab::warnings(chosen.files.as_ref(), &default, false) {
+        failure::warn_in_words(&warning.message, &warning.help);
+    }
     let staff = match &chosen.reference {
         Some(reference) => staff_of(reference, &lab, &args.from.staff)?,
         None => None,

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_course::hand_in_file::{
-    HandInFile, HandedIn, MOST_BYTES, MOST_SUBMISSION_BYTES, Statement, file_name, is_hand_in,
-};
+use kinemark_course::hand_in_file::{HandInFile, HandedIn, Statement, file_name, is_hand_in};
 use kinemark_course::journal::MadeWith;
+use kinemark_course::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use kinemark_course::staffed_lab::{engine_id, lab_version};
 use kinemark_course::student::StudentId;
 use kinemark_course::submission_source::SubmissionSource;
@@ -22,7 +21,8 @@ use serde::Serialize;
 use super::grade::progress;
 use crate::chosen_variant::{self, Chosen, LabArgs, VariantArgs};
 use crate::failure::{self, FAULT, Failure};
-use crate::hand_in_warnings::{self, BeforeUpload, Warning};
+use crate::hand_in_warnings::{self, BeforeUpload};
+use crate::handed_out_lab::Warning;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{StaffArgs, StaffPart};
 use crate::worker::WorkerHost;
@@ -233,7 +233,7 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     if out.symlink_metadata().is_err() {
         return Ok(());
     }
-    let is_ours = disk::bytes_of(out, MOST_BYTES).is_ok_and(|bytes| is_hand_in(&bytes));
+    let is_ours = disk::bytes_of(out, MOST_HAND_IN_BYTES).is_ok_and(|bytes| is_hand_in(&bytes));
     if is_ours {
         return Ok(());
     }

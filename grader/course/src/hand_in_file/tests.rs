@@ -179,7 +179,7 @@ fn what_unpacks_to_more_than_it_may_is_refused() {
         &[(SCRIPT, &large), (PRACTICE, b"{}")],
     );
     assert!(HandInFile::read(&bomb).is_err());
-    assert!(HandInFile::read(&vec![0; MOST_BYTES as usize + 1]).is_err());
+    assert!(HandInFile::read(&vec![0; MOST_HAND_IN_BYTES as usize + 1]).is_err());
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use jiff::Timestamp;
 
+use crate::tree::Tree;
+
 /// Something in a source that may say whose files these are. None is believed before the roster has been asked.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Hint {
@@ -79,4 +81,19 @@ pub struct PersonFiles {
     pub lms_number: Option<String>,
     /// What keeps the files from being used.
     pub problems: Vec<PersonProblem>,
+}
+
+impl PersonFiles {
+    /// All files of a source as those of one person, such as one upload.
+    pub fn of_all(tree: &Tree) -> Self {
+        let entries = tree.entries().iter().enumerate();
+        let files = entries.map(|(entry, file)| PersonFile {
+            path: file.path.clone(),
+            entry,
+        });
+        Self {
+            files: files.collect(),
+            ..Self::default()
+        }
+    }
 }

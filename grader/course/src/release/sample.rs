@@ -168,6 +168,7 @@ fn missing(student: &StudentId) -> Standing {
         attempts: 0,
         attempt: None,
         hand_in: None,
+        made_with: None,
         submitted_at: None,
         late_s: None,
         marked_late: false,

@@ -1,23 +1,14 @@
 //! What people hand in, and which file of it is the submission.
 
 use super::{Found, Unselected, select};
-use crate::layout::{PersonFile, PersonFiles};
+use crate::layout::PersonFiles;
 use crate::tree::sample::{tree, zip};
 use crate::tree::{EntryProblem, Limits, Tree};
 
 type Files<'f> = &'f [(&'f str, &'f [u8])];
 
 fn selected_in(tree: &Tree) -> Result<Found, Unselected> {
-    let files = tree.entries().iter().enumerate();
-    let person = PersonFiles {
-        files: files
-            .map(|(entry, file)| PersonFile {
-                path: file.path.clone(),
-                entry,
-            })
-            .collect(),
-        ..PersonFiles::default()
-    };
+    let person = PersonFiles::of_all(tree);
     select(tree, &person, &|bytes| bytes.starts_with(b"KINEMARK"))
 }
 

@@ -19,6 +19,8 @@ pub struct Found {
     pub bytes: Vec<u8>,
     /// Whether it is a hand-in file and no submission itself.
     pub is_hand_in: bool,
+    /// The `variant.toml` in its folder, where there is one that can be read.
+    pub variant: Option<Vec<u8>>,
 }
 
 /// Why nobody but a person can say which file it is.

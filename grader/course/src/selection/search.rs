@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use kinemark_grader::lab::variant::VARIANT_FILE;
+
 use super::outcome::{Found, MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES, Unselected};
 use super::what_is_there::in_words;
 use crate::layout::PersonFiles;
@@ -23,6 +25,9 @@ const KINDS: [&[NameKind]; 3] = [
 
 /// So many files to choose from are read; nobody chooses among more.
 const MOST_CHOICES: usize = 20;
+
+/// A variant is a few lines.
+const MOST_VARIANT_BYTES: u64 = 64 << 10;
 
 /// What a file is that cannot be read as text or module.
 const A_SCRIPT: &str = "a script";
@@ -207,9 +212,18 @@ impl<'s> Search<'s> {
         Ok(Some(Found {
             path: node.shown.clone(),
             name: node.name.clone(),
+            variant: self.variant_beside(node),
             bytes,
             is_hand_in,
         }))
+    }
+
+    /// The `variant.toml` in the folder of a file.
+    fn variant_beside(&mut self, node: &Node) -> Option<Vec<u8>> {
+        let folder = node.shown.strip_suffix(node.name.as_str())?;
+        let path = format!("{folder}{VARIANT_FILE}");
+        let variant = self.nodes.iter().find(|other| other.shown == path).cloned();
+        self.bytes(&variant?, MOST_VARIANT_BYTES).ok()
     }
 
     /// Opens the archives of one level; their files are on the next.
