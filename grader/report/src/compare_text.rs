@@ -70,11 +70,11 @@ fn side_line(letter: &str, side: &SideRecord) -> String {
 /// A name that is `width` wide, and the points of both; what is not judged has none.
 fn row(name: &str, width: usize, pair: &Pair, outcomes: [Outcome; 2]) -> String {
     let space = " ".repeat(24_usize.saturating_sub(width));
-    let of = |earned: f64, outcome| format!("{}/{}", mark(earned, outcome), points(pair.max));
+    let of = |earned: f64, outcome, max| format!("{}/{}", mark(earned, outcome), points(max));
     format!(
         "{name}{space} {:>9} {:>9} {:>6}",
-        of(pair.a, outcomes[0]),
-        of(pair.b, outcomes[1]),
+        of(pair.a, outcomes[0], pair.max),
+        of(pair.b, outcomes[1], pair.of_b()),
         change(pair.difference)
     )
 }

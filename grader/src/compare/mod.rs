@@ -12,6 +12,7 @@ use crate::record::comparison::{
 };
 use crate::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use crate::record::graded::{GradedRun, TaskRun};
+use crate::record::quantity::points;
 
 /// One of the two submissions.
 #[derive(Debug, Clone, Copy)]
@@ -33,11 +34,12 @@ pub struct NotComparable(pub Vec<String>);
 
 /// Compares two submissions of one lab.
 ///
-/// Points are those of the records. Motions are those of the repeated runs, compared by joints and TCP with the tolerances of
+/// Points are those of the records, each of the maximum that its lab gives: a lab that was changed in between can be held side by side.
+/// Motions are those of the repeated runs, compared by joints and TCP with the tolerances of
 /// [`divergence`], up to the end of the shorter one.
 ///
 /// # Errors
-/// [`NotComparable`] for different labs, or if no task has the same checks in both.
+/// [`NotComparable`] for different labs, or if no task is in both.
 pub fn compare(a: &Side<'_>, b: &Side<'_>) -> Result<Comparison, NotComparable> {
     if a.recorded.lab.name != b.recorded.lab.name {
         let labs =
@@ -145,26 +147,37 @@ fn differing_grounds(a: &Grade, b: &Grade) -> Vec<String> {
     notes
 }
 
-/// Whether a task has the same checks in both.
+/// Whether a task can be compared.
 fn agree(a: &TaskGrade, b: &TaskGrade) -> Result<(), String> {
     if a.kind != b.kind {
         return Err("it is a motion in one and a function in the other".to_owned());
     }
-    let checks = |task: &TaskGrade| -> Vec<String> {
-        let checks = task.checks.iter();
-        checks
-            .map(|check| format!("`{}` for {}", check.name, trimmed(check.max_points, 6)))
+    Ok(())
+}
+
+/// The checks that only one of the two has, because the lab was changed between them.
+fn checks_apart(a: &TaskGrade, b: &TaskGrade) -> Vec<String> {
+    let missing = |of: &TaskGrade, in_other: &TaskGrade, letter: &str| -> Vec<String> {
+        let checks = of.checks.iter();
+        let alone = checks.filter(|check| {
+            let mut others = in_other.checks.iter();
+            others.all(|other| other.name != check.name)
+        });
+        alone
+            .map(|check| {
+                format!(
+                    "not compared: {letter} alone has check `{}/{}`, {} of {} points",
+                    of.name,
+                    check.name,
+                    points(check.points),
+                    points(check.max_points)
+                )
+            })
             .collect()
     };
-    let (of_a, of_b) = (checks(a), checks(b));
-    let other = |of: &[String], than: &[String]| -> Option<String> {
-        of.iter().find(|check| !than.contains(check)).cloned()
-    };
-    match (other(&of_a, &of_b), other(&of_b, &of_a)) {
-        (Some(check), _) => Err(format!("A alone has check {check}")),
-        (None, Some(check)) => Err(format!("B alone has check {check}")),
-        (None, None) => Ok(()),
-    }
+    let mut apart = missing(a, b, "A");
+    apart.extend(missing(b, a, "B"));
+    apart
 }
 
 fn task(
@@ -174,6 +187,7 @@ fn task(
     b: &Side<'_>,
     notes: &mut Vec<String>,
 ) -> TaskComparison {
+    notes.extend(checks_apart(task_a, task_b));
     let checks = task_a.checks.iter().filter_map(|check| {
         let other = task_b
             .checks
@@ -184,7 +198,10 @@ fn task(
             title: check.title.clone(),
             outcome_a: check.outcome,
             outcome_b: other.outcome,
-            points: Pair::new(check.points, other.points, check.max_points),
+            points: Pair::new(
+                (check.points, check.max_points),
+                (other.points, other.max_points),
+            ),
         })
     });
     let motion = match (task_a.kind, runs(&task_a.name, a.again, b.again)) {
@@ -213,7 +230,10 @@ fn task(
         title: task_a.title.clone(),
         verdict_a: task_a.verdict,
         verdict_b: task_b.verdict,
-        points: Pair::new(task_a.points, task_b.points, task_a.max_points),
+        points: Pair::new(
+            (task_a.points, task_a.max_points),
+            (task_b.points, task_b.max_points),
+        ),
         checks: checks.collect(),
         motion,
     }

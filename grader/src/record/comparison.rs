@@ -84,18 +84,27 @@ pub struct Pair {
     pub b: f64,
     /// Points of the second minus those of the first.
     pub difference: f64,
-    /// Maximum points.
+    /// Maximum points, of the first.
     pub max: f64,
+    /// Maximum points of the second, where the lab has changed them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_b: Option<f64>,
 }
 
 impl Pair {
-    pub(crate) fn new(a: f64, b: f64, max: f64) -> Self {
+    pub(crate) fn new((a, max_a): (f64, f64), (b, max_b): (f64, f64)) -> Self {
         Self {
             a,
             b,
             difference: difference_of_points(a, b),
-            max,
+            max: max_a,
+            max_b: (max_a.to_bits() != max_b.to_bits()).then_some(max_b),
         }
+    }
+
+    /// Maximum points of the second.
+    pub fn of_b(&self) -> f64 {
+        self.max_b.unwrap_or(self.max)
     }
 }
 

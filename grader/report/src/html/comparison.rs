@@ -166,7 +166,7 @@ fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
                     }
                 }
             }
-            td class="number" { (points(pair.max)) }
+            td class="number" { (points(pair.max)) @if let Some(max_b) = pair.max_b { " → " (points(max_b)) } }
             td class="number" { (change(pair.difference)) }
         }
     }
