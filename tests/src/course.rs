@@ -339,3 +339,142 @@ fn hand_in_files_say_what_they_are() {
     let row = rows.iter().find(|row| row.0 == "s101").expect("a row");
     assert_eq!(row.1, "graded");
 }
+
+/// A table of `fixes.toml` that says whose a file is, or that it is nobody's.
+fn file_fix(path: &str, whose: &str) -> String {
+    format!(
+        "[[files]]\nlab = \"{LAB}\"\npath = \"{path}\"\n{whose}\nwhy = \"asked\"\nby = \"anna\"\n"
+    )
+}
+
+#[test]
+fn a_decision_can_be_corrected() {
+    let bed = class();
+    grade(&bed, &[]);
+    let decide = |tables: &str| {
+        bed.write("fixes.toml", format!("format = 1\n{tables}"));
+        bed.run(&["course", "grade", LAB])
+    };
+    let points = |id: &str| {
+        let rows = standings(&bed);
+        let row = rows.into_iter().find(|row| row.0 == id).expect("a row");
+        (row.1, row.2)
+    };
+    let graded = |points: f64| ("graded".to_owned(), Value::from(points));
+    let missing = ("missing".to_owned(), Value::Null);
+    // a file given to the wrong person, then to the right one
+    decide(&file_fix("s107/a.rhai", "student = \"s106\""));
+    assert_eq!(points("s106"), graded(24.0));
+    decide(&file_fix("s107/a.rhai", "student = \"s107\""));
+    assert_eq!(points("s106"), missing);
+    assert_eq!(points("s107"), graded(24.0));
+    // a file that was read and graded, and is nobody's after all
+    let ran = decide(&file_fix("s100.rhai", "ignore = true"));
+    assert!(!ran.stdout.contains("nothing was read"), "{ran:?}");
+    assert_eq!(points("s100"), missing);
+    assert_eq!(points("s107"), missing, "its decision is gone, too");
+    decide("");
+    assert_eq!(points("s100"), graded(24.0));
+    // a path that nothing was read of
+    let ran = decide(&file_fix("s1O0.rhai", "student = \"s106\""));
+    assert!(
+        ran.stdout
+            .contains("fixes.toml: nothing was read of `s1O0.rhai`"),
+        "{ran:?}"
+    );
+}
+
+#[test]
+fn a_file_that_comes_back_is_the_latest_again() {
+    let bed = class();
+    for (folder, submission, points) in [
+        ("first", "good", 24.0),
+        ("second", "degrees", 9.0),
+        ("third", "good", 24.0),
+    ] {
+        hand_in(&bed, &format!("{folder}/s100.rhai"), submission);
+        let ran = bed.run(&["course", "grade", folder, LAB]);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        assert_eq!(
+            ran.stdout.contains("the latest again: s100"),
+            folder == "third",
+            "{ran:?}"
+        );
+        let rows = standings(&bed);
+        let row = rows.iter().find(|row| row.0 == "s100").expect("a row");
+        assert_eq!(row.2 == 24.0, points == 24.0, "{folder}: {row:?}");
+    }
+    // again, it changes nothing
+    let ran = bed.run(&["course", "grade", "third", LAB]);
+    assert!(!ran.stdout.contains("latest again"), "{ran:?}");
+}
+
+#[test]
+fn a_lost_record_is_made_again_only_if_it_is_the_same() {
+    let bed = class();
+    grade(&bed, &[]);
+    let before = records(&bed);
+    let rows = standings(&bed);
+    let key = |id: &str| {
+        let row = rows.iter().find(|row| row.0 == id).expect("a row");
+        row.3.as_str().expect("a key").to_owned()
+    };
+    let file = |key: &str| bed.path(&format!("book/records/{}/{key}.json", &key[..2]));
+    std::fs::remove_file(file(&key("s100"))).expect("a record");
+    let text = std::fs::read(file(&key("s103"))).expect("a record");
+    std::fs::write(file(&key("s103")), &text[..text.len() / 2]).expect("half a record");
+    bed.run(&["course", "grade", LAB]);
+    assert!(records(&bed) == before, "the same bytes again");
+    // with another lab it would be another grade
+    std::fs::remove_file(file(&key("s100"))).expect("a record");
+    let lab = format!("labs/{LAB}/lab.toml");
+    let text = std::fs::read_to_string(bed.path(&lab)).expect("a lab");
+    bed.write(&lab, format!("{text}\n# another\n"));
+    accept_lab(&bed);
+    let ran = bed.run(&["course", "grade", LAB]);
+    assert!(ran.stdout.contains("the record is lost of s100"), "{ran:?}");
+    assert!(!file(&key("s100")).exists());
+}
+
+#[test]
+fn points_by_hand_that_cannot_be_meant_are_refused() {
+    let bed = class();
+    let fix = |check: &str, points: f64| {
+        bed.write(
+            "fixes.toml",
+            format!(
+                "format = 1\n[[points]]\nstudent = \"s100\"\nlab = \"{LAB}\"\ncheck = \"{check}\"\npoints = {points}\nwhy = \"w\"\nby = \"b\"\n"
+            ),
+        );
+        let ran = bed.run(&["course", "check"]);
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        ran.stdout
+    };
+    let said = fix("fk/position", 50.0);
+    assert!(said.contains("50 points are more than the"), "{said}");
+    let ran = grade(&bed, &[]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let said = fix("fk/positon", 1.0);
+    assert!(said.contains("did you mean `fk/position`?"), "{said}");
+}
+
+#[test]
+fn in_the_folder_of_a_course_its_salt_draws_the_variants() {
+    let bed = class();
+    let ran = bed.run(&["lab", "variant", LAB, "--student", "s100"]);
+    let salted = bed.run(&[
+        "lab",
+        "variant",
+        LAB,
+        "--student",
+        "s100",
+        "--salt",
+        "a line that nobody can guess",
+    ]);
+    assert_eq!(ran.stdout, salted.stdout);
+    assert!(
+        ran.stderr
+            .contains("the labs, staff part, salt are those of course.toml"),
+        "{ran:?}"
+    );
+}

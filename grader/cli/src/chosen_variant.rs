@@ -11,6 +11,7 @@ use crate::disk::{self, Folder};
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs, StaffPart};
+use crate::{enclosing_course, failure};
 
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
@@ -43,6 +44,8 @@ pub(crate) struct Chosen {
     pub(crate) files: Box<dyn Files>,
     /// The course staff's part.
     pub(crate) reference: Option<Folder>,
+    /// What was asked for about it, with the salt of the course in whose folder this runs.
+    pub(crate) staff: StaffArgs,
     /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
 }
@@ -52,13 +55,21 @@ pub(crate) struct Chosen {
 /// # Errors
 /// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
 pub(crate) fn choose(name: &str, args: &LabArgs, beside: Option<&Path>) -> Result<Chosen, Failure> {
+    let mut args = args.clone();
+    if !args.staff.practice {
+        let note = enclosing_course::fill(name, &mut args.labs_folder, &mut args.staff.part)?;
+        if let Some(note) = note {
+            failure::note_in_words(&note);
+        }
+    }
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let (lab, note) = variant_of(name, files.as_ref(), reference.as_ref(), args, beside)?;
+    let (lab, note) = variant_of(name, files.as_ref(), reference.as_ref(), &args, beside)?;
     Ok(Chosen {
         lab,
         files,
         reference,
+        staff: args.staff,
         note,
     })
 }

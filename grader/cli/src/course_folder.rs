@@ -39,6 +39,8 @@ pub(crate) struct Course {
     pub(crate) file: CourseFile,
     pub(crate) roster: Roster,
     pub(crate) fixes: Fixes,
+    /// Of the text of the fixes: with them it changes which hand-ins count.
+    fixes_digest: String,
     pub(crate) book: Book,
     /// The course's salt, where it has one of its own.
     pub(crate) salt: Option<String>,
@@ -54,10 +56,13 @@ impl Course {
             .map_err(|error| Failure::diagnostic(BROKEN, error))?;
         let roster = roster(&root.join(&file.roster))?;
         let fixes = root.join(FIXES_FILE);
-        let fixes = if fixes.exists() {
-            Fixes::parse(&text(&fixes)?).map_err(|error| Failure::diagnostic(BROKEN, error))?
+        let (fixes, fixes_digest) = if fixes.exists() {
+            let text = text(&fixes)?;
+            let digest = blake3::hash(text.text().as_bytes()).to_hex();
+            let fixes = Fixes::parse(&text).map_err(|error| Failure::diagnostic(BROKEN, error))?;
+            (fixes, digest.to_string())
         } else {
-            Fixes::default()
+            (Fixes::default(), String::new())
         };
         let salt = salt(&root, &file)?;
         let from = LabsFolderArgs {
@@ -70,12 +75,13 @@ impl Course {
         };
         let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
         let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
-        let book = Book::open(&root.join(BOOK)).map_err(book_failure)?;
+        let book = Book::new(&root.join(BOOK));
         let course = Self {
             root,
             file,
             roster,
             fixes,
+            fixes_digest,
             book,
             salt,
             labs,
@@ -187,9 +193,8 @@ impl Course {
             }
             _ => false,
         };
-        Ok(History::of(
-            entries.into_iter().filter(|entry| !is_gone(&entry.event)),
-        ))
+        let entries = entries.into_iter().filter(|entry| !is_gone(&entry.event));
+        Ok(History::of(entries).decided(&self.fixes))
     }
 
     /// The book as tables, with everything that is in it now.
@@ -200,6 +205,7 @@ impl Course {
                 why: error.to_string(),
             })
         })?;
+        let state = format!("{state} {}", self.fixes_digest);
         Index::refresh(&self.book, history, &state).map_err(index_failure)
     }
 
@@ -236,6 +242,17 @@ fn root(args: &CourseArgs) -> Result<PathBuf, Failure> {
             help,
         ));
     }
+    if let Some(root) = enclosing_root() {
+        return Ok(root);
+    }
+    Err(Failure::usage(
+        format!("there is no {COURSE_FILE} here or above"),
+        help,
+    ))
+}
+
+/// The nearest folder with a `course.toml`: this one, or one above.
+pub(crate) fn enclosing_root() -> Option<PathBuf> {
     let here = Path::new(".");
     let mut above = PathBuf::new();
     let depth = here
@@ -244,17 +261,15 @@ fn root(args: &CourseArgs) -> Result<PathBuf, Failure> {
     for _ in 0..depth {
         if above.join(COURSE_FILE).is_file() {
             let is_here = above.as_os_str().is_empty();
-            return Ok(if is_here { here.to_owned() } else { above });
+            return Some(if is_here { here.to_owned() } else { above });
         }
         above.push("..");
     }
-    Err(Failure::usage(
-        format!("there is no {COURSE_FILE} here or above"),
-        help,
-    ))
+    None
 }
 
-fn text(path: &Path) -> Result<Source, Failure> {
+/// A text file of the course.
+pub(crate) fn text(path: &Path) -> Result<Source, Failure> {
     let shown = path.display().to_string();
     let bytes = read(path).and_then(kinemark_grader::task::files::text);
     match bytes {
@@ -278,7 +293,7 @@ fn roster(path: &Path) -> Result<Roster, Failure> {
 }
 
 /// The salt of the course's file, without the line end.
-fn salt(root: &Path, file: &CourseFile) -> Result<Option<String>, Failure> {
+pub(crate) fn salt(root: &Path, file: &CourseFile) -> Result<Option<String>, Failure> {
     let Some(name) = &file.salt_file else {
         return Ok(None);
     };

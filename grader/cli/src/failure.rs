@@ -108,6 +108,13 @@ pub(crate) fn warn_in_words(message: &str, help: &str) {
     let _ = anstream::stderr().write_all(text.as_bytes());
 }
 
+/// Prints, in words, what a person should know while nothing is wrong.
+pub(crate) fn note_in_words(message: &str) {
+    use std::io::Write as _;
+    // without standard error there is no one to say it to
+    let _ = anstream::stderr().write_all(format!("note: {message}\n").as_bytes());
+}
+
 fn show(diagnostic: &dyn Diagnostic) {
     use std::io::Write as _;
     let mut text = String::new();

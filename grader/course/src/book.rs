@@ -1,7 +1,8 @@
 //! The book: the folder that the program writes. Records, submissions, and the versions of labs and staff parts that made them, each
 //! under a name that follows from its content, whole or absent; nothing in it is ever changed, so books join by copying.
 
-use std::io;
+use std::fs::File;
+use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::record::grade::Grade;
@@ -113,22 +114,11 @@ pub struct Book {
 }
 
 impl Book {
-    /// The book in `root`; it is made where it is not there.
-    ///
-    /// # Errors
-    /// A folder that cannot be made.
-    pub fn open(root: &Path) -> Result<Self, BookError> {
-        let book = Self {
+    /// The book in `root`, which is made with the first thing that is kept in it.
+    pub fn new(root: &Path) -> Self {
+        Self {
             root: root.to_owned(),
-        };
-        for folder in ["", "records", "submissions", "labs", "staff"] {
-            let path = root.join(folder);
-            private_folder(&path).map_err(|error| BookError {
-                path,
-                why: error.to_string(),
-            })?;
         }
-        Ok(book)
     }
 
     /// Its folder.
@@ -149,9 +139,16 @@ impl Book {
             .join(format!("{key}.json"))
     }
 
-    /// Whether there is a record of this key.
+    /// Whether there is a record of this key, whole as far as its end says.
     pub fn has_record(&self, key: &str) -> bool {
-        self.record_path(key).is_file()
+        let last = || -> io::Result<u8> {
+            let mut file = File::open(self.record_path(key))?;
+            file.seek(SeekFrom::End(-1))?;
+            let mut byte = [0];
+            file.read_exact(&mut byte)?;
+            Ok(byte[0])
+        };
+        last().is_ok_and(|byte| byte == b'}')
     }
 
     /// Keeps a record.
@@ -160,6 +157,13 @@ impl Book {
     /// A full disk; there is then no such record.
     pub fn put_record(&self, record: &Record) -> Result<(), BookError> {
         let path = self.record_path(&record.key);
+        if path.is_file() && !self.has_record(&record.key) {
+            // what a failing disk has damaged is in nobody's way
+            std::fs::remove_file(&path).map_err(|error| BookError {
+                path: path.clone(),
+                why: error.to_string(),
+            })?;
+        }
         let json = serde_json::to_vec(record);
         let written = json
             .map_err(io::Error::other)
@@ -210,7 +214,12 @@ impl Book {
     /// A folder that cannot be listed.
     pub fn record_keys(&self) -> io::Result<Vec<String>> {
         let mut keys = Vec::new();
-        for shelf in std::fs::read_dir(self.root.join("records"))? {
+        let shelves = match std::fs::read_dir(self.root.join("records")) {
+            Ok(shelves) => shelves,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(keys),
+            Err(error) => return Err(error),
+        };
+        for shelf in shelves {
             let shelf = shelf?;
             if !shelf.file_type()?.is_dir() {
                 continue;
@@ -295,9 +304,9 @@ impl Book {
             return Ok(version);
         }
         let written = || -> io::Result<()> {
-            let fresh = tempfile::Builder::new()
-                .prefix(".new-")
-                .tempdir_in(self.root.join(kind))?;
+            let kind = self.root.join(kind);
+            private_folder(&kind)?;
+            let fresh = tempfile::Builder::new().prefix(".new-").tempdir_in(kind)?;
             for (name, bytes) in files {
                 put(&fresh.path().join(name), bytes)?;
             }
@@ -438,7 +447,7 @@ mod tests {
     #[test]
     fn what_is_kept_is_given_back_and_a_damaged_submission_is_not() {
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(bed.path()).unwrap();
+        let book = Book::new(bed.path());
         let digest = book.put_submission(b"let a = 1;").unwrap();
         assert_eq!(book.submission(&digest).unwrap(), b"let a = 1;");
         std::fs::write(book.submission_path(&digest), "let a = 2;").unwrap();
@@ -450,7 +459,7 @@ mod tests {
     #[test]
     fn a_version_is_kept_once_and_read_as_files() {
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(bed.path()).unwrap();
+        let book = Book::new(bed.path());
         let files = vec![
             ("01/lab.toml".to_owned(), b"x".to_vec()),
             ("robots/r.toml".to_owned(), b"y".to_vec()),
@@ -470,7 +479,7 @@ mod tests {
     fn only_the_owner_reads_the_book() {
         use std::os::unix::fs::PermissionsExt as _;
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(&bed.path().join("book")).unwrap();
+        let book = Book::new(&bed.path().join("book"));
         let digest = book.put_submission(b"x").unwrap();
         let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
         assert_eq!(mode(book.root()), 0o700);

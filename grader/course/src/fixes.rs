@@ -39,6 +39,15 @@ problems! {
     }
 }
 
+/// The digest by which a file of a source is known later: its path may have a name in it, and names stand in the roster alone.
+pub fn place(lab: &str, path: &str) -> String {
+    let mut hasher = blake3::Hasher::new_derive_key("kinemark 2026 path in a source v1");
+    hasher.update(&(lab.len() as u64).to_le_bytes());
+    hasher.update(lab.as_bytes());
+    hasher.update(path.as_bytes());
+    hasher.finalize().to_hex()[..32].to_owned()
+}
+
 /// A decision about a file of a hand-in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileFix {
@@ -48,6 +57,13 @@ pub struct FileFix {
     pub path: String,
     /// Whose it is; `None` where it is ignored.
     pub student: Option<StudentId>,
+}
+
+impl FileFix {
+    /// The digest of its path ([`place`]).
+    pub fn place(&self) -> String {
+        place(&self.lab, &self.path)
+    }
 }
 
 /// Points given by hand.
@@ -211,6 +227,10 @@ impl Fixes {
             } = at.get_ref();
             let (why, by) = reading.reason(why, by)?;
             let student = reading.student(student)?;
+            let same = |known: &Excuse| (&known.student, &known.lab) == (&student, lab);
+            if fixes.excuses.iter().any(same) {
+                return reading.twice(at, format!("the excuse of `{student}` for `{lab}`"));
+            }
             fixes.excuses.push(Excuse {
                 student,
                 lab: lab.clone(),
@@ -227,8 +247,13 @@ impl Fixes {
                 by,
             } = at.get_ref();
             reading.reason(why, by)?;
+            let student = reading.student(student)?;
+            let same = |known: &Extension| (&known.student, &known.lab) == (&student, lab);
+            if fixes.extensions.iter().any(same) {
+                return reading.twice(at, format!("the due time of `{student}` for `{lab}`"));
+            }
             fixes.extensions.push(Extension {
-                student: reading.student(student)?,
+                student,
                 lab: lab.clone(),
                 due: crate::course_file::instant(source, due)?,
             });

@@ -57,7 +57,7 @@ impl Book {
                 Event::Graded(graded) => {
                     records.add(&graded.record, theirs.contains(&graded.hand_in));
                 }
-                Event::NotGraded { .. } | Event::Released { .. } => {}
+                Event::NotGraded { .. } | Event::Ignored { .. } | Event::Released { .. } => {}
             }
         }
         for question in self.questions()? {
@@ -71,13 +71,30 @@ impl Book {
             }
         }
         // the journal last: until then another call finds what is left
-        for key in records.unneeded() {
-            if let Some(record) = self.record(key)? {
-                removed(&self.root().join(page_path(&record.inputs.lab_name, key)))?;
+        let keys = self.record_keys();
+        for key in keys.map_err(|error| failed(&self.root().join("records"), &error))? {
+            if records.others.contains(&key) {
+                continue;
             }
-            forgotten.records += removed(&self.record_path(key))?;
+            let is_graded = records.theirs.contains(&key);
+            let Some(record) = self.record(&key)? else {
+                // damaged: it can name anybody
+                if is_graded {
+                    forgotten.records += removed(&self.record_path(&key))?;
+                }
+                continue;
+            };
+            let inputs = &record.inputs;
+            // also what was graded again to look at, and never became a grade
+            let is_theirs = is_graded
+                || inputs.variant_of.as_deref() == Some(student.as_str())
+                || submissions.has_alone(&inputs.submission);
+            if is_theirs {
+                removed(&self.root().join(page_path(&inputs.lab_name, &key)))?;
+                forgotten.records += removed(&self.record_path(&key))?;
+            }
         }
-        for digest in submissions.unneeded() {
+        for digest in submissions.theirs.difference(&submissions.others) {
             forgotten.submissions += removed(&self.submission_path(digest))?;
         }
         // deleted rows stay readable in a database until it is made anew
@@ -159,7 +176,7 @@ fn names(event: &Event, theirs: &BTreeSet<String>) -> bool {
         Event::HandIn(hand_in) => theirs.contains(&hand_in.id),
         Event::Graded(graded) => theirs.contains(&graded.hand_in),
         Event::NotGraded { hand_in, .. } => theirs.contains(hand_in),
-        Event::Released { .. } => false,
+        Event::Ignored { .. } | Event::Released { .. } => false,
     }
 }
 
@@ -167,7 +184,9 @@ fn names(event: &Event, theirs: &BTreeSet<String>) -> bool {
 fn takes_out(event: &mut Event, student: &StudentId) -> bool {
     match event {
         Event::Released { records, .. } => records.remove(student).is_some(),
-        Event::HandIn(_) | Event::Graded(_) | Event::NotGraded { .. } => false,
+        Event::HandIn(_) | Event::Graded(_) | Event::NotGraded { .. } | Event::Ignored { .. } => {
+            false
+        }
     }
 }
 
@@ -188,8 +207,9 @@ impl Needed {
         of.insert(name.to_owned());
     }
 
-    fn unneeded(&self) -> impl Iterator<Item = &String> {
-        self.theirs.difference(&self.others)
+    /// What they alone use.
+    fn has_alone(&self, name: &str) -> bool {
+        self.theirs.contains(name) && !self.others.contains(name)
     }
 }
 
@@ -267,6 +287,8 @@ mod tests {
             lms_number: None,
             variant_of: None,
             made_with: None,
+            has_other_numbers: false,
+            places: Vec::new(),
         }
         .identified()
     }
@@ -275,7 +297,7 @@ mod tests {
     #[test]
     fn what_others_need_stays_and_nothing_names_the_person() {
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(bed.path()).unwrap();
+        let book = Book::new(bed.path());
         let at = Timestamp::from_second(1).unwrap();
         let mut log = book.journal().begin(at, "ta").unwrap();
         let shared = book.put_submission(b"shared").unwrap();

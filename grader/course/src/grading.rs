@@ -97,6 +97,19 @@ pub fn grade(
     Ok(recorded(&record, false))
 }
 
+/// The key that the record of `hand_in` would have in `lab`; nothing is run.
+///
+/// # Errors
+/// A submission that the book has lost, or a lab with the student's numbers that cannot be loaded.
+pub fn key(lab: &StaffedLab, book: &Book, hand_in: &HandIn) -> Result<String, GradingError> {
+    let bytes = book.submission(&hand_in.submission)?;
+    let submission = SubmissionSource::new(&hand_in.file, &bytes);
+    let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
+    let student_lab = lab.for_student(whose)?;
+    let inputs = lab.inputs(&student_lab, &submission.source, &hand_in.submission);
+    Ok(inputs.key())
+}
+
 /// What a grade was made from, as the book kept it.
 #[derive(Debug)]
 pub struct Reopened {

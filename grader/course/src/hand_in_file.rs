@@ -193,7 +193,7 @@ impl HandInFile {
             engine: made_with.engine,
             student,
             variant_of: variant_of.and_then(|id| StudentId::new(id).ok()),
-            file: plain_name(file).to_owned(),
+            file: shown_name(file),
             submission: blake3::hash(submission).to_hex().to_string(),
             points: practice.points,
             max_points: practice.max_points,
@@ -290,6 +290,17 @@ pub fn file_name(lab: &str, variant_of: Option<&StudentId>) -> String {
         Some(student) => format!("{lab}-{}{ENDING}", student.folder()),
         None => format!("{lab}{ENDING}"),
     }
+}
+
+/// The name of a file, as a statement may have it: without folders, of one line, not too long.
+fn shown_name(path: &str) -> String {
+    let plain = plain_name(path).chars();
+    let plain: Vec<char> = plain
+        .map(|c| if c.is_control() { '_' } else { c })
+        .collect();
+    // the end says what kind of file it is
+    let from = plain.len().saturating_sub(MOST_CHARACTERS);
+    plain[from..].iter().collect()
 }
 
 /// The submission's entry, by how the name of its file ends: names of students are no paths of ours.

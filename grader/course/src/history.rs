@@ -1,10 +1,11 @@
 //! The journal, read: each student's attempts at each lab, and the record that is the grade of each.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use jiff::Timestamp;
 use kinemark_grader::record::verdict::Verdict;
 
+use crate::fixes::{FileFix, Fixes};
 use crate::journal::{Entry, Event, Graded, HandIn};
 use crate::student::StudentId;
 
@@ -61,6 +62,10 @@ pub struct History {
     attempts: BTreeMap<(String, StudentId), Vec<Attempt>>,
     /// The place of each hand-in by its id.
     places: BTreeMap<String, (String, StudentId, usize)>,
+    /// Hand-ins that were read and do not count, because people decided otherwise since.
+    pub withdrawn: Vec<HandIn>,
+    /// Digests of the paths of files that count for nobody.
+    ignored: BTreeSet<String>,
     /// Grades that went out: when, the lab, the form, and the record of each student.
     pub releases: Vec<Release>,
 }
@@ -97,6 +102,7 @@ impl History {
                         attempt.failure = Some(Failure { verdict, what });
                     }
                 }
+                Event::Ignored { places, .. } => history.ignored.extend(places),
                 Event::Released { lab, to, records } => history.releases.push(Release {
                     at,
                     lab,
@@ -112,8 +118,93 @@ impl History {
         history
     }
 
+    /// The history as people decided on its files: what belongs to somebody else, or to nobody, does not count.
+    #[must_use]
+    pub fn decided(mut self, fixes: &Fixes) -> Self {
+        let by_place: BTreeMap<String, &FileFix> =
+            fixes.files.iter().map(|fix| (fix.place(), fix)).collect();
+        let counts = |attempt: &Attempt| {
+            let hand_in = &attempt.hand_in;
+            let decisions = hand_in.places.iter();
+            let mut decisions = decisions.filter_map(|place| by_place.get(place)).peekable();
+            if decisions.peek().is_none() {
+                // what only a decision gave to somebody, and the decision is gone
+                return hand_in.matched_by != "fixes" || hand_in.places.is_empty();
+            }
+            decisions.any(|fix| fix.student.as_ref() == Some(&hand_in.student))
+        };
+        for attempts in self.attempts.values_mut() {
+            let gone = attempts.extract_if(.., |attempt| !counts(attempt));
+            self.withdrawn.extend(gone.map(|attempt| attempt.hand_in));
+        }
+        self.attempts.retain(|_, attempts| !attempts.is_empty());
+        self
+    }
+
+    /// Every hand-in that was read, those that do not count among them.
+    fn read(&self) -> impl Iterator<Item = &HandIn> {
+        let counted = self.attempts.values().flatten();
+        counted
+            .map(|attempt| &attempt.hand_in)
+            .chain(&self.withdrawn)
+    }
+
+    /// The hand-ins that a decision on a file makes and that nobody has written yet: the file was read as somebody else's.
+    pub fn reassigned(&self, fix: &FileFix) -> Vec<HandIn> {
+        let Some(student) = &fix.student else {
+            return Vec::new();
+        };
+        let place = fix.place();
+        let mut made: Vec<HandIn> = Vec::new();
+        for hand_in in self
+            .read()
+            .filter(|hand_in| hand_in.places.contains(&place))
+        {
+            let theirs = HandIn {
+                student: student.clone(),
+                matched_by: "fixes".to_owned(),
+                variant_of: None,
+                ..hand_in.clone()
+            }
+            .identified();
+            if !self.knows(&theirs.id) && made.iter().all(|known| known.id != theirs.id) {
+                made.push(theirs);
+            }
+        }
+        made
+    }
+
+    /// Whether a file on which a person decided was read: as somebody's, or as nobody's.
+    pub fn has_read(&self, fix: &FileFix) -> bool {
+        let place = fix.place();
+        let mut read = self.read();
+        read.any(|hand_in| hand_in.places.contains(&place))
+            || (fix.student.is_none() && self.ignored.contains(&place))
+    }
+
+    /// Whether a path of this digest was noted as nobody's.
+    pub fn has_ignored(&self, place: &str) -> bool {
+        self.ignored.contains(place)
+    }
+
+    /// Whether a hand-in that was read before is handed in anew: the source gives no time, and the student's last is another.
+    pub fn is_anew(&self, hand_in: &HandIn) -> bool {
+        let last = self.attempts(&hand_in.lab, &hand_in.student).last();
+        hand_in.submitted_at.is_none()
+            && hand_in.attempt.is_none()
+            && self.knows(&hand_in.id)
+            && last.is_some_and(|last| last.hand_in.id != hand_in.id)
+            && self.withdrawn.iter().all(|gone| gone.id != hand_in.id)
+    }
+
     fn hand_in(&mut self, at: Timestamp, hand_in: HandIn) {
         if self.places.contains_key(&hand_in.id) {
+            if hand_in.submitted_at.is_none()
+                && let Some(attempt) = self.attempt_mut(&hand_in.id)
+            {
+                // handed in anew: where the source gives no time, what is read last is the latest
+                attempt.read_at = at;
+            }
             return;
         }
         let (lab, student) = (hand_in.lab.clone(), hand_in.student.clone());
@@ -200,6 +291,8 @@ mod tests {
             lms_number: None,
             variant_of: None,
             made_with: None,
+            has_other_numbers: false,
+            places: Vec::new(),
         }
         .identified()
     }

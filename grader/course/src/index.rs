@@ -12,6 +12,7 @@ use rusqlite::{Connection, OpenFlags, Row, Transaction, params};
 
 use crate::book::{Book, BookError, Record};
 use crate::history::History;
+use crate::private_files::private_folder;
 use crate::standing::{Standing, Summary};
 
 /// Its name in the book.
@@ -154,6 +155,7 @@ impl Index {
             why,
         };
         let folder = self.path.parent().unwrap_or(Path::new("."));
+        private_folder(folder).map_err(|error| failed(error.to_string()))?;
         let file = tempfile::Builder::new()
             .prefix(".new-")
             .tempfile_in(folder)
@@ -517,7 +519,7 @@ mod tests {
     fn book_with(records: &[&Record]) -> (tempfile::TempDir, Book) {
         let bed = tempfile::tempdir().unwrap();
         // a name that a URI has to escape
-        let book = Book::open(&bed.path().join("my book? #1 %41")).unwrap();
+        let book = Book::new(&bed.path().join("my book? #1 %41"));
         for record in records {
             book.put_record(record).unwrap();
         }
@@ -587,6 +589,8 @@ mod tests {
             lms_number: None,
             variant_of: None,
             made_with: None,
+            has_other_numbers: false,
+            places: Vec::new(),
         }
         .identified();
         let at = jiff::Timestamp::from_second(1).unwrap();

@@ -15,7 +15,7 @@ use crate::submission_file::{SubmissionFile, submission_of};
 use crate::tree::{Limits, Tree, TreeError};
 
 /// What a source held.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Intake {
     /// The name of the layout in which its files are.
     pub layout: String,
@@ -25,6 +25,8 @@ pub struct Intake {
     pub hand_ins: Vec<HandIn>,
     /// What is not clear.
     pub questions: Vec<Question>,
+    /// Paths that count for nobody, because people decided so.
+    pub ignored: Vec<String>,
 }
 
 /// What a person decided on a question.
@@ -36,8 +38,11 @@ pub enum Decision {
     Ignored,
 }
 
+/// The numbers of a student's variant in the course, by name; none where everybody has the same.
+pub type NumbersOf<'n> = &'n dyn Fn(&StudentId) -> Option<Vec<(String, Vec<f64>)>>;
+
 /// What `fixes` say of a question; `None` where they say nothing yet, or not which of its files is meant.
-pub fn decision(question: &Question, fixes: &Fixes) -> Option<Decision> {
+pub fn decision(question: &Question, fixes: &Fixes, numbers_of: NumbersOf<'_>) -> Option<Decision> {
     let of_lab = fixes.files.iter().filter(|fix| fix.lab == question.lab);
     let of_question: Vec<&FileFix> = of_lab
         .filter(|fix| {
@@ -61,14 +66,21 @@ pub fn decision(question: &Question, fixes: &Fixes) -> Option<Decision> {
             _ => None,
         };
         if let Some(file) = named.or(only) {
-            return Some(Decision::HandIn(Box::new(decided(question, student, file))));
+            return Some(Decision::HandIn(Box::new(decided(
+                question, student, file, numbers_of,
+            ))));
         }
     }
     None
 }
 
 /// A hand-in that a person assigned: graded with the variant of that student, whatever the file says.
-fn decided(question: &Question, student: &StudentId, file: &Candidate) -> HandIn {
+fn decided(
+    question: &Question,
+    student: &StudentId,
+    file: &Candidate,
+    numbers_of: NumbersOf<'_>,
+) -> HandIn {
     let name = file.file.as_deref();
     HandIn {
         id: String::new(),
@@ -85,8 +97,28 @@ fn decided(question: &Question, student: &StudentId, file: &Candidate) -> HandIn
         lms_number: question.lms_number.clone(),
         variant_of: None,
         made_with: file.made_with.clone(),
+        has_other_numbers: has_other_numbers(&file.numbers, student, numbers_of),
+        places: question.places(file),
     }
     .identified()
+}
+
+/// Whether numbers that came with a submission are others than the student's; a name that the course does not have is none of them.
+fn has_other_numbers(
+    given: &[(String, Vec<f64>)],
+    student: &StudentId,
+    numbers_of: NumbersOf<'_>,
+) -> bool {
+    if given.is_empty() {
+        return false;
+    }
+    let Some(own) = numbers_of(student) else {
+        return false;
+    };
+    given.iter().any(|(name, values)| {
+        let mut own = own.iter();
+        own.any(|(known, of_course)| known == name && of_course != values)
+    })
 }
 
 /// Why a source cannot be read.
@@ -110,6 +142,7 @@ pub fn read(
     roster: &Roster,
     fixes: &Fixes,
     book: &Book,
+    numbers_of: NumbersOf<'_>,
 ) -> Result<Intake, IntakeError> {
     let tree = Tree::open(source, &Limits::default())?;
     let arrangement = arrange(&tree);
@@ -120,14 +153,21 @@ pub fn read(
         roster,
         fixes,
         book,
+        numbers_of,
     };
-    let mut rows = Vec::new();
+    let (mut rows, mut ignored) = (Vec::new(), Vec::new());
     for (person, matched) in arrangement.people.iter().zip(matches) {
-        rows.extend(reading.row(person, matched)?);
+        let fix = reading.fix(person);
+        if fix.is_some_and(|fix| fix.student.is_none()) {
+            ignored.push(person.label.clone());
+        } else {
+            rows.extend(reading.rows(person, fix, matched)?);
+        }
     }
     let mut intake = Intake {
         layout: arrangement.layout.name.to_owned(),
         reason: arrangement.reason,
+        ignored,
         ..Intake::default()
     };
     sort_out(rows, &mut intake);
@@ -153,21 +193,26 @@ struct Reading<'r> {
     roster: &'r Roster,
     fixes: &'r Fixes,
     book: &'r Book,
+    numbers_of: NumbersOf<'r>,
 }
 
 impl Reading<'_> {
-    /// The rows of a person's files: one a student, or one question; none where a person decided that they do not count.
-    fn row(
+    /// What a person decided on someone's files as a whole.
+    fn fix(&self, person: &PersonFiles) -> Option<&FileFix> {
+        let mut fixes = self.fixes.files.iter();
+        fixes.find(|fix| fix.lab == self.lab && fix.path == person.label)
+    }
+
+    /// The rows of a person's files: one a student, or one question.
+    fn rows(
         &self,
         person: &PersonFiles,
+        fix: Option<&FileFix>,
         matched: Result<Matched, Unmatched>,
     ) -> Result<Vec<Row>, BookError> {
-        let mut fixes = self.fixes.files.iter();
-        let fix = fixes.find(|fix| fix.lab == self.lab && fix.path == person.label);
-        let matched = match fix.map(|fix| &fix.student) {
-            Some(None) => return Ok(Vec::new()),
-            Some(Some(student)) => Ok(Matched {
-                students: vec![student.clone()],
+        let matched = match fix.and_then(|fix| fix.student.clone()) {
+            Some(student) => Ok(Matched {
+                students: vec![student],
                 by: "fixes",
             }),
             None => matched,
@@ -207,7 +252,7 @@ impl Reading<'_> {
         let candidate = self.candidate(&file)?;
         question.candidates.push(candidate.clone());
         match matched.or_else(|unmatched| self.by_claim(&file, unmatched)) {
-            Ok(matched) => Ok(hand_ins(&matched, &file, &candidate, &question)),
+            Ok(matched) => Ok(self.hand_ins(&matched, &file, &candidate, &question)),
             Err(unmatched) => {
                 question.problem = unmatched.why;
                 question.help = unmatched.help;
@@ -220,7 +265,9 @@ impl Reading<'_> {
     /// The student whom a hand-in file names, where the source says nothing that speaks for anybody.
     fn by_claim(&self, file: &SubmissionFile, unmatched: Unmatched) -> Result<Matched, Unmatched> {
         let claimed = file.student.as_ref();
-        let claimed = claimed.filter(|student| self.roster.get(student).is_some());
+        let people = self.roster.people();
+        let claimed = people.iter().find(|person| is_same(claimed, &person.id));
+        let claimed = claimed.map(|person| &person.id);
         match claimed {
             Some(student) if unmatched.nearest.is_empty() => Ok(Matched {
                 students: vec![student.clone()],
@@ -243,46 +290,60 @@ impl Reading<'_> {
             submission: self.book.put_submission(&file.bytes)?,
             file: Some(file.name.clone()),
             made_with: file.made_with.clone(),
+            numbers: file.numbers.clone(),
         })
+    }
+
+    /// A hand-in for every student of `matched`: one, or the members of a group.
+    fn hand_ins(
+        &self,
+        matched: &Matched,
+        file: &SubmissionFile,
+        candidate: &Candidate,
+        question: &Question,
+    ) -> Vec<Row> {
+        if let Some(problem) = somebody_else(matched, file) {
+            return vec![Row::question(Question {
+                problem,
+                help: "ask whose work it is; a fix with `student` grades it as that student's"
+                    .to_owned(),
+                ..question.clone()
+            })];
+        }
+        let rows = matched.students.iter().map(|student| {
+            // a group works with the numbers of one of them
+            let owner = matched
+                .students
+                .iter()
+                .find(|other| *other != student && is_same(file.variant_of.as_ref(), other));
+            let whose = owner.unwrap_or(student);
+            let hand_in = HandIn {
+                matched_by: matched.by.to_owned(),
+                variant_of: owner.cloned(),
+                has_other_numbers: has_other_numbers(&file.numbers, whose, self.numbers_of),
+                ..decided(question, student, candidate, self.numbers_of)
+            };
+            let question = Question {
+                student: Some(student.clone()),
+                ..question.clone()
+            };
+            Row::HandIn(Box::new((hand_in, question)))
+        });
+        rows.collect()
     }
 }
 
-/// A hand-in for every student of `matched`: one, or the members of a group.
-fn hand_ins(
-    matched: &Matched,
-    file: &SubmissionFile,
-    candidate: &Candidate,
-    question: &Question,
-) -> Vec<Row> {
-    if let Some(problem) = somebody_else(matched, file) {
-        return vec![Row::question(Question {
-            problem,
-            help: "ask whose work it is; a fix with `student` grades it as that student's"
-                .to_owned(),
-            ..question.clone()
-        })];
-    }
-    let rows = matched.students.iter().map(|student| {
-        // a group works with the numbers of one of them
-        let owner = file.variant_of.clone();
-        let owner = owner.filter(|owner| owner != student && matched.students.contains(owner));
-        let hand_in = HandIn {
-            matched_by: matched.by.to_owned(),
-            variant_of: owner,
-            ..decided(question, student, candidate)
-        };
-        let question = Question {
-            student: Some(student.clone()),
-            ..question.clone()
-        };
-        Row::HandIn(Box::new((hand_in, question)))
-    });
-    rows.collect()
+/// Whether an id that a student's machine says is the one of the roster; how its letters are typed does not count.
+fn is_same(said: Option<&StudentId>, student: &StudentId) -> bool {
+    said.is_some_and(|said| said.folded() == student.folded())
 }
 
 /// What says that the work is of somebody who did not hand it in, in words; nothing where a person has decided.
 fn somebody_else(matched: &Matched, file: &SubmissionFile) -> Option<String> {
-    let is_other = |id: &&StudentId| matched.by != "fixes" && !matched.students.contains(id);
+    let is_other = |id: &&StudentId| {
+        let mut students = matched.students.iter();
+        matched.by != "fixes" && !students.any(|student| is_same(Some(id), student))
+    };
     if let Some(other) = file.variant_of.as_ref().filter(is_other) {
         let what = match file.made_with {
             Some(_) => "the hand-in file was made with the variant",

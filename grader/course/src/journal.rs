@@ -41,6 +41,13 @@ pub enum Event {
         /// What happened, in words.
         what: String,
     },
+    /// A person decided that files count for nobody.
+    Ignored {
+        /// The lab.
+        lab: String,
+        /// Digests of their paths ([`crate::fixes::place`]).
+        places: Vec<String>,
+    },
     /// Grades went to the LMS.
     Released {
         /// The lab.
@@ -85,6 +92,12 @@ pub struct HandIn {
     /// What the hand-in file says of itself, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_with: Option<MadeWith>,
+    /// Whether the variant that came with it has other numbers than the course's for this student.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_other_numbers: bool,
+    /// Digests of the paths it was read from, its folder's and its own ([`crate::fixes::place`]): by them a decision finds it later.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<String>,
 }
 
 /// What a hand-in file says of how it was made.
@@ -305,6 +318,8 @@ mod tests {
             lms_number: None,
             variant_of: None,
             made_with: None,
+            has_other_numbers: false,
+            places: Vec::new(),
         }
         .identified()
     }

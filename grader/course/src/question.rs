@@ -5,15 +5,17 @@ use std::io;
 use std::path::PathBuf;
 
 use jiff::Timestamp;
+use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
 use crate::book::{Book, BookError};
+use crate::fixes::place;
 use crate::journal::MadeWith;
 use crate::private_files::put;
 use crate::student::StudentId;
 
 /// A file or folder that a person has to decide on.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// The lab.
     pub lab: String,
@@ -47,7 +49,7 @@ pub struct Question {
 }
 
 /// A submission that may be meant.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
     /// Its path, as the LMS named it.
     pub path: String,
@@ -59,9 +61,42 @@ pub struct Candidate {
     /// What the hand-in file says of itself, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_with: Option<MadeWith>,
+    /// The numbers of the variant that came with it, by name; empty where none did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub numbers: Vec<(String, Vec<f64>)>,
+}
+
+/// So many students are offered to choose from.
+const MOST_NEAR: usize = 4;
+
+/// A text as TOML has it; what cannot be seen is escaped, so that a copy of what is shown means the same.
+fn quoted(text: &str) -> String {
+    let mut quoted = "\"".to_owned();
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if visible(c.encode_utf8(&mut [0; 4])).chars().ne([c]) => {
+                quoted += &match u32::from(c) {
+                    code @ ..=0xffff => format!("\\u{code:04X}"),
+                    code => format!("\\U{code:08X}"),
+                };
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
 }
 
 impl Question {
+    /// Digests of the paths of one of its files ([`crate::fixes::place`]).
+    pub fn places(&self, file: &Candidate) -> Vec<String> {
+        let mut places = vec![place(&self.lab, &self.path)];
+        if file.path != self.path {
+            places.push(place(&self.lab, &file.path));
+        }
+        places
+    }
+
     /// Its name in the book: the same question asked again is the same.
     fn id(&self) -> String {
         let mut hasher = blake3::Hasher::new();
@@ -78,7 +113,6 @@ impl Question {
     /// The tables for `fixes.toml` that decide it, to choose one from and to write the reason into: one a candidate, and one that
     /// ignores it.
     pub fn fixes(&self, by: &str) -> Vec<String> {
-        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let table = |path: &str, whose: &str| {
             format!(
                 "[[files]]\nlab = {}\npath = {}\n{whose}\nwhy = \"\"\nby = {}\n",
@@ -87,18 +121,24 @@ impl Question {
                 quoted(by)
             )
         };
-        let student = self.student.as_ref().or(self.near.first());
-        let whose = format!(
-            "student = {}",
-            quoted(student.map_or("ID", StudentId::as_str))
-        );
-        let mut tables: Vec<String> = match self.candidates.as_slice() {
-            [_] => vec![table(&self.path, &whose)],
-            candidates => {
-                let of_each = candidates.iter().map(|file| table(&file.path, &whose));
-                of_each.collect()
+        let students: Vec<&str> = match &self.student {
+            Some(student) => vec![student.as_str()],
+            None if self.near.is_empty() => vec!["ID"],
+            None => {
+                let near = self.near.iter().take(MOST_NEAR);
+                near.map(StudentId::as_str).collect()
             }
         };
+        let mut tables = Vec::new();
+        for student in students {
+            let whose = format!("student = {}", quoted(student));
+            match self.candidates.as_slice() {
+                [_] => tables.push(table(&self.path, &whose)),
+                several => {
+                    tables.extend(several.iter().map(|file| table(&file.path, &whose)));
+                }
+            }
+        }
         tables.push(table(&self.path, "ignore = true"));
         tables
     }
@@ -183,6 +223,7 @@ mod tests {
             submission: name.to_owned(),
             file: None,
             made_with: None,
+            numbers: Vec::new(),
         };
         Question {
             lab: "01".to_owned(),
@@ -202,7 +243,7 @@ mod tests {
     #[test]
     fn a_question_is_kept_once_and_removed_when_decided() {
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(bed.path()).unwrap();
+        let book = Book::new(bed.path());
         assert!(book.questions().unwrap().is_empty());
         book.put_question(&question()).unwrap();
         book.put_question(&question()).unwrap();
@@ -222,5 +263,30 @@ mod tests {
         let fixes = crate::fixes::Fixes::parse(&source).unwrap();
         assert_eq!(fixes.files[0].path, "Müller \"x\"/a.rhai");
         assert_eq!(fixes.files[1].student, None);
+    }
+
+    #[test]
+    fn every_student_who_comes_near_has_a_table() {
+        let mut question = question();
+        question.candidates.truncate(1);
+        question.near.push(StudentId::new("s2").unwrap());
+        let tables = question.fixes("ta");
+        assert_eq!(tables.len(), 3);
+        assert!(tables[0].contains("student = \"s1\"") && tables[1].contains("student = \"s2\""));
+    }
+
+    #[test]
+    fn what_cannot_be_seen_survives_a_copy() {
+        for path in [
+            "می\u{200c}خواهم",
+            "\u{1f468}\u{200d}\u{1f469}",
+            "a\tb \"c\" \\ \u{202e}x",
+            "é",
+        ] {
+            let text = quoted(path);
+            assert_eq!(visible(&text), text, "as shown");
+            let table: toml::Table = format!("path = {text}").parse().unwrap();
+            assert_eq!(table["path"].as_str(), Some(path));
+        }
     }
 }

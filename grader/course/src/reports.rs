@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn pages_share_the_viewer_and_become_whole() {
         let bed = tempfile::tempdir().unwrap();
-        let book = Book::open(bed.path()).unwrap();
+        let book = Book::new(bed.path());
         let graded = sample::graded();
         let lab = graded.grade.lab.name.clone();
         let (one, other) = ("00112233445566778899aabbccddeeff", "ff");

@@ -84,6 +84,7 @@ impl Roster {
         };
         let header = reader.headers().map_err(|why| unread(&why))?.clone();
         let columns = columns(&header).map_err(|(problem, help)| error(1, problem, &help))?;
+        let has_open_quote = text.matches('"').count() % 2 == 1;
         let mut people: Vec<Person> = Vec::new();
         let mut taken = Taken::default();
         for record in reader.records() {
@@ -97,6 +98,14 @@ impl Roster {
             };
             if record.iter().all(str::is_empty) {
                 continue;
+            }
+            // a name may go over two lines, but then its quote is closed
+            if has_open_quote && record.iter().any(|field| field.contains(['\n', '\r'])) {
+                return Err(error(
+                    line,
+                    "a field goes on over the end of its line".to_owned(),
+                    "close the quote `\"` in this line, or take it out",
+                ));
             }
             let id = StudentId::new(&field("id"))
                 .map_err(|why| error(line, why, "give everybody an id of their own"))?;
@@ -229,5 +238,13 @@ mod tests {
             let error = Roster::parse("roster.csv", text.as_bytes()).unwrap_err();
             assert!(error.to_string().contains(part), "{error}");
         }
+    }
+
+    #[test]
+    fn an_open_quote_does_not_swallow_the_others() {
+        let text = "id,name\ns1,Ana\ns2,\"Zoe\ns3,Kim\n";
+        let error = Roster::parse("roster.csv", text.as_bytes()).unwrap_err();
+        assert_eq!(error.line, 3);
+        assert!(error.help.contains("close the quote"));
     }
 }

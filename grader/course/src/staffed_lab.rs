@@ -11,6 +11,7 @@ use kinemark_sim::text::Source;
 
 use crate::book::{Inputs, version_of};
 use crate::student::StudentId;
+use crate::submission_file::numbers;
 
 /// The file of a staff part's version that holds the course's salt.
 pub const SALT_FILE: &str = "salt";
@@ -123,6 +124,13 @@ impl StaffedLab {
     /// Whether each student has numbers of their own.
     pub fn has_variants(&self) -> bool {
         self.has_variants
+    }
+
+    /// The numbers of a student's variant, by name; none where everybody has the same, and for an id that can have no variant.
+    pub fn numbers_of(&self, student: &StudentId) -> Option<Vec<(String, Vec<f64>)>> {
+        let salt = self.salt.as_deref().filter(|_| self.has_variants)?;
+        let variant = self.lab.variant_of(salt, student.as_str()).ok()?;
+        Some(numbers(&variant))
     }
 
     /// The files of the lab, to keep in the book.

@@ -97,6 +97,8 @@ pub struct Standing {
     pub hand_in: Option<String>,
     /// The engine and the lab that the student had, where a hand-in file says so.
     pub made_with: Option<MadeWith>,
+    /// Whether the variant that came with it has other numbers than the course's.
+    pub has_other_numbers: bool,
     /// When it was handed in, where that is known.
     pub submitted_at: Option<Timestamp>,
     /// How late \[s\]: 0 in time, absent where it is not known.
@@ -189,11 +191,13 @@ fn of_person(
     let key = attempt.and_then(Attempt::record);
     let (points, by_hand) = match (status, &record) {
         (Status::Graded, Some(record)) => with_fixes(Some(record), &fixed, key),
-        // a total given by hand needs no file: work shown in person
-        (Status::Missing, None) => with_fixes(None, &fixed, None),
+        // a total given by hand needs no file, and no grade: work shown in person
+        (Status::Missing | Status::NeedsPerson | Status::HostLimit | Status::GraderFault, None) => {
+            with_fixes(None, &fixed, None)
+        }
         _ => (None, Vec::new()),
     };
-    if status == Status::Missing && points.is_some() {
+    if points.is_some() {
         status = Status::Graded;
     }
     let due = fixes
@@ -210,6 +214,7 @@ fn of_person(
         attempt: chosen.map(|index| index + 1),
         hand_in: attempt.map(|attempt| attempt.hand_in.id.clone()),
         made_with: attempt.and_then(|attempt| attempt.hand_in.made_with.clone()),
+        has_other_numbers: attempt.is_some_and(|attempt| attempt.hand_in.has_other_numbers),
         submitted_at: attempt.and_then(|attempt| attempt.hand_in.submitted_at),
         late_s: attempt.and_then(|attempt| late_s(attempt, due)),
         marked_late: attempt.is_some_and(|attempt| attempt.hand_in.marked_late == Some(true)),

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 
 use kinemark_grader::lab::Variant;
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_sim::text::Source;
+use kinemark_grader::record::grade::{Grade, ParameterValue};
+use kinemark_sim::text::{Dimension, Source};
 
 use crate::hand_in_file::{HandInFile, HandInFileError, is_hand_in};
 use crate::journal::MadeWith;
@@ -15,7 +16,7 @@ use crate::student::StudentId;
 use crate::tree::Tree;
 
 /// A submission, however it was handed in. Whose it is, is what the student's machine says: good for finding a mix-up.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SubmissionFile {
     /// The path in the source of the file that was handed in.
     pub path: String,
@@ -27,12 +28,14 @@ pub struct SubmissionFile {
     pub student: Option<StudentId>,
     /// Whose variant it was made with: as the hand-in file says, or a `variant.toml` in the folder of the submission.
     pub variant_of: Option<StudentId>,
+    /// The numbers of that variant, by name; empty where nothing says them.
+    pub numbers: Vec<(String, Vec<f64>)>,
     /// The engine and the lab of practice; none where it is no hand-in file.
     pub made_with: Option<MadeWith>,
 }
 
 /// Why nobody but a person can say which file it is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Unclear {
     /// What is not clear, in words.
     pub what: String,
@@ -67,18 +70,21 @@ pub fn submission_of(
 impl SubmissionFile {
     fn of(found: &Found) -> Result<Self, HandInFileError> {
         if !found.is_hand_in {
+            let variant = found.variant.as_deref().and_then(variant);
             return Ok(Self {
                 path: found.path.clone(),
                 name: found.name.clone(),
                 bytes: found.bytes.clone(),
                 student: None,
-                variant_of: found.variant.as_deref().and_then(owner),
+                variant_of: variant.as_ref().and_then(owner),
+                numbers: variant.as_ref().map(numbers).unwrap_or_default(),
                 made_with: None,
             });
         }
         let file = HandInFile::read(&found.bytes)?;
         Ok(Self {
             path: found.path.clone(),
+            numbers: file.practice().map(practised).unwrap_or_default(),
             made_with: Some(file.made_with()),
             name: file.statement.file,
             bytes: file.submission,
@@ -88,11 +94,39 @@ impl SubmissionFile {
     }
 }
 
-/// The student whom a `variant.toml` names, if it can be read.
-fn owner(bytes: &[u8]) -> Option<StudentId> {
+/// A `variant.toml`, if it can be read.
+fn variant(bytes: &[u8]) -> Option<Variant> {
     let text = String::from_utf8(bytes.to_owned()).ok()?;
-    let variant = Variant::parse(Source::new(VARIANT_FILE, text)).ok()?;
+    Variant::parse(Source::new(VARIANT_FILE, text)).ok()
+}
+
+/// The student whom a variant names.
+fn owner(variant: &Variant) -> Option<StudentId> {
     StudentId::new(variant.student()?).ok()
+}
+
+/// The numbers of a variant, by name.
+pub(crate) fn numbers(variant: &Variant) -> Vec<(String, Vec<f64>)> {
+    let named = variant.parameters().map(|(name, value)| {
+        let values = match value {
+            Dimension::Number(number) => vec![*number],
+            Dimension::List(numbers) => numbers.clone(),
+        };
+        (name.to_owned(), values)
+    });
+    named.collect()
+}
+
+/// The numbers of the variant that was practised with, if it was one.
+fn practised(grade: Grade) -> Vec<(String, Vec<f64>)> {
+    let parameters = grade.variant.map(|variant| variant.parameters);
+    let named = parameters.into_iter().flatten();
+    named
+        .map(|(name, value)| match value {
+            ParameterValue::Number(number) => (name, vec![number]),
+            ParameterValue::List(numbers) => (name, numbers),
+        })
+        .collect()
 }
 
 fn unclear(unselected: &Unselected, of_lab: OfLab<'_>) -> Unclear {

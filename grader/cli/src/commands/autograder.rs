@@ -49,6 +49,10 @@ pub(crate) struct Args {
     pub(crate) hidden_at_upload: bool,
 }
 
+/// What somebody reads who is not in the roster.
+const UNKNOWN: &str = "Nothing was graded: you are not on your course's list of students. Write to your course staff; after they have \
+    added you, they run the autograder again.";
+
 /// A roster or a salt is smaller.
 const MOST_BYTES: u64 = 16 << 20;
 /// Metadata holds the results of earlier uploads.
@@ -58,7 +62,9 @@ const MOST_METADATA_BYTES: u64 = 64 << 20;
 enum NotGraded {
     /// Something that the student can see and change.
     Upload(String),
-    /// Something for course staff.
+    /// Something for course staff that no other upload changes, and what the student reads.
+    Setup(&'static str, Failure),
+    /// The grader or its machine failed.
     Failed(Failure),
 }
 
@@ -88,6 +94,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             output::print(&format!("not graded: {why}\n"))?;
             (GradescopeResults::none(&why), Ok(ExitCode::from(LOST)))
         }
+        Err(NotGraded::Setup(why, failure)) => (GradescopeResults::none(why), Err(failure)),
         Err(NotGraded::Failed(failure)) => (GradescopeResults::none(FAILED), Err(failure)),
     };
     let json = output::json(&content)?;
@@ -159,9 +166,15 @@ fn staffed(args: &Args) -> Result<(StaffedLab, Option<Roster>), Failure> {
 fn upload(args: &Args, submission: &Path) -> Result<GradescopeResults, NotGraded> {
     let (lab, roster) = staffed(args)?;
     let uploaded = uploaded(submission, &lab)?;
-    let student = match &roster {
-        Some(roster) => Some(student(args, roster, uploaded.variant_of.as_ref())?),
-        None => None,
+    let mut uploaded = uploaded;
+    let student = match (&roster, &uploaded.variant_of) {
+        (Some(roster), variant_of) => Some(student(args, roster, variant_of.as_ref())?),
+        (None, Some(_)) if !lab.lab.variants.is_empty() => {
+            let note = "You worked with numbers of your own, and this assignment grades everybody with the same ones.";
+            uploaded.notes.push(note.to_owned());
+            None
+        }
+        (None, _) => None,
     };
     // without variants every id has the same lab
     let anybody =
@@ -250,11 +263,20 @@ fn student(
         .iter()
         .filter_map(|user| roster.people().iter().find(|person| user.is(person)))
         .collect();
-    let named = people.iter().find(|person| Some(&person.id) == variant_of);
+    let is_owner =
+        |person: &&&Person| variant_of.is_some_and(|id| id.folded() == person.id.folded());
+    let named = people.iter().find(is_owner);
+    if named.is_none() && !people.is_empty() && variant_of.is_some() {
+        return Err(NotGraded::Upload(
+            "Nothing was graded: the file was made with the variant of somebody else. Put your own variant.toml beside your \
+             submission, run `kinemark submit` again, and upload the file that it writes."
+                .to_owned(),
+        ));
+    }
     let person = named.or(people.first());
     person.map(|person| person.id.clone()).ok_or_else(|| {
         let who: Vec<&str> = metadata.users.iter().map(|user| user.email.as_str()).collect();
-        NotGraded::Failed(Failure::broken(
+        NotGraded::Setup(UNKNOWN, Failure::broken(
             format!("{} is not in the roster of the autograder", visible(&who.join(", "))),
             "write the e-mail address of Gradescope into roster.csv, pack the lab again and upload the autograder anew",
         ))

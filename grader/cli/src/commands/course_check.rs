@@ -4,8 +4,11 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use kinemark_course::course_file::CourseLab;
+use kinemark_course::fixes::{FIXES_FILE, PointsChange};
 use kinemark_course::public::public_part;
 use kinemark_course::staffed_lab::{StaffedLab, engine_id};
+use kinemark_grader::lab::Task;
+use kinemark_sim::text::suggest;
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
@@ -54,6 +57,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     for rules in &course.file.labs {
         let lab = course.lab(rules)?;
         rows.push(lab_row(&course, rules, &lab));
+        rows.extend(
+            points_by_hand(&course, rules, &lab)
+                .into_iter()
+                .map(|(_, row)| row),
+        );
     }
     if args.json {
         output::print_json(&rows)?;
@@ -70,7 +78,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 /// Exit code 3 where this engine or this lab is not the course's.
 pub(crate) fn ready(course: &Course, rules: &CourseLab) -> Result<StaffedLab, Failure> {
     let lab = course.lab(rules)?;
-    for row in [engine(course), lab_row(course, rules, &lab)] {
+    let rows = [engine(course), lab_row(course, rules, &lab)];
+    let fixes = points_by_hand(course, rules, &lab);
+    // a check that is no more is noted where its points are: the fix stands there as stale
+    let too_many = fixes.into_iter().filter(|(is_too_many, _)| *is_too_many);
+    for row in rows.into_iter().chain(too_many.map(|(_, row)| row)) {
         if let Some(problem) = row.problem {
             let help = row.help.unwrap_or_default();
             return Err(Failure::broken(format!("{}: {problem}", row.what), &help));
@@ -165,12 +177,7 @@ fn lab_row(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Row {
         ),
         (Some(_), None) => (None, None),
     };
-    let points: f64 = lab
-        .lab
-        .tasks
-        .iter()
-        .map(kinemark_grader::lab::Task::max_points)
-        .sum();
+    let points: f64 = lab.lab.tasks.iter().map(Task::max_points).sum();
     let variants = if lab.has_variants() {
         ", a variant each"
     } else {
@@ -182,6 +189,56 @@ fn lab_row(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Row {
         problem,
         help,
     }
+}
+
+/// Points by hand that cannot be meant: more than there are (true), or of a check that the lab has not.
+fn points_by_hand(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Vec<(bool, Row)> {
+    let mut checks: Vec<(String, f64)> = Vec::new();
+    for task in &lab.lab.tasks {
+        let of_task = task.checks().into_iter();
+        checks.extend(of_task.map(|check| (format!("{}/{}", task.name, check.name), check.points)));
+    }
+    let all: f64 = lab.lab.tasks.iter().map(Task::max_points).sum();
+    let mut rows = Vec::new();
+    for fix in course
+        .fixes
+        .points
+        .iter()
+        .filter(|fix| fix.lab == rules.name)
+    {
+        let found = match &fix.check {
+            Some(name) => checks.iter().find(|(known, _)| known == name),
+            None => None,
+        };
+        let (is_too_many, problem, help) = match (&fix.check, found, fix.change) {
+            (Some(name), None, _) => (
+                false,
+                format!("the lab has no check `{name}`"),
+                suggest(name, "checks", checks.iter().map(|(name, _)| name.as_str())),
+            ),
+            (_, found, PointsChange::Set(points))
+                if points > found.map_or(all, |(_, most)| *most) =>
+            {
+                (
+                    true,
+                    format!(
+                        "{points} points are more than the {} there are",
+                        found.map_or(all, |(_, most)| *most)
+                    ),
+                    "write fewer, or give extra points with `add`".to_owned(),
+                )
+            }
+            _ => continue,
+        };
+        let row = Row {
+            what: FIXES_FILE.to_owned(),
+            found: format!("points of {} in {}", fix.student, rules.name),
+            problem: Some(problem),
+            help: Some(help),
+        };
+        rows.push((is_too_many, row));
+    }
+    rows
 }
 
 fn text(course: &Course, rows: &[Row]) -> String {

@@ -1,8 +1,10 @@
 //! `kinemark course forget`: removes a person from the book.
 
+use std::collections::BTreeSet;
 use std::process::ExitCode;
 
 use kinemark_course::student::StudentId;
+use kinemark_sim::text::suggest;
 
 use crate::course_folder::{Course, CourseArgs, book_failure};
 use crate::failure::Failure;
@@ -24,6 +26,33 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 }
 
+/// Refuses an id that the book knows nothing of: most often it is typed wrong.
+fn refuse_unknown(course: &Course, student: &StudentId) -> Result<(), Failure> {
+    let history = course.history()?;
+    let mut known: BTreeSet<StudentId> = history
+        .all()
+        .map(|(_, student, _)| student.clone())
+        .collect();
+    known.extend(history.withdrawn.iter().map(|gone| gone.student.clone()));
+    let questions = course.book.questions().map_err(book_failure)?;
+    known.extend(
+        questions
+            .into_iter()
+            .filter_map(|question| question.student),
+    );
+    if known.contains(student) || course.book.has_forgotten(student) {
+        return Ok(());
+    }
+    let gone = known
+        .iter()
+        .filter(|known| course.roster.get(known).is_none())
+        .map(StudentId::as_str);
+    Err(Failure::usage(
+        format!("the book has nothing of `{student}`"),
+        &suggest(student.as_str(), "ids that are no more in the roster", gone),
+    ))
+}
+
 /// Removes and prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let course = Course::open(&args.course)?;
@@ -35,6 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "take the line out of roster.csv, so that the next hand-in does not bring them back",
         ));
     }
+    refuse_unknown(&course, &student)?;
     let gone = course.book.forget(&student).map_err(book_failure)?;
     let history = course.history()?;
     course.index(&history)?;

@@ -1,21 +1,22 @@
 //! `kinemark course grade`: what the LMS exported, read, matched to students and graded; again, it goes on where it stopped.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use kinemark_course::course_file::CourseLab;
 use kinemark_course::grading::{self, GradingError, Outcome};
 use kinemark_course::history::History;
-use kinemark_course::intake::{self, Decision};
 use kinemark_course::journal::{Event, Graded, HandIn, MadeWith};
 use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_course::standing::{Standing, Status, counting};
+use kinemark_course::student::StudentId;
 use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
-use crate::course_folder::{Course, CourseArgs, book_failure, index_failure, intake_failure};
+use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
 use crate::shard::Shard;
@@ -74,9 +75,15 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let staffed = course_check::ready(&course, rules)?;
 
     let mut log = CourseLog::new(&course);
-    take_in(&course, rules, source, &mut log)?;
+    let taken_in = take_in(
+        &course,
+        rules,
+        &staffed,
+        source.map(PathBuf::as_path),
+        &mut log,
+    )?;
     let history = course.history()?;
-    let waiting = waiting(&course, rules, &history, args.shard);
+    let (waiting, lost) = waiting(&course, rules, &staffed, &history, args.shard)?;
     let result = grade(
         &course,
         &staffed,
@@ -94,82 +101,58 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::print(&format!("part {shard}: {} graded\n", waiting.len()))?;
         return Ok(ExitCode::SUCCESS);
     }
+    if !args.json {
+        output::print(&taken_in.text())?;
+        output::print(&lost_records(rules, &lost))?;
+    }
     summary(&course, rules, &staffed, args.json)
 }
 
-/// Reads the source, and what people decided since.
-fn take_in(
-    course: &Course,
-    rules: &CourseLab,
-    source: Option<&PathBuf>,
-    log: &mut CourseLog<'_>,
-) -> Result<(), Failure> {
-    let history = course.history()?;
-    let mut seen = BTreeSet::new();
-    let mut is_new =
-        |hand_in: &HandIn| !history.knows(&hand_in.id) && seen.insert(hand_in.id.clone());
-    if let Some(source) = source {
-        let found = intake::read(
-            source,
-            &rules.name,
-            &course.roster,
-            &course.fixes,
-            &course.book,
-        )
-        .map_err(intake_failure)?;
-        for hand_in in found.hand_ins {
-            if is_new(&hand_in) {
-                log.append(Event::HandIn(Box::new(hand_in)))?;
-            }
-        }
-        for question in found.questions {
-            course.book.put_question(&question).map_err(book_failure)?;
-        }
-    }
-    for question in course.book.questions().map_err(book_failure)? {
-        if question.lab != rules.name {
-            continue;
-        }
-        match intake::decision(&question, &course.fixes) {
-            None => continue,
-            Some(Decision::Ignored) => {}
-            Some(Decision::HandIn(hand_in)) => {
-                if is_new(&hand_in) {
-                    log.append(Event::HandIn(hand_in))?;
-                }
-            }
-        }
-        course
-            .book
-            .remove_question(&question)
-            .map_err(book_failure)?;
-    }
-    Ok(())
-}
-
-/// The hand-ins that count, or may count, and have no grade yet.
+/// The hand-ins that count, or may count, and have no grade yet; and the students whose record is lost and cannot be made again,
+/// because the lab or the engine is another now.
 fn waiting(
     course: &Course,
     rules: &CourseLab,
+    lab: &StaffedLab,
     history: &History,
     shard: Option<Shard>,
-) -> Vec<HandIn> {
-    let mut waiting = Vec::new();
+) -> Result<(Vec<HandIn>, Vec<StudentId>), Failure> {
+    let (mut waiting, mut lost) = (Vec::new(), Vec::new());
     for (student, attempts) in history.of_lab(&rules.name) {
         if shard.is_some_and(|shard| !shard.has(student.as_str())) {
             continue;
         }
-        let ungraded = counting(rules.attempts, attempts)
-            .iter()
-            // a record that a failing disk has lost is made again
-            .filter(|attempt| {
-                attempt
-                    .record()
-                    .is_none_or(|key| !course.book.has_record(key))
-            });
-        waiting.extend(ungraded.map(|attempt| attempt.hand_in.clone()));
+        for attempt in counting(rules.attempts, attempts) {
+            let hand_in = &attempt.hand_in;
+            match attempt.record() {
+                None => waiting.push(hand_in.clone()),
+                Some(key) if course.book.has_record(key) => {}
+                Some(key) => {
+                    let own = grading::key(lab, &course.book, hand_in);
+                    // the same record again, and never another one in its place
+                    if own.map_err(grading_failure)? == key {
+                        waiting.push(hand_in.clone());
+                    } else {
+                        lost.push(student.clone());
+                    }
+                }
+            }
+        }
     }
-    waiting
+    Ok((waiting, lost))
+}
+
+/// Records that a failing disk has lost, in a line.
+fn lost_records(rules: &CourseLab, lost: &[StudentId]) -> String {
+    if lost.is_empty() {
+        return String::new();
+    }
+    let students: Vec<&str> = lost.iter().map(StudentId::as_str).collect();
+    format!(
+        "the record is lost of {}: restore book/records from a copy, or make new grades with `kinemark course regrade {}`\n",
+        students.join(", "),
+        rules.name
+    )
 }
 
 /// Grades hand-ins, each twice at most: what this machine failed at is tried once more, alone.
@@ -236,8 +219,16 @@ fn record(
         Ok(Outcome::NotGraded { verdict, what }) => Ok(Some((verdict, what))),
         // said once everything else has ended
         Err(GradingError::Interrupted(_)) => Ok(None),
-        Err(GradingError::Lab(error)) => Err(Failure::from(*error)),
-        Err(GradingError::Book(error)) => Err(book_failure(error)),
+        Err(error) => Err(grading_failure(error)),
+    }
+}
+
+/// What keeps a hand-in from being graded at all, for people.
+fn grading_failure(error: GradingError) -> Failure {
+    match error {
+        GradingError::Interrupted(_) => Failure::paused(),
+        GradingError::Lab(error) => Failure::from(*error),
+        GradingError::Book(error) => book_failure(error),
     }
 }
 
@@ -319,10 +310,18 @@ fn made_otherwise(lab: &StaffedLab, standings: &[Standing]) -> String {
         });
         students.map(|standing| standing.student.as_str()).collect()
     };
+    let numbers = standings
+        .iter()
+        .filter(|standing| standing.has_other_numbers)
+        .map(|standing| standing.student.as_str());
     let mut out = String::new();
     for (what, students) in [
-        ("lab", with(&|made_with| made_with.lab != lab.lab_version)),
-        ("engine", with(&|made_with| made_with.engine != own)),
+        (
+            "another lab",
+            with(&|made_with| made_with.lab != lab.lab_version),
+        ),
+        ("another engine", with(&|made_with| made_with.engine != own)),
+        ("other numbers", numbers.collect()),
     ] {
         if students.is_empty() {
             continue;
@@ -334,7 +333,7 @@ fn made_otherwise(lab: &StaffedLab, standings: &[Standing]) -> String {
             more => format!(" and {more} more"),
         };
         out += &format!(
-            "{} practised with another {what} than the course's: {}{more}\n",
+            "{} practised with {what} than the course's: {}{more}\n",
             students.len(),
             named.collect::<Vec<_>>().join(", ")
         );

@@ -124,7 +124,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
         failure::warn_in_words(&warning.message, &warning.help);
     }
     let staff = match &chosen.reference {
-        Some(reference) => staff_of(reference, &lab, &args.from.staff)?,
+        Some(reference) => staff_of(reference, &lab, &chosen.staff)?,
         None => None,
     };
     if args.reference_overlay && staff.is_none() {

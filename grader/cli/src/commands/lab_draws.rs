@@ -10,13 +10,13 @@ use kinemark_grader::record::grade::TaskKind;
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
-use crate::{chosen_variant, output};
+use crate::{chosen_variant, enclosing_course, output};
 
 /// List the hidden cases and runs of a lab with their numbers: for course staff
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab draws 01-kinematics\n  kinemark lab draws 01-kinematics --task ik --json\n  \
     kinemark lab draws 04-knock-with-velocity --student s1234567\n\n\
@@ -51,6 +51,12 @@ struct Printed<'a> {
 
 /// Draws and prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let mut args = args.clone();
+    let note = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
+    if let Some(note) = note {
+        failure::note_in_words(&note);
+    }
+    let args = &args;
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let mut lab = Lab::load(files.as_ref(), &args.lab)?;
     let help = "give the course staff's folder";

@@ -19,10 +19,10 @@ use crate::disk::{self, Folder, plain};
 use crate::failure::{self, BROKEN, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
-use crate::{chosen_variant, output};
+use crate::{chosen_variant, enclosing_course, output};
 
 /// Pack a lab to hand out: for course staff
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab pack 01-kinematics --for students\n  \
     kinemark lab pack 01-kinematics --for students --roster roster.csv\n  \
@@ -106,6 +106,12 @@ struct Written<'a> {
 
 /// Makes the archive, writes it, prints what it is for.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let mut args = args.clone();
+    let note = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
+    if let Some(note) = note {
+        failure::note_in_words(&note);
+    }
+    let args = &args;
     refuse_others_options(args)?;
     let name = format!("{}-{}.zip", args.lab, args.audience.name());
     let out = args.out.clone().unwrap_or_else(|| PathBuf::from(name));
@@ -212,6 +218,15 @@ fn for_students(
         }
     };
     let secrets = secrets.map_err(failed)?;
+    if reference.is_some() && !secrets.has_solution() {
+        failure::warn_in_words(
+            &format!(
+                "the course staff's part has no solution of lab `{}`, so the archive was not searched for its lines",
+                lab.name
+            ),
+            "check the folder that --reference names",
+        );
+    }
     secrets.refuse_salts(&content).map_err(failed)?;
     let lines = secrets.shared_lines(&content);
     match (lines.is_empty(), args.allow_shared_lines) {

@@ -8,13 +8,13 @@ use kinemark_grader::lab::{Lab, Variant};
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
-use crate::{chosen_variant, output};
+use crate::{chosen_variant, enclosing_course, output};
 
 /// Generate one student's variant of a lab: for course staff
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab variant 04-knock-with-velocity --student s1234567\n  \
     kinemark lab variant 04-knock-with-velocity --student s1234567 --out s1234567/variant.toml\n\n\
@@ -52,6 +52,12 @@ struct Printed<'a> {
 
 /// Computes, and writes or prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let mut args = args.clone();
+    let note = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
+    if let Some(note) = note {
+        failure::note_in_words(&note);
+    }
+    let args = &args;
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(files.as_ref(), &args.lab)?;
     let help = "give the folder that holds LAB/hidden.toml, or --salt TEXT";

@@ -112,7 +112,7 @@ impl<'r> Matcher<'r> {
             (None, Some(group)) if others.is_empty() => Ok(self.matched(&group.people, "group")),
             (None, Some(_)) => Err(self.different_people(&leads)),
             (None, None) if leads.is_empty() => Err(self.nobody(hints, suggests)),
-            (None, None) => Err(self.several(&leads)),
+            (None, None) => Err(self.several(&leads, hints)),
         }
     }
 
@@ -135,8 +135,7 @@ impl<'r> Matcher<'r> {
                     "two people in the source have the name {}",
                     names.first().map_or_else(String::new, shown)
                 ),
-                help: "add the id of the LMS to roster.csv (lms_id), or name the student in fixes.toml"
-                    .to_owned(),
+                help: which_of_them(hints),
                 nearest: unique(nearest),
             }
         })
@@ -267,7 +266,7 @@ impl<'r> Matcher<'r> {
     }
 
     /// People who share what the source says.
-    fn several(&self, leads: &[Lead<'_>]) -> Unmatched {
+    fn several(&self, leads: &[Lead<'_>], hints: &[Hint]) -> Unmatched {
         let lead = &leads[0];
         Unmatched {
             why: format!(
@@ -276,8 +275,7 @@ impl<'r> Matcher<'r> {
                 lead.by,
                 shown(lead.hint)
             ),
-            help: "add the id of the LMS to roster.csv (lms_id), or name the student in fixes.toml"
-                .to_owned(),
+            help: which_of_them(hints),
             nearest: unique(self.ids(lead.people.iter().copied())),
         }
     }
@@ -370,4 +368,14 @@ fn unique(ids: Vec<StudentId>) -> Vec<StudentId> {
     let mut seen = BTreeSet::new();
     let new = ids.into_iter().filter(|id| seen.insert(id.clone()));
     new.take(MOST_NEAREST).collect()
+}
+
+/// What to do where a name is that of several people.
+fn which_of_them(hints: &[Hint]) -> String {
+    let has_lms_id = hints.iter().any(|hint| matches!(hint, Hint::LmsId(_)));
+    match has_lms_id {
+        true => "add the id of the LMS to roster.csv (lms_id), or name the student in fixes.toml",
+        false => "name the student in fixes.toml",
+    }
+    .to_owned()
 }

@@ -17,6 +17,7 @@ const LEAST_LINE: usize = 40;
 #[derive(Debug, Clone, Default)]
 pub struct Secrets {
     salts: Vec<String>,
+    has_solution: bool,
     lines: Vec<SecretLine>,
 }
 
@@ -80,6 +81,7 @@ impl Secrets {
             let Some(bytes) = read(reference, &path)? else {
                 continue;
             };
+            secrets.has_solution = true;
             secrets.add_solution(&path, &String::from_utf8_lossy(&bytes));
         }
         Ok(secrets)
@@ -99,6 +101,11 @@ impl Secrets {
                 shown: code.to_owned(),
             });
         }
+    }
+
+    /// Whether there was a solution to search for.
+    pub fn has_solution(&self) -> bool {
+        self.has_solution
     }
 
     /// Refuses files that hold a salt.

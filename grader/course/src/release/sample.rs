@@ -169,6 +169,7 @@ fn missing(student: &StudentId) -> Standing {
         attempt: None,
         hand_in: None,
         made_with: None,
+        has_other_numbers: false,
         submitted_at: None,
         late_s: None,
         marked_late: false,
