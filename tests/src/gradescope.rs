@@ -158,14 +158,14 @@ fn what_is_not_graded_has_no_score_at_all() {
     let bed = autograder(&[], false);
     let good = submission("good");
     let email = "x@example.org";
-    has_no_score(&upload(&bed, &[], email), "there is no file in the upload");
+    has_no_score(&upload(&bed, &[], email), "there is no file");
     let report = upload(&bed, &[("report.pdf", b"%PDF")], email);
-    has_no_score(&report, "there is no submission.rhai among `report.pdf`");
+    has_no_score(&report, "no submission is in it; there is `report.pdf`");
     let two = [
         ("a/submission.rhai", good.as_slice()),
         ("b/submission.rhai", &good),
     ];
-    has_no_score(&upload(&bed, &two, email), "may each be your submission");
+    has_no_score(&upload(&bed, &two, email), "2 files may be the submission");
     let damaged = [("x.kinemark", &b"PK\x03\x04"[..])];
     has_no_score(
         &upload(&bed, &damaged, email),
@@ -203,8 +203,34 @@ fn a_hand_in_file_is_graded_with_the_variant_of_whoever_uploads_it() {
     assert!(output(&other).contains("variant of s1001: "));
     has_no_score(
         &upload(&bed, &files, "who@example.org"),
-        "This is not zero points",
+        "you are not on your course's list",
     );
+    // a file made with the variant of the other
+    let ran = bed.run(&[
+        "lab",
+        "variant",
+        LAB,
+        "--student",
+        "s1001",
+        "--out",
+        "work/variant.toml",
+    ]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = bed.run(&[
+        "submit",
+        LAB,
+        "work/submission.rhai",
+        "--out",
+        "two.kinemark",
+    ]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let hand_in = std::fs::read(bed.path("two.kinemark")).expect("file");
+    let files = [("two.kinemark", hand_in.as_slice())];
+    has_no_score(
+        &upload(&bed, &files, "one@example.org"),
+        "the variant of somebody else",
+    );
+    assert_eq!(upload(&bed, &files, "two@example.org")["score"], 24.0);
 
     // of another lab
     bed.write(
@@ -225,5 +251,5 @@ fn a_hand_in_file_is_graded_with_the_variant_of_whoever_uploads_it() {
         &[("x.kinemark", hand_in.as_slice())],
         "one@example.org",
     );
-    has_no_score(&wrong, "is of lab `00-step-response`");
+    has_no_score(&wrong, "of another lab: `00-step-response`");
 }
