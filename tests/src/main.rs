@@ -7,6 +7,7 @@
 
 mod architecture;
 mod brief_pictures;
+mod class_page;
 mod commands;
 mod compare;
 mod course;

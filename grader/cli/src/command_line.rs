@@ -9,9 +9,9 @@ use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
-    course_regrade, course_release, course_status, grade, lab_check, lab_draws, lab_list, lab_pack,
-    lab_variant, log_export, new, robot_convert, robot_eval, robot_show, scene_check, submit,
-    verify, view, watch,
+    course_page, course_regrade, course_release, course_status, grade, lab_check, lab_draws,
+    lab_list, lab_pack, lab_variant, log_export, new, robot_convert, robot_eval, robot_show,
+    scene_check, submit, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -106,6 +106,7 @@ pub(crate) enum CourseCommand {
     Grade(course_grade::Args),
     Status(course_status::Args),
     Explain(course_explain::Args),
+    Page(course_page::Args),
     Regrade(course_regrade::Args),
     Release(course_release::Args),
     Forget(course_forget::Args),
@@ -137,6 +138,7 @@ impl CommandLine {
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),
             Command::Course(CourseCommand::Explain(args)) => course_explain::run(&args),
+            Command::Course(CourseCommand::Page(args)) => course_page::run(&args),
             Command::Course(CourseCommand::Release(args)) => course_release::run(&args),
             Command::Course(CourseCommand::Forget(args)) => course_forget::run(&args),
             Command::Course(CourseCommand::Regrade(args)) => course_regrade::run(&args),

@@ -14,6 +14,7 @@ use kinemark_course::roster::Roster;
 use kinemark_course::staffed_lab::StaffedLab;
 use kinemark_course::standing::{Standing, standings};
 use kinemark_course::student::StudentId;
+use kinemark_course::working_folder::{BRIEF_FILE, STARTER_FILE};
 use kinemark_grader::task::files::Files;
 use kinemark_sim::text::{Source, suggest};
 
@@ -31,7 +32,7 @@ pub(crate) struct CourseArgs {
 }
 
 /// The folder that the program writes, in the course's.
-const BOOK: &str = "book";
+pub(crate) const BOOK: &str = "book";
 
 /// A course, read.
 pub(crate) struct Course {
@@ -227,6 +228,43 @@ impl Course {
             open,
             known,
         ))
+    }
+}
+
+impl Course {
+    /// How everybody stands in every lab, lab by lab; the index is given it too, for whoever looks into the book.
+    pub(crate) fn put_standings(
+        &self,
+        history: &History,
+        index: &mut Index,
+    ) -> Result<Vec<Standing>, Failure> {
+        let questions = self.book.questions().map_err(book_failure)?;
+        let mut all = Vec::new();
+        for rules in &self.file.labs {
+            let of_lab = questions
+                .iter()
+                .filter(|question| question.lab == rules.name);
+            let open: Vec<StudentId> = of_lab
+                .filter_map(|question| question.student.clone())
+                .collect();
+            all.extend(self.standings(rules, history, index, &open)?);
+        }
+        index.put_standings(&all).map_err(index_failure)?;
+        Ok(all)
+    }
+
+    /// What students were given besides the files that the lab is read from: brief and starter, where there are any.
+    pub(crate) fn handed_out(&self, rules: &CourseLab) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+        let mut files = Vec::new();
+        for name in [BRIEF_FILE, STARTER_FILE] {
+            let path = format!("{}/{name}", rules.name);
+            let bytes = self.labs.bytes(&path).map_err(|why| {
+                let shown = format!("{}/{path}", self.labs.name());
+                Failure::broken(format!("`{shown}` cannot be read: {why}"), "check the file")
+            })?;
+            files.extend(bytes.map(|bytes| (path, bytes)));
+        }
+        Ok(files)
     }
 }
 

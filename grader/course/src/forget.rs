@@ -24,6 +24,8 @@ pub struct Forgotten {
     pub submissions: usize,
     /// Open questions.
     pub questions: usize,
+    /// Labs whose pages of the class went, because they had the person in them.
+    pub pages: usize,
     /// Records of others that name the person because a group was graded with their variant; they stay.
     pub left: usize,
 }
@@ -70,6 +72,7 @@ impl Book {
                 }
             }
         }
+        forgotten.pages = self.remove_class_pages()?;
         // the journal last: until then another call finds what is left
         let keys = self.record_keys();
         for key in keys.map_err(|error| failed(&self.root().join("records"), &error))? {

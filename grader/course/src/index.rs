@@ -73,6 +73,12 @@ impl Index {
         empty.renewed(book, history, state, &keys)
     }
 
+    /// The index that a book has, as it is: what was written since its last command is not in it. None where there is none, or one
+    /// that is damaged or of another version.
+    pub fn of(book: &Path) -> Option<Self> {
+        Self::existing(&book.join(INDEX_FILE))
+    }
+
     /// The index that is there, if it is whole and of this version.
     fn existing(path: &Path) -> Option<Self> {
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
@@ -463,7 +469,6 @@ fn write_standings(
 ) -> rusqlite::Result<()> {
     change.execute_batch("DELETE FROM standings;")?;
     for standing in standings {
-        let status = serde_json::to_value(standing.status).unwrap_or_default();
         change
             .prepare_cached(
                 "INSERT INTO standings VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
@@ -471,7 +476,7 @@ fn write_standings(
             .execute(params![
                 standing.student.as_str(),
                 standing.lab,
-                status.as_str(),
+                standing.status.name(),
                 standing.attempts as i64,
                 standing.attempt.map(|attempt| attempt as i64),
                 standing.record,

@@ -18,12 +18,14 @@
 //! | [`standing`] | how each student stands in each lab |
 //! | [`book`] | the folder that is written: records, submissions, labs, the journal |
 //! | [`index`] | `course.sqlite`: the book as tables |
+//! | [`standing_rows`] | how everybody stands, as the index has it |
 //! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
 //! | [`fixed_zip`] | archives whose bytes follow from their files alone |
 //! | [`hand_in_file`] | the one file that a student uploads |
 //! | [`submission_file`] | the submission among a person's files, with what says whose it is |
 //! | [`question`] | what waits for a person |
 //! | [`reports`] | pages of graded hand-ins |
+//! | [`class_pages`] | where the pages of the class are |
 //! | [`forget`] | removing a person from a book |
 //! | [`intake`] | from what the LMS exported to hand-ins |
 //! | [`public`] | what anybody can read in Kinemark's own repository |
@@ -51,6 +53,7 @@
 )]
 
 pub mod book;
+pub mod class_pages;
 pub mod clusters;
 pub mod course_file;
 pub mod course_text;
@@ -84,6 +87,7 @@ pub mod selection;
 pub mod similarity;
 pub mod staffed_lab;
 pub mod standing;
+pub mod standing_rows;
 pub mod statistics;
 pub mod student;
 pub mod submission_file;

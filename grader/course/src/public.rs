@@ -6,17 +6,22 @@ const PUBLIC: &[(&str, &str)] = include!("public.in");
 
 /// What of a lab is public, in words; `None` where nothing is.
 pub fn public_part(solution: &[u8], salt: Option<&str>) -> Option<&'static str> {
-    let digest = |bytes: &[u8]| blake3::hash(bytes).to_hex().to_string();
-    let is_public = |kind: &str, bytes: &[u8]| {
-        let digest = digest(bytes);
-        PUBLIC
-            .iter()
-            .any(|(of, known)| *of == kind && *known == digest)
-    };
     if salt.is_some_and(|salt| is_public("salt", salt.as_bytes())) {
         return Some("salt");
     }
-    is_public("solution", solution).then_some("reference solution")
+    is_public_solution(solution).then_some("reference solution")
+}
+
+/// Whether these bytes are one of the reference solutions that anybody can read.
+pub fn is_public_solution(bytes: &[u8]) -> bool {
+    is_public("solution", bytes)
+}
+
+fn is_public(kind: &str, bytes: &[u8]) -> bool {
+    let digest = blake3::hash(bytes).to_hex();
+    PUBLIC
+        .iter()
+        .any(|(of, known)| *of == kind && *known == digest.as_str())
 }
 
 #[cfg(test)]

@@ -22,6 +22,18 @@ fn viewer_file() -> String {
     format!("viewer-{}.js", &digest[..12])
 }
 
+/// A page of the book with the viewer's code in it, whichever version of the viewer it was written beside: what a server sends may load
+/// nothing else.
+pub fn with_viewer(page: &str) -> String {
+    let address = page
+        .rsplit_once("<script src=\"")
+        .and_then(|(_, rest)| rest.split('"').next());
+    match address.filter(|address| address.starts_with("../viewer-")) {
+        Some(address) => whole(page, address),
+        None => page.to_owned(),
+    }
+}
+
 /// The page of a record, seen from the book's folder: by its key, so no name and no id is in it.
 pub fn page_path(lab: &str, key: &str) -> String {
     format!("{REPORTS}/{lab}/{key}.html")
@@ -48,6 +60,11 @@ impl Book {
             })?;
         }
         Ok(())
+    }
+
+    /// Whether the book has the page of a record.
+    pub fn has_page(&self, lab: &str, key: &str) -> bool {
+        self.in_root(&page_path(lab, key)).is_file()
     }
 
     /// The page of a record as one file with everything in it; `None` where none was written, or one of another viewer.
@@ -89,6 +106,11 @@ mod tests {
         let page = book.whole_page(&lab, one).unwrap().unwrap();
         let drawn: Vec<_> = graded.runs.iter().map(plots).collect();
         assert_eq!(page, kinemark_report::html::html(&graded, &drawn));
+        let beside = std::fs::read_to_string(bed.path().join(page_path(&lab, one))).unwrap();
+        assert_eq!(with_viewer(&beside), page);
+        let of_another = beside.replace(&viewer_file(), "viewer-0123456789ab.js");
+        assert_eq!(with_viewer(&of_another), page);
+        assert_eq!(with_viewer("<p>plain</p>"), "<p>plain</p>");
         let names = std::fs::read_dir(bed.path().join(REPORTS)).unwrap();
         assert_eq!(names.count(), 2, "the viewer once, and the lab's folder");
     }

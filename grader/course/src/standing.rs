@@ -32,6 +32,35 @@ pub enum Status {
 }
 
 impl Status {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Graded,
+        Self::Pending,
+        Self::HostLimit,
+        Self::GraderFault,
+        Self::NeedsPerson,
+        Self::Missing,
+        Self::Excused,
+    ];
+
+    /// Its name in files and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Graded => "graded",
+            Self::Pending => "pending",
+            Self::HostLimit => "host-limit",
+            Self::GraderFault => "grader-fault",
+            Self::NeedsPerson => "needs-person",
+            Self::Missing => "missing",
+            Self::Excused => "excused",
+        }
+    }
+
+    /// The status of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|status| status.name() == name)
+    }
+
     /// In words, for people.
     pub fn words(self) -> &'static str {
         match self {
@@ -312,6 +341,15 @@ mod tests {
             staff_version: None,
             checks: vec![("fk/position".to_owned(), 2.0)],
         })
+    }
+
+    #[test]
+    fn a_status_has_one_name_everywhere() {
+        for status in Status::ALL {
+            assert_eq!(serde_json::to_value(status).unwrap(), status.name());
+            assert_eq!(Status::named(status.name()), Some(status));
+        }
+        assert_eq!(Status::named("unheard-of"), None);
     }
 
     #[test]

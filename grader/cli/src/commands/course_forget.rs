@@ -67,7 +67,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     refuse_unknown(&course, &student)?;
     let gone = course.book.forget(&student).map_err(book_failure)?;
     let history = course.history()?;
-    course.index(&history)?;
+    let mut index = course.index(&history)?;
+    course.put_standings(&history, &mut index)?;
     if args.json {
         output::print_json(&gone)?;
     } else {
@@ -75,6 +76,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "{student}: {} lines of the journal, {} records, {} submissions and {} questions removed\n",
             gone.lines, gone.records, gone.submissions, gone.questions
         ))?;
+        if gone.pages > 0 {
+            output::print(
+                "the pages of the class are removed, too: `kinemark course page LAB` writes them anew\n",
+            )?;
+        }
         if gone.left > 0 {
             output::print(&format!(
                 "{} hand-ins of others in the group were graded with this student's variant and still name it\n",

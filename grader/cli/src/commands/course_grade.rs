@@ -15,7 +15,7 @@ use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
-use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
+use crate::course_folder::{Course, CourseArgs, book_failure};
 use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
@@ -242,21 +242,11 @@ fn summary(
     let history = course.history()?;
     let mut index = course.index(&history)?;
     let questions = course.book.questions().map_err(book_failure)?;
-    let mut all: Vec<Standing> = Vec::new();
-    let mut of_lab: Vec<Standing> = Vec::new();
-    for other in &course.file.labs {
-        let open: Vec<_> = questions
-            .iter()
-            .filter(|question| question.lab == other.name)
-            .filter_map(|question| question.student.clone())
-            .collect();
-        let standings = course.standings(other, &history, &index, &open)?;
-        if other.name == rules.name {
-            of_lab.clone_from(&standings);
-        }
-        all.extend(standings);
-    }
-    index.put_standings(&all).map_err(index_failure)?;
+    let of_lab: Vec<Standing> = course
+        .put_standings(&history, &mut index)?
+        .into_iter()
+        .filter(|standing| standing.lab == rules.name)
+        .collect();
     let open = questions
         .iter()
         .filter(|question| question.lab == rules.name)

@@ -96,7 +96,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let why = args.why.as_deref().unwrap_or_default();
         apply(&course, &mut changes, why, args.allow_lower)?;
         let history = course.history()?;
-        course.index(&history)?;
+        let mut index = course.index(&history)?;
+        course.put_standings(&history, &mut index)?;
     }
     if args.json {
         output::print_json(&changes)?;

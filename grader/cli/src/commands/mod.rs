@@ -7,6 +7,7 @@ pub(crate) mod course_check;
 pub(crate) mod course_explain;
 pub(crate) mod course_forget;
 pub(crate) mod course_grade;
+pub(crate) mod course_page;
 pub(crate) mod course_regrade;
 pub(crate) mod course_release;
 pub(crate) mod course_status;

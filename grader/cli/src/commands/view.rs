@@ -1,22 +1,25 @@
-//! `kinemark view`: a report folder in the browser, served to this machine until Ctrl-C.
+//! `kinemark view`: a report folder, or the book of a course, in the browser, served to this machine until Ctrl-C.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use kinemark_course::course_file::COURSE_FILE;
+
 use crate::failure::Failure;
-use crate::serve::{self, ServeArgs, Server};
+use crate::serve::{self, ServeArgs, ServedBook, Server};
 use crate::{interrupt, output};
 
-/// Open a report in the browser
+/// Open a report, or the book of a course, in the browser
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n\n\
+    after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n  kinemark view book\n\n\
     Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points \
-    of each.\n\
+    of each. The book of a course is listed with everybody in every lab, sorted and filtered; of a book only pages are served. Whoever \
+    else is logged in on this machine can open the address, too.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder has no report, 4 the port cannot be used."
 )]
 pub(crate) struct Args {
-    /// The output folder of `kinemark grade` or `kinemark compare`, or a folder of several
+    /// The output folder of `kinemark grade` or `kinemark compare`, a folder of several, or the folder of a course or its book
     #[arg(default_value = "out")]
     pub(crate) folder: PathBuf,
     #[command(flatten)]
@@ -35,7 +38,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "name the folder that `kinemark grade` wrote",
         ));
     }
-    if !serve::index::has_reports(&args.folder) {
+    let book = ServedBook::find(&args.folder);
+    if book.is_none() && args.folder.join(COURSE_FILE).is_file() {
+        return Err(Failure::broken(
+            format!("the course in `{shown}` has no book yet"),
+            "`kinemark course grade` writes it",
+        ));
+    }
+    if book.is_none() && !serve::index::has_reports(&args.folder) {
         return Err(Failure::broken(
             format!("`{shown}` contains no report, and neither do the folders in it"),
             "name the folder that `kinemark grade` wrote, or a folder of several",
@@ -46,7 +56,13 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         // nobody listening any more is the end, too
         let _ = stop.send(true);
     });
-    let server = Server::bind(&args.folder, args.serve.port, None)?;
+    let folder = book
+        .as_ref()
+        .map_or(args.folder.as_path(), ServedBook::root);
+    let mut server = Server::bind(folder, args.serve.port, None)?;
+    if let Some(book) = book {
+        server = server.of_book(book);
+    }
     let address = server.address();
     if args.json {
         let line = serde_json::json!({ "folder": shown, "address": address });

@@ -1,9 +1,11 @@
-//! A report folder served to the browser on this machine.
+//! A report folder, or the book of a course, served to the browser on this machine.
 
+mod book;
 mod files;
 mod guard;
 pub(crate) mod index;
 mod page;
 mod server;
 
+pub(crate) use book::ServedBook;
 pub(crate) use server::{ServeArgs, Server, open};

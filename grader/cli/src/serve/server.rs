@@ -1,4 +1,4 @@
-//! A report folder on this machine's own address, for the browser of whoever sits at it: read only, nothing beside the folder, and
+//! A report folder, or a book, on this machine's own address, for the browser of whoever sits at it: read only, nothing beside the folder, and
 //! for no other site.
 
 use std::io::{ErrorKind, Write as _};
@@ -14,6 +14,7 @@ use axum::routing::get;
 use kinemark_report::output::PAGE_FILE;
 use tokio::sync::watch;
 
+use super::book::ServedBook;
 use super::{files, guard, index, page};
 use crate::disk::plain;
 use crate::failure::Failure;
@@ -36,6 +37,8 @@ struct Site {
     port: u16,
     /// How often the report was written, where it is written again and again.
     changes: Option<watch::Receiver<u64>>,
+    /// The book of a course, of which only a list and pages are served.
+    book: Option<ServedBook>,
 }
 
 /// A server that has its address and answers nobody yet.
@@ -74,8 +77,15 @@ impl Server {
                 folder: folder.to_owned(),
                 port,
                 changes,
+                book: None,
             },
         })
+    }
+
+    /// The same server, of a book instead of a report.
+    pub(crate) fn of_book(mut self, book: ServedBook) -> Self {
+        self.site.book = Some(book);
+        self
     }
 
     /// The address to open.
@@ -136,8 +146,15 @@ fn routes(site: Arc<Site>) -> Router {
         .with_state(site)
 }
 
-/// What to look at first: the report, the comparison, or a list of the reports.
+/// What to look at first: the report, the comparison, or a list of the reports or of a book.
 async fn start(State(site): State<Arc<Site>>) -> Response {
+    if site.book.is_some() {
+        let list = off_thread(move || site.book.as_ref().map(ServedBook::list)).await;
+        return match list.flatten() {
+            Some(list) => page::book_list(list),
+            None => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+        };
+    }
     let found = off_thread(move || {
         let first = index::FIRST
             .into_iter()
@@ -159,7 +176,11 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
     let seen = site.changes.as_ref().map(|changes| *changes.borrow());
     let kind = files::media_type(&path);
     let is_report = path == PAGE_FILE;
-    let read = off_thread(move || files::read(&site.folder, &path)).await;
+    let read = off_thread(move || match &site.book {
+        Some(book) => book.page(&path),
+        None => files::read(&site.folder, &path),
+    })
+    .await;
     let bytes = match read {
         Some(Ok(bytes)) => bytes,
         Some(Err(files::Unread::Absent)) => {

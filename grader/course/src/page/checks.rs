@@ -23,9 +23,10 @@ pub(super) fn checks(statistics: &LabStatistics) -> Markup {
     }
     html! {
         p class="lead" {
-            "Bars are shares of the class. " strong { "With the rest" } " is the correlation with the points of the other checks, over those of whom
-            the check was judged: near 0 it says nothing about the rest of the lab. Values are drawn over the band: left what earns all points, \
-            in the middle a part, right none."
+            "Bars are shares of the class. " strong { "Passed" } " is who earned all points, of everybody with a grade. " strong { "Discrimination" }
+            " is the correlation with the points of the other checks, over those of whom the check was judged: near 0 the check says nothing \
+            about the rest of the lab, below 0 it goes against it. Values are drawn over the band: left what earns all points, in the middle a \
+            part, right none."
         }
         div class="wide" tabindex="0" role="group" aria-label="Checks" {
             table class="per-check" role="table" {
@@ -34,15 +35,16 @@ pub(super) fn checks(statistics: &LabStatistics) -> Markup {
                     tr role="row" {
                         th scope="col" role="columnheader" { "Check" }
                         th scope="col" role="columnheader" { "Students" }
+                        th scope="col" role="columnheader" class="number" { "Passed" }
                         th scope="col" role="columnheader" class="number" { "Mean" }
-                        th scope="col" role="columnheader" class="number" { "With the rest" }
+                        th scope="col" role="columnheader" class="number" { "Discrimination" }
                         th scope="col" role="columnheader" { "Values over the band" }
                     }
                 }
                 @for (_, checks) in &tasks {
                     tbody role="rowgroup" {
                         tr class="task" role="row" {
-                            th scope="rowgroup" role="rowheader" colspan="5" { (foreign(checks.first().map_or("", |check| &check.task_title))) }
+                            th scope="rowgroup" role="rowheader" colspan="6" { (foreign(checks.first().map_or("", |check| &check.task_title))) }
                         }
                         @for check in checks { (row(check)) }
                     }
@@ -62,8 +64,9 @@ fn row(check: &CheckStatistics) -> Markup {
                 @for pile in check.values.iter().flat_map(|values| &values.piles) { p class="pile" { (pile.says) } }
             }
             td role="cell" { (stack(check)) }
+            td role="cell" class="number" data-label="passed" { (percent(check.full as f64 / check.students.max(1) as f64)) }
             td role="cell" class="number" data-label="mean" { (or_dash(check.mean_share.map(percent))) }
-            td role="cell" class="number" data-label="with the rest" {
+            td role="cell" class="number" data-label="discrimination" {
                 @if is_weak { strong { (or_dash(discrimination.map(|r| typeset(r, 2)))) } " " span class="pill partial" { "weak" } }
                 @else { (or_dash(discrimination.map(|r| typeset(r, 2)))) }
             }

@@ -1,23 +1,20 @@
 //! The page of a class: numbers and pictures of a lab without names, so that it can be projected; with names only on request.
 
-use kinemark_report::html::{SmallScript, StaticPage, foreign};
+use kinemark_report::html::{StaticPage, foreign};
 use maud::{Markup, html};
 
 use super::checks::checks;
 use super::groups;
 use super::head::{PageHead, head};
 use super::losses::{clusters, hidden, mistakes, slow_runs};
-use super::names::{NamedStudent, names};
+use super::names::{NamedStudent, TABLE, table_of};
 use super::points::distribution;
 use super::shown::{CSS, all, section};
 use crate::clusters::Cluster;
 use crate::statistics::LabStatistics;
 
-/// Sorts the table of students.
-const SORT: SmallScript<'_> = SmallScript {
-    code: include_str!("sort.js"),
-    digest: include_str!("sort.js.sha256"),
-};
+/// With fewer grades than this, everybody could work out whose points are whose.
+const FEWEST_PROJECTED: usize = groups::FEWEST_SHOWN;
 
 /// The page of a class, one file that asks nothing of the network. Without `names` it has no name and no id, and no points of groups of
 /// fewer than five; with them a table of students, which only course staff may see. The same class gives the same bytes.
@@ -43,7 +40,7 @@ pub fn class_page(
     };
     let body = html! {
         a class="skip" href="#points" { "Skip to the points" }
-        (head(page_head, statistics, "Kinemark class", &notice(names.is_some()), &links))
+        (head(page_head, statistics, "Kinemark class", &notice(statistics, names.is_some()), &links))
         main {
             (shown(first))
             (groups::groups(statistics, names.is_some()))
@@ -56,7 +53,7 @@ pub fn class_page(
         title: &title,
         engine: &page_head.engine,
         css: CSS,
-        script: names.map(|_| SORT),
+        script: names.map(|_| TABLE),
     };
     page.around(&body)
 }
@@ -80,14 +77,18 @@ fn parts(
         parts.push(("runs", "The slowest runs", slow_runs(statistics, named)));
     }
     if let Some(named) = named {
-        parts.push(("students", "Students", names(named)));
+        parts.push(("students", "Students", table_of(named, &[])));
     }
     parts
 }
 
-fn notice(has_names: bool) -> Markup {
+fn notice(statistics: &LabStatistics, has_names: bool) -> Markup {
+    let grades = statistics.points.as_ref().map_or(0, |spread| spread.n);
     html! {
         @if has_names { p class="note bad" { strong { "For course staff. " } "This page has names and points of students: do not project it, and do not send it on." } }
+        @else if (1..FEWEST_PROJECTED).contains(&grades) {
+            p class="note bad" { strong { "Do not project this page yet. " } "It has no names, but with so few grades everybody could work out whose points are whose." }
+        }
         @else { p class="mode" { strong { "No names, no ids. " } "This page can be projected." } }
     }
 }

@@ -4,7 +4,7 @@
 use kinemark_report::html::foreign;
 use maud::{Markup, html};
 
-use super::shown::{section, table, tenths};
+use super::shown::{or_dash, section, table, tenths};
 use crate::statistics::{GroupPoints, LabStatistics, Spread};
 
 /// Points of fewer students than this are not shown on a page without names.
@@ -56,23 +56,29 @@ fn of(what: &str, groups: &[GroupPoints], max: f64, with_names: bool) -> Markup 
             .as_ref()
             .is_some_and(|spread| !may_show(&spread))
     };
-    let rows = html! {
-        @for group in groups {
-            tr {
-                th scope="row" { (foreign(&group.name)) }
-                td class="number" { (group.students) }
-                @match group.points.as_ref().filter(may_show) {
-                    Some(spread) => {
-                        td class="number" { (tenths(spread.mean)) }
-                        td class="number" { (tenths(spread.median)) }
-                        td class="number" { (tenths(spread.lower_quartile)) " and " (tenths(spread.upper_quartile)) }
-                        td { (whiskers(spread, max)) }
-                    }
-                    None => { td class="number" { "–" } td class="number" { "–" } td class="number" { "–" } td {} }
-                }
-            }
-        }
-    };
+    let rows: Vec<Vec<Markup>> = groups
+        .iter()
+        .map(|group| {
+            let name = html! { (foreign(&group.name)) };
+            let shown = group.points.as_ref().filter(may_show);
+            let number = |of: fn(&Spread) -> f64| html! { (or_dash(shown.map(|spread| tenths(of(spread))))) };
+            let between = shown.map(|spread| {
+                format!(
+                    "{} and {}",
+                    tenths(spread.lower_quartile),
+                    tenths(spread.upper_quartile)
+                )
+            });
+            vec![
+                name,
+                html! { (group.students) },
+                number(|spread| spread.mean),
+                number(|spread| spread.median),
+                html! { (or_dash(between)) },
+                html! { @if let Some(spread) = shown { (whiskers(spread, max)) } },
+            ]
+        })
+        .collect();
     html! {
         (table(what, "groups", &head, &rows))
         @if groups.iter().any(is_hidden) { p class="quiet" { "Groups with fewer than " (FEWEST_SHOWN) " grades have no numbers here." } }

@@ -2,7 +2,7 @@
 
 use kinemark_grader::record::quantity::points;
 use kinemark_report::html::{foreign, prose};
-use kinemark_sim::text::number::{short, trimmed};
+use kinemark_sim::text::number::trimmed;
 use maud::{Markup, html};
 
 use super::names::NamedStudent;
@@ -26,16 +26,18 @@ pub(super) fn hidden(statistics: &LabStatistics) -> Markup {
         ("Points lost", true),
         ("Each", true),
     ];
-    let rows = html! {
-        @for check in lost {
-            tr {
-                th scope="row" { (foreign(&check.task_title)) ": " (foreign(&check.title)) }
-                td class="number" { (check.hidden_only.students) }
-                td class="number" { (points(check.hidden_only.points)) }
-                td class="number" { (trimmed(check.hidden_only.points / check.hidden_only.students as f64, 2)) " of " (points(check.max_points)) }
-            }
-        }
-    };
+    let rows: Vec<Vec<Markup>> = lost
+        .iter()
+        .map(|check| {
+            let each = check.hidden_only.points / check.hidden_only.students as f64;
+            vec![
+                html! { (foreign(&check.task_title)) ": " (foreign(&check.title)) },
+                html! { (check.hidden_only.students) },
+                html! { (points(check.hidden_only.points)) },
+                html! { (trimmed(each, 2)) " of " (points(check.max_points)) },
+            ]
+        })
+        .collect();
     html! {
         p class="lead" {
             "These students could not see a loss at home. Where they are many, a visible case like the hidden ones is missing."
@@ -56,17 +58,19 @@ pub(super) fn mistakes(statistics: &LabStatistics) -> Markup {
         ("Of the task", true),
         ("Of the lab", true),
     ];
-    let rows = html! {
-        @for mistake in &statistics.mistakes {
-            tr {
-                th scope="row" { code { (foreign(&mistake.mistake)) } " " small { (prose(&mistake.says)) } }
-                td { (foreign(&mistake.task_title)) }
-                td class="number" { (mistake.students) }
-                td class="number" { (or_dash(mistake.task_share.map(percent))) }
-                td class="number" { (or_dash(mistake.lab_share.map(percent))) }
-            }
-        }
-    };
+    let rows: Vec<Vec<Markup>> = statistics
+        .mistakes
+        .iter()
+        .map(|mistake| {
+            vec![
+                html! { code { (foreign(&mistake.mistake)) } " " small { (prose(&mistake.says)) } },
+                html! { (foreign(&mistake.task_title)) },
+                html! { (mistake.students) },
+                html! { (or_dash(mistake.task_share.map(percent))) },
+                html! { (or_dash(mistake.lab_share.map(percent))) },
+            ]
+        })
+        .collect();
     html! {
         p class="lead" { "The last two columns are the points that those who make it keep, on average. A wrong idea that keeps nearly everything is too cheap." }
         (table("Named mistakes", "mistakes", &head, &rows))
@@ -85,19 +89,21 @@ pub(super) fn clusters(clusters: &[Cluster]) -> Markup {
         ("Keep", true),
         ("Lost in", false),
     ];
-    let rows = html! {
-        @for cluster in clusters {
-            tr {
-                th scope="row" { (foreign(&cluster.task_title)) }
-                td class="number" { (cluster.students.len()) }
-                td { (likeness(cluster.likeness)) @if cluster.keeps == Some(0.0) { " (often the starter, or an arm that never moves)" } }
-                td class="number" { (or_dash(cluster.keeps.map(percent))) }
-                td { (foreign(&cluster.lost.join("; "))) }
-            }
-        }
-    };
+    let rows: Vec<Vec<Markup>> = clusters
+        .iter()
+        .map(|cluster| {
+            vec![
+                html! { (foreign(&cluster.task_title)) },
+                html! { (cluster.students.len()) },
+                html! { (likeness(cluster.likeness)) },
+                html! { (or_dash(cluster.keeps.map(percent))) },
+                html! { (foreign(&cluster.lost.join("; "))) },
+            ]
+        })
+        .collect();
     html! {
-        p class="lead" { "The same wrong answer from different files, which no common mistake explains: worth a word to the class, and next year a mutant." }
+        p class="lead" { "The same wrong answer from different files, which no common mistake explains: worth a word to the class, and next year a mutant. What keeps \
+            nothing in every task is often the starter, or an arm that never moves." }
         (table("Equal wrong answers without a name", "clusters", &head, &rows))
     }
 }
@@ -110,28 +116,45 @@ pub(super) fn likeness(likeness: Likeness) -> &'static str {
     }
 }
 
+/// A run is slow from so many times the operations of the class's median.
+const SLOW: f64 = 2.0;
+
 /// The slowest runs; with names also whose they are.
 pub(super) fn slow_runs(statistics: &LabStatistics, names: Option<&[NamedStudent]>) -> Markup {
+    let slow: Vec<(&SlowRun, f64)> = statistics
+        .slow_runs
+        .iter()
+        .filter_map(|run| Some((run, run.times_median?)))
+        .filter(|(_, times)| *times >= SLOW)
+        .collect();
+    if slow.is_empty() {
+        return html! { p { "No run took twice the operations of the class's median in its task." } };
+    }
     let mut head = vec![
         ("Task", false),
         ("Operations", true),
-        ("Median of the class", true),
+        ("Of the median", true),
     ];
     if names.is_some() {
         head.push(("Students", false));
     }
-    let rows = html! {
-        @for run in &statistics.slow_runs {
-            tr {
-                th scope="row" { (foreign(&run.task_title)) }
-                td class="number" { (grouped(run.operations)) }
-                td class="number" { (or_dash(run.times_median.map(|times| format!("{}\u{a0}times", short(times))))) }
-                @if let Some(names) = names { td { (foreign(&whose(run, names))) } }
-            }
-        }
-    };
+    let rows: Vec<Vec<Markup>> = slow
+        .into_iter()
+        .map(|(run, times)| {
+            let mut cells = vec![
+                html! { (foreign(&run.task_title)) },
+                html! { (grouped(run.operations)) },
+                html! { (trimmed(times, 1)) "\u{a0}times" },
+            ];
+            cells.extend(names.map(|names| html! { (foreign(&whose(run, names))) }));
+            cells
+        })
+        .collect();
     html! {
-        p class="lead" { "Operations are counted, not timed: they are the same on every machine. Of function tasks they are those of visible cases." }
+        p class="lead" {
+            "Runs that took twice the operations of the class's median in their task, or more; ten at most. Operations are counted, not \
+            timed: they are the same on every machine. Of function tasks they are those of visible cases."
+        }
         (table("The slowest runs", "runs", &head, &rows))
     }
 }
@@ -139,8 +162,8 @@ pub(super) fn slow_runs(statistics: &LabStatistics, names: Option<&[NamedStudent
 fn whose(run: &SlowRun, names: &[NamedStudent]) -> String {
     let of = names
         .iter()
-        .filter(|student| student.record.as_ref() == Some(&run.record));
-    let ids: Vec<&str> = of.map(|student| student.id.as_str()).collect();
+        .filter(|student| student.standing.record.as_ref() == Some(&run.record));
+    let ids: Vec<&str> = of.map(NamedStudent::id).collect();
     if ids.is_empty() {
         count(run.students, "student", "students")
     } else {

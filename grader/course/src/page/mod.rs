@@ -1,5 +1,6 @@
-//! The class as pages in the style of the report: one that can be projected, and one for course staff alone.
+//! The class as pages in the style of the report: one that can be projected, one for course staff alone, and the list of the whole book.
 
+mod book_page;
 mod checks;
 mod class_page;
 mod groups;
@@ -11,7 +12,8 @@ mod shown;
 mod staff_page;
 mod strip;
 
+pub use self::book_page::{BookList, LabPages, book_page};
 pub use self::class_page::class_page;
 pub use self::head::PageHead;
 pub use self::names::{NamedStudent, named_students};
-pub use self::staff_page::staff_page;
+pub use self::staff_page::{StaffPage, staff_page};

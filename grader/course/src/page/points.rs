@@ -46,16 +46,11 @@ fn words(spread: &Spread, statistics: &LabStatistics) -> Markup {
     }
 }
 
-fn rows(bins: &[(f64, f64, usize)]) -> Markup {
-    html! {
-        @for (i, (from, to, students)) in bins.iter().enumerate() {
-            tr {
-                th scope="row" {
-                    @if i + 1 == bins.len() { (points(*from)) " to " (points(*to)) }
-                    @else { (points(*from)) " to below " (points(*to)) }
-                }
-                td class="number" { (students) }
-            }
-        }
-    }
+fn rows(bins: &[(f64, f64, usize)]) -> Vec<Vec<Markup>> {
+    let rows = bins.iter().enumerate().map(|(i, (from, to, students))| {
+        let below = if i + 1 == bins.len() { "" } else { "below " };
+        let range = html! { (points(*from)) " to " (below) (points(*to)) };
+        vec![range, html! { (students) }]
+    });
+    rows.collect()
 }

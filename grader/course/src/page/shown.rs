@@ -36,14 +36,34 @@ pub(super) fn section(id: &str, title: &str, body: &Markup) -> Markup {
     }
 }
 
-/// A table that scrolls by itself where the page is narrow; `head` has each column's name and whether it holds numbers.
-pub(super) fn table(caption: &str, class: &str, head: &[(&str, bool)], rows: &Markup) -> Markup {
+/// A table; where the page is narrow each row is a card with the columns' names in it. `head` has each column's name and whether it
+/// holds numbers, and the first cell of a row names it.
+pub(super) fn table(
+    caption: &str,
+    class: &str,
+    head: &[(&str, bool)],
+    rows: &[Vec<Markup>],
+) -> Markup {
+    let number = |is_number: bool| is_number.then_some("number");
     html! {
         div class="wide" tabindex="0" role="group" aria-label=(caption) {
-            table class=(class) {
+            table class={ "cards " (class) } role="table" {
                 caption class="unseen" { (caption) }
-                thead { tr { @for (name, is_number) in head { th scope="col" class=[is_number.then_some("number")] { (name) } } } }
-                tbody { (rows) }
+                thead role="rowgroup" {
+                    tr role="row" {
+                        @for (name, is_number) in head { th scope="col" role="columnheader" class=[number(*is_number)] { (name) } }
+                    }
+                }
+                tbody role="rowgroup" {
+                    @for row in rows {
+                        tr role="row" {
+                            @for (i, (cell, (name, is_number))) in row.iter().zip(head).enumerate() {
+                                @if i == 0 { th scope="row" role="rowheader" { (cell) } }
+                                @else { td role="cell" class=[number(*is_number)] data-label=(name) { (cell) } }
+                            }
+                        }
+                    }
+                }
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What is compared: the file of each student that counts, the numbers of variants, and what everybody was given.
+//! What is compared: the file of each student that counts, and the numbers of variants.
 
 use std::collections::BTreeMap;
 
@@ -29,17 +29,6 @@ pub struct ClassFile {
     pub bytes: Vec<u8>,
     /// When it was handed in, where that is known.
     pub submitted_at: Option<Timestamp>,
-}
-
-/// Files that are not of the class, by path and bytes.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Material {
-    /// What every student has: starter, brief, `lab.toml`, the reference path.
-    pub given: Vec<(String, Vec<u8>)>,
-    /// What only course staff has: the reference solution and the mutants. Students who solve a task well come near to it.
-    pub solutions: Vec<(String, Vec<u8>)>,
-    /// Last year's files, and solutions that are public.
-    pub earlier: Vec<(String, Vec<u8>)>,
 }
 
 impl ClassFile {

@@ -138,10 +138,36 @@ impl Passage {
         })
     }
 
+    /// The parts of it that lie in none of the fingerprints that begin at `common` tokens of the first stream.
+    pub(super) fn without(&self, common: impl Iterator<Item = usize>) -> Vec<Self> {
+        let (from, to) = (self.starts[0], self.starts[0] + self.length);
+        let mut is_common = vec![false; self.length];
+        for at in common.filter(|at| from <= *at && at + GRAM <= to) {
+            is_common[at - from..at - from + GRAM].fill(true);
+        }
+        let mut parts = Vec::new();
+        let mut at = 0;
+        while at < self.length {
+            let length = is_common[at..].iter().take_while(|is| !**is).count();
+            if length > 0 {
+                parts.push(Self {
+                    starts: self.starts.iter().map(|start| start + at).collect(),
+                    length,
+                });
+            }
+            at += length.max(1);
+        }
+        parts
+    }
+
     /// Whether it is long enough to be more than chance; `stream` is the first that has it.
     pub(super) fn is_long(&self, stream: &Stream<'_>) -> bool {
-        let words = || stream.comment_words(self.starts[0], self.length);
-        self.length >= LONG || (self.length >= LONG_WITH_COMMENTS && words() >= COMMENT_WORDS)
+        self.length >= LONG || (self.length >= LONG_WITH_COMMENTS && self.has_comments(stream))
+    }
+
+    /// Whether enough of it is words of comments; `stream` is the first that has it.
+    pub(super) fn has_comments(&self, stream: &Stream<'_>) -> bool {
+        stream.comment_words(self.starts[0], self.length) >= COMMENT_WORDS
     }
 }
 

@@ -18,6 +18,8 @@ pub enum Kind {
     EarlierPassage,
     /// Long passages that few share.
     Passage,
+    /// Passages with comments that many share: from a slide, a book, a forum, or from each other.
+    CommonPassage,
 }
 
 impl Kind {
@@ -29,6 +31,7 @@ impl Kind {
             Self::EarlierFile => "the same file as an earlier or public one",
             Self::EarlierPassage => "passages of an earlier or public file",
             Self::Passage => "long equal passages",
+            Self::CommonPassage => "passages with comments that many share",
         }
     }
 }

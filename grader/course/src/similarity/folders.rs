@@ -1,7 +1,8 @@
 //! Folders that JPlag and Dolos read, for those who want their kind of similarity: structure without names. Both run elsewhere; ids are
 //! in the folders, names are not.
 
-use super::class_file::{ClassFile, Material};
+use super::class_file::ClassFile;
+use super::material::Material;
 
 /// Files of a folder, by path and bytes.
 pub type FolderFiles = Vec<(String, Vec<u8>)>;

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::class_file::{ClassFile, Material, text};
+use super::class_file::{ClassFile, text};
 use super::coverage::{Known, Stream, reading_of};
 use super::earlier::{EarlierFile, earlier};
 use super::finding::Finding;
 use super::foreign_numbers::foreign_numbers;
-use super::passages::{rare_passages, same_files};
+use super::material::Material;
+use super::passages::{same_files, shared_passages};
 use crate::student::StudentId;
 
 /// What is shared by more than this part of the class is a common way to write it.
@@ -50,6 +51,11 @@ pub(super) fn rare(students: usize) -> usize {
     ((RARE_SHARE * students as f64).ceil() as usize).max(FEWEST_RARE)
 }
 
+/// How many students may share a passage with comments, in a class of so many: what more than half of it has is everybody's.
+pub(super) fn common(students: usize) -> usize {
+    students / 2
+}
+
 /// Everything in a class that is worth a conversation: by kind, then what is longest. The same class gives the same findings, in
 /// whichever order its files come.
 pub fn findings(class: &Class<'_>) -> Vec<Finding> {
@@ -61,7 +67,7 @@ pub fn findings(class: &Class<'_>) -> Vec<Finding> {
     let prepared = prepare(&files, &known);
     let mut findings = same_files(&prepared);
     findings.extend(foreign_numbers(class, &prepared));
-    findings.extend(rare_passages(&prepared));
+    findings.extend(shared_passages(&prepared));
     if !material.earlier.is_empty() {
         let earlier_files: Vec<EarlierFile<'_>> = material
             .earlier
@@ -225,11 +231,50 @@ fn triangle(long, short, far) {
         assert_eq!(found(&files), one);
     }
 
+    /// The same files without the words of their comments.
+    fn without_comments(mut files: Vec<ClassFile>) -> Vec<ClassFile> {
+        for file in &mut files {
+            let text = std::str::from_utf8(&file.bytes).unwrap();
+            let code: Vec<&str> = text
+                .lines()
+                .filter(|line| !line.starts_with("//"))
+                .collect();
+            file.bytes = code.join("\n").into_bytes();
+        }
+        files
+    }
+
     #[test]
     fn what_many_share_is_a_common_way_to_write_it() {
         // one in twenty of 40 is 2; a small class allows 3
-        assert_eq!(found(&class(0..3))[0].base_rate(), "3 of 40");
-        assert_eq!(found(&class(0..4)), []);
+        let few = found(&without_comments(class(0..3)));
+        assert_eq!(
+            (few[0].kind, few[0].base_rate()),
+            (Kind::Passage, "3 of 40".to_owned())
+        );
+        assert_eq!(found(&without_comments(class(0..4))), []);
+    }
+
+    #[test]
+    fn comments_that_many_share_are_shown_once_with_their_base_rate() {
+        let mut files = class(0..20);
+        let findings = found(&files);
+        let [finding] = &findings[..] else {
+            panic!("{findings:?}")
+        };
+        assert_eq!(
+            (finding.kind, finding.base_rate()),
+            (Kind::CommonPassage, "20 of 40".to_owned())
+        );
+        // some who changed a word at its end are no further findings
+        for file in &mut files[5..10] {
+            let text = String::from_utf8(file.bytes.clone()).unwrap();
+            file.bytes = text.replace("[lean, bend]", "[bend, lean]").into_bytes();
+        }
+        let findings = found(&files);
+        assert_eq!(findings.len(), 1, "{findings:?}");
+        // half of the class is everybody
+        assert_eq!(found(&class(0..21)), []);
     }
 
     #[test]

@@ -11,6 +11,8 @@ use crate::lab_rows::{CheckRow, MeasureRow, RecordRow, share};
 
 /// A value is near an edge of the band within this share of the band's width.
 const NEAR: f64 = 0.05;
+/// Where fewer than this earn another share than the most frequent one, a correlation says nothing.
+const FEWEST_DIFFERENT: usize = 5;
 /// A pile is at least so many values ...
 const FEWEST_IN_PILE: usize = 5;
 /// ... and at least this share of all: three times what evenly spread values would put there.
@@ -44,7 +46,7 @@ pub struct CheckStatistics {
     /// The mean share of its points, from 0 to 1, over all students with it.
     pub mean_share: Option<f64>,
     /// Correlation of the share earned here with the points earned in the rest of the lab, over those of whom it was judged: near 0
-    /// it says nothing about the rest, below 0 it goes against it. Absent below ten students or without spread.
+    /// it says nothing about the rest, below 0 it goes against it. Absent below ten students, or where all but a few earned the same.
     pub discrimination: Option<f64>,
     /// The values, where it measures something.
     pub values: Option<CheckValues>,
@@ -196,7 +198,14 @@ fn discrimination(all: &[Judged<'_>]) -> Option<f64> {
             Some((here, (rest * 1e6).round() / 1e6))
         })
         .collect();
-    correlation(&pairs)
+    let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
+    for (here, _) in &pairs {
+        *counts.entry(here.to_bits()).or_default() += 1;
+    }
+    let same = counts.values().max()?;
+    (pairs.len() - same >= FEWEST_DIFFERENT)
+        .then(|| correlation(&pairs))
+        .flatten()
 }
 
 fn hidden_only(all: &[Judged<'_>]) -> HiddenOnly {
@@ -226,6 +235,7 @@ fn values(measures: &[&MeasureRow]) -> Option<CheckValues> {
     let mut values = Vec::new();
     let mut positions = Vec::new();
     let mut near = [0, 0];
+    let mut lost_narrowly = 0;
     for measure in measures {
         let Some(value) = measure.value.filter(|value| value.is_finite()) else {
             continue;
@@ -238,11 +248,16 @@ fn values(measures: &[&MeasureRow]) -> Option<CheckValues> {
         if let Some(position) = own.position(value) {
             positions.push(position);
             near[0] += usize::from(own.is_near_full(value));
+            lost_narrowly += usize::from(own.is_near_full(value) && position > 0.0);
             near[1] += usize::from(own.is_near_zero(value));
         }
     }
     values.sort_by(f64::total_cmp);
     positions.sort_by(f64::total_cmp);
+    // where nobody loses a point by it, it is as good as can be: 99 % of 98 % is no pile
+    if lost_narrowly < FEWEST_IN_PILE {
+        near[0] = 0;
+    }
     let edges = [
         (near[0], band.full, "all points"),
         (near[1], band.zero, "no points"),
@@ -297,7 +312,7 @@ fn pile(near: usize, of: usize, edge: &str) -> Option<Pile> {
     (near >= FEWEST_IN_PILE && share >= SHARE_OF_PILE).then(|| Pile {
         values: near,
         says: format!(
-            "{near} of {of} values lie within 5 % of the band's width of {edge}. A pile at the edge says that the band is wrong."
+            "{near} of {of} values are close to {edge} (within 5 % of the band's width). A pile at the edge says that the band is wrong."
         ),
     })
 }
@@ -417,6 +432,29 @@ mod tests {
     }
 
     #[test]
+    fn what_all_but_a_few_earn_discriminates_nobody() {
+        let of = |losers: usize| {
+            let records: Vec<RecordRow> = (0..40)
+                .map(|i| {
+                    let (outcome, points) = match i {
+                        i if i < losers => (Outcome::None, 0.0),
+                        _ => (Outcome::Full, 4.0),
+                    };
+                    let rest = f64::from(u8::from(i % 2 == 0));
+                    record(vec![
+                        check("few", outcome, points, None),
+                        check("rest", Outcome::Partial, rest, None),
+                    ])
+                })
+                .collect();
+            let graded: Vec<&RecordRow> = records.iter().collect();
+            checks(&graded)[0].discrimination
+        };
+        assert_eq!(of(4), None);
+        assert!(of(5).is_some());
+    }
+
+    #[test]
     fn values_near_an_edge_are_a_pile_and_perfect_ones_are_not() {
         let band = Band {
             full: 1e-4,
@@ -442,12 +480,19 @@ mod tests {
         let [pile] = a.values.unwrap().piles.try_into().unwrap();
         assert_eq!(pile.values, 6);
         assert!(pile.says.starts_with(
-            "6 of 20 values lie within 5 % of the band's width of 10.0 mm, which earns all points."
+            "6 of 20 values are close to 10.0 mm, which earns all points (within 5 % of the band's width)."
         ));
         assert!(
             pile.says
                 .contains("A pile at the edge says that the band is wrong")
         );
+        // nobody loses a point by it
+        let inside: Vec<RecordRow> = (0..20)
+            .map(|_| record(vec![check("a", Outcome::Full, 4.0, Some(0.0099))]))
+            .collect();
+        let inside: Vec<&RecordRow> = inside.iter().collect();
+        let [a] = checks(&inside).try_into().unwrap();
+        assert!(a.values.unwrap().piles.is_empty());
     }
 
     #[test]

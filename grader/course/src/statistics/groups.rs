@@ -134,5 +134,12 @@ pub(super) fn lateness(standings: &[&Standing]) -> Vec<GroupPoints> {
     {
         return Vec::new();
     }
-    grouped(standings, of, |late| late.words().to_owned())
+    // an LMS that marks what is late has looked at all of them
+    let has_marks = standings
+        .iter()
+        .any(|standing| of(standing) == Some(Lateness::Marked));
+    grouped(standings, of, |late| match late {
+        Lateness::Unknown if has_marks => "not marked as late".to_owned(),
+        late => late.words().to_owned(),
+    })
 }

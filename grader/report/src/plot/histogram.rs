@@ -25,6 +25,8 @@ const LEFT: f64 = 52.0;
 const RIGHT: f64 = WIDTH - 20.0;
 /// Height of the panel \[px\].
 const PANEL: f64 = 230.0;
+/// Half of the room that a count takes \[px\].
+const LABEL_HALF: f64 = 16.0;
 /// Room between neighbouring bars \[px\].
 const GAP: f64 = 3.0;
 
@@ -106,8 +108,8 @@ impl Place {
             let y = self.y(*count as f64);
             if *count > 0 {
                 canvas.area((left, y), (right.max(left + 1.0), bottom), BLUE, 0.75);
-                let middle = 0.5 * (left + right);
-                canvas.text(&count.to_string(), (middle, y - 9.0), Align::Middle, INK);
+                let (x, align) = self.beside_lines(histogram, 0.5 * (left + right));
+                canvas.text(&count.to_string(), (x, y - 9.0), align, INK);
             }
         }
         if let Some([lower, median, upper]) = histogram.quartiles {
@@ -125,6 +127,16 @@ impl Place {
         let middle = 0.5 * (LEFT + RIGHT);
         let quantity = shortened(histogram.quantity, 60);
         canvas.text(&quantity, (middle, bottom + 31.0), Align::Middle, MUTED);
+    }
+
+    /// Where a bar's count is written: over its middle, or beside a line that would go through it.
+    fn beside_lines(&self, histogram: &Histogram<'_>, middle: f64) -> (f64, Align) {
+        let mut lines = histogram.quartiles.iter().flatten().map(|at| self.x(*at));
+        match lines.find(|line| (line - middle).abs() < LABEL_HALF) {
+            Some(line) if line >= middle => (line - 5.0, Align::End),
+            Some(line) => (line + 5.0, Align::Start),
+            None => (middle, Align::Middle),
+        }
     }
 
     /// The edges of the bins, as many as there is room for also where letters are larger.
