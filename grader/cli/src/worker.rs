@@ -2,9 +2,14 @@
 //!
 //! Messages are length-prefixed postcard over the worker's standard input and output. The parent keeps simulator, truth and
 //! grade; a worker can lie only about its own answers. A watchdog ends a worker that outlasts the wall clock: `host-limit`.
+//!
+//! A worker serves one submission: starting a process costs as much as some hundred calls, so one that is still fresh is kept for the
+//! next task or hidden run of the same file, where the code is opened anew. Never is it kept for another file, nor after a stop.
 
+use std::borrow::Cow;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitCode, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -15,13 +20,20 @@ use kinemark_grader::submission::controller::{
 };
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
 use crate::one_processor::OneProcessor;
 
 /// Wall clock of one task's submission: far above what the counted budgets allow, so that it speaks of the machine alone.
 const WALL_CLOCK: Duration = Duration::from_secs(60);
+/// How often the watchdog looks whether that is over.
+const LOOK: Duration = Duration::from_millis(50);
+/// A worker that was looked at less often has most of its time before it: 2 s.
+const FRESH_LOOKS: u32 = 40;
+/// A worker that uses less memory has most of its address space before it.
+#[cfg(target_os = "linux")]
+const SMALL_BYTES: usize = 24 << 20;
 /// CPU seconds of one task's submission, for the same reason.
 #[cfg(unix)]
 const CPU_SECONDS: u64 = 50;
@@ -30,6 +42,15 @@ const CPU_SECONDS: u64 = 50;
 const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 /// A frame longer than this is no message of ours.
 const MOST_FRAME_BYTES: u32 = 64 << 20;
+
+/// What the parent asks for.
+#[derive(Serialize, Deserialize)]
+enum Request<'r> {
+    /// Open a submission for a task, in place of what was open before.
+    Open(Cow<'r, Opening>),
+    /// Answer a call.
+    Call(Cow<'r, Call>),
+}
 
 fn send(out: &mut impl Write, message: &impl Serialize) -> std::io::Result<()> {
     let bytes = postcard::to_stdvec(message).map_err(std::io::Error::other)?;
@@ -70,20 +91,26 @@ pub(crate) fn serve() -> ExitCode {
 }
 
 fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Result<()> {
-    let opening: Opening = receive(input)?;
-    let mut controller = match ScriptController::open(&opening) {
-        Ok(controller) => {
-            send(output, &None::<Stop>)?;
-            controller
-        }
-        Err(stop) => return send(output, &Some(stop)),
-    };
+    let mut controller: Option<ScriptController> = None;
     loop {
-        let call: Call = receive(input)?;
-        let answer = controller
-            .call(&call)
-            .map_err(|stop| (stop, controller.unanswered()));
-        send(output, &answer)?;
+        match receive(input)? {
+            Request::Open(opening) => {
+                // before the next one: both together are never in memory
+                drop(controller.take());
+                let opened = ScriptController::open(&opening);
+                send(output, &opened.as_ref().err())?;
+                controller = opened.ok();
+            }
+            Request::Call(call) => {
+                let Some(controller) = &mut controller else {
+                    return Err(std::io::Error::other("a call before an opening"));
+                };
+                let answer = controller
+                    .call(&call)
+                    .map_err(|stop| (stop, controller.unanswered()));
+                send(output, &answer)?;
+            }
+        }
     }
 }
 
@@ -106,18 +133,22 @@ fn limit_this_process() {
     }
 }
 
-/// The parent's side: starts a worker per submission and task.
-#[derive(Debug)]
+/// The parent's side: starts workers, and keeps one that may serve on.
 pub(crate) struct WorkerHost {
     progress: Option<indicatif::ProgressBar>,
     processor: OneProcessor,
+    kept: Kept,
 }
+
+/// Where a worker waits for the next task of its submission.
+type Kept = Arc<Mutex<Option<Worker>>>;
 
 impl WorkerHost {
     pub(crate) fn new(progress: Option<indicatif::ProgressBar>) -> Self {
         Self {
             progress,
             processor: OneProcessor::default(),
+            kept: Kept::default(),
         }
     }
 
@@ -126,6 +157,7 @@ impl WorkerHost {
         Self {
             progress: None,
             processor: OneProcessor::fixed(processor),
+            kept: Kept::default(),
         }
     }
 
@@ -142,14 +174,28 @@ impl Host for WorkerHost {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        // before the worker is started: it inherits the choice
-        self.processor.choose();
-        let mut worker = Worker::start().map_err(|error| {
-            Stop::GraderFault(format!("a worker process could not be started: {error}"))
-        })?;
-        let refused: Option<Stop> = worker.exchange(opening)?;
+        let kept = self
+            .kept
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        let mut worker = match kept.filter(|kept| kept.may_serve(opening)) {
+            Some(kept) => kept,
+            None => {
+                // before the worker is started: it inherits the choice
+                self.processor.choose();
+                Worker::start(opening).map_err(|error| {
+                    Stop::GraderFault(format!("a worker process could not be started: {error}"))
+                })?
+            }
+        };
+        let refused: Option<Stop> = worker.exchange(&Request::Open(Cow::Borrowed(opening)))?;
         match refused {
-            None => Ok(Box::new(worker)),
+            None => Ok(Box::new(Lease {
+                worker: Some(worker),
+                is_sound: true,
+                home: Arc::clone(&self.kept),
+            })),
             Some(stop) => Err(stop),
         }
     }
@@ -162,8 +208,51 @@ impl Host for WorkerHost {
     }
 }
 
+/// A worker at work for one task.
+struct Lease {
+    worker: Option<Worker>,
+    /// Whether no call was stopped.
+    is_sound: bool,
+    home: Kept,
+}
+
+impl Controller for Lease {
+    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
+        let Some(worker) = &mut self.worker else {
+            return Err(Stop::GraderFault("a worker that was given back".to_owned()));
+        };
+        let answer = worker.call(call);
+        self.is_sound &= answer.is_ok();
+        answer
+    }
+
+    fn unanswered(&mut self) -> Said {
+        let worker = self.worker.as_mut();
+        worker
+            .map(|worker| std::mem::take(&mut worker.unanswered))
+            .unwrap_or_default()
+    }
+}
+
+impl Drop for Lease {
+    fn drop(&mut self) {
+        if let Some(worker) = self.worker.take().filter(|_| self.is_sound) {
+            let before = self
+                .home
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .replace(worker);
+            drop(before);
+        }
+    }
+}
+
 /// A worker process, ended when dropped.
 struct Worker {
+    /// Digest of the submission that it serves.
+    submission: blake3::Hash,
+    /// How often the watchdog has looked.
+    looks: Arc<AtomicU32>,
     child: Arc<Mutex<Child>>,
     input: BufWriter<ChildStdin>,
     output: BufReader<ChildStdout>,
@@ -173,8 +262,51 @@ struct Worker {
     unanswered: Said,
 }
 
+/// The digest of a submission, with the name of its file.
+fn digest_of(opening: &Opening) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&(opening.file.len() as u64).to_le_bytes());
+    hasher.update(opening.file.as_bytes());
+    hasher.update(opening.source.as_bytes());
+    hasher.finalize()
+}
+
 impl Worker {
-    fn start() -> std::io::Result<Self> {
+    /// Whether it can serve `opening` as a new one would: it is of the same submission, young, and small. One that has used much of its
+    /// time or its address space could run out of them earlier than a new one.
+    fn may_serve(&self, opening: &Opening) -> bool {
+        self.submission == digest_of(opening)
+            && self.looks.load(Ordering::Relaxed) < FRESH_LOOKS
+            && self.is_small()
+    }
+
+    /// Whether its memory is far below the limit, as the system says.
+    #[cfg(target_os = "linux")]
+    fn is_small(&self) -> bool {
+        let id = self
+            .child
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .id();
+        let pages = std::fs::read_to_string(format!("/proc/{id}/statm"));
+        let resident = pages.ok().and_then(|pages| {
+            let mut columns = pages.split(' ');
+            columns.nth(1)?.parse::<usize>().ok()
+        });
+        resident.is_some_and(|pages| pages.saturating_mul(rustix::param::page_size()) < SMALL_BYTES)
+    }
+
+    /// Nobody knows on this system.
+    #[cfg(not(target_os = "linux"))]
+    #[expect(
+        clippy::unused_self,
+        reason = "the system that says it does so by the process"
+    )]
+    fn is_small(&self) -> bool {
+        false
+    }
+
+    fn start(opening: &Opening) -> std::io::Result<Self> {
         let mut command = Command::new(std::env::current_exe()?);
         command
             .arg("worker")
@@ -198,13 +330,17 @@ impl Worker {
         });
         let child = Arc::new(Mutex::new(child));
         let watched = Arc::clone(&child);
+        let looks = Arc::new(AtomicU32::new(0));
+        let looked = Arc::clone(&looks);
         let (done, waiting) = channel();
         let watchdog = std::thread::spawn(move || {
             let mut waited = Duration::ZERO;
-            let look = Duration::from_millis(50);
             loop {
-                match waiting.recv_timeout(look) {
-                    Err(RecvTimeoutError::Timeout) => waited += look,
+                match waiting.recv_timeout(LOOK) {
+                    Err(RecvTimeoutError::Timeout) => {
+                        waited += LOOK;
+                        looked.fetch_add(1, Ordering::Relaxed);
+                    }
                     Ok(()) | Err(RecvTimeoutError::Disconnected) => return false,
                 }
                 if waited >= WALL_CLOCK || interrupt::asked() {
@@ -218,6 +354,8 @@ impl Worker {
             }
         });
         Ok(Self {
+            submission: digest_of(opening),
+            looks,
             child,
             input,
             output,
@@ -282,20 +420,17 @@ impl Worker {
     }
 }
 
-impl Controller for Worker {
+impl Worker {
     fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        let answer: Result<Answer, (Stop, Said)> = self.exchange(call)?;
+        let answer: Result<Answer, (Stop, Said)> =
+            self.exchange(&Request::Call(Cow::Borrowed(call)))?;
         answer.map_err(|(stop, said)| {
             self.unanswered = said;
             stop
         })
-    }
-
-    fn unanswered(&mut self) -> Said {
-        std::mem::take(&mut self.unanswered)
     }
 }
 
