@@ -42,8 +42,14 @@ pub(crate) struct Course {
     pub(crate) book: Book,
     /// The course's salt, where it has one of its own.
     pub(crate) salt: Option<String>,
-    labs: Box<dyn Files>,
-    reference: Option<Folder>,
+}
+
+/// Files of a lab that wait for a person.
+pub(crate) struct OpenFiles {
+    /// Whose they are, where that is certain.
+    pub(crate) students: Vec<StudentId>,
+    /// Of each of the others, the students that come near.
+    pub(crate) unclaimed: Vec<Vec<StudentId>>,
 }
 
 impl Course {
@@ -60,16 +66,6 @@ impl Course {
             Fixes::default()
         };
         let salt = salt(&root, &file)?;
-        let from = LabsFolderArgs {
-            labs: file.labs_folder.as_ref().map(|labs| root.join(labs)),
-        };
-        let (labs, labs_folder) = labs_folder::open(&from)?;
-        let part = StaffPart {
-            reference: file.reference.as_ref().map(|folder| root.join(folder)),
-            salt: None,
-        };
-        let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
-        let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
         let book = Book::open(&root.join(BOOK)).map_err(book_failure)?;
         let course = Self {
             root,
@@ -78,8 +74,6 @@ impl Course {
             fixes,
             book,
             salt,
-            labs,
-            reference,
         };
         course.check_fixes()?;
         Ok(course)
@@ -153,17 +147,35 @@ impl Course {
         })
     }
 
+    /// The labs of today and the course staff's part. What was graded is in the book, so it can be explained without them.
+    fn labs(&self) -> Result<(Box<dyn Files>, Option<Folder>), Failure> {
+        let folder = self.file.labs_folder.as_ref();
+        let from = LabsFolderArgs {
+            labs: folder.map(|labs| self.root.join(labs)),
+        };
+        if let Some(labs) = from.labs.as_ref().filter(|labs| !labs.is_dir()) {
+            return Err(Failure::broken(
+                format!("the labs `{}` are not a directory", labs.display()),
+                "write `labs_folder = \"FOLDER\"` into course.toml, or leave it out for the labs inside kinemark",
+            ));
+        }
+        let (labs, labs_folder) = labs_folder::open(&from)?;
+        let reference = self.file.reference.as_ref();
+        let part = StaffPart {
+            reference: reference.map(|folder| self.root.join(folder)),
+            salt: None,
+        };
+        let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
+        let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
+        Ok((labs, reference))
+    }
+
     /// A lab with its staff part.
     pub(crate) fn lab(&self, rules: &CourseLab) -> Result<StaffedLab, Failure> {
-        let reference = self.reference.as_ref().map(|folder| folder as &dyn Files);
+        let (labs, reference) = self.labs()?;
+        let reference = reference.as_ref().map(|folder| folder as &dyn Files);
         let salt = self.salt.as_deref();
-        let lab = StaffedLab::load(
-            self.labs.as_ref(),
-            reference,
-            &rules.name,
-            salt,
-            rules.variants,
-        )?;
+        let lab = StaffedLab::load(labs.as_ref(), reference, &rules.name, salt, rules.variants)?;
         if !lab.has_staff() {
             return Err(Failure::broken(
                 format!(
@@ -201,6 +213,23 @@ impl Course {
             })
         })?;
         Index::refresh(&self.book, history, &state).map_err(index_failure)
+    }
+
+    /// What waits for a person in a lab.
+    pub(crate) fn open_files(&self, rules: &CourseLab) -> Result<OpenFiles, Failure> {
+        let questions = self.book.questions().map_err(book_failure)?;
+        let of_lab = questions
+            .iter()
+            .filter(|question| question.lab == rules.name);
+        let of_lab: Vec<_> = of_lab.collect();
+        let students = of_lab
+            .iter()
+            .filter_map(|question| question.student.clone());
+        let unclaimed = of_lab.iter().filter(|question| question.student.is_none());
+        Ok(OpenFiles {
+            students: students.collect(),
+            unclaimed: unclaimed.map(|question| question.near.clone()).collect(),
+        })
     }
 
     /// How everybody stands in a lab; `open` are students of whom a file waits for a person.

@@ -15,6 +15,7 @@ mod fresh_folder;
 mod hand_in_warnings;
 mod interrupt;
 mod labs_folder;
+mod listed_folder;
 mod one_processor;
 mod operator;
 mod output;
