@@ -4,10 +4,10 @@ use serde_json::Value;
 
 use crate::testbed::{CommandResult, TestBed, files_below, root};
 
-const LAB: &str = "01-kinematics";
+pub(crate) const LAB: &str = "01-kinematics";
 
 /// Who hands in what: one file a person, named by id.
-const CLASS: [(&str, &str, &str); 6] = [
+pub(crate) const CLASS: [(&str, &str, &str); 6] = [
     ("s100", "Jörg Müller", "good"),
     ("s101", "李 雷", "degrees"),
     ("s102", "=SUM(A1) Formula", "syntax"),
@@ -17,7 +17,7 @@ const CLASS: [(&str, &str, &str); 6] = [
 ];
 
 /// A course whose lab has its digest in `course.toml`, and a folder `in` with the hand-ins of the class.
-fn class() -> TestBed {
+pub(crate) fn class() -> TestBed {
     let bed = TestBed::new();
     bed.copy_labs();
     bed.write("salt.txt", "a line that nobody can guess\n");
@@ -41,7 +41,7 @@ fn class() -> TestBed {
     bed
 }
 
-fn hand_in(bed: &TestBed, path: &str, submission: &str) {
+pub(crate) fn hand_in(bed: &TestBed, path: &str, submission: &str) {
     let file = root().join(format!(
         "tests/submissions/{LAB}/{submission}/submission.rhai"
     ));
@@ -49,7 +49,7 @@ fn hand_in(bed: &TestBed, path: &str, submission: &str) {
 }
 
 /// Writes the digest of the lab as it is now into `course.toml`, as `course check` says.
-fn accept_lab(bed: &TestBed) {
+pub(crate) fn accept_lab(bed: &TestBed) {
     let ran = bed.run(&["course", "check", "--json"]);
     let rows: Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let row = rows
@@ -69,12 +69,12 @@ fn accept_lab(bed: &TestBed) {
     assert_eq!(ran.code, Some(0), "{ran:?}");
 }
 
-fn grade(bed: &TestBed, more: &[&str]) -> CommandResult {
+pub(crate) fn grade(bed: &TestBed, more: &[&str]) -> CommandResult {
     bed.run(&[&["course", "grade", "in", LAB], more].concat())
 }
 
 /// How everybody stands, by id.
-fn standings(bed: &TestBed) -> Vec<(String, String, Value, Value)> {
+pub(crate) fn standings(bed: &TestBed) -> Vec<(String, String, Value, Value)> {
     let ran = bed.run(&["course", "grade", LAB, "--json"]);
     let rows: Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let rows = rows.as_array().expect("a list").iter();

@@ -10,6 +10,8 @@ mod brief_pictures;
 mod commands;
 mod compare;
 mod course;
+mod course_explain;
+mod course_release;
 mod determinism;
 mod docs;
 mod errors;
