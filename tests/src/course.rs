@@ -49,7 +49,7 @@ pub(crate) fn hand_in(bed: &TestBed, path: &str, submission: &str) {
 }
 
 /// Writes the digest of the lab as it is now into `course.toml`, as `course check` says.
-fn accept_lab(bed: &TestBed) {
+pub(crate) fn accept_lab(bed: &TestBed) {
     let ran = bed.run(&["course", "check", "--json"]);
     let rows: Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let row = rows
@@ -74,7 +74,7 @@ pub(crate) fn grade(bed: &TestBed, more: &[&str]) -> CommandResult {
 }
 
 /// How everybody stands, by id.
-fn standings(bed: &TestBed) -> Vec<(String, String, Value, Value)> {
+pub(crate) fn standings(bed: &TestBed) -> Vec<(String, String, Value, Value)> {
     let ran = bed.run(&["course", "grade", LAB, "--json"]);
     let rows: Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let rows = rows.as_array().expect("a list").iter();

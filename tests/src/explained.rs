@@ -127,7 +127,11 @@ fn an_explanation_reads_like_this() {
         let staff = staff(&lab, None);
         let explained = explained_submission(&lab, &staff, submission);
         let file = format!("tests/golden/text/explained-{name}.txt");
-        (root().join(file), plain(&text(&explained)))
+        let reply = paragraph(&explained);
+        (
+            root().join(file),
+            format!("{}\n{reply}\n", plain(&text(&explained))),
+        )
     });
     are_current(&texts);
 }
@@ -302,4 +306,58 @@ fn lab_check_names_the_draw_in_which_points_are_lost() {
     for words in ["in run 1 of the class", "too near", "solution.rhai:15:"] {
         assert!(ran.stdout.contains(words), "{words}: {}", ran.stdout);
     }
+}
+
+/// What stops a submission is what staff and student read, and never that an answer is off.
+#[test]
+fn a_stop_is_explained_as_what_it_is() {
+    let lab = lab_of("01-kinematics");
+    let staff = staff(&lab, None);
+    let of = |text: &str| {
+        let explained = explained(&lab, &staff, text);
+        (plain(&self::text(&explained)), paragraph(&explained))
+    };
+    let (for_staff, reply) = of("fn forward_kinematics(r, q) { [1, 2 }");
+    assert!(reply.contains("Nothing of it could be run: a `]` or a `,` is missing before this (line 1: \"fn forward_kinematics"), "{reply}");
+    assert_eq!(
+        for_staff.matches("is missing before this").count(),
+        1,
+        "{for_staff}"
+    );
+    let (for_staff, reply) =
+        of("fn control(o) { [0.0, 0.0] }\nfn forward_kinematics(robot, q) { throw \"too late\" }");
+    for words in [
+        "In the task \"Forward kinematics\", your code fails in the case \"straight up\": the script threw: too late (line 2: \"fn forward_kinematics(robot, q) { throw \"too late\" }\").",
+        "hidden cases of the class \"a longer forearm\" and 10 of 10 hidden cases of the class \"a longer upper arm, another post\", your function gives no answer that can be compared.",
+        "The task \"Inverse kinematics\" earns no point, because the submission has no function `inverse_kinematics(robot, position)`.",
+        "write fn inverse_kinematics(robot, position) { ... }.",
+    ] {
+        assert!(reply.contains(words), "{words}\n{reply}");
+    }
+    assert!(!reply.contains("off by more"), "{reply}");
+    assert!(
+        !reply.contains("out of reach"),
+        "no case was called: {reply}"
+    );
+    for words in [
+        "  stopped: the script threw: too late (case \"straight up\")\n  line 2: fn forward_kinematics",
+        "  stopped: the submission has no function `inverse_kinematics(robot, position)`",
+    ] {
+        assert!(for_staff.contains(words), "{words}\n{for_staff}");
+    }
+    let without_cases = for_staff
+        .split("\nik ")
+        .nth(1)
+        .and_then(|rest| rest.split("\nmove ").next());
+    assert!(
+        !without_cases.expect("the task").contains("case 1"),
+        "{for_staff}"
+    );
+    // a next step without a full stop gets one
+    let nan = explained_submission(&lab, &staff, "nan-at-the-boundary");
+    let reply = paragraph(&nan);
+    assert!(
+        reply.contains("infinity from a division by zero. The name of a class"),
+        "{reply}"
+    );
 }

@@ -11,6 +11,8 @@ mod class_page;
 mod commands;
 mod compare;
 mod course;
+mod course_explain;
+mod course_release;
 mod determinism;
 mod docs;
 mod errors;

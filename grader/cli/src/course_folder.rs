@@ -45,8 +45,14 @@ pub(crate) struct Course {
     pub(crate) book: Book,
     /// The course's salt, where it has one of its own.
     pub(crate) salt: Option<String>,
-    labs: Box<dyn Files>,
-    reference: Option<Folder>,
+}
+
+/// Files of a lab that wait for a person.
+pub(crate) struct OpenFiles {
+    /// Whose they are, where that is certain.
+    pub(crate) students: Vec<StudentId>,
+    /// Of each of the others, the students that come near.
+    pub(crate) unclaimed: Vec<Vec<StudentId>>,
 }
 
 impl Course {
@@ -66,16 +72,6 @@ impl Course {
             (Fixes::default(), String::new())
         };
         let salt = salt(&root, &file)?;
-        let from = LabsFolderArgs {
-            labs: file.labs_folder.as_ref().map(|labs| root.join(labs)),
-        };
-        let (labs, labs_folder) = labs_folder::open(&from)?;
-        let part = StaffPart {
-            reference: file.reference.as_ref().map(|folder| root.join(folder)),
-            salt: None,
-        };
-        let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
-        let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
         let book = Book::new(&root.join(BOOK));
         let course = Self {
             root,
@@ -85,8 +81,6 @@ impl Course {
             fixes_digest,
             book,
             salt,
-            labs,
-            reference,
         };
         course.check_fixes()?;
         Ok(course)
@@ -160,17 +154,35 @@ impl Course {
         })
     }
 
+    /// The labs of today and the course staff's part. What was graded is in the book, so it can be explained without them.
+    fn labs(&self) -> Result<(Box<dyn Files>, Option<Folder>), Failure> {
+        let folder = self.file.labs_folder.as_ref();
+        let from = LabsFolderArgs {
+            labs: folder.map(|labs| self.root.join(labs)),
+        };
+        if let Some(labs) = from.labs.as_ref().filter(|labs| !labs.is_dir()) {
+            return Err(Failure::broken(
+                format!("the labs `{}` are not a directory", labs.display()),
+                "write `labs_folder = \"FOLDER\"` into course.toml, or leave it out for the labs inside kinemark",
+            ));
+        }
+        let (labs, labs_folder) = labs_folder::open(&from)?;
+        let reference = self.file.reference.as_ref();
+        let part = StaffPart {
+            reference: reference.map(|folder| self.root.join(folder)),
+            salt: None,
+        };
+        let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
+        let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
+        Ok((labs, reference))
+    }
+
     /// A lab with its staff part.
     pub(crate) fn lab(&self, rules: &CourseLab) -> Result<StaffedLab, Failure> {
-        let reference = self.reference.as_ref().map(|folder| folder as &dyn Files);
+        let (labs, reference) = self.labs()?;
+        let reference = reference.as_ref().map(|folder| folder as &dyn Files);
         let salt = self.salt.as_deref();
-        let lab = StaffedLab::load(
-            self.labs.as_ref(),
-            reference,
-            &rules.name,
-            salt,
-            rules.variants,
-        )?;
+        let lab = StaffedLab::load(labs.as_ref(), reference, &rules.name, salt, rules.variants)?;
         if !lab.has_staff() {
             return Err(Failure::broken(
                 format!(
@@ -208,6 +220,23 @@ impl Course {
         })?;
         let state = format!("{state} {}", self.fixes_digest);
         Index::refresh(&self.book, history, &state).map_err(index_failure)
+    }
+
+    /// What waits for a person in a lab.
+    pub(crate) fn open_files(&self, rules: &CourseLab) -> Result<OpenFiles, Failure> {
+        let questions = self.book.questions().map_err(book_failure)?;
+        let of_lab = questions
+            .iter()
+            .filter(|question| question.lab == rules.name);
+        let of_lab: Vec<_> = of_lab.collect();
+        let students = of_lab
+            .iter()
+            .filter_map(|question| question.student.clone());
+        let unclaimed = of_lab.iter().filter(|question| question.student.is_none());
+        Ok(OpenFiles {
+            students: students.collect(),
+            unclaimed: unclaimed.map(|question| question.near.clone()).collect(),
+        })
     }
 
     /// How everybody stands in a lab; `open` are students of whom a file waits for a person.
@@ -255,11 +284,12 @@ impl Course {
 
     /// What students were given besides the files that the lab is read from: brief and starter, where there are any.
     pub(crate) fn handed_out(&self, rules: &CourseLab) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+        let (labs, _) = self.labs()?;
         let mut files = Vec::new();
         for name in [BRIEF_FILE, STARTER_FILE] {
             let path = format!("{}/{name}", rules.name);
-            let bytes = self.labs.bytes(&path).map_err(|why| {
-                let shown = format!("{}/{path}", self.labs.name());
+            let bytes = labs.bytes(&path).map_err(|why| {
+                let shown = format!("{}/{path}", labs.name());
                 Failure::broken(format!("`{shown}` cannot be read: {why}"), "check the file")
             })?;
             files.extend(bytes.map(|bytes| (path, bytes)));

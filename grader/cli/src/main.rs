@@ -18,6 +18,7 @@ mod hand_in_warnings;
 mod handed_out_lab;
 mod interrupt;
 mod labs_folder;
+mod listed_folder;
 mod one_processor;
 mod operator;
 mod output;

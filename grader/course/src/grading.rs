@@ -5,7 +5,6 @@ use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
-use kinemark_sim::text::Source;
 
 use crate::book::{Book, BookError, Record};
 use crate::journal::HandIn;
@@ -116,7 +115,7 @@ pub struct Reopened {
     /// The lab with its staff part, of that day.
     pub lab: StaffedLab,
     /// The submission.
-    pub submission: Source,
+    pub submission: SubmissionSource,
 }
 
 /// The lab and the submission of a record, whatever has become of the lab since.
@@ -138,7 +137,7 @@ pub fn reopen(book: &Book, record: &Record, hand_in: &HandIn) -> Result<Reopened
     let bytes = book.submission(&hand_in.submission)?;
     Ok(Reopened {
         lab: StaffedLab::load(&files, staff, name, salt.as_deref(), has_variant)?,
-        submission: SubmissionSource::new(&hand_in.file, &bytes).source,
+        submission: SubmissionSource::new(&hand_in.file, &bytes),
     })
 }
 

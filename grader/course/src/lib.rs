@@ -12,7 +12,7 @@
 //! | [`layout`] | how the files of a class are arranged: whose folder is which |
 //! | [`selection`] | which of a person's files is the submission |
 //! | [`matching`] | which student of the roster a folder belongs to |
-//! | `private_files` | files that their owner alone can read |
+//! | [`private_files`] | files that their owner alone can read |
 //! | [`journal`] | what happened: hand-ins and grades, one line each |
 //! | [`history`] | the journal read: attempts and their grades |
 //! | [`standing`] | how each student stands in each lab |
@@ -77,7 +77,7 @@ mod made_up_class;
 pub mod matching;
 pub mod pack;
 pub mod page;
-mod private_files;
+pub mod private_files;
 pub mod public;
 pub mod question;
 pub mod release;

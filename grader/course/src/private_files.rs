@@ -3,8 +3,11 @@
 use std::io::{self, Write as _};
 use std::path::Path;
 
-/// Makes a folder, with those above it, that its owner alone can read.
-pub(crate) fn private_folder(path: &Path) -> io::Result<()> {
+/// Makes a folder, with those above it, that its owner alone can read. One that is there already stays as it is.
+///
+/// # Errors
+/// What the system says.
+pub fn private_folder(path: &Path) -> io::Result<()> {
     let mut builder = std::fs::DirBuilder::new();
     builder.recursive(true);
     #[cfg(unix)]

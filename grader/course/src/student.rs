@@ -6,6 +6,13 @@ use kinemark_grader::lab::variant::student_id;
 use serde::{Deserialize, Serialize};
 use unicode_normalization::UnicodeNormalization as _;
 
+/// The most bytes of a folder's name: with what is put before and behind it, it stays below the 255 that file systems take.
+const LONGEST_FOLDER: usize = 120;
+/// What stands before the digest of a long id.
+const DIGEST: &str = "~~~";
+/// How many digits of it.
+const DIGIT_COUNT: usize = 32;
+
 /// A student's id as the course writes it, in Unicode's normal form C: `é` typed in two ways is one id.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -33,7 +40,8 @@ impl StudentId {
     }
 
     /// Its name as a folder: letters, digits, `-`, `_` and `.` as they are, everything else as `~` and its number, so that two ids
-    /// never share a folder and none leads out of it.
+    /// never share a folder and none leads out of it. A name that would be too long for a file system is its beginning, `~~~`, which
+    /// no other name has in it, and a digest of the id.
     pub fn folder(&self) -> String {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
         let mut name = String::new();
@@ -44,6 +52,13 @@ impl StudentId {
             } else {
                 name += &format!("~{:x}~", u32::from(c));
             }
+        }
+        if name.len() > LONGEST_FOLDER {
+            let digest = blake3::hash(self.0.as_bytes()).to_hex();
+            // every character of it is ASCII
+            name.truncate(LONGEST_FOLDER - DIGEST.len() - DIGIT_COUNT);
+            name += DIGEST;
+            name += &digest[..DIGIT_COUNT];
         }
         name
     }
@@ -104,5 +119,15 @@ mod tests {
         assert_eq!(folder("../x"), "~2e~.~2f~x");
         assert_eq!(folder("~2f~"), "~7e~2f~7e~");
         assert_ne!(folder("a/b"), folder("a~2f~b"));
+    }
+
+    #[test]
+    fn a_long_id_has_a_folder_that_file_systems_take() {
+        let folder = |id: &str| StudentId::new(id).unwrap().folder();
+        let long = |last: &str| folder(&format!("{}{last}", "李".repeat(99)));
+        assert_eq!(long("a").len(), LONGEST_FOLDER);
+        assert_ne!(long("a"), long("b"));
+        assert!(long("a").starts_with("~674e~~674e~") && long("a").contains(DIGEST));
+        assert_eq!(folder(&"a".repeat(100)), "a".repeat(100));
     }
 }

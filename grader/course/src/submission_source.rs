@@ -2,6 +2,7 @@
 
 use kinemark_grader::judge::{self, Interrupted};
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::record::explanation::Explanation;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::not_text::NotText;
@@ -42,6 +43,22 @@ impl SubmissionSource {
         match &self.not_text {
             Some(not_text) => judge::grade(lab, staff, &self.source, &mut not_text.clone()),
             None => judge::grade(lab, staff, &self.source, host),
+        }
+    }
+
+    /// Explains its grade; `host` runs it where it is text.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if the host says so.
+    pub fn explain(
+        &self,
+        lab: &Lab,
+        staff: &Staff,
+        host: &mut dyn Host,
+    ) -> Result<Explanation, Interrupted> {
+        match &self.not_text {
+            Some(not_text) => judge::explain(lab, staff, &self.source, &mut not_text.clone()),
+            None => judge::explain(lab, staff, &self.source, host),
         }
     }
 }

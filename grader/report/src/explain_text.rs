@@ -4,7 +4,7 @@
 use kinemark_sim::text::number::{metres, seconds, trimmed};
 use owo_colors::OwoColorize as _;
 
-use super::student_reply::paragraph;
+use super::stop_words::{is_missing_function, stop_of_whole_file};
 use super::text::hidden_word;
 use super::visible::visible;
 use kinemark_grader::record::explanation::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
@@ -17,7 +17,7 @@ pub(crate) const FOR_STAFF: &str = "For course staff only: this shows hidden num
 /// How the points of a motion task come about.
 pub(crate) const HOW_RUNS_COUNT: &str = "The points of a check are the mean of the visible run and all hidden runs. The score of a hidden run is rounded down to twentieths.";
 
-/// Renders an explanation, with the paragraph for the student at its end.
+/// Renders an explanation; the paragraph for the student is another text.
 pub fn text(explanation: &Explanation) -> String {
     let grade = &explanation.graded.grade;
     let mut lines = vec![
@@ -39,23 +39,26 @@ pub fn text(explanation: &Explanation) -> String {
     if explanation.tasks.is_empty() {
         lines.push("Nothing is hidden in this lab.".to_owned());
     }
+    let whole_file = stop_of_whole_file(grade);
+    if let Some(stopped) = whole_file {
+        lines.push("Nothing of it could be run:".to_owned());
+        push_stopped(&mut lines, stopped, "  ");
+    }
     for task in &explanation.tasks {
         lines.push(String::new());
         let record = grade.tasks.iter().find(|record| record.name == task.name);
-        push_task(&mut lines, task, record);
+        push_task(&mut lines, task, record, whole_file.is_some());
     }
-    lines.push(String::new());
-    lines.push(
-        "To send to the student, without hidden numbers:"
-            .bold()
-            .to_string(),
-    );
-    lines.push(paragraph(explanation));
     let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
     lines.join("\n") + "\n"
 }
 
-fn push_task(lines: &mut Vec<String>, task: &ExplainedTask, record: Option<&TaskGrade>) {
+fn push_task(
+    lines: &mut Vec<String>,
+    task: &ExplainedTask,
+    record: Option<&TaskGrade>,
+    nothing_ran: bool,
+) {
     let earned = record.map_or_else(String::new, |record| {
         format!("{}/{}", points(record.points), points(record.max_points))
     });
@@ -64,14 +67,20 @@ fn push_task(lines: &mut Vec<String>, task: &ExplainedTask, record: Option<&Task
         visible(&task.name).bold(),
         visible(&task.title)
     ));
+    let stopped = record.and_then(|record| record.stopped.as_ref());
+    if let Some(stopped) = stopped.filter(|_| !nothing_ran) {
+        push_stopped(lines, stopped, "  ");
+    }
+    let nothing_ran = nothing_ran || record.is_some_and(is_missing_function);
     match task.kind {
+        _ if nothing_ran => {}
         TaskKind::Function => lines.extend(bands(task)),
         TaskKind::Motion => {
             lines.push(format!("  {}", HOW_RUNS_COUNT.dimmed()));
             lines.extend(record.into_iter().flat_map(|record| sums(task, record)));
         }
     }
-    if !task.counts {
+    if !task.counts && !nothing_ran {
         let why =
             "The visible run did not reach its end, so these runs were not part of the grade.";
         lines.push(format!("  {}", why.yellow()));
@@ -84,6 +93,8 @@ fn push_task(lines: &mut Vec<String>, task: &ExplainedTask, record: Option<&Task
             visible(class),
             draws.len()
         ));
+        // without a call every one of them says the same
+        let draws = if nothing_ran { Vec::new() } else { draws };
         for draw in draws {
             push_draw(lines, draw);
         }
@@ -148,7 +159,7 @@ fn push_draw(lines: &mut Vec<String>, explained: &ExplainedDraw) {
         visible(&draw.words)
     ));
     if let Some(stopped) = &explained.stopped {
-        push_stopped(lines, stopped);
+        push_stopped(lines, stopped, "        ");
     }
     if let Some(case) = &explained.case {
         push_case(lines, case, &explained.branches_m, lost);
@@ -192,17 +203,19 @@ pub(crate) fn case_error(case: &CaseGrade, branches_m: &[f64]) -> Option<String>
     case.error_m.map(metres).or_else(relative)
 }
 
-fn push_stopped(lines: &mut Vec<String>, stopped: &Stopped) {
-    let at = stopped
-        .time_s
-        .map_or_else(String::new, |time_s| format!(" (at {})", seconds(time_s)));
+fn push_stopped(lines: &mut Vec<String>, stopped: &Stopped, indent: &str) {
+    let at = match (stopped.time_s, &stopped.case) {
+        (Some(time_s), _) => format!(" (at {})", seconds(time_s)),
+        (None, Some(case)) => format!(" (case \"{}\")", visible(case)),
+        (None, None) => String::new(),
+    };
     lines.push(format!(
-        "        {} {}{at}",
+        "{indent}{} {}{at}",
         "stopped:".red(),
         visible(&stopped.message)
     ));
     if let (Some(line), Some(source)) = (stopped.line, &stopped.source_line) {
-        lines.push(format!("        line {line}: {}", visible(source)));
+        lines.push(format!("{indent}line {line}: {}", visible(source)));
     }
 }
 

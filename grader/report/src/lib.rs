@@ -26,6 +26,7 @@ pub mod png;
 pub mod replay;
 mod shown_unit;
 mod solid;
+mod stop_words;
 pub mod storyboard;
 pub mod student_reply;
 pub mod text;

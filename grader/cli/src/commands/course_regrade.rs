@@ -58,6 +58,9 @@ pub(crate) struct Change {
     hand_in: String,
     points_before: f64,
     points_after: f64,
+    /// The maximum of the lab that the grade is of, and that of today; absent where the record is lost.
+    max_before: Option<f64>,
+    max_after: Option<f64>,
     /// Checks whose points change.
     checks: Vec<CheckChange>,
     record_before: String,
@@ -196,6 +199,7 @@ fn change(
 ) -> Change {
     let earned =
         |record: &Option<Record>| record.as_ref().map_or(0.0, |record| record.grade.points);
+    let most = |record: &Option<Record>| record.as_ref().map(|record| record.grade.max_points);
     let before_checks = check_points(before.as_ref());
     let after_checks = check_points(after.as_ref());
     let of = |checks: &[(String, f64)], name: &str| {
@@ -220,6 +224,8 @@ fn change(
         hand_in: hand_in.id.clone(),
         points_before: earned(&before),
         points_after: earned(&after),
+        max_before: most(&before),
+        max_after: most(&after),
         checks: checks.collect(),
         record_before: key_before.to_owned(),
         record_after: key_after.to_owned(),
@@ -280,12 +286,11 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
         }
         let _ = writeln!(out, "{} {title}:", chosen.len());
         for change in chosen {
+            let [before, after] = totals(change);
             let _ = writeln!(
                 out,
-                "  {:<20} {:>6} -> {:<6} {}",
+                "  {:<20} {before:>6} -> {after:<6} {}",
                 change.student,
-                points(change.points_before),
-                points(change.points_after),
                 by_check(change)
             );
         }
@@ -327,6 +332,20 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
         );
     }
     out
+}
+
+/// The points before and after; where the lab counts to another maximum by now, each with its own: `24/24`, `20.7/21`.
+fn totals(change: &Change) -> [String; 2] {
+    let total = |earned: f64, most: Option<f64>| match most {
+        Some(most) if change.max_before != change.max_after => {
+            format!("{}/{}", points(earned), points(most))
+        }
+        _ => points(earned),
+    };
+    [
+        total(change.points_before, change.max_before),
+        total(change.points_after, change.max_after),
+    ]
 }
 
 /// Which checks change, in a line: `ik/reach 0 -> 5`.

@@ -14,6 +14,7 @@ pub(super) const FORM: Form = Form {
     name: "github",
     title: "GitHub: annotations for a job, one file a student",
     export: ExportUse::Unused,
+    columns: &[],
     make,
 };
 

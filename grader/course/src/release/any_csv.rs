@@ -3,19 +3,20 @@
 
 use std::collections::BTreeMap;
 
-use super::decided::{Decided, decided, maximum};
+use super::decided::{Decided, decided};
 use super::directory::Keys;
 use super::feedback::Feedback;
 use super::fill::{CommentForm, FileRow, file_name, matched, put_comment, put_points};
 use super::formula::harmless;
 use super::number::{Decimal, points_text};
 use super::sheet::Sheet;
-use super::{Export, ExportUse, Form, Made, Material, OutFile, ReleaseError};
+use super::{Column, Export, ExportUse, Form, Made, Material, OutFile, ReleaseError};
 
 pub(super) const FORM: Form = Form {
     name: "csv",
     title: "CSV: a table with a column a check, or any CSV with named columns filled in",
     export: ExportUse::Optional("a CSV with a column that says who it is, and one for the points"),
+    columns: &[Column::Id, Column::Points, Column::Comment],
     make,
 };
 
@@ -46,14 +47,14 @@ fn fresh(material: &Material<'_>) -> String {
         let decided = decided(row);
         let maximum = decided
             .and_then(|decided| decided.max_points)
-            .or(maximum(material.rows));
+            .unwrap_or(material.max_points);
         let feedback = Feedback::of(material, row);
         let mut cells = vec![
             row.person.id.to_string(),
             decided
                 .map(|decided| points_text(decided.points))
                 .unwrap_or_default(),
-            maximum.map(points_text).unwrap_or_default(),
+            points_text(maximum),
             status_name(row),
             standing
                 .late_s

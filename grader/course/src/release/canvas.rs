@@ -3,10 +3,10 @@
 
 use super::decided::decided;
 use super::directory::Keys;
-use super::fill::{FileRow, Matched, check_maximum, file_name, matched, put_points};
+use super::fill::{FileRow, Matched, file_name, matched, put_points, with_equal_maximum};
 use super::number::{Decimal, number};
 use super::sheet::Sheet;
-use super::{ExportUse, Form, Made, Material, Note, OutFile, ReleaseError};
+use super::{Column, ExportUse, Form, Made, Material, Note, OutFile, ReleaseError};
 use crate::standing::Status;
 use crate::student::{StudentId, folded};
 
@@ -16,6 +16,7 @@ pub(super) const FORM: Form = Form {
     export: ExportUse::Required(
         "the course's gradebook (Grades > Export > Export Entire Gradebook)",
     ),
+    columns: &[Column::Points],
     make,
 };
 
@@ -40,7 +41,7 @@ fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
     let identity = identity(&sheet)?;
     let column = column(&sheet, material)?;
     sheet.check_widths()?;
-    check_possible(&sheet, column, material)?;
+    let possible = possible(&sheet, column)?;
     let rows: Vec<FileRow> = sheet
         .below_header()
         .filter(|row| is_student(&sheet, *row))
@@ -51,7 +52,7 @@ fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
         })
         .collect();
     let mut notes = Vec::new();
-    let all = matched(
+    let mut all = matched(
         material,
         &rows,
         |people, keys, names| people.find(keys, names),
@@ -59,6 +60,9 @@ fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
     );
     // the student that Canvas makes for previews
     notes.retain(|note| !matches!(note, Note::NotInRoster { who, .. } if who == "Student, Test"));
+    if let Some(possible) = possible {
+        all = with_equal_maximum(material, export.name, all, |_| possible.clone(), &mut notes)?;
+    }
     let decimal = decimal(&sheet, column);
     for one in &all {
         put(&mut sheet, one, column, decimal, &mut notes);
@@ -80,14 +84,13 @@ fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
     })
 }
 
-/// Refuses a column that Canvas computes, and one with another maximum than the lab.
-fn check_possible(
-    sheet: &Sheet,
-    column: usize,
-    material: &Material<'_>,
-) -> Result<(), ReleaseError> {
+/// The line and the text of the column's maximum, where the gradebook has it.
+///
+/// # Errors
+/// A column that Canvas computes.
+fn possible(sheet: &Sheet, column: usize) -> Result<Option<(usize, String)>, ReleaseError> {
     let Some(row) = points_possible(sheet) else {
-        return Ok(());
+        return Ok(None);
     };
     let cell = sheet.value(row, column).trim().to_owned();
     if number(&cell).is_none() && !cell.is_empty() {
@@ -96,8 +99,7 @@ fn check_possible(
             column: sheet.headers().swap_remove(column),
         });
     }
-    let cells = [(sheet.line(row), cell.as_str())];
-    check_maximum(material, sheet.name(), cells.into_iter())
+    Ok(Some((sheet.line(row), cell)))
 }
 
 /// Writes points, or that the lab does not count. What Canvas says of somebody without points is kept.

@@ -93,11 +93,6 @@ impl<'a> Decided<'a> {
     }
 }
 
-/// The maximum of the lab, as far as any grade knows it.
-pub(super) fn maximum(rows: &[Row<'_>]) -> Option<f64> {
-    rows.iter().find_map(|row| decided(row)?.max_points)
-}
-
 /// Without the rounding error of a sum of hundredths.
 pub(super) fn hundredths(points: f64) -> f64 {
     (points * 100.0).round() / 100.0

@@ -17,6 +17,32 @@ pub enum ReleaseError {
         /// The file that it fills in.
         what: &'static str,
     },
+    /// Something was named that the form has no use for.
+    #[error("the form `{form}` has no use for {option}")]
+    #[diagnostic(
+        code(release::unused_option),
+        help("leave it out, or choose a form that uses it: {forms}")
+    )]
+    UnusedOption {
+        /// The form.
+        form: &'static str,
+        /// The option.
+        option: &'static str,
+        /// The forms that use it.
+        forms: String,
+    },
+    /// A column of the LMS's file was named, and no file.
+    #[error("{option} names a column of a file, and no file was given")]
+    #[diagnostic(
+        code(release::column_of_no_file),
+        help("name the file with --export: {what}")
+    )]
+    ColumnOfNoFile {
+        /// The option.
+        option: &'static str,
+        /// The file that it fills in.
+        what: &'static str,
+    },
     /// A spreadsheet or an archive, not a table of text.
     #[error("{name} is not a CSV file: {why}")]
     #[diagnostic(

@@ -9,6 +9,7 @@ use kinemark_report::visible::shortened;
 use super::decided::{Decided, decided};
 use super::machine_path::without_paths;
 use super::number::points_text;
+use super::shell_word::shell_word;
 use super::{Material, Row};
 use crate::standing::{ByHand, Standing};
 
@@ -58,10 +59,15 @@ impl<'a> Feedback<'a> {
             facts,
             losses: grade.map(losses).unwrap_or_default(),
             replay: grade.map(|grade| {
+                let word = |text: &str, other: &str| {
+                    let is_shown = plain(text, 60) == text;
+                    let word = shell_word(text).filter(|_| is_shown);
+                    word.unwrap_or_else(|| other.to_owned())
+                };
                 format!(
                     "To see the runs: kinemark grade {} {}",
-                    plain(material.lab, 60),
-                    plain(&grade.submission.name, 60)
+                    word(material.lab, "LAB"),
+                    word(&grade.submission.name, "submission.rhai")
                 )
             }),
         })

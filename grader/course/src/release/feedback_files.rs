@@ -8,6 +8,7 @@ pub(super) const FORM: Form = Form {
     name: "feedback",
     title: "Feedback: a folder a student with feedback.txt, feedback.html and the report",
     export: ExportUse::Unused,
+    columns: &[],
     make,
 };
 

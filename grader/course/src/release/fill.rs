@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::decided::{decided, maximum};
+use super::decided::decided;
 use super::directory::{Directory, Keys, names_of};
 use super::feedback::{Feedback, is_ours};
 use super::number::{Decimal, number, says};
@@ -84,31 +84,55 @@ pub(super) fn matched<'a>(
     all
 }
 
-/// Refuses a file whose maximum is not that of the lab.
+/// The rows whose grade counts to the maximum that the LMS has there; `cell` gives the line and the text of that maximum. The others are
+/// noted: points are not scaled.
 ///
 /// # Errors
-/// The first of `cells` (line and text) with another maximum.
-pub(super) fn check_maximum<'c>(
+/// No grade counts to the LMS's maximum, and neither does the lab of today.
+pub(super) fn with_equal_maximum<'a>(
     material: &Material<'_>,
     name: &str,
-    mut cells: impl Iterator<Item = (usize, &'c str)>,
-) -> Result<(), ReleaseError> {
-    let Some(ours) = maximum(material.rows) else {
-        return Ok(());
-    };
-    let other = cells.find_map(|(line, cell)| {
-        let theirs = number(cell)?;
-        (!says(cell, ours)).then_some((line, theirs))
-    });
-    match other {
-        None => Ok(()),
-        Some((line, theirs)) => Err(ReleaseError::Maximum {
-            name: name.to_owned(),
-            line,
-            theirs,
-            ours,
-        }),
+    all: Vec<Matched<'a>>,
+    cell: impl Fn(&Matched<'a>) -> (usize, String),
+    notes: &mut Vec<Note>,
+) -> Result<Vec<Matched<'a>>, ReleaseError> {
+    let mut equal = Vec::new();
+    let mut others = Vec::new();
+    let mut is_any_equal = false;
+    for one in all {
+        let (line, cell) = cell(&one);
+        let ours = decided(one.row).and_then(|decided| decided.max_points);
+        match (ours, number(&cell)) {
+            (Some(ours), Some(theirs)) if !says(&cell, ours) => others.push((one, line, theirs)),
+            (ours, theirs) => {
+                is_any_equal |= ours.is_some() && theirs.is_some();
+                equal.push(one);
+            }
+        }
     }
+    if let Some((_, line, theirs)) = others.first()
+        && !is_any_equal
+        && (theirs - material.max_points).abs() >= 0.005
+    {
+        return Err(ReleaseError::Maximum {
+            name: name.to_owned(),
+            line: *line,
+            theirs: *theirs,
+            ours: material.max_points,
+        });
+    }
+    for (one, _, theirs) in others {
+        let decided = decided(one.row);
+        notes.push(Note::OtherMaximum {
+            student: one.row.person.id.clone(),
+            points: decided.map_or(0.0, |decided| decided.points),
+            maximum: decided
+                .and_then(|decided| decided.max_points)
+                .unwrap_or(0.0),
+            theirs,
+        });
+    }
+    Ok(equal)
 }
 
 /// Writes points into a cell, unless it says them already.

@@ -14,6 +14,7 @@ pub(super) const FORM: Form = Form {
     name: "gradescope",
     title: "Gradescope: results.json in a folder a student",
     export: ExportUse::Unused,
+    columns: &[],
     make,
 };
 

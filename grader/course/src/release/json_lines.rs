@@ -14,6 +14,7 @@ pub(super) const FORM: Form = Form {
     name: "jsonl",
     title: "JSON Lines: an object a student",
     export: ExportUse::Unused,
+    columns: &[],
     make,
 };
 

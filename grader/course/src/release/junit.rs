@@ -12,6 +12,7 @@ pub(super) const FORM: Form = Form {
     name: "junit",
     title: "JUnit: an XML file a student",
     export: ExportUse::Unused,
+    columns: &[],
     make,
 };
 

@@ -26,10 +26,12 @@ mod number;
 #[cfg(test)]
 mod sample;
 mod sheet;
+mod shell_word;
 
 use crate::book::Record;
 use crate::roster::Person;
 use crate::standing::Standing;
+use crate::student::StudentId;
 
 pub use error::ReleaseError;
 pub use note::Note;
@@ -45,6 +47,17 @@ pub struct Row<'a> {
     pub record: Option<&'a Record>,
     /// The page of the whole report, where it was made.
     pub report: Option<&'a str>,
+    /// Whether the record was made with another lab, staff part or engine than those of today.
+    pub is_of_earlier_lab: bool,
+}
+
+/// Files of the lab that wait for a person: a grade may follow from each.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct OpenFiles<'a> {
+    /// Whose they are, where that is certain.
+    pub students: &'a [StudentId],
+    /// Of each of the others, the students that come near.
+    pub unclaimed: &'a [Vec<StudentId>],
 }
 
 /// A file of the LMS that is to be filled in.
@@ -67,6 +80,41 @@ pub struct Columns<'a> {
     pub comment: Option<&'a str>,
 }
 
+/// A column of an export that a person can name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Column {
+    /// Whose row it is.
+    Id,
+    /// Where the points go.
+    Points,
+    /// Where the comment goes.
+    Comment,
+}
+
+impl Column {
+    /// The option of the command line that names it.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::Id => "--id-column",
+            Self::Points => "--column",
+            Self::Comment => "--comment-column",
+        }
+    }
+}
+
+impl Columns<'_> {
+    /// Those that were named.
+    fn named(&self) -> impl Iterator<Item = Column> {
+        let all = [
+            (Column::Points, self.points),
+            (Column::Id, self.id),
+            (Column::Comment, self.comment),
+        ];
+        let named = all.into_iter().filter(|(_, name)| name.is_some());
+        named.map(|(column, _)| column)
+    }
+}
+
 /// What a form is made from.
 #[derive(Debug, Clone, Copy)]
 pub struct Material<'a> {
@@ -74,12 +122,16 @@ pub struct Material<'a> {
     pub lab: &'a str,
     /// The lab's title.
     pub title: &'a str,
+    /// The maximum of the lab as it is today.
+    pub max_points: f64,
     /// Everybody of the roster, in its order.
     pub rows: &'a [Row<'a>],
     /// The file that is to be filled in.
     pub export: Option<Export<'a>>,
     /// The columns of it that were named.
     pub columns: Columns<'a>,
+    /// Files that wait for a person.
+    pub open: OpenFiles<'a>,
 }
 
 /// A file that goes back.
@@ -120,6 +172,8 @@ pub struct Form {
     pub title: &'static str,
     /// Which file of the LMS it fills in.
     pub export: ExportUse,
+    /// The columns of that file that a person can name.
+    pub columns: &'static [Column],
     make: fn(&Material<'_>) -> Result<Made, ReleaseError>,
 }
 
@@ -135,6 +189,12 @@ pub const FORMS: &[Form] = &[
     json_lines::FORM,
 ];
 
+/// The names of the forms that are as `is` says.
+fn forms(is: impl Fn(&Form) -> bool) -> String {
+    let forms = FORMS.iter().filter(|form| is(form)).map(|form| form.name);
+    forms.collect::<Vec<_>>().join(", ")
+}
+
 impl Form {
     /// The form of this name.
     pub fn named(name: &str) -> Option<&'static Self> {
@@ -145,7 +205,7 @@ impl Form {
     /// stale.
     ///
     /// # Errors
-    /// A file that is missing or cannot be filled in.
+    /// A file that is missing or cannot be filled in, and a file or column that this form does not use.
     pub fn release(&self, material: &Material<'_>) -> Result<Made, ReleaseError> {
         if let (ExportUse::Required(what), None) = (self.export, material.export) {
             return Err(ReleaseError::NoExport {
@@ -153,9 +213,34 @@ impl Form {
                 what,
             });
         }
+        self.check_options(material)?;
         let mut made = (self.make)(material)?;
-        made.notes.splice(0..0, note::of_rows(material.rows));
+        made.notes.splice(0..0, note::of_every_form(material));
         Ok(made)
+    }
+
+    /// Refuses what was named and would have no effect.
+    fn check_options(&self, material: &Material<'_>) -> Result<(), ReleaseError> {
+        let unused = |option, forms| ReleaseError::UnusedOption {
+            form: self.name,
+            option,
+            forms,
+        };
+        if self.export == ExportUse::Unused && material.export.is_some() {
+            let forms = forms(|form| form.export != ExportUse::Unused);
+            return Err(unused("--export", forms));
+        }
+        for column in material.columns.named() {
+            let option = column.option();
+            if !self.columns.contains(&column) {
+                let forms = forms(|form| form.columns.contains(&column));
+                return Err(unused(option, forms));
+            }
+            if let (ExportUse::Optional(what), None) = (self.export, material.export) {
+                return Err(ReleaseError::ColumnOfNoFile { option, what });
+            }
+        }
+        Ok(())
     }
 }
 

@@ -2,16 +2,37 @@
 
 use std::fmt;
 
-use super::Row;
 use super::decided::decided;
 use super::number::points_text;
+use super::{Material, Row};
 use crate::standing::Status;
 use crate::student::StudentId;
 use kinemark_report::visible::visible;
+use serde::Serialize;
 
 /// Something that is not in the files, or that they change.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "note", rename_all = "kebab-case")]
 pub enum Note {
+    /// Files wait for a person, and it is not certain whose they are.
+    OpenFiles {
+        /// How many.
+        files: usize,
+        /// The students who come near.
+        near: Vec<StudentId>,
+    },
+    /// There is a grade, and another file of the student waits for a person.
+    FileWaits {
+        /// Whose.
+        student: StudentId,
+    },
+    /// The grades were made with another lab, staff part or engine than those of today.
+    EarlierLab {
+        /// The lab.
+        lab: String,
+        /// Whose.
+        students: Vec<StudentId>,
+    },
     /// There is a hand-in, and no grade that could be written.
     NotDecided {
         /// Whose.
@@ -65,6 +86,17 @@ pub enum Note {
         /// The most that the LMS takes.
         maximum: f64,
     },
+    /// The grade counts to another maximum than the LMS does; no points are written.
+    OtherMaximum {
+        /// Whose.
+        student: StudentId,
+        /// The points.
+        points: f64,
+        /// The maximum of the grade.
+        maximum: f64,
+        /// The maximum in the LMS.
+        theirs: f64,
+    },
     /// The LMS's file says that the assignment is not theirs; the cell is kept.
     NotAssigned {
         /// Whose.
@@ -85,6 +117,32 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::OpenFiles { files, near } => {
+                let files = match files {
+                    1 => "1 file waits".to_owned(),
+                    files => format!("{files} files wait"),
+                };
+                write!(f, "{files} for a person, because it is not certain whose:")?;
+                if !near.is_empty() {
+                    write!(f, " {} may be missing because of it;", listed(near))?;
+                }
+                write!(f, " `kinemark course status` shows what decides it")
+            }
+            Self::FileWaits { student } => write!(
+                f,
+                "{student}: another file of theirs waits for a person: the grade may change once it is decided"
+            ),
+            Self::EarlierLab { lab, students } => {
+                let grades = match students.len() {
+                    1 => "1 grade is".to_owned(),
+                    count => format!("{count} grades are"),
+                };
+                write!(
+                    f,
+                    "{grades} of an earlier lab or engine ({}): `kinemark course regrade {lab}` shows what would change",
+                    listed(students)
+                )
+            }
             Self::NotDecided { student, status } => {
                 write!(f, "{student}: no grade is written: {}", status.words())
             }
@@ -121,6 +179,18 @@ impl fmt::Display for Note {
                 points_text(*points),
                 points_text(*maximum)
             ),
+            Self::OtherMaximum {
+                student,
+                points,
+                maximum,
+                theirs,
+            } => write!(
+                f,
+                "{student}: {} of {} points are not written, because the LMS counts to {}: regrade the lab, or decide with fixes.toml",
+                points_text(*points),
+                points_text(*maximum),
+                points_text(*theirs)
+            ),
             Self::NotAssigned { student } => write!(
                 f,
                 "{student}: no points are written, because the assignment is not assigned to them in the LMS"
@@ -137,31 +207,89 @@ impl fmt::Display for Note {
     }
 }
 
+impl Note {
+    /// Whose grade does not go out with this file.
+    pub fn is_left_out(&self) -> Option<&StudentId> {
+        match self {
+            Self::NotDecided { student, .. }
+            | Self::NotInExport { student }
+            | Self::AboveMaximum { student, .. }
+            | Self::OtherMaximum { student, .. }
+            | Self::NotAssigned { student }
+            | Self::ExcusedThere { student } => Some(student),
+            Self::OpenFiles { .. }
+            | Self::FileWaits { .. }
+            | Self::EarlierLab { .. }
+            | Self::Stale { .. }
+            | Self::NotInRoster { .. }
+            | Self::Replaced { .. }
+            | Self::KeptComment { .. }
+            | Self::Unencodable { .. } => None,
+        }
+    }
+}
+
+/// Ids in a line.
+fn listed(students: &[StudentId]) -> String {
+    let ids: Vec<&str> = students.iter().map(StudentId::as_str).collect();
+    ids.join(", ")
+}
+
 /// What needs a person whatever the form.
-pub(super) fn of_rows(rows: &[Row<'_>]) -> Vec<Note> {
+pub(super) fn of_every_form(material: &Material<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
-    for row in rows {
-        let Row {
-            person, standing, ..
-        } = row;
-        let is_open = match standing.status {
-            Status::Pending | Status::HostLimit | Status::GraderFault | Status::NeedsPerson => true,
-            Status::Graded => decided(row).is_none(),
-            Status::Missing | Status::Excused => false,
-        };
-        if is_open {
-            notes.push(Note::NotDecided {
-                student: person.id.clone(),
-                status: standing.status,
-            });
-        }
-        for by_hand in standing.by_hand.iter().filter(|by_hand| by_hand.is_stale) {
-            notes.push(Note::Stale {
-                student: person.id.clone(),
-                check: by_hand.check.clone(),
-                why: by_hand.why.clone(),
-            });
-        }
+    let unclaimed = material.open.unclaimed;
+    if !unclaimed.is_empty() {
+        let mut near: Vec<StudentId> = unclaimed.iter().flatten().cloned().collect();
+        near.sort();
+        near.dedup();
+        notes.push(Note::OpenFiles {
+            files: unclaimed.len(),
+            near,
+        });
+    }
+    let earlier = material.rows.iter();
+    let earlier = earlier.filter(|row| row.is_of_earlier_lab && decided(row).is_some());
+    let students: Vec<StudentId> = earlier.map(|row| row.person.id.clone()).collect();
+    if !students.is_empty() {
+        notes.push(Note::EarlierLab {
+            lab: material.lab.to_owned(),
+            students,
+        });
+    }
+    for row in material.rows {
+        notes.extend(of_row(material, row));
+    }
+    notes
+}
+
+/// What needs a person in a row.
+fn of_row(material: &Material<'_>, row: &Row<'_>) -> Vec<Note> {
+    let mut notes = Vec::new();
+    let Row {
+        person, standing, ..
+    } = row;
+    let is_open = match standing.status {
+        Status::Pending | Status::HostLimit | Status::GraderFault | Status::NeedsPerson => true,
+        Status::Graded => decided(row).is_none(),
+        Status::Missing | Status::Excused => false,
+    };
+    if is_open {
+        notes.push(Note::NotDecided {
+            student: person.id.clone(),
+            status: standing.status,
+        });
+    } else if standing.status == Status::Graded && material.open.students.contains(&person.id) {
+        notes.push(Note::FileWaits {
+            student: person.id.clone(),
+        });
+    }
+    for by_hand in standing.by_hand.iter().filter(|by_hand| by_hand.is_stale) {
+        notes.push(Note::Stale {
+            student: person.id.clone(),
+            check: by_hand.check.clone(),
+            why: by_hand.why.clone(),
+        });
     }
     notes
 }

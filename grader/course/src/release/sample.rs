@@ -6,7 +6,7 @@ use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::sample;
 use kinemark_grader::record::verdict::Verdict;
 
-use super::{Columns, Export, Material, Row};
+use super::{Columns, Export, Material, OpenFiles, Row};
 use crate::book::{Inputs, Record};
 use crate::roster::Roster;
 use crate::standing::{ByHand, Standing, Status};
@@ -130,6 +130,7 @@ impl Class {
                 standing,
                 record: record.as_ref(),
                 report: Some("<!DOCTYPE html><title>report</title>"),
+                is_of_earlier_lab: false,
             })
             .collect()
     }
@@ -140,12 +141,14 @@ pub(super) fn material<'a>(rows: &'a [Row<'a>], export: Option<&'a [u8]>) -> Mat
     Material {
         lab: "01-kinematics",
         title: "Kinematics",
+        max_points: MAXIMUM,
         rows,
         export: export.map(|bytes| Export {
             name: "Grades-R-Lab 1-77.csv",
             bytes,
         }),
         columns: Columns::default(),
+        open: OpenFiles::default(),
     }
 }
 

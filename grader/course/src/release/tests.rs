@@ -133,3 +133,95 @@ fn the_whole_report_is_beside_the_feedback() {
     );
     assert_eq!(rows[8].standing.status, Status::Missing);
 }
+
+#[test]
+fn files_that_wait_for_a_person_are_noted() {
+    let class = Class::hostile();
+    let rows = class.rows();
+    let id = |id: &str| StudentId::new(id).unwrap();
+    // of somebody with a grade, and of somebody without one
+    let students = [id("s01"), id("n")];
+    let unclaimed = [vec![id("m"), id("e")], vec![id("e")], Vec::new()];
+    let material = Material {
+        open: OpenFiles {
+            students: &students,
+            unclaimed: &unclaimed,
+        },
+        ..material(&rows, None)
+    };
+    let made = Form::named("csv").unwrap().release(&material).unwrap();
+    let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        notes[0],
+        "3 files wait for a person, because it is not certain whose: e, m may be missing because of it; `kinemark course status` shows what decides it"
+    );
+    assert_eq!(
+        notes[1],
+        "s01: another file of theirs waits for a person: the grade may change once it is decided"
+    );
+    let of_n = made
+        .notes
+        .iter()
+        .filter(|note| note.is_left_out() == Some(&students[1]));
+    assert_eq!(of_n.count(), 1);
+}
+
+#[test]
+fn grades_of_an_earlier_lab_are_noted_once_with_everybody() {
+    let class = Class::hostile();
+    let mut rows = class.rows();
+    for row in &mut rows[..3] {
+        row.is_of_earlier_lab = true;
+    }
+    // a grade that is not decided goes out with no file
+    rows[8].is_of_earlier_lab = true;
+    let made = Form::named("feedback")
+        .unwrap()
+        .release(&material(&rows, None));
+    assert_eq!(
+        made.unwrap().notes[0].to_string(),
+        "3 grades are of an earlier lab or engine (s01, s02, s03): `kinemark course regrade 01-kinematics` shows what would change"
+    );
+}
+
+#[test]
+fn what_a_form_has_no_use_for_is_refused_with_the_forms_that_use_it() {
+    let class = Class::hostile();
+    let rows = class.rows();
+    let refused = |form: &str, material: &Material<'_>| {
+        let error = Form::named(form).unwrap().release(material).unwrap_err();
+        let help = miette::Diagnostic::help(&error).unwrap().to_string();
+        format!("{error} / {help}")
+    };
+    let named = |columns| Material {
+        columns,
+        ..material(&rows, None)
+    };
+    let points = Columns {
+        points: Some("Points"),
+        ..Columns::default()
+    };
+    let comment = Columns {
+        comment: Some("Comment"),
+        ..Columns::default()
+    };
+    assert_eq!(
+        refused("junit", &material(&rows, Some(b"id,points\n"))),
+        "the form `junit` has no use for --export / leave it out, or choose a form that uses it: moodle, canvas, csv"
+    );
+    assert_eq!(
+        refused("feedback", &named(points)),
+        "the form `feedback` has no use for --column / leave it out, or choose a form that uses it: moodle, canvas, csv"
+    );
+    let with_file = Material {
+        columns: comment,
+        ..material(&rows, Some(b"Student,ID\n"))
+    };
+    assert_eq!(
+        refused("canvas", &with_file),
+        "the form `canvas` has no use for --comment-column / leave it out, or choose a form that uses it: moodle, csv"
+    );
+    assert!(refused("csv", &named(points)).starts_with(
+        "--column names a column of a file, and no file was given / name the file with --export"
+    ));
+}

@@ -7,6 +7,7 @@ use super::head::earned;
 use super::{ViewerCode, foreign, page, page_with_notice};
 use crate::explain_text::{FOR_STAFF, HOW_RUNS_COUNT, band_of, case_error, scores, value_of};
 use crate::plot::plots;
+use crate::stop_words::{is_missing_function, message_with_line, stop_of_whole_file};
 use crate::student_reply::paragraph;
 use crate::text::hidden_word;
 use crate::visible::{file_stem, shortened, visible};
@@ -87,6 +88,7 @@ fn overview(explanation: &Explanation) -> String {
         visible(&grade.lab.name)
     );
     let record = |name: &str| grade.tasks.iter().find(|task| task.name == name);
+    let whole_file = stop_of_whole_file(grade);
     let body = html! {
         header class="head" {
             (banner())
@@ -96,7 +98,10 @@ fn overview(explanation: &Explanation) -> String {
         }
         main {
             @if explanation.tasks.is_empty() { section { p { "Nothing is hidden in this lab." } } }
-            @for task in &explanation.tasks { (section(task, record(&task.name))) }
+            @if let Some(stopped) = whole_file {
+                section { p { strong { "Nothing of it could be run: " } (foreign(&message_with_line(stopped))) } }
+            }
+            @for task in &explanation.tasks { (section(task, record(&task.name), whole_file.is_some())) }
             section aria-labelledby="reply" {
                 h2 id="reply" { "To send to the student" }
                 p class="lead" { "Without hidden numbers:" }
@@ -107,24 +112,31 @@ fn overview(explanation: &Explanation) -> String {
     page(&title, &grade.engine, &body, &[], ViewerCode::Inside)
 }
 
-fn section(task: &ExplainedTask, record: Option<&TaskGrade>) -> Markup {
+fn section(task: &ExplainedTask, record: Option<&TaskGrade>, is_no_program: bool) -> Markup {
     let id = format!("hidden-{}", file_stem(&task.name));
+    let stopped = record.and_then(|record| record.stopped.as_ref());
+    let nothing_ran = is_no_program || record.is_some_and(is_missing_function);
     html! {
         section class="task" aria-labelledby=(id) {
             div class="title" {
                 h2 id=(id) { (foreign(&task.title)) }
                 @if let Some(record) = record { p { (earned(record.points, record.max_points)) } }
             }
+            @if let Some(stopped) = stopped.filter(|_| !is_no_program) {
+                p { strong { "Stopped: " } (foreign(&message_with_line(stopped))) }
+            }
             @match task.kind {
                 TaskKind::Function => p class="lead" { a href=(file_name(task, 0)) { "All cases with their checks" } },
                 TaskKind::Motion => p class="lead" { (HOW_RUNS_COUNT) },
             }
-            @if !task.counts {
+            @if !task.counts && !nothing_ran {
                 p { strong { "Not part of the grade: " } "the visible run did not reach its end." }
             }
             @for (class, draws) in task.classes() {
                 h3 { (foreign(class)) ": " (draws.iter().filter(|draw| draw.good).count()) " of " (draws.len()) " hidden " (hidden_word(task.kind)) " good" }
                 @match task.kind {
+                    // without a call every one of them says the same
+                    _ if nothing_ran => {}
                     TaskKind::Function => (cases(&draws)),
                     TaskKind::Motion => @for draw in &draws { (run(task, draw)) },
                 }

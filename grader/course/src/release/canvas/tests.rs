@@ -243,7 +243,7 @@ fn the_column_is_certain_or_refused() {
         ),
         (
             None,
-            "Student,ID,SIS Login ID,Section,Kinematics (5)\n    Points Possible,,,,100.00\n",
+            "Student,ID,SIS Login ID,Section,Kinematics (5)\n    Points Possible,,,,100.00\nLovelace,1000,,S,\n",
             "line 2: the maximum is 100 there, and 24 in the lab",
         ),
         (
@@ -292,5 +292,48 @@ fn an_excused_person_who_is_not_there_is_noted() {
     assert!(
         matches!(&notes[..], [Note::NotInExport { .. }]),
         "{notes:?}"
+    );
+}
+
+#[test]
+fn a_grade_of_an_earlier_lab_is_not_written_where_the_maximum_is_another() {
+    let mut class = Class::hostile();
+    // everybody else was regraded: the lab counts to 30 by now
+    for id in ["s02", "s03"] {
+        class.of(id).max_points = Some(30.0);
+    }
+    let rows = class.rows();
+    let text = "Student,ID,SIS User ID,SIS Login ID,Section,Kinematics (5)\n    Points Possible,,,,,30.00\n\
+        Ada,1000,s01,,S,\nLine,1001,s02,,S,\n";
+    let of = |maximum: f64| Material {
+        max_points: maximum,
+        ..material(&rows, Some(text.as_bytes()))
+    };
+    let made = FORM.release(&of(30.0)).unwrap();
+    let cells = String::from_utf8(made.files[0].bytes.clone()).unwrap();
+    assert!(
+        cells.contains("s01,,S,\n") && cells.contains("s02,,S,16.5\n"),
+        "{cells}"
+    );
+    let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
+    assert!(
+        notes.contains(
+            &"s01: 17.5 of 24 points are not written, because the LMS counts to 30: regrade the lab, or decide with fixes.toml"
+                .to_owned()
+        ),
+        "{notes:?}"
+    );
+    // nobody was regraded yet: neither a scaled number nor one of another maximum
+    let text = text.replace("Line,1001,s02,,S,\n", "");
+    let of = |maximum: f64| Material {
+        max_points: maximum,
+        ..material(&rows, Some(text.as_bytes()))
+    };
+    let made = FORM.release(&of(30.0)).unwrap();
+    assert_eq!(made.files[0].bytes, text.as_bytes());
+    let error = FORM.release(&of(24.0)).unwrap_err().to_string();
+    assert!(
+        error.contains("the maximum is 30 there, and 24 in the lab"),
+        "{error}"
     );
 }

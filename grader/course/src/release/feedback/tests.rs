@@ -117,3 +117,22 @@ proptest! {
         prop_assert!(feedback.page().len() <= 100_000);
     }
 }
+
+/// What a student pastes into a shell runs nothing but the grader.
+#[test]
+fn the_command_to_paste_is_quoted() {
+    for (name, word) in [
+        ("Lab 1 – Lösung.rhai", "\"Lab 1 – Lösung.rhai\""),
+        ("Lab 1 $(rm -rf ~).rhai", "submission.rhai"),
+        ("-rf.rhai", "./-rf.rhai"),
+        ("a\u{202E}b.rhai", "submission.rhai"),
+    ] {
+        let mut class = Class::of_roster("id,name\ns1,Ada\n");
+        class.grade("s1", 3.0);
+        let record = class.records[0].as_mut().unwrap();
+        record.grade.submission.name = name.to_owned();
+        let line = format!("To see the runs: kinemark grade 01-kinematics {word}\n");
+        let text = text_of(&class, 0);
+        assert!(text.contains(&line), "{line}{text}");
+    }
+}

@@ -5,10 +5,12 @@ mod headers;
 
 use self::headers::{Field, LANGUAGES, Language};
 use super::directory::Keys;
-use super::fill::{CommentForm, FileRow, Matched, check_maximum, matched, put_comment, put_points};
+use super::fill::{
+    CommentForm, FileRow, Matched, matched, put_comment, put_points, with_equal_maximum,
+};
 use super::number::{Decimal, number};
 use super::sheet::Sheet;
-use super::{ExportUse, Form, Made, Material, Note, OutFile, ReleaseError};
+use super::{Column, ExportUse, Form, Made, Material, Note, OutFile, ReleaseError};
 use crate::release::decided::decided;
 
 pub(super) const FORM: Form = Form {
@@ -17,6 +19,7 @@ pub(super) const FORM: Form = Form {
     export: ExportUse::Required(
         "the assignment's grading worksheet (Submissions > Actions > Download grading worksheet)",
     ),
+    columns: &[Column::Id, Column::Points, Column::Comment],
     make,
 };
 
@@ -53,19 +56,18 @@ fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
             keys: keys(&sheet, at, &places),
         })
         .collect();
-    let all = matched(
+    let mut all = matched(
         material,
         &rows,
         |people, keys, names| people.find(keys, names),
         &mut notes,
     );
     if let Some(column) = places.maximum {
-        let graded = all.iter().filter(|one| decided(one.row).is_some());
-        let cells: Vec<(usize, String)> = graded
-            .map(|one| (sheet.line(one.at), sheet.value(one.at, column).into_owned()))
-            .collect();
-        let cells = cells.iter().map(|(line, cell)| (*line, cell.as_str()));
-        check_maximum(material, export.name, cells)?;
+        let cell = |one: &Matched<'_>| {
+            let cell = sheet.value(one.at, column);
+            (sheet.line(one.at), cell.into_owned())
+        };
+        all = with_equal_maximum(material, export.name, all, cell, &mut notes)?;
     }
     let decimal = decimal(&sheet, &places);
     for one in &all {

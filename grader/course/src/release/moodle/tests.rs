@@ -470,3 +470,29 @@ fn the_zip_is_read_back_by_the_rules_of_its_import() {
     );
     assert_eq!(rows.len(), participants.len());
 }
+
+#[test]
+fn a_row_with_another_maximum_than_its_grade_is_left_as_it_is() {
+    let mut class = Class::hostile();
+    class.of("s02").max_points = Some(30.0);
+    let rows = class.rows();
+    let text = worksheet("24.00");
+    let made = FORM
+        .release(&material(&rows, Some(text.as_bytes())))
+        .unwrap();
+    let other: Vec<&Note> = made
+        .notes
+        .iter()
+        .filter(|note| matches!(note, Note::OtherMaximum { .. }))
+        .collect();
+    assert_eq!(other.len(), 1, "{:?}", made.notes);
+    assert_eq!(
+        other[0].to_string(),
+        "s02: 16.5 of 30 points are not written, because the LMS counts to 24: regrade the lab, or decide with fixes.toml"
+    );
+    let lines = String::from_utf8(made.files[0].bytes.clone()).unwrap();
+    assert!(
+        !lines.contains(",16.5,") && lines.contains(",17.5,"),
+        "{lines}"
+    );
+}
