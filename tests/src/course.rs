@@ -478,3 +478,30 @@ fn in_the_folder_of_a_course_its_salt_draws_the_variants() {
         "{ran:?}"
     );
 }
+
+#[test]
+fn a_record_is_held_beside_the_one_of_the_mended_lab() {
+    let bed = class();
+    grade(&bed, &[]);
+    let lab = format!("labs/{LAB}/lab.toml");
+    let text = std::fs::read_to_string(bed.path(&lab)).expect("a lab");
+    let (before, after) = text.split_once("points = 5").expect("a check for 5 points");
+    bed.write(&lab, format!("{before}points = 6{after}"));
+    accept_lab(&bed);
+    let ran = bed.run(&["course", "regrade", LAB]);
+    let line = ran
+        .stdout
+        .lines()
+        .find_map(|line| line.strip_prefix("side by side: kinemark "));
+    let words: Vec<&str> = line.expect("a command").split(' ').collect();
+    let ran = bed.run(&words);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("/5"), "{ran:?}");
+    assert!(ran.stdout.contains("/6"), "{ran:?}");
+    let comparison = bed.path("kinemark-compare/compare.json");
+    let text = std::fs::read_to_string(comparison).expect("the comparison");
+    let comparison: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(comparison["b"]["max_points"], 25.0);
+    let ran = bed.run(&["compare", "course.toml", "course.toml"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+}

@@ -6,6 +6,7 @@ use kinemark_course::book::{Book, BookError};
 use kinemark_course::course_file::{COURSE_FILE, CourseFile, CourseLab};
 use kinemark_course::course_text::{decoded, read};
 use kinemark_course::fixes::{FIXES_FILE, Fixes};
+use kinemark_course::grading::GradingError;
 use kinemark_course::history::History;
 use kinemark_course::index::{Index, IndexError};
 use kinemark_course::intake::IntakeError;
@@ -377,6 +378,15 @@ pub(crate) fn salt(root: &Path, file: &CourseFile) -> Result<Option<String>, Fai
         return Err(broken("the file has several lines, and a salt is one"));
     }
     Ok(Some(text))
+}
+
+/// What keeps a hand-in from being graded at all, for people.
+pub(crate) fn grading_failure(error: GradingError) -> Failure {
+    match error {
+        GradingError::Interrupted(_) => Failure::paused(),
+        GradingError::Lab(error) => Failure::from(*error),
+        GradingError::Book(error) => book_failure(error),
+    }
 }
 
 /// A failure of the book, for people.

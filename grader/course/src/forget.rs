@@ -314,6 +314,7 @@ mod tests {
             let graded = Graded {
                 hand_in: hand_in.id.clone(),
                 record: record.key.clone(),
+                points: None,
                 why: None,
             };
             log.append(at, Event::HandIn(Box::new(hand_in))).unwrap();

@@ -122,7 +122,7 @@ pub struct Reopened {
 ///
 /// # Errors
 /// A version that the book has lost, or a lab that this engine refuses.
-pub fn reopen(book: &Book, record: &Record, hand_in: &HandIn) -> Result<Reopened, GradingError> {
+pub fn reopen(book: &Book, record: &Record) -> Result<Reopened, GradingError> {
     let inputs = &record.inputs;
     let files = book.lab(&inputs.lab_version);
     let staff = inputs
@@ -134,10 +134,10 @@ pub fn reopen(book: &Book, record: &Record, hand_in: &HandIn) -> Result<Reopened
     // the salt of the course is kept with its staff part
     let salt = staff.and_then(|staff| staff.read(&format!("{name}/{SALT_FILE}")).ok().flatten());
     let has_variant = inputs.variant_of.is_some();
-    let bytes = book.submission(&hand_in.submission)?;
+    let bytes = book.submission(&inputs.submission)?;
     Ok(Reopened {
         lab: StaffedLab::load(&files, staff, name, salt.as_deref(), has_variant)?,
-        submission: SubmissionSource::new(&hand_in.file, &bytes),
+        submission: SubmissionSource::new(&inputs.file, &bytes),
     })
 }
 

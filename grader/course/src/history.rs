@@ -40,6 +40,8 @@ pub struct GradeEvent {
     pub by: String,
     /// The key of the record.
     pub record: String,
+    /// Its points, as they were when it became the grade.
+    pub points: Option<f64>,
     /// Why, where it replaced an earlier one.
     pub why: Option<String>,
 }
@@ -233,6 +235,7 @@ impl History {
                 at,
                 by,
                 record: graded.record,
+                points: graded.points,
                 why: graded.why,
             });
         }
@@ -309,6 +312,7 @@ mod tests {
         Event::Graded(Graded {
             hand_in: hand_in.id.clone(),
             record: record.to_owned(),
+            points: None,
             why: None,
         })
     }

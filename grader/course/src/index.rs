@@ -607,6 +607,7 @@ mod tests {
         let graded = Graded {
             hand_in: hand_in.id.clone(),
             record: one.key.clone(),
+            points: None,
             why: None,
         };
         let history = History::of([

@@ -135,12 +135,15 @@ impl HandIn {
 }
 
 /// A record became the grade of a hand-in.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Graded {
     /// The hand-in's id.
     pub hand_in: String,
     /// The key of the record.
     pub record: String,
+    /// Its points, so that they are known even if the record is lost.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<f64>,
     /// Why, where it replaces an earlier grade.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,

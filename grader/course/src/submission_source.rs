@@ -30,6 +30,14 @@ impl SubmissionSource {
         }
     }
 
+    /// A submission that is text.
+    pub fn of_text(source: Source) -> Self {
+        Self {
+            source,
+            not_text: None,
+        }
+    }
+
     /// Grades it; `host` runs it where it is text.
     ///
     /// # Errors

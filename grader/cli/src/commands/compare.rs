@@ -1,33 +1,36 @@
-//! `kinemark compare`: two reports beside each other, their runs made again from the copies inside them.
+//! `kinemark compare`: two reports, or records of a book, beside each other, their runs made again from the copies kept with them.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_course::book::Book;
+use kinemark_course::grading::reopen;
+use kinemark_course::student::StudentId;
+use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::compare::{self, Side};
-use kinemark_grader::judge;
 use kinemark_grader::lab::Lab;
 use kinemark_grader::record::comparison::{self, Comparison};
-use kinemark_grader::record::grade::TaskKind;
+use kinemark_grader::record::grade::{Grade, TaskKind};
 use kinemark_grader::record::graded::GradedRun;
-
 use kinemark_report::visible::visible;
 
+use crate::course_folder::{book_failure, grading_failure};
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
-use crate::report_folder::{self, Report};
 use crate::worker::WorkerHost;
-use crate::{interrupt, output};
+use crate::{interrupt, output, report_folder};
 
 /// Compare two reports of the same lab
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  kinemark compare before after\n\n\
     Shows the points of both per check and where the motions first differ, and writes compare.html with both arms in one replay. \
-    The runs are repeated from the copies in the folders.\n\
+    The runs are repeated from the copies in the folders. A record of a course's book, such as book/records/3f/3f...json, can stand \
+    for a folder: `kinemark course regrade` names those before and after a lab was changed.\n\
     See docs/watch-and-compare.md.\n\
     Exit codes: 0 compared, 2 usage or two labs, 3 a folder is not a report, 4 the grader or this machine failed.")]
 pub(crate) struct Args {
-    /// An output folder of `kinemark grade`
+    /// An output folder of `kinemark grade`, or a record of a course's book
     pub(crate) a: PathBuf,
     /// Another, of the same lab
     pub(crate) b: PathBuf,
@@ -44,9 +47,16 @@ const PAGE: &str = "compare.html";
 /// The comparison as JSON; a folder that has it is a comparison of ours.
 const RECORD: &str = "compare.json";
 
-/// A report with its runs.
+/// A grade, with what it was made from.
+struct Graded {
+    grade: Grade,
+    lab: Lab,
+    submission: SubmissionSource,
+}
+
+/// A grade with its runs.
 struct Again {
-    report: Report,
+    grade: Grade,
     lab: Lab,
     graded: GradedRun,
 }
@@ -55,7 +65,7 @@ struct Again {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
     refuse_foreign(&args.out)?;
-    let (a, b) = (report_folder::read(&args.a)?, report_folder::read(&args.b)?);
+    let (a, b) = (read(&args.a)?, read(&args.b)?);
     // before anything runs
     refuse_other_lab(args, &a, &b)?;
     let (a, b) = (again(a, &args.a)?, again(b, &args.b)?);
@@ -64,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     notes.extend(changed(&b, "B"));
     let sides = [(&a, &names[0]), (&b, &names[1])].map(|(again, name)| Side {
         name: name.as_str(),
-        recorded: &again.report.grade,
+        recorded: &again.grade,
         lab: &again.lab,
         again: &again.graded,
     });
@@ -89,7 +99,53 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> {
+/// What was graded: of a report's folder, or of a record in a book, with the lab of that day.
+fn read(path: &Path) -> Result<Graded, Failure> {
+    if path.is_file() {
+        return of_book(path);
+    }
+    let report = report_folder::read(path)?;
+    let (lab, _) = report_folder::lab_of(&report)?;
+    Ok(Graded {
+        lab,
+        submission: SubmissionSource::of_text(report.submission),
+        grade: report.grade,
+    })
+}
+
+/// The record in the file `path`, which is `records/KK/KEY.json` of a book.
+fn of_book(path: &Path) -> Result<Graded, Failure> {
+    let shown = output::path(path);
+    let unknown = || {
+        Failure::usage(
+            format!("`{shown}` is no record of a course's book"),
+            "name the folder of a report, or a file in book/records",
+        )
+    };
+    let path = disk::real(path);
+    let key = path.file_stem().and_then(|key| key.to_str());
+    let (Some(root), Some(key)) = (path.ancestors().nth(3), key) else {
+        return Err(unknown());
+    };
+    let book = Book::new(root);
+    let record = book
+        .record(key)
+        .map_err(book_failure)?
+        .ok_or_else(unknown)?;
+    let reopened = reopen(&book, &record).map_err(grading_failure)?;
+    let student = record.inputs.variant_of.as_deref().map(StudentId::new);
+    let lab = match student {
+        Some(Ok(student)) => reopened.lab.for_student(&student)?.lab().clone(),
+        _ => reopened.lab.lab,
+    };
+    Ok(Graded {
+        grade: record.grade,
+        lab,
+        submission: reopened.submission,
+    })
+}
+
+fn refuse_other_lab(args: &Args, a: &Graded, b: &Graded) -> Result<(), Failure> {
     let (of_a, of_b) = (&a.grade.lab.name, &b.grade.lab.name);
     if of_a == of_b {
         return Ok(());
@@ -107,9 +163,13 @@ fn refuse_other_lab(args: &Args, a: &Report, b: &Report) -> Result<(), Failure> 
 
 /// Runs a report's submission again. Hidden cases do not take part: points are those of the record, and what is compared are the
 /// motions that everyone may see.
-fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
-    let (lab, _) = report_folder::lab_of(&report)?;
-    let graded = judge::grade(&lab, None, &report.submission, &mut WorkerHost::new(None));
+fn again(of: Graded, folder: &Path) -> Result<Again, Failure> {
+    let Graded {
+        grade,
+        lab,
+        submission,
+    } = of;
+    let graded = submission.grade(&lab, None, &mut WorkerHost::new(None));
     let graded = graded.map_err(|_| Failure::interrupted())?;
     // what this machine did not do says nothing about either
     let mut undecided = graded
@@ -130,16 +190,12 @@ fn again(report: Report, folder: &Path) -> Result<Again, Failure> {
             "compare again when this machine is less busy; nothing was written",
         ));
     }
-    Ok(Again {
-        report,
-        lab,
-        graded,
-    })
+    Ok(Again { grade, lab, graded })
 }
 
 /// What is not as the record says.
 fn changed(again: &Again, name: &str) -> Vec<String> {
-    let (recorded, now) = (&again.report.grade, &again.graded.grade);
+    let (recorded, now) = (&again.grade, &again.graded.grade);
     let mut notes = Vec::new();
     if recorded.submission.digest != now.submission.digest {
         notes.push(format!(

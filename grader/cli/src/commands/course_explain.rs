@@ -259,8 +259,7 @@ fn explained(
     attempt: &Attempt,
     student: &StudentId,
 ) -> Result<Explanation, Failure> {
-    let Reopened { lab, submission } =
-        reopen(&course.book, record, &attempt.hand_in).map_err(failed)?;
+    let Reopened { lab, submission } = reopen(&course.book, record).map_err(failed)?;
     let whose = attempt.hand_in.variant_of.as_ref().unwrap_or(student);
     let own = lab.for_student(whose)?;
     let Some(staff) = own.staff() else {

@@ -15,7 +15,7 @@ use kinemark_grader::record::verdict::Verdict;
 use owo_colors::OwoColorize as _;
 
 use super::course_check;
-use crate::course_folder::{Course, CourseArgs, book_failure};
+use crate::course_folder::{Course, CourseArgs, book_failure, grading_failure};
 use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
@@ -208,10 +208,11 @@ fn record(
     result: Result<Outcome, GradingError>,
 ) -> Result<Option<(Verdict, String)>, Failure> {
     match result {
-        Ok(Outcome::Recorded { record, .. }) => {
+        Ok(Outcome::Recorded { record, points, .. }) => {
             log.append(Event::Graded(Graded {
                 hand_in: hand_in.id.clone(),
                 record,
+                points: Some(points),
                 why: None,
             }))?;
             Ok(None)
@@ -220,15 +221,6 @@ fn record(
         // said once everything else has ended
         Err(GradingError::Interrupted(_)) => Ok(None),
         Err(error) => Err(grading_failure(error)),
-    }
-}
-
-/// What keeps a hand-in from being graded at all, for people.
-fn grading_failure(error: GradingError) -> Failure {
-    match error {
-        GradingError::Interrupted(_) => Failure::paused(),
-        GradingError::Lab(error) => Failure::from(*error),
-        GradingError::Book(error) => book_failure(error),
     }
 }
 

@@ -56,7 +56,8 @@ pub(crate) struct Args {
 pub(crate) struct Change {
     student: String,
     hand_in: String,
-    points_before: f64,
+    /// Absent where the record is lost, and with it what it earned.
+    points_before: Option<f64>,
     points_after: f64,
     /// The maximum of the lab that the grade is of, and that of today; absent where the record is lost.
     max_before: Option<f64>,
@@ -67,6 +68,14 @@ pub(crate) struct Change {
     record_after: String,
     /// Whether the new grade was written.
     applied: bool,
+}
+
+impl Change {
+    /// Whether points get fewer, or may do so because nobody knows how many there were.
+    fn may_fall(&self) -> bool {
+        self.points_before
+            .is_none_or(|before| self.points_after < before)
+    }
 }
 
 /// How the points of a check change; absent on a side where there is no such check.
@@ -117,13 +126,22 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     })
 }
 
-/// Hand-ins that count, or may count, with a grade of another lab, staff part or engine than today's, and that record's key.
+/// A grade that was made with another lab, staff part or engine than today's.
+struct Old {
+    hand_in: HandIn,
+    /// The key of its record.
+    record: String,
+    /// Its points, as the journal has them.
+    points: Option<f64>,
+}
+
+/// Hand-ins that count, or may count, with a grade of another lab, staff part or engine than today's.
 fn out_of_date(
     course: &Course,
     rules: &CourseLab,
     history: &History,
     lab: &StaffedLab,
-) -> Result<Vec<(HandIn, String)>, Failure> {
+) -> Result<Vec<Old>, Failure> {
     let index = course.index(history)?;
     let summaries = index.summaries(&rules.name).map_err(index_failure)?;
     let mut old = Vec::new();
@@ -138,7 +156,11 @@ fn out_of_date(
                     && summary.staff_version == lab.staff_version
             });
             if !is_of_today {
-                old.push((attempt.hand_in.clone(), key.to_owned()));
+                old.push(Old {
+                    hand_in: attempt.hand_in.clone(),
+                    record: key.to_owned(),
+                    points: attempt.grades.last().and_then(|grade| grade.points),
+                });
             }
         }
     }
@@ -149,7 +171,7 @@ fn out_of_date(
 fn graded_again(
     course: &Course,
     lab: &StaffedLab,
-    old: &[(HandIn, String)],
+    old: &[Old],
     jobs: Option<usize>,
 ) -> Result<(Vec<Change>, Vec<String>), Failure> {
     let book = &course.book;
@@ -158,23 +180,17 @@ fn graded_again(
     pool::run(
         old,
         jobs.unwrap_or_else(pool::default_jobs),
-        |(hand_in, _)| hand_in.student.to_string(),
-        |(hand_in, _), host: &mut WorkerHost| grading::grade(lab, book, hand_in, host, true),
-        |(hand_in, before), result| -> Result<bool, Failure> {
+        |old| old.hand_in.student.to_string(),
+        |old, host: &mut WorkerHost| grading::grade(lab, book, &old.hand_in, host, true),
+        |old, result| -> Result<bool, Failure> {
             match result {
                 Ok(Outcome::Recorded { record, .. }) => {
                     let read = |key: &str| book.record(key).map_err(book_failure);
-                    changes.push(change(
-                        hand_in,
-                        before,
-                        read(before)?,
-                        &record,
-                        read(&record)?,
-                    ));
+                    changes.push(change(old, read(&old.record)?, &record, read(&record)?));
                     Ok(false)
                 }
                 Ok(Outcome::NotGraded { .. }) => {
-                    failed.push(hand_in.student.to_string());
+                    failed.push(old.hand_in.student.to_string());
                     Ok(true)
                 }
                 Err(GradingError::Interrupted(_)) => Ok(false),
@@ -190,15 +206,9 @@ fn graded_again(
     Ok((changes, failed))
 }
 
-fn change(
-    hand_in: &HandIn,
-    key_before: &str,
-    before: Option<Record>,
-    key_after: &str,
-    after: Option<Record>,
-) -> Change {
-    let earned =
-        |record: &Option<Record>| record.as_ref().map_or(0.0, |record| record.grade.points);
+fn change(old: &Old, before: Option<Record>, key_after: &str, after: Option<Record>) -> Change {
+    let hand_in = &old.hand_in;
+    let earned = |record: &Option<Record>| record.as_ref().map(|record| record.grade.points);
     let most = |record: &Option<Record>| record.as_ref().map(|record| record.grade.max_points);
     let before_checks = check_points(before.as_ref());
     let after_checks = check_points(after.as_ref());
@@ -222,12 +232,12 @@ fn change(
     Change {
         student: hand_in.student.to_string(),
         hand_in: hand_in.id.clone(),
-        points_before: earned(&before),
-        points_after: earned(&after),
+        points_before: earned(&before).or(old.points),
+        points_after: earned(&after).unwrap_or_default(),
         max_before: most(&before),
         max_after: most(&after),
         checks: checks.collect(),
-        record_before: key_before.to_owned(),
+        record_before: old.record.clone(),
         record_after: key_after.to_owned(),
         applied: false,
     }
@@ -254,12 +264,13 @@ fn apply(
 ) -> Result<(), Failure> {
     let mut log = CourseLog::new(course);
     for change in changes {
-        if change.points_after < change.points_before && !allow_lower {
+        if change.may_fall() && !allow_lower {
             continue;
         }
         log.append(Event::Graded(Graded {
             hand_in: change.hand_in.clone(),
             record: change.record_after.clone(),
+            points: Some(change.points_after),
             why: Some(why.to_owned()),
         }))?;
         change.applied = true;
@@ -275,11 +286,20 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
             args.lab.bold()
         );
     }
-    let gain = |change: &&Change| change.points_after > change.points_before;
-    let fall = |change: &&Change| change.points_after < change.points_before;
+    let gain = |change: &&Change| {
+        change
+            .points_before
+            .is_some_and(|before| change.points_after > before)
+    };
+    let fall = |change: &&Change| change.may_fall() && change.points_before.is_some();
+    let lost = |change: &&Change| change.points_before.is_none();
     for (title, chosen) in [
         ("gain", changes.iter().filter(gain).collect::<Vec<_>>()),
         ("would fall", changes.iter().filter(fall).collect()),
+        (
+            "had points that are lost with their record",
+            changes.iter().filter(lost).collect(),
+        ),
     ] {
         if chosen.is_empty() {
             continue;
@@ -295,9 +315,26 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
             );
         }
     }
+    // those who would fall are listed last, and looked at first
+    let look_at = changes.iter().find(fall).or(changes.iter().find(gain));
+    if let Some(change) = look_at {
+        let path = |key: &str| {
+            format!(
+                "book/records/{}/{key}.json",
+                key.get(..2).unwrap_or_default()
+            )
+        };
+        let _ = writeln!(
+            out,
+            "{} kinemark compare {} {}",
+            "side by side:".cyan(),
+            path(&change.record_before),
+            path(&change.record_after)
+        );
+    }
     let same = changes
         .iter()
-        .filter(|change| !gain(change) && !fall(change))
+        .filter(|change| !gain(change) && !fall(change) && !lost(change))
         .count();
     if same > 0 {
         let _ = writeln!(out, "{same} keep their points");
@@ -343,7 +380,9 @@ fn totals(change: &Change) -> [String; 2] {
         _ => points(earned),
     };
     [
-        total(change.points_before, change.max_before),
+        change
+            .points_before
+            .map_or_else(|| "?".to_owned(), |before| total(before, change.max_before)),
         total(change.points_after, change.max_after),
     ]
 }
