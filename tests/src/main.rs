@@ -6,10 +6,12 @@
 )]
 
 mod architecture;
+mod book_robustness;
 mod brief_pictures;
 mod commands;
 mod compare;
 mod course;
+mod course_class;
 mod determinism;
 mod docs;
 mod errors;

@@ -282,7 +282,10 @@ fn summary(course: &Course, rules: &CourseLab, json: bool) -> Result<ExitCode, F
 fn text(rules: &CourseLab, standings: &[Standing], open: usize) -> String {
     let mut counts: BTreeMap<Status, usize> = BTreeMap::new();
     for standing in standings {
-        *counts.entry(standing.status).or_default() += 1;
+        // counted as the files that need one
+        if standing.status != Status::NeedsPerson {
+            *counts.entry(standing.status).or_default() += 1;
+        }
     }
     let mut parts: Vec<String> = counts
         .iter()
