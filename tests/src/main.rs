@@ -51,6 +51,7 @@ mod scene_check;
 mod scene_checks;
 mod scene_labs;
 mod sensor_labs;
+mod slurm;
 mod staff_files;
 mod step_checks;
 mod submissions;
