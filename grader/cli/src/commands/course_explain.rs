@@ -8,8 +8,8 @@ use kinemark_course::grading::{GradingError, Reopened, reopen};
 use kinemark_course::history::Attempt;
 use kinemark_course::staffed_lab::engine_id;
 use kinemark_grader::judge;
+use kinemark_report::explain_text;
 use kinemark_report::html::{ViewerCode, explanation};
-use kinemark_report::{explain_text, student_reply};
 use owo_colors::OwoColorize as _;
 
 use crate::course_folder::{Course, CourseArgs, book_failure};
@@ -85,21 +85,17 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut host = WorkerHost::new(None);
     let explained = judge::explain(own.lab(), staff, &submission, &mut host)
         .map_err(|_| Failure::interrupted())?;
-    output::print(&explain_text::text(&explained))?;
     output::print(&past(attempt, &record))?;
     if explained.graded.grade != record.grade {
         output::print(&format!(
-            "{} this engine ({}) gives another grade than the record's ({}): numbers above may differ\n",
+            "{} this engine ({}) gives another grade than the record's ({}): numbers below may differ\n",
             "note:".yellow(),
             engine_id(),
             record.inputs.engine
         ))?;
     }
-    output::print(&format!(
-        "\n{}\n{}\n",
-        "to send, without hidden numbers:".bold(),
-        student_reply::paragraph(&explained)
-    ))?;
+    // ends with the paragraph for the student
+    output::print(&explain_text::text(&explained))?;
     if let Some(out) = &args.out {
         for page in explanation(&explained, ViewerCode::Inside) {
             let path = out.join(&page.file_name);
@@ -124,7 +120,7 @@ fn failed(error: GradingError) -> Failure {
 
 /// The grades of an attempt, the earliest first.
 fn past(attempt: &Attempt, record: &Record) -> String {
-    let mut out = format!("\n{}\n", "history".bold());
+    let mut out = format!("{}\n", "history".bold());
     let matched = &attempt.hand_in.matched_by;
     out += &format!("  {} read, matched by {matched}\n", attempt.read_at);
     for grade in &attempt.grades {
@@ -136,6 +132,9 @@ fn past(attempt: &Attempt, record: &Record) -> String {
             &grade.record[..12]
         );
     }
-    out += &format!("  the record for fixes.toml: record = \"{}\"\n", record.key);
+    out += &format!(
+        "  the record for fixes.toml: record = \"{}\"\n\n",
+        record.key
+    );
     out
 }
