@@ -18,7 +18,7 @@ install() { # PACKAGE...: of Debian
 }
 
 # --- what a machine may lack -------------------------------------------------------------------------------------------------
-# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, firefox, fuzz.
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, firefox, slurm, fuzz.
 
 not_run=()
 skip() { # WHAT, WHY: said at once and in the last line

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::course::{CLASS, LAB, class, grade, hand_in};
+use crate::course_class::{CLASS, LAB, class, grade, hand_in};
 use crate::testbed::{Serving, TestBed, files_below, root};
 
 /// The class graded: `s104` handed in what `s100` did, `s106` a solution that is public.

@@ -3,7 +3,7 @@
 use kinemark_sim::text::number::trimmed;
 use serde_json::Value;
 
-use crate::course::{LAB, accept_lab, class, grade, standings};
+use crate::course_class::{LAB, accept_lab, class, grade, standings};
 use crate::testbed::{TestBed, files_below, root};
 
 fn explained(bed: &TestBed, student: &str, more: &[&str]) -> Value {

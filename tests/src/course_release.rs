@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::course::{CLASS, LAB, accept_lab, class, grade, hand_in};
+use crate::course_class::{CLASS, LAB, accept_lab, class, grade, hand_in};
 use crate::testbed::{CommandResult, TestBed, files_below};
 
 /// The salt of the class.

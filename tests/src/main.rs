@@ -6,11 +6,13 @@
 )]
 
 mod architecture;
+mod book_robustness;
 mod brief_pictures;
 mod class_page;
 mod commands;
 mod compare;
 mod course;
+mod course_class;
 mod course_explain;
 mod course_release;
 mod determinism;
@@ -52,6 +54,7 @@ mod scene_check;
 mod scene_checks;
 mod scene_labs;
 mod sensor_labs;
+mod slurm;
 mod staff_files;
 mod step_checks;
 mod submissions;

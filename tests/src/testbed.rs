@@ -92,18 +92,26 @@ impl From<Output> for CommandResult {
 
 /// A folder of a test's own.
 pub(crate) struct TestBed {
-    folder: tempfile::TempDir,
+    folder: PathBuf,
+    /// What goes away, with everything in it.
+    _all: tempfile::TempDir,
 }
 
 impl TestBed {
     pub(crate) fn new() -> Self {
-        Self {
-            folder: tempfile::tempdir().expect("a temporary folder"),
-        }
+        Self::named("")
+    }
+
+    /// One whose folder has a name; what is beside it is the test's, too.
+    pub(crate) fn named(name: &str) -> Self {
+        let all = tempfile::tempdir().expect("a temporary folder");
+        let folder = all.path().join(name);
+        std::fs::create_dir_all(&folder).expect("a folder");
+        Self { folder, _all: all }
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
+        self.folder.join(name)
     }
 
     pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
@@ -116,7 +124,7 @@ impl TestBed {
     pub(crate) fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(binary());
         command
-            .current_dir(self.folder.path())
+            .current_dir(&self.folder)
             .args(args)
             .env("NO_COLOR", "1")
             .env_remove("KINEMARK_SALT");
@@ -158,6 +166,17 @@ impl TestBed {
 
 /// Far above what anything here takes: the end of a test that would hang.
 const LONGEST: Duration = Duration::from_secs(300);
+
+/// Waits until something is so.
+pub(crate) fn until(mut is_so: impl FnMut() -> bool) {
+    let look = Duration::from_millis(1);
+    let mut waited = Duration::ZERO;
+    while !is_so() {
+        assert!(waited < LONGEST, "it never was so");
+        std::thread::sleep(look);
+        waited += look;
+    }
+}
 
 /// A command that serves a report, as long as this lives.
 pub(crate) struct Serving {
@@ -307,6 +326,19 @@ pub(crate) fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
     }
     files.sort();
     files
+}
+
+/// The names of all files below a folder that others are writing into.
+pub(crate) fn names_below(folder: &Path) -> Vec<String> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.path().is_dir() {
+            names.extend(names_below(&entry.path()));
+        } else {
+            names.push(entry.file_name().to_string_lossy().into_owned());
+        }
+    }
+    names
 }
 
 /// A folder of the checkout as the grader reads it.

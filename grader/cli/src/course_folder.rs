@@ -401,7 +401,7 @@ pub(crate) fn book_failure(error: BookError) -> Failure {
 pub(crate) fn index_failure(error: IndexError) -> Failure {
     Failure::fault(
         format!("the index of the book: {error}"),
-        "it can be deleted at any time: the next command makes it anew",
+        "check that the disk has space; the index can be deleted at any time, and the next command makes it anew",
     )
 }
 

@@ -74,6 +74,12 @@ impl Failure {
         )
     }
 
+    /// Ctrl-C while jobs of another machine work.
+    pub(crate) fn left_alone(help: String) -> Self {
+        let message = "interrupted; the jobs go on".to_owned();
+        Self::words(INTERRUPTED, message, Some(help))
+    }
+
     /// A diagnostic with a place in a file.
     pub(crate) fn diagnostic(
         code: u8,

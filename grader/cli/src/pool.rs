@@ -102,6 +102,12 @@ pub(crate) fn run<I: Sync, R: Send, E>(
 ) -> Result<(), E> {
     let jobs = jobs.clamp(1, items.len().max(1));
     let processors = one_processor::processors();
+    // with fewer slots than processors, others may work here as well, such as another part of the class: no processor is then fixed
+    let processors = if jobs < processors.len() {
+        Vec::new()
+    } else {
+        processors
+    };
     let next = AtomicUsize::new(0);
     let slots: Vec<Mutex<Slot>> = (0..jobs).map(|_| Mutex::default()).collect();
     let mut progress = Progress::new(items.len());

@@ -12,6 +12,26 @@ pub(crate) struct Shard {
 }
 
 impl Shard {
+    /// Part `number` of `count`, where there is such a part.
+    pub(crate) fn new(number: u32, count: u32) -> Option<Self> {
+        (1..=count)
+            .contains(&number)
+            .then_some(Self { number, count })
+    }
+
+    /// All parts.
+    pub(crate) fn all(count: u32) -> impl Iterator<Item = Self> {
+        (1..=count).map(move |number| Self { number, count })
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        self.number
+    }
+
+    pub(crate) fn count(self) -> u32 {
+        self.count
+    }
+
     /// Whether the student of this id is in the part.
     pub(crate) fn has(self, student: &str) -> bool {
         let digest = blake3::hash(student.as_bytes());
@@ -28,10 +48,7 @@ impl FromStr for Shard {
         let parts = typed.split_once('/').ok_or(help)?;
         let number: u32 = parts.0.trim().parse().map_err(|_| help)?;
         let count: u32 = parts.1.trim().parse().map_err(|_| help)?;
-        if number == 0 || number > count {
-            return Err(help.to_owned());
-        }
-        Ok(Self { number, count })
+        Self::new(number, count).ok_or_else(|| help.to_owned())
     }
 }
 
@@ -48,9 +65,7 @@ mod tests {
     #[test]
     fn every_student_is_in_one_part() {
         for count in [1, 2, 7] {
-            let parts: Vec<Shard> = (1..=count)
-                .map(|number| format!("{number}/{count}").parse().unwrap())
-                .collect();
+            let parts: Vec<Shard> = Shard::all(count).collect();
             let mut sizes = vec![0; parts.len()];
             for student in 0..700 {
                 let id = format!("s{student}");

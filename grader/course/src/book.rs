@@ -10,10 +10,13 @@ use kinemark_grader::task::files::Files;
 use serde::{Deserialize, Serialize};
 
 use crate::journal::Journal;
-use crate::private_files::{private_folder, put};
+use crate::private_files::{UNFINISHED, fresh_folder, private_folder, put};
 
 /// The format of records that this version writes.
 const FORMAT: &str = "kinemark-record/1";
+
+/// The folder of what was graded on a cluster, in the book's.
+pub const RUNS: &str = "slurm";
 
 /// The grade of one submission, under the key of everything that it follows from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -126,6 +129,24 @@ impl Book {
         &self.root
     }
 
+    /// A fresh folder for the scripts and logs of a run on a cluster, by its whole path; its name begins with `prefix`.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn begin_run(&self, prefix: &str) -> Result<PathBuf, BookError> {
+        let runs = self.root.join(RUNS);
+        let begun = private_folder(&runs)
+            .and_then(|()| runs.canonicalize())
+            .and_then(|whole| fresh_folder(&whole, prefix));
+        match begun {
+            Ok(fresh) => Ok(fresh.keep()),
+            Err(error) => Err(BookError {
+                path: runs,
+                why: error.to_string(),
+            }),
+        }
+    }
+
     /// What happened.
     pub fn journal(&self) -> Journal {
         Journal::new(self.root.join("journal"))
@@ -139,16 +160,16 @@ impl Book {
             .join(format!("{key}.json"))
     }
 
-    /// Whether there is a record of this key, whole as far as its end says.
+    /// Whether there is a record of this key, as far as a look at its end says: one that a loss of power cut short is none.
     pub fn has_record(&self, key: &str) -> bool {
-        let last = || -> io::Result<u8> {
+        let last_byte = || -> io::Result<u8> {
             let mut file = File::open(self.record_path(key))?;
             file.seek(SeekFrom::End(-1))?;
-            let mut byte = [0];
-            file.read_exact(&mut byte)?;
-            Ok(byte[0])
+            let mut last = [0];
+            file.read_exact(&mut last)?;
+            Ok(last[0])
         };
-        last().is_ok_and(|byte| byte == b'}')
+        last_byte().is_ok_and(|last| last == b'}')
     }
 
     /// Keeps a record.
@@ -157,13 +178,6 @@ impl Book {
     /// A full disk; there is then no such record.
     pub fn put_record(&self, record: &Record) -> Result<(), BookError> {
         let path = self.record_path(&record.key);
-        if path.is_file() && !self.has_record(&record.key) {
-            // what a failing disk has damaged is in nobody's way
-            std::fs::remove_file(&path).map_err(|error| BookError {
-                path: path.clone(),
-                why: error.to_string(),
-            })?;
-        }
         let json = serde_json::to_vec(record);
         let written = json
             .map_err(io::Error::other)
@@ -226,7 +240,11 @@ impl Book {
             }
             for record in std::fs::read_dir(shelf.path())? {
                 let name = record?.file_name().into_string().unwrap_or_default();
-                if let Some(key) = name.strip_suffix(".json") {
+                // whatever else is there, such as the copy that a synchronised folder made of a conflict, is no record
+                if let Some(key) = name
+                    .strip_suffix(".json")
+                    .filter(|name| is_digest(name, 64))
+                {
                     keys.push(key.to_owned());
                 }
             }
@@ -268,7 +286,10 @@ impl Book {
                 Err("its bytes are not those that were handed in".to_owned())
             }
         });
-        read.map_err(|why| BookError { path, why })
+        read.map_err(|why| BookError {
+            path,
+            why: format!("{why}; reading what the LMS exported once more restores it"),
+        })
     }
 
     /// Keeps the files of a lab, and gives their version.
@@ -306,7 +327,7 @@ impl Book {
         let written = || -> io::Result<()> {
             let kind = self.root.join(kind);
             private_folder(&kind)?;
-            let fresh = tempfile::Builder::new().prefix(".new-").tempdir_in(kind)?;
+            let fresh = fresh_folder(&kind, UNFINISHED)?;
             for (name, bytes) in files {
                 put(&fresh.path().join(name), bytes)?;
             }
@@ -322,6 +343,12 @@ impl Book {
         })?;
         Ok(version)
     }
+}
+
+/// Whether a name is a digest of so many digits.
+pub(crate) fn is_digest(name: &str, digits: usize) -> bool {
+    let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
+    name.len() == digits && name.bytes().all(is_digit)
 }
 
 /// The version of files: a digest of their paths and bytes, whatever their order.
@@ -465,6 +492,18 @@ mod tests {
             ("robots/r.toml".to_owned(), b"y".to_vec()),
         ];
         let version = book.put_lab(&files).unwrap();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            let folders = [
+                bed.path().join("labs").join(&version),
+                book.begin_run("run-").unwrap(),
+            ];
+            for folder in folders {
+                let mode = folder.metadata().unwrap().permissions().mode();
+                assert_eq!(mode & 0o777, 0o700, "{}", folder.display());
+            }
+        }
         let turned: Vec<_> = files.iter().rev().cloned().collect();
         assert_eq!(book.put_lab(&turned).unwrap(), version);
         let lab = book.lab(&version);
@@ -472,6 +511,32 @@ mod tests {
         assert_eq!(lab.read("01/none").unwrap(), None);
         assert_eq!(lab.read("../../journal").unwrap(), None);
         assert_eq!(lab.list(""), ["01", "robots"]);
+    }
+
+    #[test]
+    fn a_record_that_was_cut_short_and_a_copy_of_one_are_none() {
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::new(bed.path());
+        let record = Record::new(inputs(), kinemark_grader::record::sample::graded().grade);
+        book.put_record(&record).unwrap();
+        let path = book.record_path(&record.key);
+        for copy in [
+            format!("{} (conflicted copy).json", record.key),
+            format!("{}.sync-conflict-20261127.json", record.key),
+            ".nfs0001".to_owned(),
+        ] {
+            std::fs::copy(&path, path.with_file_name(copy)).unwrap();
+        }
+        assert_eq!(book.record_keys().unwrap(), [record.key.as_str()]);
+        let whole = std::fs::read(&path).unwrap();
+        for length in [0, 1, whole.len() / 2] {
+            assert!(book.has_record(&record.key));
+            std::fs::write(&path, &whole[..length]).unwrap();
+            assert!(!book.has_record(&record.key), "{length}");
+            assert_eq!(book.record(&record.key).unwrap(), None);
+            book.put_record(&record).unwrap();
+            assert_eq!(book.record(&record.key).unwrap().as_ref(), Some(&record));
+        }
     }
 
     #[cfg(unix)]

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::book::{Book, BookError};
 use crate::index::INDEX_FILE;
 use crate::journal::{Entry, Event};
-use crate::private_files::put;
+use crate::private_files::{UNFINISHED, put};
 use crate::reports::page_path;
 use crate::student::StudentId;
 
@@ -100,6 +100,7 @@ impl Book {
         for digest in submissions.theirs.difference(&submissions.others) {
             forgotten.submissions += removed(&self.submission_path(digest))?;
         }
+        sweep(self.root()).map_err(|error| failed(self.root(), &error))?;
         // deleted rows stay readable in a database until it is made anew
         removed(&self.root().join(INDEX_FILE))?;
         forgotten.lines = self.rewrite(&theirs, student)?;
@@ -122,10 +123,10 @@ impl Book {
     fn lines(&self) -> Result<Vec<(PathBuf, Entry)>, BookError> {
         let mut lines = Vec::new();
         for path in self.journal_files()? {
-            let text = std::fs::read_to_string(&path).map_err(|error| failed(&path, &error))?;
-            for line in text.lines() {
+            let bytes = std::fs::read(&path).map_err(|error| failed(&path, &error))?;
+            for line in bytes.split(|byte| *byte == b'\n') {
                 // the torn line of a killed process
-                if let Ok(entry) = serde_json::from_str(line) {
+                if let Ok(entry) = serde_json::from_slice(line) {
                     lines.push((path.clone(), entry));
                 }
             }
@@ -142,12 +143,17 @@ impl Book {
     fn rewrite(&self, theirs: &BTreeSet<String>, student: &StudentId) -> Result<usize, BookError> {
         let mut gone = 0;
         for path in self.journal_files()? {
-            let text = std::fs::read_to_string(&path).map_err(|error| failed(&path, &error))?;
-            let mut kept = String::new();
+            let bytes = std::fs::read(&path).map_err(|error| failed(&path, &error))?;
+            let mut kept = Vec::new();
             let mut has_changed = false;
-            for line in text.split_inclusive('\n') {
-                let Ok(mut entry) = serde_json::from_str::<Entry>(line) else {
-                    kept += line;
+            for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+                let Ok(mut entry) = serde_json::from_slice::<Entry>(line) else {
+                    if line.ends_with(b"\n") {
+                        kept.extend_from_slice(line);
+                    } else {
+                        // torn, and perhaps the person's
+                        has_changed = true;
+                    }
                     continue;
                 };
                 if names(&entry.event, theirs) {
@@ -158,15 +164,15 @@ impl Book {
                         path: path.clone(),
                         why: error.to_string(),
                     })?;
-                    kept += &line;
-                    kept.push('\n');
+                    kept.extend_from_slice(line.as_bytes());
+                    kept.push(b'\n');
                     has_changed = true;
                 } else {
-                    kept += line;
+                    kept.extend_from_slice(line);
                 }
             }
             if has_changed {
-                replace(&path, kept.as_bytes()).map_err(|error| failed(&path, &error))?;
+                replace(&path, &kept).map_err(|error| failed(&path, &error))?;
             }
         }
         Ok(gone)
@@ -225,6 +231,22 @@ fn removed(path: &Path) -> Result<usize, BookError> {
     }
 }
 
+/// Removes what killed processes left unfinished: it may be the person's.
+fn sweep(folder: &Path) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let path = entry.path();
+        let is_unfinished = entry.file_name().to_string_lossy().starts_with(UNFINISHED);
+        match (entry.file_type()?.is_dir(), is_unfinished) {
+            (true, true) => std::fs::remove_dir_all(path)?,
+            (true, false) => sweep(&path)?,
+            (false, true) => std::fs::remove_file(path)?,
+            (false, false) => {}
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file again, whole; an empty one is removed.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if bytes.is_empty() {
@@ -232,7 +254,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut file = tempfile::Builder::new()
-        .prefix(".new-")
+        .prefix(UNFINISHED)
         .tempfile_in(folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
@@ -339,7 +361,15 @@ mod tests {
         for path in book.journal().files().unwrap() {
             assert!(!std::fs::read_to_string(path).unwrap().contains("s1"));
         }
+        for left in [".new-a", "submissions/.new-b", "staff/.new-c/01/salt"] {
+            let path = book.root().join(left);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "s1").unwrap();
+        }
         let again = book.forget(&first).unwrap();
         assert_eq!(again, Forgotten::default());
+        for left in [".new-a", "submissions/.new-b", "staff/.new-c"] {
+            assert!(!book.root().join(left).exists(), "{left}");
+        }
     }
 }

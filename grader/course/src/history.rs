@@ -266,6 +266,15 @@ impl History {
         all.map(|((lab, student), attempts)| (lab.as_str(), student, attempts.as_slice()))
     }
 
+    /// Whether the last try to grade a hand-in gave no grade.
+    pub fn has_failed(&self, hand_in: &str) -> bool {
+        let Some((lab, student, _)) = self.places.get(hand_in) else {
+            return false;
+        };
+        let mut attempts = self.attempts(lab, student).iter();
+        attempts.any(|attempt| attempt.hand_in.id == hand_in && attempt.failure.is_some())
+    }
+
     /// Whether a hand-in of this id was read before.
     pub fn knows(&self, hand_in: &str) -> bool {
         self.places.contains_key(hand_in)

@@ -12,7 +12,7 @@ use rusqlite::{Connection, OpenFlags, Row, Transaction, params};
 
 use crate::book::{Book, BookError, Record};
 use crate::history::History;
-use crate::private_files::private_folder;
+use crate::private_files::{UNFINISHED, private_folder};
 use crate::standing::{Standing, Summary};
 
 /// Its name in the book.
@@ -163,7 +163,7 @@ impl Index {
         let folder = self.path.parent().unwrap_or(Path::new("."));
         private_folder(folder).map_err(|error| failed(error.to_string()))?;
         let file = tempfile::Builder::new()
-            .prefix(".new-")
+            .prefix(UNFINISHED)
             .tempfile_in(folder)
             .map_err(|error| failed(error.to_string()))?;
         let mut disk = Connection::open_with_flags(
@@ -575,6 +575,25 @@ mod tests {
             assert_eq!(index.summaries("01").unwrap().len(), 1);
             assert!(Index::existing(&path).is_some());
         }
+    }
+
+    /// Whoever has it open and locked stands in nobody's way.
+    #[test]
+    fn no_lock_is_asked_for() {
+        let (one, two) = (record("aa"), record("bb"));
+        let (_bed, book) = book_with(&[&one]);
+        let history = History::default();
+        Index::refresh(&book, &history, "1").unwrap();
+        let other = Connection::open(book.root().join(INDEX_FILE)).unwrap();
+        other.execute_batch("BEGIN EXCLUSIVE").unwrap();
+        assert!(Index::refresh(&book, &history, "1").is_ok());
+        book.put_record(&two).unwrap();
+        let mut index = Index::refresh(&book, &history, "2").unwrap();
+        index.put_standings(&[]).unwrap();
+        assert_eq!(index.summaries("01").unwrap().len(), 2);
+        let keys = "SELECT count(*) FROM records";
+        let seen: i64 = other.query_row(keys, [], |row| row.get(0)).unwrap();
+        assert_eq!(seen, 1, "a reader keeps what it opened");
     }
 
     #[test]

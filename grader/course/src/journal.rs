@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, Write as _};
+use std::io::{self, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
@@ -201,7 +201,12 @@ impl Journal {
     pub fn state(&self) -> io::Result<String> {
         let mut hasher = blake3::Hasher::new();
         for path in self.files()? {
-            let size = path.metadata()?.len();
+            let size = match path.metadata() {
+                Ok(file) => file.len(),
+                // another command removed its empty one
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                Err(error) => return Err(error),
+            };
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             hasher.update(format!("{name} {size}\n").as_bytes());
         }
@@ -224,13 +229,18 @@ impl Journal {
             .map_err(|error| unread(&self.folder, 0, error.to_string()))?;
         let mut entries: Vec<Entry> = Vec::new();
         for path in files {
-            let text = std::fs::read_to_string(&path)
-                .map_err(|error| unread(&path, 0, error.to_string()))?;
-            for (i, line) in text.split_inclusive('\n').enumerate() {
-                let Some(line) = line.strip_suffix('\n') else {
+            let bytes = match std::fs::read(&path) {
+                Ok(bytes) => bytes,
+                // another command removed its empty one
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                Err(error) => return Err(unread(&path, 0, error.to_string())),
+            };
+            // bytes: a line may be torn within a character
+            for (i, line) in bytes.split_inclusive(|byte| *byte == b'\n').enumerate() {
+                let Some(line) = line.strip_suffix(b"\n") else {
                     continue;
                 };
-                let entry = serde_json::from_str(line)
+                let entry = serde_json::from_slice(line)
                     .map_err(|error| unread(&path, i + 1, error.to_string()))?;
                 entries.push(entry);
             }
@@ -259,7 +269,8 @@ impl Journal {
             file,
             path,
             by: by.to_owned(),
-            is_empty: true,
+            length: 0,
+            is_torn: false,
         })
     }
 }
@@ -270,14 +281,17 @@ pub struct Writer {
     file: File,
     path: PathBuf,
     by: String,
-    is_empty: bool,
+    /// Bytes of whole lines.
+    length: u64,
+    /// Whether a part of a line follows them that could not be taken back.
+    is_torn: bool,
 }
 
 impl Writer {
     /// Appends what happened. When this returns, a process that is killed loses it no more.
     ///
     /// # Errors
-    /// A full disk; the line is then not there, or without its end.
+    /// A full disk; the line is then not there, or it is the last one, without its end: nothing is ever written behind it.
     pub fn append(&mut self, at: Timestamp, event: Event) -> io::Result<()> {
         let entry = Entry {
             at,
@@ -286,9 +300,21 @@ impl Writer {
         };
         let mut line = serde_json::to_string(&entry).map_err(io::Error::other)?;
         line.push('\n');
-        self.file.write_all(line.as_bytes())?;
-        self.is_empty = false;
+        if self.is_torn {
+            return Err(io::Error::other("an earlier line is torn"));
+        }
+        if let Err(error) = self.file.write_all(line.as_bytes()) {
+            self.is_torn = self.take_back().is_err();
+            return Err(error);
+        }
+        self.length += line.len() as u64;
         Ok(())
+    }
+
+    /// Ends the file behind its last whole line.
+    fn take_back(&mut self) -> io::Result<()> {
+        self.file.set_len(self.length)?;
+        self.file.seek(SeekFrom::Start(self.length)).map(drop)
     }
 
     /// Ends the file: what it holds is on the disk. An empty one is removed.
@@ -296,7 +322,7 @@ impl Writer {
     /// # Errors
     /// What the system says.
     pub fn finish(self) -> io::Result<()> {
-        if self.is_empty {
+        if self.length == 0 {
             return std::fs::remove_file(self.path);
         }
         self.file.sync_all()
@@ -345,7 +371,10 @@ mod tests {
             .append(at(11), Event::HandIn(Box::new(hand_in("s1"))))
             .unwrap();
         sooner.finish().unwrap();
-        later.file.write_all(b"{\"at\":").unwrap();
+        later
+            .file
+            .write_all("{\"by\":\"é".as_bytes().split_last().unwrap().1)
+            .unwrap();
         let students: Vec<String> = journal
             .entries()
             .unwrap()
@@ -356,6 +385,40 @@ mod tests {
             })
             .collect();
         assert_eq!(students, ["s1", "s2"]);
+    }
+
+    /// A disk that is full in the middle of a line: what was written of it goes, and the next line stands by itself.
+    #[test]
+    fn a_line_that_could_not_be_written_is_taken_back() {
+        let bed = tempfile::tempdir().unwrap();
+        let journal = Journal::new(bed.path().to_owned());
+        let event = |student| Event::HandIn(Box::new(hand_in(student)));
+        let mut writer = journal.begin(at(1), "a").unwrap();
+        writer.append(at(1), event("s1")).unwrap();
+        writer.file.write_all(b"{\"at\":").unwrap();
+        writer.take_back().unwrap();
+        writer.append(at(2), event("s2")).unwrap();
+        assert_eq!(journal.entries().unwrap().len(), 2);
+    }
+
+    /// Where it cannot be taken back, nothing is written behind it: a torn line in the middle would make the journal unreadable.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn nothing_is_written_behind_a_torn_line() {
+        let mut writer = Writer {
+            file: File::options().write(true).open("/dev/full").unwrap(),
+            path: PathBuf::new(),
+            by: "a".to_owned(),
+            length: 0,
+            is_torn: false,
+        };
+        let event = || Event::HandIn(Box::new(hand_in("s1")));
+        assert!(writer.append(at(1), event()).is_err());
+        let bed = tempfile::tempdir().unwrap();
+        writer.file = File::create(bed.path().join("file")).unwrap();
+        let error = writer.append(at(2), event()).unwrap_err();
+        assert_eq!(error.to_string(), "an earlier line is torn");
+        assert_eq!(bed.path().join("file").metadata().unwrap().len(), 0);
     }
 
     #[test]

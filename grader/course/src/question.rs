@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
-use crate::book::{Book, BookError};
+use crate::book::{Book, BookError, is_digest};
 use crate::fixes::place;
 use crate::journal::MadeWith;
 use crate::private_files::put;
@@ -87,6 +87,9 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
+/// Digits of a question's name in the book.
+const ID_DIGITS: usize = 32;
+
 impl Question {
     /// Digests of the paths of one of its files ([`crate::fixes::place`]).
     pub fn places(&self, file: &Candidate) -> Vec<String> {
@@ -107,7 +110,7 @@ impl Question {
             hasher.update(b"\n");
             hasher.update(candidate.submission.as_bytes());
         }
-        hasher.finalize().to_hex()[..32].to_owned()
+        hasher.finalize().to_hex()[..ID_DIGITS].to_owned()
     }
 
     /// The tables for `fixes.toml` that decide it, to choose one from and to write the reason into: one a candidate, and one that
@@ -199,11 +202,18 @@ impl Book {
             let path = entry
                 .map_err(|error| unread(folder.clone(), error.to_string()))?
                 .path();
-            if path.extension().is_none_or(|ending| ending != "json") {
+            let name = path.file_name().and_then(|name| name.to_str());
+            let id = name.and_then(|name| name.strip_suffix(".json"));
+            // a copy that a synchronised folder made of a conflict is no question of its own
+            if !id.is_some_and(|id| is_digest(id, ID_DIGITS)) {
                 continue;
             }
-            let bytes =
-                std::fs::read(&path).map_err(|error| unread(path.clone(), error.to_string()))?;
+            let bytes = match std::fs::read(&path) {
+                Ok(bytes) => bytes,
+                // another command decided it meanwhile
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                Err(error) => return Err(unread(path, error.to_string())),
+            };
             let question: Question = serde_json::from_slice(&bytes)
                 .map_err(|error| unread(path.clone(), error.to_string()))?;
             questions.push(question);

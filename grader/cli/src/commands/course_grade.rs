@@ -20,18 +20,22 @@ use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
 use crate::shard::Shard;
+use crate::slurm_run::{SlurmArgs, SlurmRun};
+use crate::slurm_script::Work;
 use crate::worker::WorkerHost;
-use crate::{interrupt, output, pool};
+use crate::{interrupt, output, pool, slurm_queue};
 
 /// Grade what was handed in: an archive or a folder of the LMS, or whatever of a lab is not graded yet
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark course grade ~/Downloads/lab1.zip 01-kinematics\n  kinemark course grade 01-kinematics\n  \
-    kinemark course grade lab1.zip 01-kinematics --shard 2/4\n\n\
+    kinemark course grade lab1.zip 01-kinematics --shard 2/4\n  \
+    kinemark course grade lab1.zip 01-kinematics --slurm 8 --sbatch=--partition=short\n\n\
     SOURCE is what Moodle, Canvas or Gradescope exported, a folder of repositories, or files named by id. The same command again \
-    goes on where it stopped; without SOURCE it grades what is in the book and reads fixes.toml again.\n\
+    goes on where it stopped; without SOURCE it grades what is in the book and reads fixes.toml again. docs/scale-out.md describes \
+    several machines and Slurm.\n\
     Exit codes: 0 everybody who handed in has a grade, 1 something needs a person, 2 usage, 3 the course or the lab is broken, \
-    4 the grader or this machine failed."
+    4 the grader or this machine failed, 130 Ctrl-C."
 )]
 pub(crate) struct Args {
     /// What the LMS exported, if anything is new, and the lab
@@ -48,6 +52,8 @@ pub(crate) struct Args {
     /// Grade only a part of the class, such as 2/4: parts are graded on several machines and joined by copying their books
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
+    #[command(flatten)]
+    pub(crate) slurm: SlurmArgs,
     /// Print how everybody stands as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -70,6 +76,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             ));
         }
     };
+    if args.slurm.slurm.is_some() {
+        slurm_queue::require()?;
+    }
     let course = Course::open(&args.course)?;
     let rules = course.rules(&lab.to_string_lossy())?;
     let staffed = course_check::ready(&course, rules)?;
@@ -82,6 +91,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         source.map(PathBuf::as_path),
         &mut log,
     )?;
+    if let Some(count) = args.slurm.slurm {
+        log.finish()?;
+        say(args, &taken_in.text())?;
+        return on_slurm(args, &course, rules, &staffed, count);
+    }
     let history = course.history()?;
     let (waiting, lost) = waiting(&course, rules, &staffed, &history, args.shard)?;
     let result = grade(
@@ -92,20 +106,31 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         &mut log,
     );
     log.finish()?;
-    result?;
+    let failed = result?;
     if interrupt::asked() {
         return Err(Failure::paused());
     }
-    if let Some(shard) = args.shard {
-        // the index is made where the books are joined
-        output::print(&format!("part {shard}: {} graded\n", waiting.len()))?;
+    match args.shard {
+        Some(shard) => part_summary(shard, waiting.len(), failed),
+        None => {
+            say(args, &taken_in.text())?;
+            say(args, &lost_records(rules, &lost))?;
+            summary(&course, rules, &staffed, args.json)
+        }
+    }
+}
+
+/// How a part ended: the index is made where parts are joined.
+fn part_summary(shard: Shard, all: usize, failed: usize) -> Result<ExitCode, Failure> {
+    let graded = all - failed;
+    if failed == 0 {
+        output::print(&format!("part {shard}: {graded} graded\n"))?;
         return Ok(ExitCode::SUCCESS);
     }
-    if !args.json {
-        output::print(&taken_in.text())?;
-        output::print(&lost_records(rules, &lost))?;
-    }
-    summary(&course, rules, &staffed, args.json)
+    output::print(&format!(
+        "part {shard}: {graded} graded, {failed} that this machine or the grader failed at\n"
+    ))?;
+    Ok(ExitCode::from(FAULT))
 }
 
 /// The hand-ins that count, or may count, and have no grade yet; and the students whose record is lost and cannot be made again,
@@ -155,14 +180,92 @@ fn lost_records(rules: &CourseLab, lost: &[StudentId]) -> String {
     )
 }
 
-/// Grades hand-ins, each twice at most: what this machine failed at is tried once more, alone.
+/// Has the open parts graded on a cluster, or waits for what is in its queue already.
+fn on_slurm(
+    args: &Args,
+    course: &Course,
+    rules: &CourseLab,
+    lab: &StaffedLab,
+    count: u32,
+) -> Result<ExitCode, Failure> {
+    let open = |history: &History| -> Result<Vec<HandIn>, Failure> {
+        Ok(waiting(course, rules, lab, history, None)?.0)
+    };
+    let now = open(&course.history()?)?;
+    let all = now.len();
+    let has_open = |part: &Shard| now.iter().any(|hand_in| part.has(hand_in.student.as_str()));
+    let parts: Vec<Shard> = Shard::all(count).filter(has_open).collect();
+    let run = match SlurmRun::in_queue(&course.book, &rules.name)? {
+        Some(run) => {
+            say(args, &format!("in the queue already: {}\n", run.shown()))?;
+            run
+        }
+        // nothing to do
+        None if parts.is_empty() => return summary(course, rules, lab, args.json),
+        None => {
+            let work = Work {
+                course: course.root(),
+                lab: &rules.name,
+                parts: &parts,
+                jobs: args.jobs,
+                reports: !args.no_reports,
+                options: &args.slurm.sbatch,
+            };
+            let (run, [array, join]) = SlurmRun::submit(&course.book, &work)?;
+            say(
+                args,
+                &format!(
+                    "{all} to grade: job {array} ({} of {count} parts), then job {join} joins them\nlogs: {}\n",
+                    parts.len(),
+                    run.shown()
+                ),
+            )?;
+            run
+        }
+    };
+    if args.slurm.detach {
+        say(
+            args,
+            &format!(
+                "{} the same command again waits for the jobs, or goes on\n",
+                "next:".cyan()
+            ),
+        )?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let states = run.wait(|| Ok(open(&course.history()?)?.len()))?;
+    let code = summary(course, rules, lab, args.json)?;
+    let history = course.history()?;
+    // what was tried and failed is in the summary
+    let mut left = open(&history)?;
+    left.retain(|hand_in| !history.has_failed(&hand_in.id));
+    let untried = |part: Shard| {
+        let of_part = left.iter();
+        of_part
+            .filter(|hand_in| part.has(hand_in.student.as_str()))
+            .count()
+    };
+    run.verdict(&states, untried)?;
+    Ok(code)
+}
+
+/// A line for people; JSON stays JSON.
+fn say(args: &Args, line: &str) -> Result<(), Failure> {
+    if args.json {
+        return Ok(());
+    }
+    output::print(line)
+}
+
+/// Grades hand-ins, each twice at most: what this machine failed at is tried once more, alone. Gives the number of those that failed
+/// again.
 fn grade(
     course: &Course,
     lab: &StaffedLab,
     waiting: &[HandIn],
     (jobs, pages): (Option<usize>, bool),
     log: &mut CourseLog<'_>,
-) -> Result<(), Failure> {
+) -> Result<usize, Failure> {
     let name = |hand_in: &HandIn| hand_in.student.to_string();
     let book = &course.book;
     let work =
@@ -181,6 +284,7 @@ fn grade(
             Ok(failure.is_some())
         },
     )?;
+    let mut failed_again = 0;
     pool::run(
         &failed,
         1,
@@ -190,6 +294,7 @@ fn grade(
             let failure = record(log, hand_in, result)?;
             let has_failed = failure.is_some();
             if let Some((verdict, what)) = failure {
+                failed_again += 1;
                 log.append(Event::NotGraded {
                     hand_in: hand_in.id.clone(),
                     verdict,
@@ -198,7 +303,8 @@ fn grade(
             }
             Ok(has_failed)
         },
-    )
+    )?;
+    Ok(failed_again)
 }
 
 /// Writes the grade of a hand-in into the journal; gives the failure of this machine or the grader, if that is all there is.
@@ -264,7 +370,10 @@ fn summary(
 fn text(rules: &CourseLab, standings: &[Standing], open: usize) -> String {
     let mut counts: BTreeMap<Status, usize> = BTreeMap::new();
     for standing in standings {
-        *counts.entry(standing.status).or_default() += 1;
+        // counted as the files that need one
+        if standing.status != Status::NeedsPerson {
+            *counts.entry(standing.status).or_default() += 1;
+        }
     }
     let mut parts: Vec<String> = counts
         .iter()

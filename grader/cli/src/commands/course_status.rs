@@ -145,6 +145,8 @@ fn counts(lab: &LabStatus) -> String {
     let mut parts: Vec<String> = lab
         .counts
         .iter()
+        // counted as the files that need one
+        .filter(|(status, _)| **status != Status::NeedsPerson.words())
         .map(|(status, count)| format!("{count} {status}"))
         .collect();
     match lab.questions.len() {

@@ -9,7 +9,7 @@ pub enum ReleaseError {
     #[error("`{form}` fills in a file of the LMS, and none was given")]
     #[diagnostic(
         code(release::no_export),
-        help("download {what} and name the file on the command line")
+        help("download {what}, and name the file with --export FILE")
     )]
     NoExport {
         /// The form.
