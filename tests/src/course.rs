@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::course_class::{CLASS, LAB, accept_lab, class, grade, hand_in, records, standings};
-use crate::testbed::files_below;
+use crate::testbed::{TestBed, files_below};
 
 #[test]
 fn a_class_is_read_graded_and_decided_on() {

@@ -6,7 +6,6 @@
 //! A worker serves one submission: starting a process costs as much as some hundred calls, so one that is still fresh is kept for the
 //! next task or hidden run of the same file, where the code is opened anew. Never is it kept for another file, nor after a stop.
 
-use std::borrow::Cow;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitCode, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -44,12 +43,19 @@ const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 const MOST_FRAME_BYTES: u32 = 64 << 20;
 
 /// What the parent asks for.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 enum Request<'r> {
     /// Open a submission for a task, in place of what was open before.
-    Open(Cow<'r, Opening>),
+    Open(&'r Opening),
     /// Answer a call.
-    Call(Cow<'r, Call>),
+    Call(&'r Call),
+}
+
+/// A [`Request`] as the worker has it: the same bytes.
+#[derive(Deserialize)]
+enum Received {
+    Open(Box<Opening>),
+    Call(Call),
 }
 
 fn send(out: &mut impl Write, message: &impl Serialize) -> std::io::Result<()> {
@@ -94,14 +100,14 @@ fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Resu
     let mut controller: Option<ScriptController> = None;
     loop {
         match receive(input)? {
-            Request::Open(opening) => {
+            Received::Open(opening) => {
                 // before the next one: both together are never in memory
                 drop(controller.take());
                 let opened = ScriptController::open(&opening);
                 send(output, &opened.as_ref().err())?;
                 controller = opened.ok();
             }
-            Request::Call(call) => {
+            Received::Call(call) => {
                 let Some(controller) = &mut controller else {
                     return Err(std::io::Error::other("a call before an opening"));
                 };
@@ -189,7 +195,7 @@ impl Host for WorkerHost {
                 })?
             }
         };
-        let refused: Option<Stop> = worker.exchange(&Request::Open(Cow::Borrowed(opening)))?;
+        let refused: Option<Stop> = worker.exchange(&Request::Open(opening))?;
         match refused {
             None => Ok(Box::new(Lease {
                 worker: Some(worker),
@@ -425,8 +431,7 @@ impl Worker {
         if interrupt::asked() {
             return Err(Stop::Interrupted);
         }
-        let answer: Result<Answer, (Stop, Said)> =
-            self.exchange(&Request::Call(Cow::Borrowed(call)))?;
+        let answer: Result<Answer, (Stop, Said)> = self.exchange(&Request::Call(call))?;
         answer.map_err(|(stop, said)| {
             self.unanswered = said;
             stop
