@@ -115,6 +115,7 @@ pub enum Note {
 }
 
 impl fmt::Display for Note {
+    // long: a sentence for each note
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OpenFiles { files, near } => {
@@ -186,7 +187,7 @@ impl fmt::Display for Note {
                 theirs,
             } => write!(
                 f,
-                "{student}: {} of {} points are not written, because the LMS counts to {}: regrade the lab, or decide with fixes.toml",
+                "{student}: {} of {} points are not written, because the LMS counts to {}: regrade the lab, or enter them there by hand",
                 points_text(*points),
                 points_text(*maximum),
                 points_text(*theirs)

@@ -318,7 +318,7 @@ fn a_grade_of_an_earlier_lab_is_not_written_where_the_maximum_is_another() {
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     assert!(
         notes.contains(
-            &"s01: 17.5 of 24 points are not written, because the LMS counts to 30: regrade the lab, or decide with fixes.toml"
+            &"s01: 17.5 of 24 points are not written, because the LMS counts to 30: regrade the lab, or enter them there by hand"
                 .to_owned()
         ),
         "{notes:?}"

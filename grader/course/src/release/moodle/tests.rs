@@ -488,7 +488,7 @@ fn a_row_with_another_maximum_than_its_grade_is_left_as_it_is() {
     assert_eq!(other.len(), 1, "{:?}", made.notes);
     assert_eq!(
         other[0].to_string(),
-        "s02: 16.5 of 30 points are not written, because the LMS counts to 24: regrade the lab, or decide with fixes.toml"
+        "s02: 16.5 of 30 points are not written, because the LMS counts to 24: regrade the lab, or enter them there by hand"
     );
     let lines = String::from_utf8(made.files[0].bytes.clone()).unwrap();
     assert!(
