@@ -161,9 +161,10 @@ fn what_is_not_graded_has_no_score_at_all() {
     has_no_score(&upload(&bed, &[], email), "there is no file");
     let report = upload(&bed, &[("report.pdf", b"%PDF")], email);
     has_no_score(&report, "no submission is in it; there is `report.pdf`");
+    let other = submission("degrees");
     let two = [
         ("a/submission.rhai", good.as_slice()),
-        ("b/submission.rhai", &good),
+        ("b/submission.rhai", &other),
     ];
     has_no_score(&upload(&bed, &two, email), "2 files may be the submission");
     let damaged = [("x.kinemark", &b"PK\x03\x04"[..])];
@@ -212,6 +213,8 @@ fn a_hand_in_file_is_graded_with_the_variant_of_whoever_uploads_it() {
         LAB,
         "--student",
         "s1001",
+        "--reference",
+        "autograder/source/reference",
         "--out",
         "work/variant.toml",
     ]);

@@ -152,7 +152,8 @@ impl Book {
         Journal::new(self.root.join("journal"))
     }
 
-    pub(crate) fn record_path(&self, key: &str) -> PathBuf {
+    /// Where the record of a key is, or would be.
+    pub fn record_path(&self, key: &str) -> PathBuf {
         let shelf = key.get(..2).unwrap_or("--");
         self.root
             .join("records")

@@ -70,11 +70,29 @@ pub(crate) struct Change {
     applied: bool,
 }
 
+/// Where points go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Gain,
+    Fall,
+    Same,
+    /// Nobody knows, because the record is lost.
+    Lost,
+}
+
 impl Change {
+    fn way(&self) -> Way {
+        match self.points_before {
+            None => Way::Lost,
+            Some(before) if self.points_after > before => Way::Gain,
+            Some(before) if self.points_after < before => Way::Fall,
+            Some(_) => Way::Same,
+        }
+    }
+
     /// Whether points get fewer, or may do so because nobody knows how many there were.
     fn may_fall(&self) -> bool {
-        self.points_before
-            .is_none_or(|before| self.points_after < before)
+        matches!(self.way(), Way::Fall | Way::Lost)
     }
 }
 
@@ -114,7 +132,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.json {
         output::print_json(&changes)?;
     } else {
-        output::print(&text(args, &changes, &failed))?;
+        output::print(&text(args, &course, &changes, &failed))?;
     }
     let is_open = |change: &Change| !change.applied;
     Ok(if !failed.is_empty() {
@@ -278,7 +296,7 @@ fn apply(
     log.finish()
 }
 
-fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
+fn text(args: &Args, course: &Course, changes: &[Change], failed: &[String]) -> String {
     let mut out = String::new();
     if changes.is_empty() && failed.is_empty() {
         return format!(
@@ -286,44 +304,17 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
             args.lab.bold()
         );
     }
-    let gain = |change: &&Change| {
-        change
-            .points_before
-            .is_some_and(|before| change.points_after > before)
-    };
-    let fall = |change: &&Change| change.may_fall() && change.points_before.is_some();
-    let lost = |change: &&Change| change.points_before.is_none();
-    for (title, chosen) in [
-        ("gain", changes.iter().filter(gain).collect::<Vec<_>>()),
-        ("would fall", changes.iter().filter(fall).collect()),
-        (
-            "had points that are lost with their record",
-            changes.iter().filter(lost).collect(),
-        ),
+    for (way, title) in [
+        (Way::Gain, "gain"),
+        (Way::Fall, "would fall"),
+        (Way::Lost, "had points that are lost with their record"),
     ] {
-        if chosen.is_empty() {
-            continue;
-        }
-        let _ = writeln!(out, "{} {title}:", chosen.len());
-        for change in chosen {
-            let [before, after] = totals(change);
-            let _ = writeln!(
-                out,
-                "  {:<20} {before:>6} -> {after:<6} {}",
-                change.student,
-                by_check(change)
-            );
-        }
+        push_table(&mut out, title, changes, way);
     }
+    let of = |way: Way| changes.iter().find(move |change| change.way() == way);
     // those who would fall are listed last, and looked at first
-    let look_at = changes.iter().find(fall).or(changes.iter().find(gain));
-    if let Some(change) = look_at {
-        let path = |key: &str| {
-            format!(
-                "book/records/{}/{key}.json",
-                key.get(..2).unwrap_or_default()
-            )
-        };
+    if let Some(change) = of(Way::Fall).or(of(Way::Gain)) {
+        let path = |key: &str| output::path(&course.book.record_path(key));
         let _ = writeln!(
             out,
             "{} kinemark compare {} {}",
@@ -332,10 +323,8 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
             path(&change.record_after)
         );
     }
-    let same = changes
-        .iter()
-        .filter(|change| !gain(change) && !fall(change) && !lost(change))
-        .count();
+    let same = changes.iter().filter(|change| change.way() == Way::Same);
+    let same = same.count();
     if same > 0 {
         let _ = writeln!(out, "{same} keep their points");
     }
@@ -369,6 +358,27 @@ fn text(args: &Args, changes: &[Change], failed: &[String]) -> String {
         );
     }
     out
+}
+
+/// Those who go one way, a line each.
+fn push_table(out: &mut String, title: &str, changes: &[Change], way: Way) {
+    let chosen: Vec<&Change> = changes
+        .iter()
+        .filter(|change| change.way() == way)
+        .collect();
+    if chosen.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "{} {title}:", chosen.len());
+    for change in chosen {
+        let [before, after] = totals(change);
+        let _ = writeln!(
+            out,
+            "  {:<20} {before:>6} -> {after:<6} {}",
+            change.student,
+            by_check(change)
+        );
+    }
 }
 
 /// The points before and after; where the lab counts to another maximum by now, each with its own: `24/24`, `20.7/21`.
