@@ -65,6 +65,8 @@ impl DryFriction {
             self.rates[i] = qd[i] + dt_s * qdd[i];
         }
         for _ in 0..SWEEPS {
+            // a sweep that changes no bit is followed by others that change none
+            let mut is_settled = true;
             for i in 0..n {
                 let per_effort = dt_s * inverse[(i, i)];
                 // no effort moves a joint that the loops lock
@@ -74,10 +76,16 @@ impl DryFriction {
                 let wanted = self.efforts[i] - self.rates[i] / per_effort;
                 let next = wanted.clamp(-self.limits[i], self.limits[i]);
                 let change = next - self.efforts[i];
+                is_settled &= next.to_bits() == self.efforts[i].to_bits();
                 self.efforts[i] = next;
                 for j in 0..n {
-                    self.rates[j] += dt_s * inverse[(j, i)] * change;
+                    let rate = self.rates[j] + dt_s * inverse[(j, i)] * change;
+                    is_settled &= rate.to_bits() == self.rates[j].to_bits();
+                    self.rates[j] = rate;
                 }
+            }
+            if is_settled {
+                break;
             }
         }
         &self.efforts
