@@ -17,6 +17,7 @@ mod fresh_folder;
 mod hand_in_warnings;
 mod handed_out_lab;
 mod interrupt;
+mod lab_counts;
 mod labs_folder;
 mod listed_folder;
 mod one_processor;

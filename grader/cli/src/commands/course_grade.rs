@@ -1,6 +1,5 @@
 //! `kinemark course grade`: what the LMS exported, read, matched to students and graded; again, it goes on where it stopped.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -8,6 +7,7 @@ use kinemark_course::course_file::CourseLab;
 use kinemark_course::grading::{self, GradingError, Outcome};
 use kinemark_course::history::History;
 use kinemark_course::journal::{Event, Graded, HandIn, MadeWith};
+use kinemark_course::question::Question;
 use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_course::standing::{Standing, Status, counting};
 use kinemark_course::student::StudentId;
@@ -19,6 +19,7 @@ use crate::course_folder::{Course, CourseArgs, book_failure, grading_failure};
 use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
+use crate::lab_counts::lab_counts;
 use crate::shard::Shard;
 use crate::slurm_run::{SlurmArgs, SlurmRun};
 use crate::slurm_script::Work;
@@ -345,47 +346,32 @@ fn summary(
         .into_iter()
         .filter(|standing| standing.lab == rules.name)
         .collect();
-    let open = questions
-        .iter()
+    let open: Vec<Question> = questions
+        .into_iter()
         .filter(|question| question.lab == rules.name)
-        .count();
+        .collect();
     if json {
         output::print_json(&of_lab)?;
     } else {
-        output::print(&text(rules, &of_lab, open))?;
+        output::print(&text(rules, &of_lab, &open))?;
         output::print(&made_otherwise(lab, &of_lab))?;
     }
     let has_failed =
         |standing: &Standing| matches!(standing.status, Status::HostLimit | Status::GraderFault);
     Ok(if of_lab.iter().any(has_failed) {
         ExitCode::from(FAULT)
-    } else if open > 0 {
+    } else if !open.is_empty() {
         ExitCode::from(LOST)
     } else {
         ExitCode::SUCCESS
     })
 }
 
-/// `287 graded, 9 missing, 4 need you`, and what to do next.
-fn text(rules: &CourseLab, standings: &[Standing], open: usize) -> String {
-    let mut counts: BTreeMap<Status, usize> = BTreeMap::new();
-    for standing in standings {
-        // counted as the files that need one
-        if standing.status != Status::NeedsPerson {
-            *counts.entry(standing.status).or_default() += 1;
-        }
-    }
-    let mut parts: Vec<String> = counts
-        .iter()
-        .map(|(status, count)| format!("{count} {}", status.words()))
-        .collect();
-    match open {
-        0 => {}
-        1 => parts.push("1 needs you".to_owned()),
-        count => parts.push(format!("{count} need you")),
-    }
+/// How far the lab is, and what to do next.
+fn text(rules: &CourseLab, standings: &[Standing], questions: &[Question]) -> String {
+    let parts = lab_counts(standings, questions);
     let mut out = format!("{}: {}\n", rules.name.bold(), parts.join(", "));
-    if open > 0 {
+    if !questions.is_empty() {
         out += &format!("{} kinemark course status {}\n", "next:".cyan(), rules.name);
     }
     out

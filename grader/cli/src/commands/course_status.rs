@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
 use crate::failure::Failure;
+use crate::lab_counts::lab_counts;
 use crate::operator::operator;
 use crate::output;
 
@@ -142,18 +143,7 @@ fn text(course: &Course, all: &[LabStatus]) -> String {
 
 /// The counts of a lab in a line: `287 graded, 9 missing, 4 need you`.
 fn counts(lab: &LabStatus) -> String {
-    let mut parts: Vec<String> = lab
-        .counts
-        .iter()
-        // counted as the files that need one
-        .filter(|(status, _)| **status != Status::NeedsPerson.words())
-        .map(|(status, count)| format!("{count} {status}"))
-        .collect();
-    match lab.questions.len() {
-        0 => {}
-        1 => parts.push("1 needs you".to_owned()),
-        count => parts.push(format!("{count} need you")),
-    }
+    let mut parts = lab_counts(&lab.standings, &lab.questions);
     if lab.out_of_date > 0 {
         parts.push(format!("{} of an earlier lab or engine", lab.out_of_date));
     }
