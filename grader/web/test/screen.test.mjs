@@ -197,7 +197,8 @@ test("names of frames are in the picture on paper, and not over it", async () =>
   await page.getByRole("button", { name: "Frames" }).click();
   await soon(async () => {
     const now = await dark();
-    assert.ok(now > before + 100, `${now} dark pixels, ${before} without names`);
+    // how many of them are of the full colour is a matter of the font
+    assert.ok(now > before + 40, `${now} dark pixels, ${before} without names`);
   });
   await page.emulateMedia({ media: "print" });
   assert.equal(await page.locator(".replay-labels").isVisible(), false);
