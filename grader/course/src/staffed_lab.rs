@@ -130,7 +130,7 @@ impl StaffedLab {
     pub fn numbers_of(&self, student: &StudentId) -> Option<Vec<(String, Vec<f64>)>> {
         let salt = self.salt.as_deref().filter(|_| self.has_variants)?;
         let variant = self.lab.variant_of(salt, student.as_str()).ok()?;
-        Some(numbers(&variant))
+        Some(numbers(variant.parameters()))
     }
 
     /// The files of the lab, to keep in the book.

@@ -77,7 +77,10 @@ impl SubmissionFile {
                 bytes: found.bytes.clone(),
                 student: None,
                 variant_of: variant.as_ref().and_then(owner),
-                numbers: variant.as_ref().map(numbers).unwrap_or_default(),
+                numbers: variant
+                    .as_ref()
+                    .map(|variant| numbers(variant.parameters()))
+                    .unwrap_or_default(),
                 made_with: None,
             });
         }
@@ -105,16 +108,18 @@ fn owner(variant: &Variant) -> Option<StudentId> {
     StudentId::new(variant.student()?).ok()
 }
 
-/// The numbers of a variant, by name.
-pub(crate) fn numbers(variant: &Variant) -> Vec<(String, Vec<f64>)> {
-    let named = variant.parameters().map(|(name, value)| {
+/// Named numbers, one or a list of each name: those of a variant, or of a lab.
+pub(crate) fn numbers<'n>(
+    named: impl Iterator<Item = (&'n str, &'n Dimension)>,
+) -> Vec<(String, Vec<f64>)> {
+    let numbers = named.map(|(name, value)| {
         let values = match value {
             Dimension::Number(number) => vec![*number],
             Dimension::List(numbers) => numbers.clone(),
         };
         (name.to_owned(), values)
     });
-    named.collect()
+    numbers.collect()
 }
 
 /// The numbers of the variant that was practised with, if it was one.

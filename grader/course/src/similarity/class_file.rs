@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use jiff::Timestamp;
 use kinemark_grader::task::problem::LabError;
-use kinemark_sim::text::Dimension;
 
 use crate::book::{Book, BookError};
 use crate::history::History;
@@ -12,6 +11,7 @@ use crate::roster::Roster;
 use crate::staffed_lab::StaffedLab;
 use crate::standing::Standing;
 use crate::student::StudentId;
+use crate::submission_file::numbers;
 
 /// Named numbers of a variant, one or a list of each name.
 pub(super) type Numbers = Vec<(String, Vec<f64>)>;
@@ -96,15 +96,4 @@ pub fn variants_of(lab: &StaffedLab, roster: &Roster) -> Result<VariantNumbers, 
 /// The numbers that the lab itself has.
 pub fn default_numbers(lab: &StaffedLab) -> Vec<(String, Vec<f64>)> {
     numbers(lab.lab.parameters.iter())
-}
-
-fn numbers<'n>(named: impl Iterator<Item = (&'n str, &'n Dimension)>) -> Numbers {
-    let numbers = named.map(|(name, value)| {
-        let values = match value {
-            Dimension::Number(number) => vec![*number],
-            Dimension::List(numbers) => numbers.clone(),
-        };
-        (name.to_owned(), values)
-    });
-    numbers.collect()
 }
