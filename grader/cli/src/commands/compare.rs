@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // before anything runs
     refuse_other_lab(args, &a, &b)?;
     let (a, b) = (again(a, &args.a)?, again(b, &args.b)?);
-    let names = [&args.a, &args.b].map(|folder| folder.display().to_string());
+    let names = [&args.a, &args.b].map(|path| shown_name(path));
     let mut notes = changed(&a, "A");
     notes.extend(changed(&b, "B"));
     let sides = [(&a, &names[0]), (&b, &names[1])].map(|(again, name)| Side {
@@ -111,6 +111,15 @@ fn read(path: &Path) -> Result<Graded, Failure> {
         submission: SubmissionSource::of_text(report.submission),
         grade: report.grade,
     })
+}
+
+/// What a side is called: its folder, or its record by as much of the key as anybody compares by eye.
+fn shown_name(path: &Path) -> String {
+    let key = path.file_stem().filter(|_| path.is_file());
+    match key.and_then(|key| key.to_str()) {
+        Some(key) => format!("record {}", key.chars().take(12).collect::<String>()),
+        None => path.display().to_string(),
+    }
 }
 
 /// The record in the file `path`, which is `records/KK/KEY.json` of a book.
