@@ -419,3 +419,21 @@ fn a_record_is_held_beside_the_one_of_the_mended_lab() {
     let ran = bed.run(&["compare", "course.toml", "course.toml"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
 }
+
+#[test]
+fn a_clear_file_answers_what_was_asked_of_its_student() {
+    let bed = class();
+    let ran = grade(&bed, &[]);
+    assert!(ran.stdout.contains("1 needs you"), "{ran:?}");
+    // the file of another student answers nothing
+    hand_in(&bed, "other/s106.rhai", "good");
+    let ran = bed.run(&["course", "grade", "other", LAB]);
+    assert!(ran.stdout.contains("1 needs you"), "{ran:?}");
+    hand_in(&bed, "again/s107.rhai", "good");
+    let ran = bed.run(&["course", "grade", "again", LAB]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(!ran.stdout.contains("needs you"), "{ran:?}");
+    let rows = standings(&bed);
+    let row = rows.iter().find(|row| row.0 == "s107").expect("a row");
+    assert_eq!(row.2, 24.0);
+}

@@ -8,6 +8,7 @@ use kinemark_course::fixes::{FIXES_FILE, place};
 use kinemark_course::history::History;
 use kinemark_course::intake::{self, Decision, Intake, NumbersOf};
 use kinemark_course::journal::{Event, HandIn};
+use kinemark_course::question::Question;
 use kinemark_course::staffed_lab::StaffedLab;
 use kinemark_course::student::StudentId;
 use kinemark_report::visible::visible;
@@ -140,16 +141,19 @@ impl Taking<'_, '_> {
         })
     }
 
-    /// Removes questions about students of whom this source has a file that is clear, and asks nothing.
+    /// Removes questions about students of whom this source has a file that is clear and not the earlier one, and asks nothing.
     fn close_answered(&self, found: &Intake) -> Result<(), Failure> {
-        let clear: BTreeSet<&StudentId> = found.hand_ins.iter().map(|new| &new.student).collect();
+        let is_answered = |question: &Question| {
+            let mut hand_ins = found.hand_ins.iter();
+            hand_ins.any(|new| {
+                let times = new.submitted_at.zip(question.submitted_at);
+                Some(&new.student) == question.student.as_ref()
+                    && times.is_none_or(|(new, asked)| new >= asked)
+            })
+        };
         for question in self.course.book.questions().map_err(book_failure)? {
             let is_asked = found.questions.iter().any(|new| new.path == question.path);
-            let student = question.student.as_ref();
-            if question.lab == self.lab
-                && !is_asked
-                && student.is_some_and(|student| clear.contains(student))
-            {
+            if question.lab == self.lab && !is_asked && is_answered(&question) {
                 let removed = self.course.book.remove_question(&question);
                 removed.map_err(book_failure)?;
             }
