@@ -24,6 +24,8 @@ pub(super) struct Aba {
 /// `n = upper dw + cross a`, `f = crossᵀ dw + lower a`.
 #[derive(Debug, Clone, Copy)]
 struct Node {
+    /// Of a body without a parent: its pose at the joint position 0.
+    unmoved: BodyPose,
     placed: BodyPose,
     /// Origin relative to the parent's origin.
     r: Vector3<f64>,
@@ -53,6 +55,7 @@ impl Node {
     fn zero() -> Self {
         let zero = Vector3::zeros();
         Self {
+            unmoved: BodyPose::WORLD,
             placed: BodyPose::WORLD,
             r: zero,
             axis: zero,
@@ -77,8 +80,13 @@ impl Node {
 impl Aba {
     /// Allocates the scratch memory for `robot`, a plain tree.
     pub(super) fn new(robot: &Robot) -> Self {
+        let bodies = robot.bodies().iter();
+        let nodes = bodies.map(|body| Node {
+            unmoved: BodyPose::unmoved(&BodyPose::WORLD, body),
+            ..Node::zero()
+        });
         Self {
-            nodes: vec![Node::zero(); robot.bodies().len()],
+            nodes: nodes.collect(),
         }
     }
 
@@ -105,27 +113,34 @@ impl Aba {
         let nodes = &mut self.nodes[..bodies.len()];
         // outward pass: poses, velocities, rigid inertias, velocity terms
         for (i, body) in bodies.iter().enumerate() {
-            let (parent_placed, parent_w) = match body.parent {
-                Some(p) => (nodes[p].placed, nodes[p].w),
-                None => (BodyPose::WORLD, Vector3::zeros()),
+            let (before, rest) = nodes.split_at_mut(i);
+            let node = &mut rest[0];
+            let (position, rate) = (q[body.q_index], qd[body.q_index]);
+            let parent = body.parent.map(|p| &before[p]);
+            let placed = match parent {
+                Some(parent) => BodyPose::on_parent(&parent.placed, body, position),
+                None => node.unmoved.moved(body, position),
             };
-            let rate = qd[body.q_index];
-            let node = &mut nodes[i];
-            let placed = BodyPose::on_parent(&parent_placed, body, q[body.q_index]);
             let axis = placed.axis();
-            let r = placed.position - parent_placed.position;
-            let swung = parent_w.cross(&parent_w.cross(&r));
             let motion = axis * rate;
-            let turned = parent_w.cross(&motion);
+            let parent_w = parent.map_or_else(Vector3::zeros, |parent| parent.w);
             let w = if body.turns {
-                node.bias_dw = turned;
-                node.bias_a = swung;
                 parent_w + motion
             } else {
-                node.bias_dw = Vector3::zeros();
-                node.bias_a = swung + turned * 2.0;
                 parent_w
             };
+            // what only a parent's motion causes is not read where there is no parent
+            if let Some(parent) = parent {
+                let r = placed.position - parent.placed.position;
+                let swung = parent_w.cross(&parent_w.cross(&r));
+                let turned = parent_w.cross(&motion);
+                (node.bias_dw, node.bias_a) = if body.turns {
+                    (turned, swung)
+                } else {
+                    (Vector3::zeros(), swung + turned * 2.0)
+                };
+                node.r = r;
+            }
             let h = placed.world_from_body * body.first_moment;
             let inertia = body.inertia.rotated(&placed.world_from_body);
             node.n = w.cross(&inertia.times(&w));
@@ -134,7 +149,6 @@ impl Aba {
             node.cross = h.cross_matrix();
             node.lower = Symmetric3::scaled_identity(body.mass_kg);
             node.placed = placed;
-            node.r = r;
             node.axis = axis;
             node.w = w;
         }

@@ -20,10 +20,24 @@ impl BodyPose {
     };
 
     /// The pose of `body` on its `parent` at the joint position `q`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn on_parent(parent: &Self, body: &Body, q: f64) -> Self {
-        let origin = parent.position + parent.world_from_body * body.p_body_in_parent;
-        let still = parent.world_from_body * body.parent_from_body;
+        Self::unmoved(parent, body).moved(body, q)
+    }
+
+    /// The pose of `body` on its `parent` at the joint position 0.
+    #[inline(always)]
+    pub(crate) fn unmoved(parent: &Self, body: &Body) -> Self {
+        Self {
+            world_from_body: parent.world_from_body * body.parent_from_body,
+            position: parent.position + parent.world_from_body * body.p_body_in_parent,
+        }
+    }
+
+    /// This pose of `body` at the joint position 0, moved to `q`.
+    #[inline(always)]
+    pub(crate) fn moved(&self, body: &Body, q: f64) -> Self {
+        let (origin, still) = (self.position, &self.world_from_body);
         if body.turns {
             let (s, c) = libm::sincos(q);
             // turning about z mixes the first two columns only
@@ -35,7 +49,7 @@ impl BodyPose {
             }
         } else {
             Self {
-                world_from_body: still,
+                world_from_body: *still,
                 position: origin + still.column(2) * q,
             }
         }
