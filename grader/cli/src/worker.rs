@@ -317,8 +317,8 @@ impl Worker {
         command
             .arg("worker")
             .env_clear()
-            // one heap for all threads: a second one reserves more address space than a worker has, and without it every
-            // allocation becomes a system call
+            // both allocators, ours and the one of C, would reserve more address space at once than a worker has
+            .env("MIMALLOC_ARENA_RESERVE", "64M")
             .env("MALLOC_ARENA_MAX", "1")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
