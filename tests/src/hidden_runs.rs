@@ -100,3 +100,53 @@ fn digests_of_hidden_parts_reveal_nothing_without_the_salt() {
     assert_ne!(open.tasks[0].digests, practice.tasks[0].digests);
     assert_eq!(open.tasks[1].digests, practice.tasks[1].digests);
 }
+
+#[test]
+fn of_a_range_staff_try_the_ends_and_a_student_gets_the_numbers_drawn() {
+    let bed = bed();
+    let lab = base(&bed);
+    let hidden = |from: &str, to: &str| {
+        let text = HIDDEN.replace(from, to);
+        assert_ne!(text, HIDDEN);
+        std::fs::write(bed.path("reference/93-touch/hidden.toml"), text).expect("written");
+        let reference = &places(&bed)[1];
+        [
+            Staff::load(reference, &lab, None),
+            Staff::load_for_student(reference, &lab, None),
+        ]
+        .map(|loaded| loaded.map(|staff| staff.expect("staff").digest))
+    };
+    // a link of no length at the low end of the range, which is never drawn
+    for (from, to) in [
+        (
+            "parameters = { out = [0.6, 0.75] }",
+            "parameters = { lengths = [[-1e-9, 1.0], [0.9, 1.0]] }",
+        ),
+        (
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]\ndimensions = { link_lengths = [[-1e-9, 1.0], [0.9, 1.0]] }",
+        ),
+    ] {
+        let [staff, student] = hidden(from, to);
+        let refused = staff.expect_err("a link of no length").to_string();
+        assert!(refused.contains("must be positive"), "{refused}");
+        student.expect("numbers between the ends");
+    }
+    // numbers that make no robot are refused to a student as well
+    for (from, to) in [
+        (
+            "parameters = { out = [0.6, 0.75] }",
+            "parameters = { lengths = [[-1.0, -0.5], [0.9, 1.0]] }",
+        ),
+        (
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]\ndimensions = { link_lengths = [[-1.0, -0.5], [0.9, 1.0]] }",
+        ),
+    ] {
+        let [staff, student] = hidden(from, to);
+        for refused in [staff, student] {
+            let refused = refused.expect_err("no robot").to_string();
+            assert!(refused.contains("must be positive"), "{refused}");
+        }
+    }
+}

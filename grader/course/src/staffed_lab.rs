@@ -154,7 +154,7 @@ impl StaffedLab {
         let variant = self.lab.variant_of(salt, student.as_str())?;
         let lab = Lab::load_variant(&self.copies, &self.lab.name, Some(&variant))?;
         let staff = match self.staff {
-            Some(_) => Staff::load(&self.staff_copies, &lab, Some(salt))?,
+            Some(_) => Staff::load_for_student(&self.staff_copies, &lab, Some(salt))?,
             None => None,
         };
         Ok(StudentLab::Variant(Box::new(lab), staff.map(Box::new)))

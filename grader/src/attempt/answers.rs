@@ -23,7 +23,7 @@ pub struct CaseFacts<'a> {
     /// The case.
     pub case: &'a Case,
     /// The robot of the case.
-    pub robot: Robot,
+    pub robot: &'a Robot,
     /// The submission's answer.
     pub answer: Answered,
     /// Its error, by the kind of the case.

@@ -21,7 +21,7 @@ const MOST_EXHAUSTED: usize = 3;
 
 /// Calls the submission of `opening` on `cases`.
 pub fn run<'a>(
-    cell: Workcell<'_>,
+    cell: Workcell<'a>,
     function: &Function,
     cases: &'a [Case],
     opening: &Opening,
@@ -40,8 +40,8 @@ pub fn run<'a>(
     let mut facts = Vec::with_capacity(cases.len());
     for (i, case) in cases.iter().enumerate() {
         let is_visible = case.hidden_class.is_none();
-        let robot = calls.robot_of(cell, i, case);
-        let reply = calls.reply(i, &call_of(function, &robot, case));
+        let robot = case.robot.as_deref().unwrap_or(cell.robot);
+        let reply = calls.reply(i, &call_of(function, robot, case));
         let (value, said) = match reply {
             Reply::Answered(answer) => {
                 // the operations of a loop whose length is a hidden number would reveal it
@@ -109,20 +109,6 @@ enum Reply {
 }
 
 impl Calls<'_> {
-    /// The robot of case `i`.
-    fn robot_of(&mut self, cell: Workcell<'_>, i: usize, case: &Case) -> Robot {
-        match cell.robot_file.build(&case.dimensions) {
-            Ok(robot) => robot,
-            Err(error) => {
-                // loading already built every case's robot, so a failure here is a bug of the grader
-                let fault = Stop::GraderFault(error.to_string());
-                self.stop.get_or_insert(Ended::stopped_by(fault, i as u64));
-                self.exhausted = MOST_EXHAUSTED;
-                cell.robot.clone()
-            }
-        }
-    }
-
     /// Makes the call of case `i`, unless its failure is known in advance.
     fn reply(&mut self, i: usize, call: &Call) -> Reply {
         if self.exhausted >= MOST_EXHAUSTED {

@@ -16,13 +16,13 @@ pub fn measure<'a>(
     frame: &str,
     function: &Function,
     case: &'a Case,
-    robot: Robot,
+    robot: &'a Robot,
     value: Option<&Value>,
 ) -> CaseFacts<'a> {
     let answer = Reading {
         function,
         frame,
-        robot: &robot,
+        robot,
         value,
     };
     let (answer, error) = match (&case.given, function) {

@@ -2,7 +2,10 @@
 //!
 //! Numbers are keyed by salt, task, class and the case's number, so that adding a draw changes no other draw's cases.
 
-use kinemark_sim::format::RobotFile;
+use std::sync::Arc;
+
+use kinemark_sim::format::RobotError;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::Dimension;
 
@@ -76,22 +79,26 @@ pub(super) fn parameters(
 
 impl Draw {
     /// The cases of this draw.
-    pub(super) fn cases(&self, salt: &str, lab: &Lab) -> Vec<Case> {
+    ///
+    /// # Errors
+    /// Dimensions that make no robot.
+    pub(super) fn cases(&self, salt: &str, lab: &Lab) -> Result<Vec<Case>, RobotError> {
         (0..self.count)
-            .map(|number| self.case(salt, number, lab, &lab.robot_file))
+            .map(|number| self.case(salt, number, lab))
             .collect()
     }
 
-    fn case(&self, salt: &str, number: u32, lab: &Lab, robot_file: &RobotFile) -> Case {
+    fn case(&self, salt: &str, number: u32, lab: &Lab) -> Result<Case, RobotError> {
         let names = [salt, &self.task, &self.class];
         let mut stream = KeyedStream::new(HIDDEN_CASES, &names, &number.to_le_bytes());
         let dimensions = entries(&mut stream, &self.dimensions);
+        let robot = lab.robot_file.build_changed(&dimensions)?;
         let given = match &self.what {
             Drawn::Q(ranges) => Given::Q(ranges.iter().map(|r| stream.between(*r)).collect()),
             Drawn::PositionOf(ranges, branches) => {
                 let q: Vec<f64> = ranges.iter().map(|r| stream.between(*r)).collect();
                 Given::Position {
-                    position_m: tcp_position(lab, robot_file, &dimensions, &q),
+                    position_m: tcp_position(lab, robot.as_ref().unwrap_or(&lab.robot), &q),
                     branches: *branches,
                 }
             }
@@ -104,23 +111,17 @@ impl Draw {
                 expected: Vec::new(),
             },
         };
-        Case {
+        Ok(Case {
             name: format!("{} {}", self.class, number + 1),
             hidden_class: Some(self.class.clone()),
             dimensions,
+            robot: robot.map(Arc::new),
             given,
-        }
+        })
     }
 }
 
-/// Where the TCP is in the lab's frame; NaN if the dimensions make no robot, which loading has ruled out.
-fn tcp_position(
-    lab: &Lab,
-    robot_file: &RobotFile,
-    dimensions: &[(String, Dimension)],
-    q: &[f64],
-) -> [f64; 3] {
-    let robot = robot_file.build(dimensions).ok();
-    let position = robot.and_then(|robot| tcp_in(&robot, &lab.frame, q));
-    position.map_or([f64::NAN; 3], Into::into)
+/// Where the TCP is in the lab's frame; NaN if `q` does not fit the robot, which the draw's check has ruled out.
+fn tcp_position(lab: &Lab, robot: &Robot, q: &[f64]) -> [f64; 3] {
+    tcp_in(robot, &lab.frame, q).map_or([f64::NAN; 3], Into::into)
 }

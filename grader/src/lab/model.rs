@@ -65,7 +65,6 @@ impl Lab {
     pub fn workcell(&self) -> Workcell<'_> {
         Workcell {
             robot: &self.robot,
-            robot_file: &self.robot_file,
             frame: &self.frame,
         }
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::sensor::Sensor;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::ticks::Periods;
@@ -99,6 +100,8 @@ pub struct Case {
     pub hidden_class: Option<String>,
     /// Dimensions that differ from the robot file's.
     pub dimensions: Vec<(String, Dimension)>,
+    /// The robot with those dimensions; `None` where none differ: then it is the lab's.
+    pub robot: Option<Arc<Robot>>,
     /// What the function is given.
     pub given: Given,
 }

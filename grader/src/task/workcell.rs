@@ -1,6 +1,5 @@
 //! What all tasks of a lab are done with: its robot, and the frame in which students work.
 
-use kinemark_sim::format::RobotFile;
 use kinemark_sim::model::robot::Robot;
 
 /// The robot of a lab, and the frame in which positions are given to submissions.
@@ -8,8 +7,6 @@ use kinemark_sim::model::robot::Robot;
 pub struct Workcell<'a> {
     /// The robot as its file states it, but for the dimensions that the lab changes.
     pub robot: &'a Robot,
-    /// The robot's file, which cases build with other dimensions.
-    pub robot_file: &'a RobotFile,
     /// Name of the frame in which students work.
     pub frame: &'a str,
 }

@@ -91,6 +91,7 @@ impl Reader<'_> {
             name,
             hidden_class: None,
             dimensions: Vec::new(),
+            robot: None,
             given: Given::Values {
                 given: given.iter().map(|(k, v)| (k.clone(), v.clone())).collect(),
                 expected,

@@ -1,6 +1,7 @@
 //! Function tasks: the function that is called, its rows, and its visible cases.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use toml::Spanned;
 
@@ -114,15 +115,18 @@ impl Reader<'_> {
             .iter()
             .map(|(name, value)| (name.clone(), value.clone()))
             .collect();
-        if let Err(error) = self.robot_file.build(&dimensions) {
-            let known = self.robot_file.dimensions().names().map(str::to_owned);
-            let problem = FunctionProblem::Dimensions {
-                case: name,
-                error: error.to_string(),
-                known: known.collect(),
-            };
-            return self.report.refuse_at(table, problem);
-        }
+        let robot = match self.robot_file.build_changed(&dimensions) {
+            Ok(robot) => robot.map(Arc::new),
+            Err(error) => {
+                let known = self.robot_file.dimensions().names().map(str::to_owned);
+                let problem = FunctionProblem::Dimensions {
+                    case: name,
+                    error: error.to_string(),
+                    known: known.collect(),
+                };
+                return self.report.refuse_at(table, problem);
+            }
+        };
         let own = case.given.is_none() && case.expected.is_none();
         let given = match (function, &case.q_rad, case.position_m) {
             (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) if own => {
@@ -153,6 +157,7 @@ impl Reader<'_> {
             name,
             hidden_class: None,
             dimensions,
+            robot,
             given,
         })
     }

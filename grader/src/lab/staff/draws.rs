@@ -1,14 +1,15 @@
 //! Hidden cases that are drawn: their table held against the lab.
 
+use kinemark_sim::format::RobotError;
 use kinemark_sim::text::Dimension;
 use toml::Spanned;
 
-use super::{all_rising, known_task, named, rising};
+use super::{Ends, all_rising, known_task, named, rising};
 use crate::lab::Lab;
 use crate::lab::TaskWork;
 use crate::lab::draw::{Draw, Drawn};
 use crate::lab::file::{DrawTable, Ranges};
-use crate::task::model::{Function, FunctionTask, Given};
+use crate::task::model::{Case, Function, FunctionTask, Given};
 use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
 
@@ -17,6 +18,7 @@ pub(super) fn checked(
     report: Reporter<'_>,
     lab: &Lab,
     spanned: &Spanned<DrawTable>,
+    ends: Ends,
 ) -> Result<Draw, LabError> {
     let table = spanned.get_ref();
     let reader = DrawReader {
@@ -34,7 +36,19 @@ pub(super) fn checked(
         class: table.class.get_ref().clone(),
         count: *table.count.get_ref(),
         what,
-        dimensions: reader.dimensions()?,
+        dimensions: reader.dimensions(ends)?,
+    })
+}
+
+/// The cases of a draw, or why its numbers make no robot.
+pub(super) fn drawn(
+    report: Reporter<'_>,
+    spanned: &Spanned<DrawTable>,
+    cases: Result<Vec<Case>, RobotError>,
+) -> Result<Vec<Case>, LabError> {
+    cases.or_else(|error| {
+        let error = error.to_string();
+        report.refuse_at(spanned, DrawProblem::Dimensions { error })
     })
 }
 
@@ -185,7 +199,7 @@ impl<'a> DrawReader<'a> {
     }
 
     /// The ranges of dimensions, with which a robot can be built.
-    fn dimensions(&self) -> Result<Vec<(String, Ranges)>, LabError> {
+    fn dimensions(&self, ends: Ends) -> Result<Vec<(String, Ranges)>, LabError> {
         let stated = self.lab.robot_file.dimensions();
         let mut names = self.table.dimensions.keys();
         if let Some(at) = names.find(|name| stated.get(name.get_ref()).is_none()) {
@@ -200,7 +214,7 @@ impl<'a> DrawReader<'a> {
             .map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().clone()))
             .collect();
         // what can be built at the low ends can be built between: expressions are monotone in practice, and both ends are tried
-        for end in [0, 1] {
+        for &end in ends.to_try() {
             let changed: Vec<(String, Dimension)> = dimensions
                 .iter()
                 .map(|(name, ranges)| (name.clone(), ranges.end(end)))

@@ -3,7 +3,7 @@
 use kinemark_sim::text::Dimension;
 use toml::Spanned;
 
-use super::{HiddenRun, all_rising, known_task, named};
+use super::{Ends, HiddenRun, all_rising, known_task, named};
 use crate::lab::Lab;
 use crate::lab::draw::parameters;
 use crate::lab::file::{HiddenRunsTable, Ranges, RangesTable};
@@ -38,7 +38,7 @@ problems! {
 pub(super) fn hidden_runs(
     report: Reporter<'_>,
     lab: &Lab,
-    salt: &str,
+    (salt, ends): (&str, Ends),
     spanned: &Spanned<HiddenRunsTable>,
 ) -> Result<Vec<HiddenRun>, LabError> {
     let table = spanned.get_ref();
@@ -51,7 +51,7 @@ pub(super) fn hidden_runs(
         })
     };
     // what can be loaded at both ends can be loaded between: expressions are monotone in practice
-    for end in [0, 1] {
+    for &end in ends.to_try() {
         let all = ranges.iter();
         with(
             all.map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().end(end)))

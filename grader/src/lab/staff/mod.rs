@@ -16,7 +16,7 @@ use crate::task::files::{Files, read_source};
 use crate::task::model::Case;
 use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
-use draws::checked;
+use draws::{checked, drawn};
 use hidden_runs::hidden_runs;
 
 problems! {
@@ -61,6 +61,23 @@ pub struct Staff {
     pub digest: blake3::Hash,
     /// What digests of hidden parts are keyed by.
     key: [u8; 32],
+}
+
+/// Whether the two ends of every range are tried as well as the numbers drawn from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    Tried,
+    NotTried,
+}
+
+impl Ends {
+    /// The ends to try: of each range the first number, then the second.
+    fn to_try(self) -> &'static [usize] {
+        match self {
+            Self::Tried => &[0, 1],
+            Self::NotTried => &[],
+        }
+    }
 }
 
 /// The hidden cases of one draw.
@@ -130,12 +147,33 @@ impl Staff {
         lab: &Lab,
         salt: Option<&str>,
     ) -> Result<Option<Self>, LoadError> {
+        Self::load_with(files, lab, salt, Ends::Tried)
+    }
+
+    /// The same for a variant of a lab that has been loaded, one of many: of its ranges only the numbers drawn are tried.
+    ///
+    /// # Errors
+    /// As [`Staff::load`].
+    pub fn load_for_student(
+        files: &dyn Files,
+        lab: &Lab,
+        salt: Option<&str>,
+    ) -> Result<Option<Self>, LoadError> {
+        Self::load_with(files, lab, salt, Ends::NotTried)
+    }
+
+    fn load_with(
+        files: &dyn Files,
+        lab: &Lab,
+        salt: Option<&str>,
+        ends: Ends,
+    ) -> Result<Option<Self>, LoadError> {
         let Some(solution) = own(files, &format!("{}/solution.rhai", lab.name))? else {
             return Ok(None);
         };
         let mut digest = Digest(blake3::Hasher::new());
         digest.add(&solution);
-        let hidden = hidden(files, lab, salt, &mut digest)?;
+        let hidden = hidden(files, lab, (salt, ends), &mut digest)?;
         let mutants = mutants(files, lab, &mut digest)?;
         Ok(Some(Self {
             solution,
@@ -208,7 +246,7 @@ impl Staff {
 fn hidden(
     files: &dyn Files,
     lab: &Lab,
-    salt: Option<&str>,
+    (salt, ends): (Option<&str>, Ends),
     digest: &mut Digest,
 ) -> Result<Hidden, LoadError> {
     let path = format!("{}/hidden.toml", lab.name);
@@ -232,14 +270,14 @@ fn hidden(
     let mut runs = Vec::new();
     for typed in &table.runs {
         let task = typed.get_ref().task.get_ref().clone();
-        runs.push((task, hidden_runs(report, lab, salt, typed)?));
+        runs.push((task, hidden_runs(report, lab, (salt, ends), typed)?));
     }
     let mut draws = Vec::new();
     for typed in &table.draws {
-        let draw = checked(report, lab, typed)?;
+        let draw = checked(report, lab, typed, ends)?;
         draws.push(HiddenCases {
             at: typed.span(),
-            cases: draw.cases(salt, lab),
+            cases: drawn(report, typed, draw.cases(salt, lab))?,
             task: draw.task,
         });
     }

@@ -35,6 +35,18 @@ impl RobotFile {
         robot.sensors = sensors_of(&self.tables.sensors, values, &robot)?;
         Ok(robot)
     }
+
+    /// As [`RobotFile::build`]; `None` where nothing is changed.
+    ///
+    /// # Errors
+    /// As [`RobotFile::build`].
+    pub fn build_changed(
+        &self,
+        changed: &[(String, Dimension)],
+    ) -> Result<Option<Robot>, RobotError> {
+        let is_changed = !changed.is_empty();
+        is_changed.then(|| self.build(changed)).transpose()
+    }
 }
 
 pub(super) struct Resolver<'a> {
