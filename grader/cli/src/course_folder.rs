@@ -17,6 +17,7 @@ use kinemark_course::standing::{Standing, standings};
 use kinemark_course::student::StudentId;
 use kinemark_course::working_folder::{BRIEF_FILE, STARTER_FILE};
 use kinemark_grader::task::files::Files;
+use kinemark_grader::task::problem::LoadError;
 use kinemark_sim::text::{Source, suggest};
 
 use crate::disk::Folder;
@@ -183,7 +184,14 @@ impl Course {
         let (labs, reference) = self.labs()?;
         let reference = reference.as_ref().map(|folder| folder as &dyn Files);
         let salt = self.salt.as_deref();
-        let lab = StaffedLab::load(labs.as_ref(), reference, &rules.name, salt, rules.variants)?;
+        let loaded = StaffedLab::load(labs.as_ref(), reference, &rules.name, salt, rules.variants);
+        let lab = loaded.map_err(|error| match error {
+            LoadError::UnknownLab { name, help } => Failure::broken(
+                format!("{COURSE_FILE} names lab `{name}`, and there is none"),
+                &help,
+            ),
+            error => error.into(),
+        })?;
         if !lab.has_staff() {
             return Err(Failure::broken(
                 format!(

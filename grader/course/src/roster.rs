@@ -147,7 +147,7 @@ impl Roster {
 
 /// What one person has and no other may.
 #[derive(Default)]
-struct Taken(BTreeMap<(&'static str, String), u64>);
+struct Taken(BTreeMap<(&'static str, String), (u64, String)>);
 
 impl Taken {
     fn add(&mut self, line: u64, person: &Person) -> Result<(), String> {
@@ -160,10 +160,19 @@ impl Taken {
             if value.is_empty() {
                 continue;
             }
-            if let Some(first) = self.0.insert((what, folded(value)), line) {
-                return Err(format!(
-                    "{what} `{value}` is that of line {first}, but for case or accents typed in another way"
-                ));
+            let first = self
+                .0
+                .insert((what, folded(value)), (line, value.to_owned()));
+            match first {
+                None => {}
+                Some((first, known)) if known == value => {
+                    return Err(format!("line {first} has the {what} `{value}`, too"));
+                }
+                Some((first, known)) => {
+                    return Err(format!(
+                        "{what} `{value}` differs from `{known}` in line {first} only by case or by how accents are typed"
+                    ));
+                }
             }
         }
         Ok(())
@@ -227,9 +236,12 @@ mod tests {
     #[test]
     fn what_two_people_share_is_refused_with_both_lines() {
         for (text, part) in [
-            ("id,name\ns1,A\nS1,B\n", "id `S1` is that of line 2"),
-            ("id,name\nRen\u{e9}e,A\nRene\u{301}e,B\n", "that of line 2"),
-            ("id,lms_id\ns1,7\ns2,7\n", "lms_id `7` is that of line 2"),
+            (
+                "id,name\ns1,A\nS1,B\n",
+                "id `S1` differs from `s1` in line 2 only by case",
+            ),
+            ("id,name\nRen\u{e9}e,A\nRene\u{301}e,B\n", "line 2"),
+            ("id,lms_id\ns1,7\ns2,7\n", "line 2 has the lms_id `7`, too"),
             ("name\nA\n", "there is no column `id`; found: name"),
             ("id,id\ns1,s2\n", "`id` is there twice"),
             ("id,name\n", "nobody is in it"),

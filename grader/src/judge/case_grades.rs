@@ -15,7 +15,7 @@ pub(super) fn case_grade(lab: &Lab, facts: &CaseFacts<'_>, band: Band) -> CaseGr
     let expected = match &facts.case.given {
         Given::Q(q) => match &facts.error {
             CaseError::Jacobian { truth, .. } => Some(lists(truth)),
-            _ => tcp_in(&facts.robot, &lab.frame, q).map(|p| format!("{} m", list(p.as_slice()))),
+            _ => tcp_in(facts.robot, &lab.frame, q).map(|p| format!("{} m", list(p.as_slice()))),
         },
         // the expected angles would be the answer of the task
         Given::Position { branches, .. } => {

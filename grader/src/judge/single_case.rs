@@ -47,7 +47,7 @@ fn branches_m(lab: &Lab, facts: &CaseFacts<'_>) -> Vec<f64> {
     };
     let target = Vector3::from(*position_m);
     let distances = branches.iter().map(|q| {
-        let reached = tcp_in(&facts.robot, &lab.frame, q);
+        let reached = tcp_in(facts.robot, &lab.frame, q);
         reached.map_or(f64::INFINITY, |p| (p - target).norm())
     });
     distances.collect()

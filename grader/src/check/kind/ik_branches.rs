@@ -64,7 +64,7 @@ fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
         return None;
     }
     let distinct = match &facts.answer {
-        Answered::Branches(branches) => count_distinct(&facts.robot, branches),
+        Answered::Branches(branches) => count_distinct(facts.robot, branches),
         _ => 0,
     };
     let complete = distinct >= *expected as usize;

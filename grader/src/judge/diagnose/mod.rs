@@ -117,7 +117,7 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
 
 fn close(facts: &CaseFacts<'_>, a: &[f64], b: &[f64]) -> bool {
     // the same configuration: the same numbers up to full turns and rounding
-    same_branch(&facts.robot, a, b)
+    same_branch(facts.robot, a, b)
         && a.iter().zip(b).all(|(a, b)| {
             let circle = 2.0 * std::f64::consts::PI;
             let gap = (a - b).abs() % circle;
