@@ -118,7 +118,10 @@ impl Ended {
     fn whole_record(&self, source: &str, run: Option<(Names<'_>, &MotionTask)>) -> Stopped {
         let (message, help) = match &self.why {
             EndReason::Stopped(stop) => return record_of(stop, source),
-            EndReason::InvalidOutput(what) => (what.clone(), not_finite_help(what)),
+            EndReason::InvalidOutput(what) => {
+                let shape = || run.is_some().then(|| COMMAND_SHAPE.to_owned());
+                (what.clone(), not_finite_help(what).or_else(shape))
+            }
             EndReason::Diverged { what, cause } => match run {
                 Some((names, task)) => {
                     let (message, help) = names.diverged(what, cause.as_ref(), task);
@@ -153,6 +156,9 @@ impl Ended {
         }
     }
 }
+
+/// How a command is returned.
+const COMMAND_SHAPE: &str = "return a list with one number for each joint; of several solutions return one, such as `branches[0]`";
 
 /// A record of a hidden run or case. It has neither the submission's words nor the line that fails, because a chain of comparisons
 /// could reveal a hidden number through them.

@@ -377,6 +377,8 @@ fn order(symbol: &str, left: &Dynamic, right: &Dynamic) -> Result<Option<Orderin
             message,
             "compare elements, or one number of it: max(abs(v)), norm(v)",
         )
+    } else if left.is_bool() {
+        fault_with_help(message, "compare twice: a < x && x < b")
     } else {
         fault(message)
     })

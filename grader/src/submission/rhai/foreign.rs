@@ -18,6 +18,8 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("numel", "write len(x)"),
     ("size", "write len(x), or rows(m) and cols(m)"),
     ("shape", "write len(x), or rows(m) and cols(m)"),
+    ("clip", "write clamp(x, low, high)"),
+    ("saturate", "write clamp(x, low, high)"),
     ("disp", "write print(x)"),
     ("printf", "write print(\"x =\", x)"),
     ("fprintf", "write print(\"x =\", x)"),
@@ -125,6 +127,9 @@ const VARIABLES: &[(&str, &str)] = &[
     ("nil", "write ()"),
     ("NULL", "write ()"),
     ("Inf", "write inf"),
+    ("M_PI", "write pi"),
+    ("PI", "write pi"),
+    ("Pi", "write pi"),
     (
         "end",
         "blocks end with `}`; the last element is v[len(v) - 1]",
@@ -147,6 +152,19 @@ const SYNTAX: &[(&str, &str)] = &[
     ("lambda", "write a function with a name: fn name(x) { ... }"),
     ("end", "blocks are written { ... }"),
     ("then", "write if condition { ... }"),
+    (
+        "struct",
+        "there are no types: keep values in a map, #{ kp: 1.0 }, or in `this`",
+    ),
+    (
+        "class",
+        "there are no types: keep values in a map, #{ kp: 1.0 }, or in `this`",
+    ),
+    (
+        "enum",
+        "there are no types: keep values in a map, #{ kp: 1.0 }, or in `this`",
+    ),
+    ("except", "write try { ... } catch { ... }"),
     ("var", "declare a variable with let x = 1;"),
     ("double", "declare a variable with let x = 1;"),
     ("float", "declare a variable with let x = 1;"),
@@ -194,6 +212,10 @@ const CHARACTERS: &[(&str, &str)] = &[
     ("∞", "write inf"),
     ("√", "write sqrt(x)"),
     ("°", "write rad(90) for 90 degrees"),
+    (
+        "%",
+        "a comment begins with //; the remainder of a division is a % b",
+    ),
     ("\u{a0}\u{200b}", "write a plain space"),
 ];
 
@@ -225,25 +247,78 @@ pub(super) fn variable(name: &str) -> Option<String> {
     look_up(VARIABLES, name).or_else(|| look_up(SYNTAX, name))
 }
 
-/// What to write instead of a reserved word or symbol.
-pub(super) fn reserved(word: &str) -> Option<String> {
+/// Words that the language keeps for itself although nothing is written with them. script-language.md lists them.
+pub(super) const RESERVED: [&str; 26] = [
+    "async",
+    "await",
+    "case",
+    "default",
+    "go",
+    "goto",
+    "is",
+    "match",
+    "module",
+    "new",
+    "nil",
+    "null",
+    "package",
+    "protected",
+    "public",
+    "shared",
+    "spawn",
+    "static",
+    "super",
+    "sync",
+    "thread",
+    "use",
+    "var",
+    "void",
+    "with",
+    "yield",
+];
+
+/// Why a reserved word or symbol cannot stand where it does, and what to write instead.
+pub(super) fn reserved(word: &str) -> (String, Option<String>) {
+    if RESERVED.contains(&word) {
+        let other = format!("choose another name, such as `my_{word}`");
+        let help = match word {
+            "null" | "nil" => format!("write () for nothing; for a name, {other}"),
+            "case" | "match" => format!("write switch x {{ 1 => a, _ => b }}; for a name, {other}"),
+            "var" => "declare a variable with let x = 1;".to_owned(),
+            "use" | "module" | "package" => {
+                format!("everything there is, is built in; for a name, {other}")
+            }
+            _ => other,
+        };
+        return (
+            format!("`{word}` is a reserved word of the language"),
+            Some(help),
+        );
+    }
+    if matches!(word, "print" | "debug") {
+        let help = format!("call it: {word}(x); give a variable another name");
+        return (format!("`{word}` is a function"), Some(help));
+    }
     let help = match word {
         "eval" | "Fn" | "call" | "curry" => "functions are called by name",
-        "import" | "export" | "as" | "module" | "use" => "everything there is, is built in",
+        "import" | "export" | "as" => "everything there is, is built in",
         "type_of" | "is_def_var" | "is_def_fn" | "is_shared" => "there is no test of this",
         "|" | "||" => "functions without a name are not available: write fn name(x) { ... }",
-        "print" => "write print(x)",
         other => {
             let is_word = other.chars().all(|c| c.is_alphanumeric() || c == '_');
             let reserved = "it is a word of the language: choose another name";
-            return look_up(SIGNS, other)
+            let help = look_up(SIGNS, other)
                 .or_else(|| look_up(SYNTAX, other))
                 .or_else(|| look_up(VARIABLES, other))
                 .or_else(|| look_up(FUNCTIONS, other))
                 .or_else(|| is_word.then(|| reserved.to_owned()));
+            return (format!("`{word}` is not available here"), help);
         }
     };
-    Some(help.to_owned())
+    (
+        format!("`{word}` is not available here"),
+        Some(help.to_owned()),
+    )
 }
 
 /// Help if a line shows another language's syntax at or before a column.

@@ -102,13 +102,69 @@ impl Names {
             .chain(self.built_in.keys().map(String::as_str));
         match nearest(name, known.clone()).or_else(|| abbreviation(name, known)) {
             Some(near) => (format!("{message}: did you mean `{near}`?"), None),
-            None => (message, None),
+            None => {
+                let values = [&self.observation, &self.robot, &self.local, &self.given];
+                let is_value = values.iter().any(|names| names.contains(name));
+                let help = format!("elements are in square brackets: {name}[0] is the first");
+                (message, is_value.then_some(help))
+            }
         }
+    }
+
+    /// How a function gets at a value that the grader gives to another one; `None` if it gives no such value.
+    fn given_elsewhere(&self, name: &str, place: Option<SourcePosition>) -> Option<String> {
+        let (function, _) = self.places.around(place?)?;
+        let gives = |entry: &str| {
+            let mut entries = ENTRY_POINTS.iter();
+            let found = entries.find(|(known, _)| *known == entry);
+            found.is_some_and(|(_, parameters)| parameters.contains(&name))
+        };
+        match function {
+            "control" if gives("init") => Some(format!(
+                "only `init` is given it: write this.{name} = {name}; there, and this.{name} here"
+            )),
+            "init" if gives("control") => Some(format!("only `control` is given `{name}`")),
+            function if ENTRY_POINTS.iter().any(|(entry, _)| *entry == function) => None,
+            function if gives("init") || gives("control") => {
+                Some(format!("pass it to `{function}` as an argument"))
+            }
+            _ => None,
+        }
+    }
+
+    /// The words for a map that is indexed as if it were a list; `None` if nobody knows its keys.
+    pub(super) fn indexed_map(&self, owner: &str) -> Option<Words> {
+        let keys = self.keys_of(owner)?;
+        let first = keys.iter().next()?;
+        let all: Vec<&str> = keys.iter().map(String::as_str).collect();
+        Some((
+            format!("`{owner}` is a map here, and has no elements by number"),
+            Some(format!("it has {}: write {owner}.{first}", all.join(", "))),
+        ))
+    }
+
+    /// The keys of a map that the grader gives, by the name it goes by.
+    fn keys_of(&self, owner: &str) -> Option<&BTreeSet<String>> {
+        let keys = if owner == "observation" || self.observation_parameters.contains(owner) {
+            &self.observation
+        } else if owner == "target" && !self.target.is_empty() {
+            &self.target
+        } else if self.given_parameters.contains(owner) {
+            &self.given
+        } else if owner == "robot" || self.robot_parameters.contains(owner) {
+            &self.robot
+        } else {
+            return None;
+        };
+        Some(keys)
     }
 
     pub(super) fn unknown_variable(&self, name: &str, place: Option<SourcePosition>) -> Words {
         let message = format!("variable `{name}` is not known here");
         if let Some(help) = foreign::variable(name) {
+            return (message, Some(help));
+        }
+        if let Some(help) = self.given_elsewhere(name, place) {
             return (message, Some(help));
         }
         if place.is_some_and(|place| self.places.is_declared_before(name, place)) {
@@ -158,27 +214,19 @@ impl Names {
                 Some("set it in init(robot, task)".to_owned()),
             );
         }
-        let keys = match owner {
-            Some(name) if name == "observation" || self.observation_parameters.contains(name) => {
-                &self.observation
-            }
-            Some("target") if !self.target.is_empty() => &self.target,
-            Some(name) if self.given_parameters.contains(name) => &self.given,
-            Some(name) if name == "robot" || self.robot_parameters.contains(name) => &self.robot,
-            _ => {
-                let both = self.observation.iter().chain(&self.robot);
-                let message = match owner {
-                    Some(owner) => format!("`{owner}` has no `{key}`"),
-                    None => format!("the map has no `{key}`"),
-                };
-                return match nearest(key, both.map(String::as_str)) {
-                    Some(near) => (format!("{message}: did you mean `{near}`?"), None),
-                    None => (
-                        message,
-                        Some("get(map, key, otherwise) asks without failing".to_owned()),
-                    ),
-                };
-            }
+        let Some(keys) = owner.and_then(|owner| self.keys_of(owner)) else {
+            let both = self.observation.iter().chain(&self.robot);
+            let message = match owner {
+                Some(owner) => format!("`{owner}` has no `{key}`"),
+                None => format!("the map has no `{key}`"),
+            };
+            return match nearest(key, both.map(String::as_str)) {
+                Some(near) => (format!("{message}: did you mean `{near}`?"), None),
+                None => (
+                    message,
+                    Some("get(map, key, otherwise) asks without failing".to_owned()),
+                ),
+            };
         };
         let owner = owner.unwrap_or("it");
         let message = format!("`{owner}` has no `{key}`");

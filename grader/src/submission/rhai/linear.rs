@@ -6,6 +6,7 @@ use std::ops;
 use rhai::{Array, Dynamic, INT, ImmutableString};
 
 use super::budget::Meter;
+use super::foreign;
 use super::library::{Arguments, Library};
 use super::mistake::{Fault, Problem, fault, fault_with_help};
 use super::operand::{Operand, as_number, as_whole, count, matrix, number, vector};
@@ -257,7 +258,14 @@ fn register_indexing(library: &mut Library) {
         library.internal(GET, &[matrices, kind], get_row);
     }
     library.internal(GET, &[any, any], |_, arguments| {
-        Err(fault(format!("{} has no elements", describe(arguments[0]))))
+        let owner = describe(arguments[0]);
+        Err(match arguments[1].as_immutable_string_ref() {
+            Ok(key) if arguments[0].is_array() => fault_with_help(
+                format!("{owner} has no `{}`", key.as_str()),
+                "the elements of a list have numbers: the first is [0]",
+            ),
+            _ => fault(format!("{owner} has no elements")),
+        })
     });
     for kind in [TypeId::of::<f64>(), any] {
         library.internal(SET, &[vectors, TypeId::of::<INT>(), kind], set_element);
@@ -375,7 +383,11 @@ pub(super) fn index(
     let Some(index) = as_whole(value) else {
         if let Ok(text) = value.as_immutable_string_ref() {
             let text: &ImmutableString = &text;
-            return Err(fault(format!("a {container} has no `{text}`")));
+            return Err(Problem::Fault(Fault {
+                message: format!("a {container} has no `{text}`"),
+                help: foreign::function(text),
+                past_the_end: None,
+            }));
         }
         return Err(fault(format!(
             "an index is an integer, got {}",

@@ -3,7 +3,9 @@
 use rhai::{Dynamic, EvalAltResult, ParseError, ParseErrorType, Position};
 
 use super::budget::{Meter, place};
+use super::foreign;
 use super::hints::{self, Names};
+use super::signs::Signs;
 use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
 /// The help for a fraction as an index.
@@ -109,7 +111,7 @@ impl Context<'_> {
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
                 self.names.unknown_key(self.owner_of(place).as_deref(), key)
             }
-            EvalAltResult::ErrorDotExpr(text, _) => (property_words(text), None),
+            EvalAltResult::ErrorDotExpr(text, _) => property_words(text),
             EvalAltResult::ErrorIndexingType(text, _) => (
                 format!(
                     "this cannot be indexed or set like that: {}",
@@ -151,10 +153,17 @@ impl Context<'_> {
                 )
             }
             EvalAltResult::ErrorMismatchDataType(wanted, got, _)
-            | EvalAltResult::ErrorMismatchOutputType(wanted, got, _) => (
-                format!("expected {}, got {}", type_words(wanted), type_words(got)),
-                None,
-            ),
+            | EvalAltResult::ErrorMismatchOutputType(wanted, got, _) => {
+                let is_key = type_words(wanted) == "a string";
+                let owner = self.owner_of(place).filter(|_| is_key);
+                let of_map = owner.and_then(|owner| self.names.indexed_map(&owner));
+                of_map.unwrap_or_else(|| {
+                    (
+                        format!("expected {}, got {}", type_words(wanted), type_words(got)),
+                        None,
+                    )
+                })
+            }
             EvalAltResult::ErrorStringBounds(length, index, _) => (
                 format!("index {index} is outside of a string of {length}"),
                 None,
@@ -198,10 +207,22 @@ impl Context<'_> {
             let text = super::words::show_briefly(thrown);
             return (format!("the script threw: {text}"), None);
         };
-        if let (Some((index, length)), Some(name)) = (fault.past_the_end, self.owner_of(place)) {
+        if let (Some((index, length)), Some(name)) = (fault.past_the_end, self.indexed(place)) {
             return hints::past_the_end(index, length, &name);
         }
         (fault.message.clone(), fault.help.clone())
+    }
+
+    /// The name of what is indexed at a position: `q` of `q[i + 2]`, wherever in the brackets that is.
+    fn indexed(&self, place: Option<SourcePosition>) -> Option<String> {
+        let place = place?;
+        let signs = Signs::of(self.source);
+        let behind = SourcePosition {
+            column: place.column + 1,
+            ..place
+        };
+        let (bracket, _) = signs.open_at(behind).filter(|(_, sign)| *sign == '[')?;
+        signs.word_before(bracket)
     }
 
     /// The name before the `[` or `.` at or before a position: `q` of `q[2]`.
@@ -263,12 +284,16 @@ pub(super) fn plain(text: &str) -> String {
     })
 }
 
-/// ``a vector has no `y` `` from the engine's `Unknown property 'y' - a getter is not registered for type 'vector'`.
-fn property_words(text: &str) -> String {
+/// ``a vector has no `y` `` from the engine's `Unknown property 'y' - a getter is not registered for type 'vector'`, and what to write
+/// instead.
+fn property_words(text: &str) -> (String, Option<String>) {
     let mut quoted = text.split('\'').skip(1).step_by(2);
     match (quoted.next(), quoted.next()) {
-        (Some(property), Some(kind)) => format!("{} has no `{property}`", type_words(kind)),
-        _ => plain(text),
+        (Some(property), Some(kind)) => (
+            format!("{} has no `{property}`", type_words(kind)),
+            foreign::function(property),
+        ),
+        _ => (plain(text), None),
     }
 }
 

@@ -24,6 +24,7 @@ mod places;
 mod range;
 mod script;
 mod signs;
+mod slips;
 #[cfg(test)]
 mod tests;
 mod vector;

@@ -5,7 +5,7 @@ use rhai::{LexError, ParseErrorType};
 use super::foreign;
 use super::hints::ENTRY_POINTS;
 use super::mistake::{Context, WHOLE_INDEX, plain, shortened};
-use super::signs::{Signs, is_before};
+use super::signs::Signs;
 use crate::submission::controller::{Mistake, SourcePosition};
 
 /// A message and its help.
@@ -23,42 +23,6 @@ impl Context<'_> {
             message: shortened(message),
             place,
             help: help.map(shortened),
-        }
-    }
-
-    /// A slip that the parser notices at another place, or takes for another one.
-    fn slip(&self, kind: &ParseErrorType, place: SourcePosition, signs: &Signs) -> Option<Mistake> {
-        if let Some(comment) = signs.open_comment.filter(|at| is_before(*at, place)) {
-            let message = format!(
-                "the comment that begins at {}:{} is not closed",
-                comment.line, comment.column
-            );
-            return Some(slip_at(comment, message, "end it with */"));
-        }
-        let sign = self.sign_at(place);
-        match kind {
-            ParseErrorType::MalformedIndexExpr(_) => between_lists(place, signs),
-            ParseErrorType::MissingToken(token, _) if token == "]" && sign == Some(',') => {
-                between_lists(place, signs)
-            }
-            ParseErrorType::MissingToken(token, _) if token == ")" && sign == Some('=') => {
-                let line = self.line(place.line)?;
-                let condition = line
-                    .split(|c: char| !c.is_alphanumeric())
-                    .any(|word| matches!(word, "if" | "while"));
-                condition.then(|| assignment_in_condition(place))
-            }
-            ParseErrorType::BadInput(LexError::ImproperSymbol(symbol, _)) if symbol == "=" => {
-                Some(assignment_in_condition(place))
-            }
-            ParseErrorType::MissingToken(token, _) if token != ";" => None,
-            ParseErrorType::MissingToken(..)
-            | ParseErrorType::BadInput(LexError::UnexpectedInput(_)) => {
-                let sign = sign.filter(|sign| signs.closes_nothing(place, *sign))?;
-                let message = format!("this `{sign}` closes nothing");
-                Some(slip_at(place, message, "remove it"))
-            }
-            _ => None,
         }
     }
 
@@ -81,10 +45,7 @@ impl Context<'_> {
                 Some("a closing `}`, `)` or `]` is missing".to_owned()),
             ),
             ParseErrorType::BadInput(error) => bad_input(error),
-            ParseErrorType::Reserved(word) => (
-                format!("`{word}` is not available here"),
-                foreign::reserved(word),
-            ),
+            ParseErrorType::Reserved(word) => foreign::reserved(word),
             ParseErrorType::MissingToken(token, _) if token == ";" => {
                 if place.is_some_and(|place| self.sign_at(place).is_none()) {
                     return ("a `}` is missing before this".to_owned(), foreign);
@@ -131,46 +92,6 @@ impl Context<'_> {
     }
 }
 
-fn slip_at(place: SourcePosition, message: String, help: &str) -> Mistake {
-    Mistake {
-        message,
-        place: Some(place),
-        help: Some(help.to_owned()),
-    }
-}
-
-fn assignment_in_condition(place: SourcePosition) -> Mistake {
-    let message = "`=` sets a value and cannot be part of a condition".to_owned();
-    slip_at(place, message, "write == to compare")
-}
-
-/// A list that the parser takes for an index, because nothing separates it from what is before it.
-fn between_lists(place: SourcePosition, signs: &Signs) -> Option<Mistake> {
-    let (bracket, _) = signs.open_at(place).filter(|(_, sign)| *sign == '[')?;
-    let (last, _) = signs.last_before(bracket)?;
-    let is_element = match signs.open_at(bracket) {
-        Some((at, '{')) => matches!(signs.last_before(at), Some((_, '#'))),
-        around => around.is_some(),
-    };
-    if last.line < bracket.line {
-        let (sign, help) = if is_element {
-            (',', "elements and rows are separated by ,")
-        } else {
-            (';', "end the statement with ;")
-        };
-        let end = SourcePosition {
-            column: last.column + 1,
-            ..last
-        };
-        let message = format!("a `{sign}` is missing at the end of line {}", last.line);
-        return Some(slip_at(end, message, help));
-    }
-    (is_element && last.column + 1 < bracket.column).then(|| {
-        let message = "a `,` is missing before this".to_owned();
-        slip_at(bracket, message, "elements and rows are separated by ,")
-    })
-}
-
 /// The words for a character or a symbol that the language does not have.
 fn bad_input(error: &LexError) -> Words {
     match error {
@@ -187,10 +108,7 @@ fn bad_input(error: &LexError) -> Words {
             Some("write \\\\ for a backslash and \\n for a new line".to_owned()),
         ),
         LexError::MalformedNumber(_) => ("this is not a number".to_owned(), None),
-        LexError::ImproperSymbol(word, _) => (
-            format!("`{word}` is not available here"),
-            foreign::reserved(word),
-        ),
+        LexError::ImproperSymbol(word, _) => foreign::reserved(word),
         LexError::UnexpectedInput(sign) => match sign.as_str() {
             ";" | ")" | "]" | "}" | "," | "=" => {
                 (format!("a value is missing before this `{sign}`"), None)
@@ -199,7 +117,7 @@ fn bad_input(error: &LexError) -> Words {
                 "`else` has no `if` before it".to_owned(),
                 Some("write if condition { ... } else { ... }".to_owned()),
             ),
-            "|" => ("unexpected `|`".to_owned(), foreign::reserved("|")),
+            "|" => ("unexpected `|`".to_owned(), foreign::reserved("|").1),
             sign => (format!("unexpected `{sign}`"), foreign::character(sign)),
         },
         other => (plain(&other.to_string()), None),
@@ -221,11 +139,17 @@ fn missing(token: &str, what: &str, line: &str, at: Option<char>) -> Words {
         "," => {
             let closing = closing_bracket(what);
             let message = format!("a `{closing}` or a `,` is missing before this");
-            (message, None)
+            let is_value = at.is_some_and(|sign| sign.is_alphanumeric() || "\"([-".contains(sign));
+            let help = "elements and arguments are separated by ,";
+            (message, is_value.then(|| help.to_owned()))
         }
         "in" => (
             "`in` is missing before this".to_owned(),
             Some("write for i in 0..n { ... }".to_owned()),
+        ),
+        "catch" => (
+            before_this(token),
+            Some("write try { ... } catch { ... }".to_owned()),
         ),
         "{" if at == Some(':') => (
             before_this(token),

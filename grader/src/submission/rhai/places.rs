@@ -70,7 +70,7 @@ impl Places {
     }
 
     /// The function around a place: its name, and where its body begins.
-    fn around(&self, at: SourcePosition) -> Option<(&str, SourcePosition)> {
+    pub(super) fn around(&self, at: SourcePosition) -> Option<(&str, SourcePosition)> {
         let count = self
             .functions
             .partition_point(|(_, _, body)| !is_before(at, *body));

@@ -1,5 +1,7 @@
 //! The signs of a script without its comments and strings: which bracket is open, which comment is not closed.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::submission::controller::SourcePosition;
 
 /// A script's signs outside of comments; a string is one `"`.
@@ -7,6 +9,8 @@ pub(super) struct Signs {
     signs: Vec<(SourcePosition, char)>,
     /// The beginning of a comment that is not closed.
     pub(super) open_comment: Option<SourcePosition>,
+    /// Lines whose comment at the end has a `;`.
+    hidden_semicolons: BTreeSet<usize>,
 }
 
 impl Signs {
@@ -21,12 +25,19 @@ impl Signs {
         let mut found = Self {
             signs: Vec::new(),
             open_comment: None,
+            hidden_semicolons: BTreeSet::new(),
         };
         let mut rest = all.as_slice();
         while let Some((&(place, sign), after)) = rest.split_first() {
             let next = after.first().map(|(_, next)| *next);
             let skipped = match (sign, next) {
-                ('/', Some('/')) => until_line_ends(rest),
+                ('/', Some('/')) => {
+                    let length = until_line_ends(rest);
+                    if rest[..length].iter().any(|(_, sign)| *sign == ';') {
+                        found.hidden_semicolons.insert(place.line);
+                    }
+                    length
+                }
                 ('/', Some('*')) => block_comment(rest).unwrap_or_else(|| {
                     found.open_comment = Some(place);
                     rest.len()
@@ -57,6 +68,44 @@ impl Signs {
     /// The last sign before a place.
     pub(super) fn last_before(&self, place: SourcePosition) -> Option<(SourcePosition, char)> {
         self.before(place).next()
+    }
+
+    /// The first sign after a place.
+    pub(super) fn first_after(&self, place: SourcePosition) -> Option<(SourcePosition, char)> {
+        let begin = self.signs.partition_point(|(at, _)| !is_before(place, *at));
+        self.signs.get(begin).copied()
+    }
+
+    /// Whether the comment at the end of a line has a `;`.
+    pub(super) fn hides_semicolon(&self, line: usize) -> bool {
+        self.hidden_semicolons.contains(&line)
+    }
+
+    /// The `{` that no `}` closes. Where one is missing, the `}` of a block around it takes its place: so it is the innermost whose line
+    /// is indented more than the line of the `}` that would close it, or else the outermost that is open at the end.
+    pub(super) fn never_closed(&self) -> Option<SourcePosition> {
+        let mut indents = BTreeMap::new();
+        for (at, _) in &self.signs {
+            indents.entry(at.line).or_insert(at.column);
+        }
+        let mut open: Vec<SourcePosition> = Vec::new();
+        let mut suspect = None;
+        for (at, sign) in &self.signs {
+            match sign {
+                '{' => open.push(*at),
+                '}' => {
+                    let opened = open.pop()?;
+                    let begins_line = indents.get(&at.line) == Some(&at.column);
+                    let deeper = indents.get(&opened.line) > Some(&at.column);
+                    if begins_line && deeper && opened.line < at.line {
+                        suspect = suspect.or(Some(opened));
+                    }
+                }
+                _ => {}
+            }
+        }
+        let outermost = open.first().copied()?;
+        suspect.or(Some(outermost))
     }
 
     /// The bracket that is open at a place.

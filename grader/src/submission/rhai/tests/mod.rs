@@ -8,6 +8,7 @@ use crate::submission::controller::{
 mod budgets;
 mod calls;
 mod reference;
+mod slips;
 mod values;
 mod words;
 

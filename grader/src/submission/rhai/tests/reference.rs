@@ -1,6 +1,8 @@
 //! The reference for students against the language as it is.
 
-use crate::submission::controller::{Budget, Budgets};
+use super::stop;
+use crate::submission::controller::{Budget, Budgets, Stop};
+use crate::submission::rhai::foreign::RESERVED;
 
 /// The reference names everything that is built in, and the budgets as they are.
 #[test]
@@ -39,5 +41,24 @@ fn the_reference_is_complete() {
             reference.contains(&row),
             "docs/script-language.md lacks the row {row}"
         );
+    }
+}
+
+#[test]
+fn reserved_words_are_refused_as_names_and_listed() {
+    let reference = include_str!("../../../../../docs/script-language.md");
+    for word in RESERVED {
+        let listed = format!("`{word}`");
+        assert!(reference.contains(&listed), "{word}");
+        for source in [
+            format!("fn control(o) {{ let {word} = 1; {word} }}"),
+            format!("fn {word}(x) {{ x }}\nfn control(o) {{ 1 }}"),
+        ] {
+            let Stop::DidNotBuild(mistake) = stop(&source) else {
+                panic!("{source}: it builds");
+            };
+            let message = format!("`{word}` is a reserved word of the language");
+            assert_eq!(mistake.message, message, "{source}");
+        }
     }
 }

@@ -109,7 +109,7 @@ fn mistakes_are_reported_with_names_values_and_a_way_out() {
         ),
         (
             "let r = robot.fk([1, 2]);",
-            "variable `robot` is not known here | declare it first: let robot = ...;",
+            "variable `robot` is not known here | only `init` is given it: write this.robot = robot; there, and this.robot here",
         ),
         (
             "observation.fk([1, 2])",
@@ -237,7 +237,10 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
             "a `;` is missing before this | write else if",
         ),
         ("elif(1)", "`elif` is not a function | write else if"),
-        ("null", "`null` is not available here | write ()"),
+        (
+            "null",
+            "`null` is a reserved word of the language | write () for nothing; for a name, choose another name, such as `my_null`",
+        ),
         (
             "let x = “a”;",
             "unexpected `“` | write \" (a straight quote)",
@@ -247,7 +250,10 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
             "θ * 2",
             "unexpected `θ` | names have the letters a to z, digits and _",
         ),
-        ("print x", "`print` is not available here | write print(x)"),
+        (
+            "print x",
+            "`print` is a function | call it: print(x); give a variable another name",
+        ),
         (
             "if 1 { }",
             "a condition is true or false, got a number | compare: x > 0",
@@ -385,12 +391,12 @@ fn of_two_slips_the_first_in_the_file_is_reported() {
 }
 
 #[test]
-fn an_unfinished_file_is_reported_at_its_end() {
+fn an_unfinished_file_is_reported_where_its_block_begins() {
     let Stop::DidNotBuild(mistake) = stop("fn control(o) {\n    let x = 1;\n") else {
         panic!("it builds");
     };
-    assert_eq!(mistake.place.map(|place| place.line), Some(2));
-    assert_eq!(mistake.message, "a `}` is missing before this");
+    assert_eq!(mistake.place.map(|place| place.line), Some(1));
+    assert_eq!(mistake.message, "the `{` of line 1 is never closed");
 }
 
 #[test]
