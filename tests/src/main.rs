@@ -8,6 +8,7 @@
 mod architecture;
 mod book_robustness;
 mod brief_pictures;
+mod case_evidence;
 mod class_page;
 mod commands;
 mod compare;

@@ -5,24 +5,63 @@ use crate::attempt::answers::{Answered, CaseFacts};
 use crate::record::grade::Evidence;
 use crate::task::model::{Band, Function};
 
+/// What is wrong with an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct WrongAnswer {
+    /// What it is a mistake in, such as a column of a matrix: evidence shows different ones first.
+    pub(super) kind: String,
+    /// How far off the answer is.
+    pub(super) off: f64,
+    /// It in words.
+    pub(super) message: String,
+}
+
+impl WrongAnswer {
+    /// A mistake in the whole answer to a case. An answer that is none is another one than a wrong one, and so is a wrong one for
+    /// another robot.
+    pub(super) fn whole(facts: &CaseFacts<'_>, off: f64, message: String) -> Self {
+        let kind = match &facts.answer {
+            Answered::Invalid(_) => "invalid",
+            Answered::Stopped => "stopped",
+            Answered::Branches(branches) if branches.is_empty() => "empty",
+            _ if facts.case.dimensions.is_empty() => "wrong",
+            _ => "wrong for another robot",
+        };
+        Self {
+            kind: kind.to_owned(),
+            off,
+            message,
+        }
+    }
+}
+
 /// A case as one kind of check scores it.
 pub(super) struct CaseScore {
     /// In `[0, 1]`.
     pub(super) score: f64,
-    /// How far off the answer is, and that in words, where the case loses points.
-    pub(super) lost: Option<(f64, String)>,
+    /// What is wrong with the answer, where the case loses points.
+    pub(super) lost: Vec<WrongAnswer>,
 }
 
 impl CaseScore {
-    /// A value held against a band; `message` says what is wrong where points are lost.
-    pub(super) fn of(value: f64, band: Band, message: impl FnOnce() -> String) -> Self {
+    /// The score of a case that loses its points by one mistake, if any: `message` says which.
+    pub(super) fn of(
+        facts: &CaseFacts<'_>,
+        value: f64,
+        band: Band,
+        message: impl FnOnce() -> String,
+    ) -> Self {
         let score = band.score(value);
+        let lost = (score < 1.0).then(|| WrongAnswer::whole(facts, value, message()));
         Self {
             score,
-            lost: (score < 1.0).then(|| (value, message())),
+            lost: lost.into_iter().collect(),
         }
     }
 }
+
+/// The pieces of evidence that a person reads before the hidden classes.
+const SHOWN: usize = 3;
 
 /// The answers to all cases of a task, and the band of a check over them.
 pub(crate) struct Cases<'a> {
@@ -52,7 +91,9 @@ impl Cases<'_> {
             };
             judged.push(facts);
             sum += score;
-            failed.extend(lost.map(|(value, message)| (facts, value, message)));
+            if !lost.is_empty() {
+                failed.push((facts, lost));
+            }
         }
         let mean = if judged.is_empty() {
             0.0
@@ -62,12 +103,12 @@ impl Cases<'_> {
         Finding::share(mean, quantity).because(self.evidence(failed, &judged))
     }
 
-    /// The mean of all errors, held against the band; `message` says what is wrong with an answer that is too far off.
+    /// The mean of all errors, held against the band; `mistakes` says what is wrong with an answer that is too far off.
     pub(super) fn mean_error(
         &self,
         quantity: &str,
         error: impl Fn(&CaseFacts<'_>) -> f64,
-        message: impl Fn(&CaseFacts<'_>, f64) -> String,
+        mistakes: impl Fn(&CaseFacts<'_>, f64) -> Vec<WrongAnswer>,
     ) -> Finding {
         let cases = self.cases;
         let mean = cases.iter().map(&error).sum::<f64>() / cases.len() as f64;
@@ -78,36 +119,34 @@ impl Cases<'_> {
             // written so that NaN is among the failed
             let good = error <= self.band.full;
             if !good {
-                failed.push((facts, error, message(facts, error)));
+                failed.push((facts, mistakes(facts, error)));
             }
         }
         let all: Vec<&CaseFacts<'_>> = cases.iter().collect();
         finding.because(self.evidence(failed, &all))
     }
 
-    /// At most three visible cases, then hidden classes without their numbers: what a student can act on.
+    /// At most three visible mistakes, then hidden classes without their numbers: what a student can act on.
     fn evidence(
         &self,
-        mut failed: Vec<(&CaseFacts<'_>, f64, String)>,
+        failed: Vec<(&CaseFacts<'_>, Vec<WrongAnswer>)>,
         totals: &[&CaseFacts<'_>],
     ) -> Vec<Evidence> {
-        // worst first; cases without a number are the worst of all
-        failed.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let visible = failed.iter().filter(|(facts, ..)| facts.is_visible());
-        let mut evidence: Vec<Evidence> = visible
-            .take(3)
-            .map(|(facts, value, message)| {
-                let value = value.is_finite().then_some(*value);
-                self.of_case(facts.label(), message.clone(), value)
+        let shown = different_first(&failed);
+        let mut evidence: Vec<Evidence> = shown
+            .into_iter()
+            .map(|(facts, mistake)| {
+                let value = mistake.off.is_finite().then_some(mistake.off);
+                self.of_case(facts.label(), mistake.message.clone(), value)
             })
             .collect();
-        let hidden = failed.iter().filter(|(facts, ..)| !facts.is_visible());
-        let mut classes: Vec<&str> = hidden.map(|(facts, ..)| facts.label()).collect();
+        let hidden = failed.iter().filter(|(facts, _)| !facts.is_visible());
+        let mut classes: Vec<&str> = hidden.map(|(facts, _)| facts.label()).collect();
         classes.sort_unstable();
         classes.dedup();
         for class in classes {
             let of_class = |facts: &CaseFacts<'_>| !facts.is_visible() && facts.label() == class;
-            let lost = failed.iter().filter(|(facts, ..)| of_class(facts)).count();
+            let lost = failed.iter().filter(|(facts, _)| of_class(facts)).count();
             let total = totals.iter().filter(|facts| of_class(facts)).count();
             let message =
                 format!("{lost} of {total} hidden cases of the class \"{class}\" are off");
@@ -128,6 +167,30 @@ impl Cases<'_> {
             ..Evidence::default()
         }
     }
+}
+
+/// The mistakes to show of visible cases: the worst of each kind, the worst kinds first; then, if there are few kinds, the worst of the
+/// others.
+fn different_first<'f, 'a>(
+    failed: &'f [(&'a CaseFacts<'a>, Vec<WrongAnswer>)],
+) -> Vec<(&'a CaseFacts<'a>, &'f WrongAnswer)> {
+    let visible = failed.iter().filter(|(facts, _)| facts.is_visible());
+    let mut all: Vec<(&CaseFacts<'_>, &WrongAnswer)> = visible
+        .flat_map(|(facts, mistakes)| mistakes.iter().map(|mistake| (*facts, mistake)))
+        .collect();
+    // those without a number are the worst of all
+    all.sort_by(|a, b| b.1.off.total_cmp(&a.1.off));
+    let mut kinds: Vec<&str> = Vec::new();
+    let (mut shown, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|(_, mistake)| {
+        let is_new = !kinds.contains(&mistake.kind.as_str());
+        if is_new {
+            kinds.push(&mistake.kind);
+        }
+        is_new
+    });
+    shown.extend(others);
+    shown.truncate(SHOWN);
+    shown
 }
 
 /// What is wrong with a case that has no answer of the right shape.

@@ -4,7 +4,9 @@ pub(super) use kinemark_sim::text::number::{list, metres, seconds, trimmed};
 pub(super) use schemars::JsonSchema;
 pub(super) use serde::Deserialize;
 
-pub(super) use super::cases::{CaseScore, Cases, distinct_texts, no_answer, without_answer};
+pub(super) use super::cases::{
+    CaseScore, Cases, WrongAnswer, distinct_texts, no_answer, without_answer,
+};
 pub(super) use super::contract::{FunctionCheck, MotionCheck};
 pub(super) use super::dwell::Dwell;
 pub(super) use super::facts::MotionFacts;
@@ -18,5 +20,5 @@ pub(super) use crate::record::grade::Evidence;
 pub(super) use crate::record::graded::Curve;
 pub(super) use crate::record::quantity::with_unit;
 pub(super) use crate::task::joint_units::JointUnits;
-pub(super) use crate::task::model::{Band, Function, MotionTask};
+pub(super) use crate::task::model::{Band, Function, MotionTask, Rows};
 pub(super) use crate::task::problem::{LabError, near, problems};

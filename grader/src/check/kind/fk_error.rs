@@ -33,14 +33,15 @@ impl AnswerMeasure for FkError {
             CaseError::Position(error_m) => error_m,
             _ => f64::INFINITY,
         };
-        let message = |facts: &CaseFacts<'_>, error_m: f64| {
-            without_answer(facts).unwrap_or_else(|| {
+        let mistakes = |facts: &CaseFacts<'_>, error_m: f64| {
+            let message = without_answer(facts).unwrap_or_else(|| {
                 let off = metres(error_m);
                 format!("{}: {off} from the true position", facts.label())
-            })
+            });
+            vec![WrongAnswer::whole(facts, error_m, message)]
         };
         cases
-            .mean_error("mean position error", error_m, message)
+            .mean_error("mean position error", error_m, mistakes)
             .advise("Work one of these cases by hand, and compare.")
     }
 }

@@ -80,7 +80,7 @@ impl FunctionCases {
         else {
             return CaseScore {
                 score: 0.0,
-                lost: None,
+                lost: Vec::new(),
             };
         };
         let counts = |name: &str| self.entry.as_deref().is_none_or(|entry| entry == name);
@@ -89,10 +89,13 @@ impl FunctionCases {
             .collect();
         let scores = counted.iter().map(|index| band.score(relative[*index]));
         let score = scores.sum::<f64>() / counted.len().max(1) as f64;
-        let worst = greatest(counted.iter().map(|index| relative[*index]));
-        let lost = worst.filter(|_| score < 1.0).map(|(worst, relative)| {
-            let index = counted[worst];
+        let wrong = counted
+            .iter()
+            .copied()
+            .filter(|index| band.score(relative[*index]) < 1.0);
+        let mistake = |index: usize| {
             let (name, should) = &expected[index];
+            let relative = relative[index];
             let message = match &facts.answer {
                 Answered::Entries(answer) => {
                     let (is, should) = distinct_texts(|digits| {
@@ -107,10 +110,17 @@ impl FunctionCases {
                     let case = facts.label();
                     format!("{case}: {what} is {is}, should be {should} ({off} off)")
                 }
-                _ => no_answer(facts),
+                // one sentence for all entries
+                _ => return WrongAnswer::whole(facts, relative, no_answer(facts)),
             };
-            (relative, message)
-        });
+            WrongAnswer {
+                kind: name.clone(),
+                off: relative,
+                message,
+            }
+        };
+        let mut lost: Vec<WrongAnswer> = wrong.map(mistake).collect();
+        lost.dedup_by(|a, b| a.message == b.message);
         CaseScore { score, lost }
     }
 }

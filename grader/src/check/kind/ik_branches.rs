@@ -72,7 +72,7 @@ fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
         Some(worst_m) if complete => *worst_m,
         _ => f64::INFINITY,
     };
-    Some(CaseScore::of(worst_m, band, || {
+    Some(CaseScore::of(facts, worst_m, band, || {
         let name = facts.label();
         if complete {
             let off = metres(worst_m);

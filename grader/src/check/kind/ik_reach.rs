@@ -37,7 +37,7 @@ impl AnswerMeasure for IkReach {
             };
             let nearest_m = branches_m.first().copied().unwrap_or(f64::INFINITY);
             let message = || message(facts, nearest_m);
-            Some(CaseScore::of(nearest_m, cases.band, message))
+            Some(CaseScore::of(facts, nearest_m, cases.band, message))
         };
         cases.mean_score("targets reached", score).advise(
             "Put your angles through your own forward kinematics: it must give the target back.",

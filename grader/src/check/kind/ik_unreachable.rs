@@ -59,8 +59,9 @@ fn score(facts: &CaseFacts<'_>) -> Option<CaseScore> {
             format!("{name}: angles for a target no arm of these lengths reaches")
         })
     };
+    let lost = (!said_so).then(|| WrongAnswer::whole(facts, 1.0, message()));
     Some(CaseScore {
         score: if said_so { 1.0 } else { 0.0 },
-        lost: (!said_so).then(|| (1.0, message())),
+        lost: lost.into_iter().collect(),
     })
 }

@@ -37,45 +37,75 @@ impl AnswerMeasure for JacobianMatch {
             CaseError::Jacobian { relative, .. } => *relative,
             _ => f64::INFINITY,
         };
-        let message = |facts: &CaseFacts<'_>, relative: f64| match (&facts.answer, &facts.error) {
-            (Answered::Matrix(answer), CaseError::Jacobian { truth, .. }) => format!(
-                "{}: {} off{}",
-                facts.label(),
-                with_unit(relative, ""),
-                worst_entry(facts, cases.function, answer, truth)
-            ),
-            _ => no_answer(facts),
+        let mistakes = |facts: &CaseFacts<'_>, relative: f64| match (&facts.answer, &facts.error) {
+            (Answered::Matrix(answer), CaseError::Jacobian { truth, .. }) => {
+                let columns = wrong_columns(facts, cases.function, answer, truth, cases.band.full);
+                columns
+                    .into_iter()
+                    .map(|(joint, share, entry)| WrongAnswer {
+                        kind: joint.to_string(),
+                        off: relative * share,
+                        message: format!(
+                            "{}: {} off{entry}",
+                            facts.label(),
+                            with_unit(relative, "")
+                        ),
+                    })
+                    .collect()
+            }
+            _ => vec![WrongAnswer::whole(facts, relative, no_answer(facts))],
         };
         let quantity = "mean relative error of the Jacobian";
-        cases.mean_error(quantity, relative, message).advise(
+        cases.mean_error(quantity, relative, mistakes).advise(
             "Compare each column with (p(q + h) - p(q - h)) / (2 h), one joint moved by a small h.",
         )
     }
 }
 
-/// The worst column, and in it the worst entry: `: column 2 (elbow): d x / d q2 is 0.2, should be -0.8`.
-fn worst_entry(
+/// A column that is off: its joint, its share of the error of the whole matrix, and its worst entry in words.
+type WrongColumn = (usize, f64, String);
+
+/// The columns that are off by more than `full`, as a fraction of the norm of `truth`; the worst one in any case.
+fn wrong_columns(
     facts: &CaseFacts<'_>,
     function: &Function,
     answer: &[Vec<f64>],
     truth: &[Vec<f64>],
-) -> String {
+    full: f64,
+) -> Vec<WrongColumn> {
     let Function::Jacobian(rows) = function else {
-        return String::new();
+        return Vec::new();
     };
     let column = |matrix: &[Vec<f64>], joint: usize| -> Vec<Vec<f64>> {
         vec![matrix.iter().map(|row| row[joint]).collect()]
     };
     let off = |joint: usize| jacobian::distance(&column(answer, joint), &column(truth, joint));
-    let Some((joint, _)) = greatest((0..facts.robot.n()).map(off)) else {
-        return String::new();
+    let all = jacobian::distance(answer, truth);
+    let relative = jacobian::relative_distance(answer, truth);
+    let Some((worst, _)) = greatest((0..facts.robot.n()).map(off)) else {
+        return Vec::new();
     };
+    let shares = (0..facts.robot.n()).map(|joint| (joint, off(joint) / all));
+    shares
+        .filter(|(joint, share)| *joint == worst || relative * share > full)
+        .map(|(joint, share)| {
+            let entry = worst_entry(facts, rows, answer, truth, joint);
+            (joint, share, entry.unwrap_or_default())
+        })
+        .collect()
+}
+
+/// The worst entry of a column: `: column 2 (elbow): d x / d q2 is 0.2, should be -0.8`.
+fn worst_entry(
+    facts: &CaseFacts<'_>,
+    rows: &Rows,
+    answer: &[Vec<f64>],
+    truth: &[Vec<f64>],
+    joint: usize,
+) -> Option<String> {
     let gap = |row: usize| (answer[row][joint] - truth[row][joint]).abs();
-    let worst = greatest((0..truth.len()).map(gap));
-    let named = worst.and_then(|(row, _)| Some((row, rows.names().nth(row)?)));
-    let Some((row, name)) = named else {
-        return String::new();
-    };
+    let (row, _) = greatest((0..truth.len()).map(gap))?;
+    let name = rows.names().nth(row)?;
     let joint_name = facts.robot.moving_joints().nth(joint);
     let joint_name = joint_name.map_or("?", |joint| joint.name.as_str());
     let number = joint + 1;
@@ -86,5 +116,7 @@ fn worst_entry(
     };
     let [got, should] = [answer, truth].map(|matrix| matrix[row][joint]);
     let (got, should) = distinct_texts(|digits| (trimmed(got, digits), trimmed(should, digits)));
-    format!(": column {number} ({joint_name}): {entry} is {got}, should be {should}")
+    Some(format!(
+        ": column {number} ({joint_name}): {entry} is {got}, should be {should}"
+    ))
 }
