@@ -9,6 +9,7 @@ use owo_colors::OwoColorize as _;
 
 use super::measured::Measured;
 use super::moment::{fragment, last_before, of_task};
+use super::stop_words::stop_of_whole_file;
 use super::visible::visible;
 use kinemark_grader::record::grade::{
     CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
@@ -35,9 +36,19 @@ pub fn text(grade: &Grade) -> String {
     if let Some(variant) = &grade.variant {
         line(&mut out, &visible(&variant.words()).dimmed().to_string());
     }
-    for task in &grade.tasks {
+    if let Some(stopped) = stop_of_whole_file(grade) {
+        // the same in all tasks: said once
         out.push('\n');
-        push_task(&mut out, task, &grade.submission.name);
+        line(
+            &mut out,
+            "Nothing of it could be run, so no task earns a point.",
+        );
+        push_stopped(&mut out, stopped, &grade.submission.name, "");
+    } else {
+        for task in &grade.tasks {
+            out.push('\n');
+            push_task(&mut out, task, &grade.submission.name);
+        }
     }
     out.push('\n');
     let total = format!(

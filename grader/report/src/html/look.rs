@@ -4,9 +4,11 @@ use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
 use super::head::anchor;
+use super::task::NOT_RUN;
 use super::viewer::seek;
 use super::{foreign, prose};
 use crate::moment::{first_loss, last_before};
+use crate::stop_words::stop_of_whole_file;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
 use kinemark_grader::record::quantity::points;
 
@@ -22,6 +24,18 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
         .iter()
         .position(|other| std::ptr::eq(other, task));
     let i = i.unwrap_or_default();
+    if let Some(stop) = stop_of_whole_file(grade) {
+        return html! {
+            div class="note bad look" role="region" aria-labelledby="look-title" {
+                h2 id="look-title" { "Look here first" }
+                p {
+                    strong { "Nothing of it could be run" } ": " (prose(&stop.message))
+                    @if let Some(line) = stop.line.filter(|line| !stop.message.contains(&format!("line {line}"))) { " (line " (line) ")" }
+                }
+                p class="go" { a href={ "#" (NOT_RUN) } { "See the line" } }
+            }
+        };
+    }
     // a stop costs everything after it
     let stop = task.stopped.as_ref();
     let at = match stop {

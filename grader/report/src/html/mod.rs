@@ -25,6 +25,7 @@ pub use self::viewer::{ViewerCode, whole};
 use crate::palette::plot_css;
 use crate::plot::Plot;
 use crate::replay::Replay;
+use crate::stop_words::stop_of_whole_file;
 use crate::visible::visible;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::quantity::points;
@@ -73,14 +74,19 @@ fn page_with_notice(
         points(grade.points),
         points(grade.max_points)
     );
+    let whole_file = stop_of_whole_file(grade);
     let body = html! {
         a class="skip" href="#scores" { "Skip to the scores" }
         (notice)
         (head(grade, title_of(graded), &look::look(grade, has_replay)))
         main {
+            @if let Some(stop) = whole_file { (task::not_run(stop)) }
             (scores(grade))
             @for (i, task) in grade.tasks.iter().enumerate() {
-                (task::section(i, task, drawn(&task.name), has_replay(i)))
+                @match whole_file {
+                    Some(_) => { (task::section_not_run(i, task)) }
+                    None => { (task::section(i, task, drawn(&task.name), has_replay(i))) }
+                }
             }
         }
         (facts(grade))

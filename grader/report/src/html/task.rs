@@ -58,6 +58,40 @@ pub(super) fn section(
     }
 }
 
+/// The anchor of what kept the whole file from being run.
+pub(super) const NOT_RUN: &str = "not-run";
+
+/// What kept the whole file from being run: said once, for all tasks.
+pub(super) fn not_run(stop: &Stopped) -> Markup {
+    let of = TaskShown {
+        name: "",
+        kind: TaskKind::Function,
+        run: None,
+        has_replay: false,
+        stopped: true,
+    };
+    html! {
+        section class="task" id=(NOT_RUN) aria-labelledby={ (NOT_RUN) "-title" } {
+            h2 id={ (NOT_RUN) "-title" } { "Nothing of it could be run" }
+            (stopped(stop, &of))
+        }
+    }
+}
+
+/// The section of a task of a file that could not be run.
+pub(super) fn section_not_run(index: usize, task: &TaskGrade) -> Markup {
+    let id = anchor(index);
+    html! {
+        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
+            div class="title" id={ "task=" (visible(&task.name)) } {
+                h2 id={ (id) "-title" } { (foreign(&task.title)) }
+                p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
+            }
+            p class="lead" { "Not run: " a href={ "#" (NOT_RUN) } { "what stopped the file" } "." }
+        }
+    }
+}
+
 /// What is folded away of a task without a mistake.
 fn contents(task: &TaskGrade, plots: &[Plot]) -> String {
     let all = [
