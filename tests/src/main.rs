@@ -57,6 +57,7 @@ mod scene_labs;
 mod sensor_labs;
 mod slurm;
 mod staff_files;
+mod step_causes;
 mod step_checks;
 mod submissions;
 mod submit;

@@ -7,6 +7,7 @@ use super::answers::{Answered, Answers, CaseFacts};
 use super::measure::measure;
 use super::{Attempt, EndReason, Ended};
 use crate::record::grade::LogEntry;
+use crate::submission::answer::NOT_A_NUMBER;
 use crate::submission::controller::{
     Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop,
 };
@@ -63,7 +64,7 @@ pub fn run<'a>(
         facts.push(measure(cell.frame, function, case, robot, value.as_ref()));
     }
     Attempt {
-        ended: calls.stop.or_else(|| first_invalid(&facts)),
+        ended: calls.stop.or_else(|| first_invalid(&facts, &log)),
         operations,
         recorded: Answers {
             facts,
@@ -73,14 +74,22 @@ pub fn run<'a>(
     }
 }
 
-/// The first answer that has the wrong shape or is not finite.
-fn first_invalid(facts: &[CaseFacts<'_>]) -> Option<Ended> {
+/// The first answer that has the wrong shape or is not finite, with the line of the log that says where it began to be no number.
+fn first_invalid(facts: &[CaseFacts<'_>], log: &[LogEntry]) -> Option<Ended> {
     let mut cases = (0..).zip(facts);
     cases.find_map(|(at, facts)| match &facts.answer {
-        Answered::Invalid(what) => Some(Ended {
-            at,
-            why: EndReason::InvalidOutput(what.clone()),
-        }),
+        Answered::Invalid(what) => {
+            let mut of_case = log.iter().filter(|entry| entry.at == at);
+            let origin = of_case.find_map(|entry| entry.text.strip_suffix(NOT_A_NUMBER));
+            let what = match origin {
+                Some(origin) => format!("{what}; {}", origin.trim_end_matches(": ")),
+                None => what.clone(),
+            };
+            Some(Ended {
+                at,
+                why: EndReason::InvalidOutput(what),
+            })
+        }
         Answered::Position(_)
         | Answered::Branches(_)
         | Answered::Matrix(_)

@@ -20,6 +20,7 @@ pub(crate) mod reading;
 pub(crate) mod registry;
 mod rest_error;
 mod segments;
+mod shape;
 mod signal;
 #[cfg(test)]
 mod sliding;

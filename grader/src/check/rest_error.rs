@@ -6,6 +6,7 @@ use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
 use kinemark_sim::text::number::trimmed;
 
+use super::shape;
 use super::step_response::Response;
 
 /// Efforts below this are no reason for an error \[N m or N\].
@@ -92,6 +93,8 @@ impl<'a> Rest<'a> {
 
     fn reason(&self) -> Option<Reason> {
         self.command_is_beside()
+            .or_else(|| self.is_of_another())
+            .or_else(|| self.still_swings())
             .or_else(|| self.is_still_nearing())
             .or_else(|| match self.response.asked.of {
                 Fed::Position => self.gravity(),
@@ -116,6 +119,39 @@ impl<'a> Rest<'a> {
                 response.name()
             ),
         )
+    }
+
+    /// It rests where another joint should be, or another joint where it should.
+    fn is_of_another(&self) -> Option<Reason> {
+        let (words, help) = match shape::swapped(self.response) {
+            Some(seen) => (seen.words, seen.next_step),
+            None => shape::place_of_another(self.response, self.target)?,
+        };
+        Reason::new(words, help)
+    }
+
+    /// It swings where it is judged: then its distance at two moments says nothing.
+    fn still_swings(&self) -> Option<Reason> {
+        let response = self.response;
+        let judged = &response.values[response.final_tick..];
+        let step_s = response.facts.motion.periods.step_s;
+        let swing = shape::swing(judged, response.end, step_s)?;
+        let wide = swing.high - swing.low > STILL_NEARING * self.error.abs();
+        if !wide {
+            return None;
+        }
+        let swings = Reason::new(
+            format!(
+                "it swings between {} and {}",
+                response.with_unit(swing.low),
+                response.with_unit(swing.high)
+            ),
+            "Damp the swing: a stronger derivative, a smaller integral, or lower gains.",
+        )?;
+        Some(Reason {
+            moves: true,
+            ..swings
+        })
     }
 
     /// The error still shrinks.
@@ -204,7 +240,7 @@ impl<'a> Rest<'a> {
                     number(error.abs()),
                     number((given / error).abs())
                 ),
-                "Add integral action, or add that effort to what you return.",
+                "Add integral action, or add that effort to what you return. If your own gain is higher than that, something that you add acts the wrong way: check its sign.",
             )
         } else {
             Reason::new(reason, "Add integral action.")

@@ -12,6 +12,7 @@ use kinemark_sim::text::number::{seconds, trimmed};
 use super::alternation;
 use super::facts::MotionFacts;
 use super::finding::{Finding, curve};
+use super::shape::{self, Seen};
 use super::step_keys::StepResponse;
 use crate::record::grade::Evidence;
 use crate::record::graded::{Curve, StepBackdrop};
@@ -131,6 +132,14 @@ impl<'a> Response<'a> {
         }
     }
 
+    /// Why points are lost, by what is seen.
+    fn loss_of(&self, seen: Seen) -> Loss {
+        Loss {
+            evidence: self.evidence(seen.words, seen.tick),
+            next_step: seen.next_step,
+        }
+    }
+
     /// Why there is no step response to judge, if there is none: the joint hardly moved, or never settles.
     pub(super) fn fault(&self, tolerance: f64) -> Option<Loss> {
         self.stayed().or_else(|| self.unsettled(tolerance))
@@ -145,6 +154,9 @@ impl<'a> Response<'a> {
         };
         if moved {
             return None;
+        }
+        if let Some(seen) = shape::seen(self) {
+            return Some(self.loss_of(seen));
         }
         let asked = self.asked.target.map_or_else(String::new, |target| {
             format!("; {} was asked for", self.with_unit(target))
@@ -215,6 +227,8 @@ impl<'a> Response<'a> {
         {
             message = format!("{message}; {why}");
             next_step = help;
+        } else if let Some(seen) = shape::seen(self) {
+            return Some(self.loss_of(seen));
         }
         Some(Loss {
             evidence: self.evidence(message, tick),

@@ -97,7 +97,7 @@ pub(super) fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenC
     classes
 }
 
-fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
+pub(super) fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
     match &facts.error {
         CaseError::Position(error_m) => *error_m <= band.full,
         CaseError::Reach { branches_m, .. } => branches_m

@@ -1,7 +1,7 @@
 //! Grading a function task: its visible and hidden cases, its checks, and the mutants that it matches.
 
 use super::Interrupted;
-use super::case_grades::{case_grade, hidden_classes};
+use super::case_grades::{case_grade, hidden_classes, is_good};
 use super::check_grades::check_grades;
 use super::diagnose;
 use super::expected::with_expected;
@@ -9,7 +9,7 @@ use super::grader::{GradedTask, Grader, MOST_LOG_LINES, TaskScores};
 use super::hidden_attempts::HiddenAttempts;
 use super::judged::{JudgedCheck, all_full, judge};
 use super::single_case::single_cases;
-use crate::attempt::answers::{Answers, CaseFacts};
+use crate::attempt::answers::{Answered, Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
 use crate::check::{self, Check, FunctionCheck};
 use crate::lab::Task;
@@ -52,7 +52,13 @@ impl Grader<'_> {
         } else {
             self.function_diagnoses(task, (&work.function, band), &cases, &attempt)
         };
-        let explained = stopped.is_some() || !diagnoses.is_empty();
+        // a stop explains the cases that it stopped, and no wrong answer to another one
+        let is_wrong = |facts: &CaseFacts<'_>| {
+            let is_answer = !matches!(facts.answer, Answered::Invalid(_) | Answered::Stopped);
+            facts.is_visible() && is_answer && !is_good(facts, band)
+        };
+        let by_stop = stopped.is_some() && !facts.iter().any(is_wrong);
+        let explained = by_stop || !diagnoses.is_empty();
         let scores = TaskScores {
             checks: judged.iter().map(|check| check.score).collect(),
             cases: if self.judges_each_case {

@@ -6,6 +6,9 @@ use nalgebra::Vector3;
 
 use crate::submission::controller::Value;
 
+/// How the log says that the result of a built-in is no number: the end of its line.
+pub const NOT_A_NUMBER: &str = "the result is not a number";
+
 /// A position: three finite numbers \[m\].
 ///
 /// # Errors

@@ -10,6 +10,7 @@ use super::library::Library;
 use super::mistake::{Problem, fault};
 use super::operand::{Operand, as_number, as_whole, number, vector};
 use super::words::{self, describe};
+use crate::submission::answer::NOT_A_NUMBER;
 
 type Unary = fn(f64) -> f64;
 type Binary = fn(f64, f64) -> f64;
@@ -193,7 +194,7 @@ fn each(
         if let Some(x) = refused {
             meter.note_not_a_number(|| {
                 format!(
-                    "`{name}` takes {range}, got {}: the result is not a number",
+                    "`{name}` takes {range}, got {}: {NOT_A_NUMBER}",
                     words::number(x)
                 )
             });
