@@ -38,7 +38,7 @@ mod staff_folder;
 mod typed_numbers;
 mod worker;
 
-/// The allocator of the system costs a class a tenth of its time, and the one of musl more.
+/// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
