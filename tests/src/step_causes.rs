@@ -72,6 +72,14 @@ fn the_cause_is_named_and_no_other() {
             "as a proportional gain of",
             "far side of the target",
         ),
+        // nothing brakes
+        (
+            "hold",
+            "t.kp * e",
+            "elbow",
+            "it swings between",
+            "removed too slowly",
+        ),
     ] {
         let graded = task_under(task, law);
         let said = said(&graded, check);

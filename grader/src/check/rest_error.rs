@@ -134,17 +134,25 @@ impl<'a> Rest<'a> {
     fn still_swings(&self) -> Option<Reason> {
         let response = self.response;
         let judged = &response.values[response.final_tick..];
-        let step_s = response.facts.motion.periods.step_s;
-        let swing = shape::swing(judged, response.end, step_s)?;
-        let wide = swing.high - swing.low > STILL_NEARING * self.error.abs();
+        let above = |value: f64| value > response.end;
+        let turns = judged
+            .windows(2)
+            .filter(|pair| above(pair[0]) != above(pair[1]));
+        // what creeps passes its mean once
+        if turns.count() < 2 {
+            return None;
+        }
+        let low = judged.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = judged.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let wide = high - low > STILL_NEARING * self.error.abs();
         if !wide {
             return None;
         }
         let swings = Reason::new(
             format!(
                 "it swings between {} and {}",
-                response.with_unit(swing.low),
-                response.with_unit(swing.high)
+                response.with_unit(low),
+                response.with_unit(high)
             ),
             "Damp the swing: a stronger derivative, a smaller integral, or lower gains.",
         )?;

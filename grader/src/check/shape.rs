@@ -139,19 +139,19 @@ pub(super) fn place_of_another(
 }
 
 /// A swing across the target, or the final value where there is none.
-pub(super) struct Swing {
+struct Swing {
     /// The first crossing.
-    pub(super) tick: usize,
-    pub(super) low: f64,
-    pub(super) high: f64,
+    tick: usize,
+    low: f64,
+    high: f64,
     /// Swings a second.
-    pub(super) per_s: f64,
+    per_s: f64,
     /// The size of the later half of its half swings, as a share of that of the earlier.
-    pub(super) remains: f64,
+    remains: f64,
 }
 
 /// The swing of a signal across `centre` from its first crossing on; `None` with too few half swings.
-pub(super) fn swing(values: &[f64], centre: f64, step_s: f64) -> Option<Swing> {
+fn swing(values: &[f64], centre: f64, step_s: f64) -> Option<Swing> {
     let side = |value: f64| value > centre;
     let crossings: Vec<usize> = (1..values.len())
         .filter(|tick| side(values[*tick]) != side(values[tick - 1]))
