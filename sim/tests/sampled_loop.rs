@@ -1,7 +1,8 @@
 //! The sampled-data limit of servos: by hand for one joint, against printed numbers for the course's arm, and against simulation.
 
 use kinemark_sim::control::{
-    Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, sampled_loop,
+    Derivative, Gains, Mode, SampledLoop, Servo, ServoSettings, VariedGain, sampled_loop,
+    stable_gain_factor,
 };
 use kinemark_sim::dynamics::{GRAVITY_M_S2, gravity_effort, mass_matrix};
 use kinemark_sim::format::ReadOptions;
@@ -184,6 +185,29 @@ fn a_pendulum_upright_with_and_without_compensation_by_hand() {
     let found = sampled_loop(&pendulum, &weak, servo_s, &GRAVITY_M_S2, &[0.0]).expect("a loop");
     assert_eq!((found.stable_share, found.stable_period_s), (None, None));
     assert!(!found.is_stable() && found.spectral_radius < 1.2);
+}
+
+#[test]
+fn the_limit_of_one_gain_is_that_of_a_calculation_by_hand() {
+    // kd < 2 J / T = 400 on the rate alone; without kd any kp turns the undamped slider unstable, which no factor changes
+    let slider = slider(0.0);
+    let factor = |gains: [f64; 3], varied| {
+        let settings = settings(Mode::Position, Derivative::Velocity, &[gains]);
+        stable_gain_factor(&slider, &settings, 0.01, &GRAVITY_M_S2, &[0.0], varied)
+    };
+    for kd in [1.0, 100.0, 1000.0] {
+        let found = factor([0.0, 0.0, kd], VariedGain::Kd).map(|factor| factor * kd);
+        // beyond 256 times the gain nobody looks
+        if kd < 2.0 {
+            assert_eq!(found, Some(f64::INFINITY));
+        } else {
+            near(found, 400.0);
+        }
+    }
+    assert_eq!(factor([100.0, 0.0, 0.0], VariedGain::Kp), None);
+    // a gain of zero stays zero, whatever the factor
+    let unchanged = factor([0.0, 0.0, 100.0], VariedGain::Ki);
+    assert_eq!(unchanged, Some(f64::INFINITY));
 }
 
 #[test]

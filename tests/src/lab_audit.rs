@@ -1,12 +1,11 @@
 //! The graders of labs are graded: starters must miss, references must pass on any salt, mutants must lose and be recognised.
 
-use std::path::PathBuf;
 use std::sync::Mutex;
 
-use kinemark_grader::audit::{Audit, Row};
+use kinemark_grader::audit::{Audit, Row, practice_forms};
 use kinemark_grader::lab::load::lab_names;
+use kinemark_grader::lab::practice::{PRACTICE_FILE, file_text};
 use kinemark_grader::lab::{Lab, Staff, TaskWork};
-use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 use kinemark_sim::text::Source;
@@ -16,32 +15,9 @@ use crate::golden;
 use crate::testbed::{Folder, grade, lab, root, staff};
 
 fn labs() -> Vec<Lab> {
-    if golden::is_blessing() {
-        stub_missing_paths();
-    }
     let names = lab_names(&Folder(root().join("labs")));
     assert!(!names.is_empty());
     names.iter().map(|name| lab(name)).collect()
-}
-
-/// A new lab cannot be loaded before it has the path that only its run can give: a path of one point lets it start.
-fn stub_missing_paths() {
-    for name in lab_names(&Folder(root().join("labs"))) {
-        let folder = root().join("labs").join(name);
-        let lab = std::fs::read_to_string(folder.join("lab.toml")).expect("lab.toml");
-        let path = folder.join("reference-path.json");
-        let lab: toml::Table = lab.parse().expect("TOML");
-        // only this check cannot be read without one
-        if path.exists() || !lab.to_string().contains("trajectory-match") {
-            continue;
-        }
-        let mut paths = serde_json::Map::new();
-        for task in lab["tasks"].as_array().expect("tasks") {
-            let stub = serde_json::json!({ "period_s": 0.02, "points_m": [[0.0, 0.0, 0.0]] });
-            paths.insert(task["name"].as_str().expect("name").to_owned(), stub);
-        }
-        std::fs::write(&path, serde_json::Value::Object(paths).to_string()).expect("written");
-    }
 }
 
 fn read(lab: &Lab, file: &str) -> String {
@@ -99,7 +75,6 @@ fn references_lose_no_point_whatever_the_salt() {
             ));
         }
     }
-    let paths = Mutex::new(Vec::new());
     every_case(&cases, |(lab, part, salt)| {
         let staff = staff(lab, Some(&format!("salt {salt}")));
         let solution = staff.solution.clone();
@@ -107,12 +82,7 @@ fn references_lose_no_point_whatever_the_salt() {
         let grade = &graded.grade;
         assert_eq!(grade.verdict, Verdict::Passed, "{}", text(grade));
         assert_eq!(grade.points, grade.max_points);
-        if *salt == 0 {
-            let mut paths = paths.lock().expect("not poisoned");
-            paths.extend(reference_path(part, &graded.runs));
-        }
     });
-    golden::are_current(&paths.into_inner().expect("not poisoned"));
 }
 
 #[test]
@@ -146,41 +116,21 @@ pub(crate) fn passes_variants(labs: &Folder, reference: &Folder, lab: &Lab, stud
     }
 }
 
-/// `reference-path.json` of a lab: the TCP paths of the reference solution; nothing where no task shows one.
-fn reference_path(lab: &Lab, runs: &[TaskRun]) -> Option<(PathBuf, String)> {
-    let mut paths = serde_json::Map::new();
-    // a task without goals has a path where its lab shows one
-    let has_path = |run: &&TaskRun| {
-        let mut paths = lab.reference_paths.paths.iter();
-        !run.goals.is_empty() || paths.any(|(task, _)| *task == run.task)
-    };
-    for run in runs.iter().filter(has_path) {
-        let stride = (0.02 / run.trace.step_s).round() as usize;
-        // a tenth of a micrometre is far below any band, and a short file
-        let points: Vec<[f64; 3]> = (0..run.trace.len())
-            .step_by(stride)
-            .map(|tick| {
-                run.trace
-                    .tcp_position(tick)
-                    .map(|x| (x * 1e7).round() / 1e7)
-                    .into()
-            })
-            .collect();
-        paths.insert(
-            run.task.clone(),
-            serde_json::json!({ "period_s": 0.02, "points_m": points }),
-        );
-    }
-    if paths.is_empty() {
-        assert_eq!(lab.reference_paths.text, "", "{} shows no path", lab.name);
-        return None;
-    }
-    let text = serde_json::to_string(&paths)
-        .expect("JSON")
-        .replace("],[", "],\n[")
-        + "\n";
-    let folder = root().join("labs").join(&lab.name);
-    Some((folder.join("reference-path.json"), text))
+#[test]
+fn practice_files_say_what_the_reference_solutions_reach() {
+    let labs = labs().into_iter().map(|lab| (lab.name.clone(), lab));
+    let files = Mutex::new(Vec::new());
+    every_case(&labs.collect::<Vec<_>>(), |lab| {
+        let staff = staff(lab, None);
+        let folder = Folder(root().join("labs"));
+        let forms = practice_forms(&folder, lab, &staff, &|| {}).expect("forms");
+        let text = file_text(&forms).expect("JSON");
+        if !text.is_empty() {
+            let path = folder.0.join(&lab.name).join(PRACTICE_FILE);
+            files.lock().expect("not poisoned").push((path, text));
+        }
+    });
+    golden::are_current(&files.into_inner().expect("not poisoned"));
 }
 
 /// What `kinemark lab check` tries, with other salts as well.
@@ -197,10 +147,7 @@ fn labs_have_no_problem_that_lab_check_finds() {
         for salt in ["another year", "a third"] {
             audit.mutants(&functions, &staff(lab, Some(salt)));
         }
-        let run = audit
-            .reference(lab, &own, "own hidden cases")
-            .expect("a run");
-        audit.reference_paths(lab, &run);
+        audit.reference(lab, &own, "own hidden cases");
         let problems: Vec<&Row> = audit.problems().collect();
         assert!(problems.is_empty(), "{problems:#?}");
     });

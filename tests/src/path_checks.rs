@@ -201,7 +201,7 @@ fn a_submission_that_fails_on_a_rung_loses_the_rung_only() {
     assert_eq!(sturdy["measure"]["value"], 0.8, "{sturdy}");
     let words = message(sturdy);
     assert!(
-        words.starts_with("in the run `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd), at 0 s: the submission was stopped:")
+        words.starts_with("in the run `noise` (noise of 0.0001 rad on q and 0.01 rad/s on qd): \"On the lines\" earns 0 % of its points; at 0 s: the submission was stopped:")
             && words.contains("shaking"),
         "{words}"
     );

@@ -1,4 +1,4 @@
-//! docs/robots.md and docs/robot-eval.md do what they say: their files are written, their commands run, their output is theirs.
+//! docs/robots.md, docs/robot-response.md and docs/robot-eval.md do what they say: their files are written, their commands run, their output is theirs.
 
 use std::io::Write as _;
 use std::process::Stdio;
@@ -43,7 +43,17 @@ fn shell(bed: &TestBed, line: &str) -> CommandResult {
 
 #[test]
 fn the_examples_of_the_robots_page_are_real() {
-    let path = root().join("docs/robots.md");
+    assert!(examples_are_real("docs/robots.md") >= 10);
+}
+
+#[test]
+fn the_examples_of_the_response_page_are_real() {
+    assert!(examples_are_real("docs/robot-response.md") >= 5);
+}
+
+/// Runs the examples of a page and compares what they print; returns how many there are.
+fn examples_are_real(page: &str) -> usize {
+    let path = root().join(page);
     let page = std::fs::read_to_string(&path).expect("page");
     let bed = TestBed::new();
     let mut fresh = String::new();
@@ -74,8 +84,8 @@ fn the_examples_of_the_robots_page_are_real() {
         fresh += &format!("console\n$ {line}\n{}\n", said.trim_end());
         examples += 1;
     }
-    assert!(examples >= 10, "{examples} examples");
     are_current(&[(path, fresh)]);
+    examples
 }
 
 #[test]

@@ -36,6 +36,19 @@ fn what_is_no_program_ends_a_grade_and_a_check_at_its_line() {
 #[test]
 fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
     let bed = TestBed::a_little_off();
+    // bands of numbers alone: others need the solution
+    for (from, to) in [
+        (
+            "full_s = \"= reference + 1.2\", zero_s = \"= reference + 3.2\"",
+            "full_s = 6.0, zero_s = 8.0",
+        ),
+        (
+            "full = \"= reference + 0.5\", zero = \"= reference + 1\"",
+            "full = 0.5, zero = 1.0",
+        ),
+    ] {
+        bed.edit("labs/01-kinematics/lab.toml", from, to);
+    }
     let before = bed.run(&GRADE);
     assert!(before.stdout.contains("first differs"), "{before:?}");
     assert_eq!(before.stderr, "", "{before:?}");
@@ -53,6 +66,23 @@ fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
         "`base_hieght`",
         &format!("{SOLUTION}:16:"),
         "╰── here",
+    ] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_solution_that_stops_where_a_band_needs_it_decides_nothing() {
+    let bed = TestBed::a_little_off();
+    bed.edit(SOLUTION, "robot.base_height;", "robot.base_hieght;");
+    let ran = bed.run(&GRADE);
+    assert_eq!(ran.code, Some(4), "{ran:?}");
+    let words = "the reference solution does not reach the end";
+    assert!(ran.stdout.contains(words), "{ran:?}");
+    for part in [
+        "nothing is decided in some task, because a file of the course staff failed",
+        "`base_hieght`",
+        &format!("{SOLUTION}:16:"),
     ] {
         assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
     }

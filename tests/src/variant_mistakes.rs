@@ -188,6 +188,14 @@ fn lab_check_looks_at_the_brief_and_names_the_student_whose_lab_is_none() {
             BRIEF.replace("<!-- grading: end -->", ""),
             "has no place for the table of points",
         ),
+        (
+            BRIEF.replace("# Touch\n", "# Touch\n\nWith $J$ and $\\frac{1}{2$.\n"),
+            "line 3: the formula `$\\frac{1}{2$` cannot be read: its braces or its dollar signs",
+        ),
+        (
+            BRIEF.replace("0.9<!-- = out -->", "$y = 0.9<!-- = out -->$"),
+            "line 3: the formula `$y = 0.9<!-- = out -->$` cannot be read: a mark or a comment",
+        ),
     ] {
         bed.write("labs/93-touch/brief.md", brief);
         let output = check("0");

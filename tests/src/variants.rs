@@ -202,9 +202,11 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
         .expect("out");
     let brief = std::fs::read_to_string(bed.path("mine/brief.md")).expect("brief");
     assert!(
-        brief.contains(&format!("Be at y = {out}<!-- = out --> m")),
+        brief.contains(&format!("Be at y = {out} m, with links of ")),
         "{brief}"
     );
+    // the marks are for whoever writes the lab
+    assert!(!brief.contains("<!-- ="), "{brief}");
     assert!(
         brief.contains("| touch | The tip is there | 3 |"),
         "{brief}"
@@ -438,7 +440,19 @@ fn links_of_students_are_not_followed() {
         assert!(!ran.stderr.contains("salt"), "{ran:?}");
         assert!(!bed.path("out").exists(), "{ran:?}");
     };
-    refused(&["grade", "93-touch", "alice/link.rhai"], "alice/link.rhai");
+    // a submission is graded as what it is, and nothing is read through the link
+    let ran = bed.run(&["grade", "93-touch", "alice/link.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(
+        ran.stdout.contains("`link.rhai` is a link to another file"),
+        "{ran:?}"
+    );
+    let record = std::fs::read_to_string(bed.path("out/grade.json")).expect("a record");
+    assert!(
+        record.contains("did-not-build") && !record.contains("salt"),
+        "{record}"
+    );
+    std::fs::remove_dir_all(bed.path("out")).expect("removed");
     bed.write("alice/mine.rhai", SOLUTION);
     let mine = ["grade", "93-touch", "alice/mine.rhai"];
     let beside = bed.path("alice/variant.toml");

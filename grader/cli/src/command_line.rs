@@ -9,9 +9,9 @@ use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
-    course_page, course_regrade, course_release, course_status, grade, lab_check, lab_draws,
-    lab_list, lab_pack, lab_variant, log_export, new, robot_convert, robot_eval, robot_show,
-    scene_check, submit, verify, view, watch,
+    course_page, course_regrade, course_release, course_status, grade, hint, lab_check, lab_draws,
+    lab_fill, lab_list, lab_pack, lab_variant, log_export, new, robot_convert, robot_eval,
+    robot_response, robot_show, scene_check, submit, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -46,12 +46,13 @@ fn version() -> &'static str {
 pub(crate) enum Command {
     New(new::Args),
     Grade(grade::Args),
+    Hint(hint::Args),
     Watch(watch::Args),
     View(view::Args),
     Compare(compare::Args),
     Submit(submit::Args),
     Verify(verify::Args),
-    /// Show, convert or query a robot: kinematics, dynamics, simulation
+    /// Show, convert or query a robot: kinematics, dynamics, simulation, step responses
     #[command(subcommand)]
     Robot(RobotCommand),
     /// Check a scene
@@ -80,6 +81,8 @@ pub(crate) enum RobotCommand {
     Show(robot_show::Args),
     Convert(robot_convert::Args),
     Eval(robot_eval::Args),
+    // much larger than the others
+    Response(Box<robot_response::Args>),
 }
 
 #[derive(Debug, Subcommand)]
@@ -96,6 +99,8 @@ pub(crate) enum LogCommand {
 pub(crate) enum LabCommand {
     Check(lab_check::Args),
     Draws(lab_draws::Args),
+    /// Fill
+    Fill(lab_fill::Args),
     Variant(lab_variant::Args),
     Pack(lab_pack::Args),
 }
@@ -121,6 +126,7 @@ impl CommandLine {
         match command {
             Command::New(args) => new::run(&args),
             Command::Grade(args) => grade::run(&args),
+            Command::Hint(args) => hint::run(&args),
             Command::Watch(args) => watch::run(&args),
             Command::View(args) => view::run(&args),
             Command::Compare(args) => compare::run(&args),
@@ -129,10 +135,12 @@ impl CommandLine {
             Command::Robot(RobotCommand::Show(args)) => robot_show::run(&args),
             Command::Robot(RobotCommand::Convert(args)) => robot_convert::run(&args),
             Command::Robot(RobotCommand::Eval(args)) => robot_eval::run(&args),
+            Command::Robot(RobotCommand::Response(args)) => robot_response::run(&args),
             Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
             Command::Log(LogCommand::Export(args)) => log_export::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
             Command::Lab(LabCommand::Draws(args)) => lab_draws::run(&args),
+            Command::Lab(LabCommand::Fill(args)) => lab_fill::run(&args),
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
             Command::Lab(LabCommand::Pack(args)) => lab_pack::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),

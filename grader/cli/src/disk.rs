@@ -193,17 +193,6 @@ pub(crate) fn read_bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, 
     })
 }
 
-/// Reads a submission of at most `most` bytes; its name is that of the file alone, for records are the same wherever it lies.
-pub(crate) fn read_submission(path: &Path, most: u64) -> Result<Source, Failure> {
-    refuse_toml(path)?;
-    let read = read(path, "a submission", most)?;
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    Ok(Source::new(
-        name.to_string_lossy().into_owned(),
-        read.text(),
-    ))
-}
-
 /// Reads the bytes of a submission of at most `most`, whether they are text or not.
 pub(crate) fn read_submission_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     refuse_toml(path)?;

@@ -1,6 +1,6 @@
 //! What a student should look at before they upload a hand-in: none of it stops them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use kinemark_course::student::StudentId;
 use kinemark_course::working_folder::STARTER_FILE;
@@ -8,16 +8,11 @@ use kinemark_grader::lab::{Lab, Variant};
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::task::files::Files;
-use kinemark_report::output::RECORD_FILE;
 use kinemark_report::visible::visible;
 
 use crate::handed_out_lab::{self, Warning};
-use crate::{disk, output};
-
-/// The folder to which `kinemark grade` writes unless it is given another.
-const REPORT_FOLDER: &str = "out";
-/// Records are far smaller.
-const MOST_RECORD_BYTES: u64 = 64 << 20;
+use crate::last_report::last_report;
+use crate::output;
 
 /// What is about to be handed in.
 pub(crate) struct BeforeUpload<'a> {
@@ -142,29 +137,6 @@ impl BeforeUpload<'_> {
             )
         })
     }
-}
-
-/// The last report of this lab, in the working folder or beside the submission.
-fn last_report(submission: &Path, lab: &str) -> Option<(PathBuf, Grade)> {
-    let folders = [
-        PathBuf::from(REPORT_FOLDER),
-        submission.with_file_name(REPORT_FOLDER),
-    ];
-    folders.into_iter().find_map(|folder| {
-        let grade = last_grade(&folder)?;
-        (grade.lab.name == lab).then_some((folder, grade))
-    })
-}
-
-/// The record of the report in a folder, if there is one that this version reads.
-fn last_grade(folder: &Path) -> Option<Grade> {
-    let bytes = disk::bytes_of(&folder.join(RECORD_FILE), MOST_RECORD_BYTES).ok()?;
-    serde_json::from_slice(&bytes).ok()
-}
-
-/// The lab of the last report in the working folder.
-pub(crate) fn last_lab() -> Option<String> {
-    Some(last_grade(Path::new(REPORT_FOLDER))?.lab.name)
 }
 
 /// Text without what an editor changes by itself: line ends, and spaces and lines at the end.

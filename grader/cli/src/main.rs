@@ -19,12 +19,16 @@ mod handed_out_lab;
 mod interrupt;
 mod lab_counts;
 mod labs_folder;
+mod last_report;
 mod listed_folder;
+mod named_submission;
 mod one_processor;
 mod operator;
 mod output;
 mod pool;
+mod practice_variants;
 mod report_folder;
+mod response_pictures;
 mod robot_source;
 mod saves;
 mod scene_source;
@@ -36,7 +40,9 @@ mod slurm_run;
 mod slurm_script;
 mod staff_folder;
 mod typed_numbers;
+mod unfolded_hints;
 mod worker;
+mod working_lab;
 
 /// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).
 #[global_allocator]

@@ -3,12 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
+use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Lab, Variant};
 use kinemark_grader::record::grade::{self, Grade};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::task::files::Files as _;
-use kinemark_grader::task::files::text;
 use kinemark_grader::task::problem::LoadError;
 use kinemark_report::output::{
     self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, Manifest, Material, OutFile, OutputError, Pixels,
@@ -33,7 +33,7 @@ pub(crate) const MOST_PAGE_BYTES: u64 = 512 << 20;
 pub(crate) fn write(
     out: &Path,
     lab: &Lab,
-    submission: &Source,
+    submission: &SubmissionSource,
     graded: &GradedRun,
     request: ReportRequest,
 ) -> Result<(), Failure> {
@@ -94,19 +94,19 @@ pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
 /// Every file of the folder but `report.json`: a function of lab, submission, graded run and request alone.
 pub(crate) fn files(
     lab: &Lab,
-    submission: &Source,
+    submission: &SubmissionSource,
     graded: &GradedRun,
     request: ReportRequest,
     pixels: Pixels,
 ) -> Result<Vec<OutFile>, Failure> {
-    let copies = lab.copies();
+    let copies = lab.graded_copies();
     let copies = copies.iter();
     let lab_files: Vec<(String, Vec<u8>)> = copies
         .map(|(path, bytes)| (path.to_owned(), bytes.to_owned()))
         .collect();
     let sources = Sources {
-        submission: submission.text(),
-        lab: lab.source.text(),
+        submission: &submission.bytes,
+        lab: &lab.graded_text,
         robot: lab.robot_file.source().text(),
         lab_files: &lab_files,
     };
@@ -125,7 +125,7 @@ fn fault(error: OutputError) -> Failure {
 /// A report read back.
 pub(crate) struct Report {
     pub(crate) grade: Grade,
-    pub(crate) submission: Source,
+    pub(crate) submission: SubmissionSource,
     pub(crate) labs: PathBuf,
     /// What was requested, and the digests of its files.
     pub(crate) manifest: Manifest,
@@ -154,7 +154,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     there(SUBMISSION_FILE)?;
     there(LAB_FOLDER)?;
     let path = folder.join(SUBMISSION_FILE);
-    let submission = disk::bytes_of(&path, MOST_BYTES).and_then(text);
+    let submission = disk::bytes_of(&path, MOST_BYTES);
     let submission = submission.map_err(|why| {
         Failure::broken(
             format!("`{}` cannot be read: {why}", path.display()),
@@ -163,7 +163,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     })?;
     Ok(Report {
         manifest,
-        submission: Source::new(grade.submission.name.as_str(), submission),
+        submission: SubmissionSource::new(&grade.submission.name, &submission),
         labs: folder.join(LAB_FOLDER),
         grade,
     })

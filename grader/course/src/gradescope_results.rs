@@ -216,6 +216,9 @@ fn evidence(check: &CheckGrade) -> String {
     if check.outcome == Outcome::NotJudged {
         lines.push("not judged: something before it failed".to_owned());
     }
+    if check.outcome == Outcome::AtHandIn {
+        lines.push("judged with the reference solution, when the grades are published".to_owned());
+    }
     let messages = check.evidence.iter().take(5);
     lines.extend(messages.map(|fact| visible(&fact.message).into_owned()));
     lines.extend(check.next_step.as_deref().map(next));

@@ -390,6 +390,7 @@ fn add_check(
         Outcome::Partial => "partial",
         Outcome::None => "none",
         Outcome::NotJudged => "not-judged",
+        Outcome::AtHandIn => "at-hand-in",
     };
     // evidence that names a class is about hidden cases or runs
     let classes: Vec<&str> = task

@@ -147,6 +147,7 @@ fn grade(tasks: Vec<TaskGrade>) -> Grade {
         digest: "d".to_owned(),
     };
     Grade {
+        points_at_hand_in: 0.0,
         format: FORMAT.to_owned(),
         engine: "kinemark 0.1.0".to_owned(),
         mode: GradeMode::Graded,
@@ -171,6 +172,7 @@ fn grade(tasks: Vec<TaskGrade>) -> Grade {
 pub(crate) fn task(name: &str, digest: &str, checks: Vec<CheckGrade>) -> TaskGrade {
     let is_full = checks.iter().all(|check| check.outcome == Outcome::Full);
     TaskGrade {
+        points_at_hand_in: 0.0,
         name: name.to_owned(),
         title: format!("Task {name}"),
         kind: TaskKind::Function,
@@ -221,10 +223,13 @@ pub(crate) fn check(name: &str, points: f64, max_points: f64, value: f64) -> Che
             unit: "m".to_owned(),
             full: 0.01,
             zero: 0.05,
+            reference: None,
+            prediction: None,
         }),
         first_lost: None,
         evidence: Vec::new(),
         next_step: None,
+        has_hints: false,
     }
 }
 

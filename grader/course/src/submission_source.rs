@@ -13,6 +13,8 @@ use kinemark_sim::text::Source;
 pub struct SubmissionSource {
     /// Its text, with the name of its file alone; bytes that are no text are U+FFFD.
     pub source: Source,
+    /// Its bytes as they are.
+    pub bytes: Vec<u8>,
     not_text: Option<NotText>,
 }
 
@@ -26,6 +28,7 @@ impl SubmissionSource {
         };
         Self {
             source: Source::new(file_name(file), text),
+            bytes: bytes.to_owned(),
             not_text,
         }
     }
@@ -33,6 +36,7 @@ impl SubmissionSource {
     /// A submission that is text.
     pub fn of_text(source: Source) -> Self {
         Self {
+            bytes: source.text().as_bytes().to_owned(),
             source,
             not_text: None,
         }

@@ -1,7 +1,7 @@
 //! What a student begins a lab with: the starter, the brief with their numbers, its pictures, and their variant.
 
 use kinemark_grader::lab::Lab;
-use kinemark_grader::lab::brief::{with_grading, with_numbers};
+use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::task::files::Files;
 use kinemark_report::brief_page::brief_page;
@@ -62,6 +62,7 @@ pub fn working_folder(
     let brief = required(files, lab, BRIEF_FILE)?;
     let brief = with_numbers(&with_grading(&brief, lab), lab)
         .map_err(|why| WorkingFolderError::Brief { why })?;
+    let brief = without_marks(&brief);
     let page = brief_page(&lab.title, &brief);
     let mut written = vec![
         (

@@ -1,9 +1,11 @@
-//! A lab's brief as a page: what `brief.md` says, for a browser, with its tables, its hints that unfold and its pictures.
+//! A lab's brief as a page: what `brief.md` says, for a browser, with its tables, its formulas, its folds and its pictures.
 //!
 //! The page loads the pictures that lie beside it and nothing else.
 
 use maud::{DOCTYPE, PreEscaped, html};
-use pulldown_cmark::{Options, Parser};
+use pulldown_cmark::Parser;
+
+use crate::formula::{MARKDOWN, drawn};
 
 /// What a browser may load for the page: its own styles, and pictures from its own folder.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' file: data:; base-uri 'none'; form-action 'none'";
@@ -13,7 +15,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src 'se
 /// A brief is its course's own text: HTML in it is kept.
 pub fn brief_page(title: &str, brief: &str) -> String {
     let mut text = String::new();
-    pulldown_cmark::html::push_html(&mut text, Parser::new_ext(brief, Options::ENABLE_TABLES));
+    pulldown_cmark::html::push_html(&mut text, Parser::new_ext(brief, MARKDOWN).map(drawn));
     // a wide table or a long line of a program scrolls by itself, the page does not
     let text = text
         .replace("<table>", "<div class=\"wide\"><table>")
@@ -44,7 +46,7 @@ mod tests {
     fn a_brief_keeps_its_tables_pictures_and_hints() {
         let page = brief_page(
             "Lab <1>",
-            "# Lab\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![the arm](frame.svg)\n\n<details>\n<summary>why</summary>\n\nso\n\n</details>\n\n```\nfn f() {}\n```\n",
+            "# Lab\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![the arm](frame.svg)\n\n<details>\n<summary>why</summary>\n\nso\n\n</details>\n\n```\nfn f() {}\n```\n\nWith $q^2$.\n",
         );
         for part in [
             "<title>Lab &lt;1&gt;</title>",
@@ -55,9 +57,12 @@ mod tests {
             "<summary>why</summary>",
             "<p>so</p>",
             "<pre><code>fn f() {}",
+            "<p>With <math><msup><mi>q</mi><mn>2</mn></msup></math>.</p>",
         ] {
             assert!(page.contains(part), "{part}\n{page}");
         }
-        assert!(!page.contains("<script"));
+        for absent in ["<script", "http://", "https://", "@font-face"] {
+            assert!(!page.contains(absent), "{absent}");
+        }
     }
 }

@@ -82,7 +82,7 @@ fn row(name: &str, width: usize, pair: &Pair, outcomes: [Outcome; 2]) -> String 
 /// Points earned; a dash where nothing was judged.
 fn mark(earned: f64, outcome: Outcome) -> String {
     match outcome {
-        Outcome::NotJudged => "\u{2013}".to_owned(),
+        Outcome::NotJudged | Outcome::AtHandIn => "\u{2013}".to_owned(),
         Outcome::Full | Outcome::Partial | Outcome::None => points(earned),
     }
 }

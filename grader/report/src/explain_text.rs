@@ -49,8 +49,24 @@ pub fn text(explanation: &Explanation) -> String {
         let record = grade.tasks.iter().find(|record| record.name == task.name);
         push_task(&mut lines, task, record, whole_file.is_some());
     }
+    push_hints(&mut lines, explanation);
     let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
     lines.join("\n") + "\n"
+}
+
+/// All hints of the checks that lost points, which the student's report does not have.
+fn push_hints(lines: &mut Vec<String>, explanation: &Explanation) {
+    let losses = explanation.hints.of_losses(&explanation.graded.grade);
+    if losses.is_empty() {
+        return;
+    }
+    lines.push(String::new());
+    lines.push("Hints of the checks that lost points".bold().to_string());
+    for check in losses {
+        lines.push(format!("  {}  {}", check.name(), visible(&check.title)));
+        let numbered = check.hints.iter().zip(1..);
+        lines.extend(numbered.map(|(hint, number)| format!("    {number}. {}", visible(hint))));
+    }
 }
 
 fn push_task(

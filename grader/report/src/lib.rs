@@ -11,6 +11,7 @@
 pub mod brief_page;
 pub mod compare_text;
 pub mod explain_text;
+pub mod formula;
 pub(crate) mod goal;
 pub mod html;
 mod initial_contact;
@@ -24,6 +25,7 @@ pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod replay;
+pub mod response_page;
 mod shown_unit;
 mod solid;
 mod stop_words;

@@ -14,6 +14,21 @@ pub(super) struct Measured {
     pub(super) zero: String,
     /// How far the value is from where all points are earned, without a sign, if it is not right there.
     pub(super) margin: Option<String>,
+    /// What the reference solution and the linear loop reach, where that is known.
+    pub(super) beside: Option<String>,
+}
+
+/// The values of the reference solution and of the linear loop, in words.
+fn beside(measure: &Measure) -> Option<String> {
+    let named = [
+        ("reference", measure.reference),
+        ("linear prediction", measure.prediction),
+    ];
+    let values = named
+        .into_iter()
+        .filter_map(|(name, value)| Some(format!("{name} {}", with_unit(value?, &measure.unit))));
+    let values: Vec<String> = values.collect();
+    (!values.is_empty()).then(|| values.join(", "))
 }
 
 impl Measured {
@@ -30,6 +45,7 @@ impl Measured {
             full: with_unit(measure.full, unit),
             zero: with_unit(measure.zero, unit),
             margin: margin.map(|margin| with_unit(margin.abs(), unit)),
+            beside: beside(measure),
         }
     }
 }

@@ -61,21 +61,24 @@ pub fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
     grade.tasks.iter().find_map(first_loss_of)
 }
 
-/// Where a task lost its first points: the earliest moment given for all its checks that lost some, or for what stopped it; of equal ones
-/// the stop, then the costliest check. Where no moment is given, the stop, or the first check that lost points.
+/// Where a task lost its first points: what stopped it, whatever its run lost besides; else the earliest moment given for all its checks
+/// that lost some, of equal ones the costliest. Where no moment is given, the first check that lost points.
 pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
-    let stop = task.stopped.as_ref().map(|stopped| FirstLoss {
-        task,
-        check: None,
-        at: last_before(stopped),
-    });
+    if let Some(stopped) = &task.stopped {
+        return Some(FirstLoss {
+            task,
+            check: None,
+            at: last_before(stopped),
+        });
+    }
     let lost = task.checks.iter().filter(|check| has_lost(check));
-    let mut all: Vec<FirstLoss<'_>> = stop.into_iter().collect();
-    all.extend(lost.map(|check| FirstLoss {
-        task,
-        check: Some(check),
-        at: check.first_lost,
-    }));
+    let all: Vec<FirstLoss<'_>> = lost
+        .map(|check| FirstLoss {
+            task,
+            check: Some(check),
+            at: check.first_lost,
+        })
+        .collect();
     let cost = |loss: &FirstLoss<'_>| loss.check.map_or(f64::INFINITY, lost_points);
     let timed = all.iter().filter_map(|loss| Some((loss.at?.tick, loss)));
     let earliest = timed
@@ -145,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_loss_is_the_earliest_of_all_checks_that_lost() {
+    fn the_first_loss_is_the_stop_or_the_earliest_of_all_checks_that_lost() {
         let mut task = motion();
         let first = |task: &TaskGrade| {
             let loss = first_loss_of(task).expect("a loss");
@@ -166,8 +169,9 @@ mod tests {
         // the run ends with the tick before the call that failed
         task.stopped = Some(stop(Some(501)));
         assert_eq!(first(&task), ("#task=move&t=0.5".to_owned(), None));
+        // what stopped it comes before what its run lost, whenever that was
         task.stopped = Some(stop(Some(3000)));
-        assert_eq!(first(&task), expected);
+        assert_eq!(first(&task), ("#task=move&t=2.999".to_owned(), None));
     }
 
     #[test]

@@ -56,6 +56,19 @@ pub(crate) const GREEN: Colour = colour((0, 126, 92), (56, 200, 156));
 pub(crate) const PURPLE: Colour = colour((158, 74, 128), (230, 156, 200));
 /// The reference as a dashed line.
 pub(crate) const PURPLE_DASHED: Colour = dashed(PURPLE, "60 70");
+/// What a linear loop would do, on the line of a run that may be the same.
+pub(crate) const AMBER_DASHED: Colour = dashed(AMBER, "130 70");
+/// Several series, in the order in which they are drawn.
+pub(crate) const SERIES: [Colour; 6] = [BLUE, VERMILLION, GREEN, PURPLE, AMBER, INK];
+/// The same as dashed lines, for the prediction of each.
+pub(crate) const SERIES_DASHED: [Colour; 6] = [
+    dashed(BLUE, "60 70"),
+    dashed(VERMILLION, "60 70"),
+    dashed(GREEN, "60 70"),
+    PURPLE_DASHED,
+    dashed(AMBER, "60 70"),
+    dashed(INK, "60 70"),
+];
 /// A limit that earns all points.
 pub(crate) const GREEN_DASHED: Colour = dashed(GREEN, "60 35");
 /// A limit that earns none, or that must not be passed.

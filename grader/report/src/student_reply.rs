@@ -9,6 +9,7 @@ use super::text::hidden_word;
 use super::visible::visible;
 use kinemark_grader::record::explanation::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{Stopped, TaskGrade, TaskKind};
+use kinemark_grader::record::hints::Hints;
 use kinemark_grader::record::quantity::points;
 
 /// The paragraph.
@@ -25,7 +26,7 @@ pub fn paragraph(explanation: &Explanation) -> String {
         sentences.extend(nothing_ran(stopped));
         return sentences.join(" ");
     }
-    let mut said = Said::default();
+    let mut said = Said::new(&explanation.hints);
     for task in &explanation.tasks {
         if let Some(record) = grade.tasks.iter().find(|record| record.name == task.name) {
             said.task(task, record);
@@ -57,8 +58,8 @@ pub fn paragraph(explanation: &Explanation) -> String {
 }
 
 /// What is to be said of the tasks.
-#[derive(Default)]
-struct Said {
+struct Said<'h> {
+    hints: &'h Hints,
     /// What stopped the submission, where students see it too.
     stops: Vec<String>,
     /// What happens in hidden cases and runs.
@@ -105,7 +106,16 @@ fn next_steps(steps: Vec<(String, String)>) -> Vec<String> {
     once.into_iter().map(sentence).collect()
 }
 
-impl Said {
+impl<'h> Said<'h> {
+    fn new(hints: &'h Hints) -> Self {
+        Self {
+            hints,
+            stops: Vec::new(),
+            losses: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+
     /// Adds what a task lost by a stop and in its hidden cases or runs, and the next step.
     fn task(&mut self, task: &ExplainedTask, record: &TaskGrade) {
         let title = visible(&task.title);
@@ -124,7 +134,7 @@ impl Said {
             ));
         }
         if (self.stops.len(), self.losses.len()) != (stops, steps) {
-            let step = next_step(record, &checks);
+            let step = next_step(record, &checks, self.hints);
             let place = format!("\"{title}\"");
             self.steps.extend(step.map(|step| (step, place)));
         }
@@ -243,8 +253,9 @@ fn loses(titles: &[String]) -> &'static str {
     }
 }
 
-/// The next step that the student's report gives for one of the checks called `lost`, or the mistake that it names.
-fn next_step(record: &TaskGrade, lost: &[&str]) -> Option<String> {
+/// The next step that the student's report gives for one of the checks called `lost`, with all hints behind it, or the mistake that it
+/// names.
+fn next_step(record: &TaskGrade, lost: &[&str], hints: &Hints) -> Option<String> {
     if let Some(diagnosis) = record.diagnoses.first() {
         return Some(visible(&diagnosis.says).into_owned());
     }
@@ -253,9 +264,16 @@ fn next_step(record: &TaskGrade, lost: &[&str]) -> Option<String> {
     let mut checks = record.checks.iter();
     let step = checks.find_map(|check| {
         let is_lost = lost.contains(&check.name.as_str());
-        check.next_step.as_ref().filter(|_| is_lost)
+        let next = check.next_step.as_ref().filter(|_| is_lost)?;
+        let steps = hints.behind_next_step(&record.name, check);
+        let all: Vec<&str> = [next]
+            .into_iter()
+            .chain(steps)
+            .map(String::as_str)
+            .collect();
+        Some(all.join(" "))
     });
-    Some(visible(help.or(step)?).into_owned())
+    Some(visible(&help.cloned().or(step)?).into_owned())
 }
 
 /// `a`, `a and b`, `a, b and c`.

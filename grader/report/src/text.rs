@@ -14,7 +14,8 @@ use super::visible::visible;
 use kinemark_grader::record::grade::{
     CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
 };
-use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::hints;
+use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::record::verdict::Verdict;
 
 /// Renders `grade`.
@@ -56,16 +57,24 @@ pub fn text(grade: &Grade) -> String {
         points(grade.points),
         points(grade.max_points)
     );
+    let later = points_at_hand_in(grade).map_or_else(String::new, |later| format!("; {later}"));
+    let total = format!("{}{later}", total.bold());
     let undecided = grade.tasks.iter().any(|task| !task.verdict.is_decided());
     if undecided {
         line(
             &mut out,
-            &format!("{}, but not all is decided: grade it again", total.bold()),
+            &format!("{total}, but not all is decided: grade it again"),
         );
     } else {
-        line(&mut out, &total.bold().to_string());
+        line(&mut out, &total);
     }
     out
+}
+
+/// The points that practice leaves open, in words, if there are any.
+pub(crate) fn points_at_hand_in(grade: &Grade) -> Option<String> {
+    (grade.points_at_hand_in > 0.0)
+        .then(|| format!("{} more when you hand in", points(grade.points_at_hand_in)))
 }
 
 fn line(out: &mut String, text: &str) {
@@ -204,9 +213,20 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
             );
         }
     }
+    if let Some(kept) = stopped.kept {
+        line(out, &format!("  {}", kept_words(kept)));
+    }
     if let Some(help) = &stopped.help {
         line(out, &format!("  {} {}", "next:".cyan(), visible(help)));
     }
+}
+
+/// What is kept of a run in which the submission failed.
+pub(crate) fn kept_words(kept: f64) -> String {
+    format!(
+        "The run went on with the last command; {} of what it earns count.",
+        with_unit(kept, "")
+    )
 }
 
 fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
@@ -215,8 +235,12 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
         Outcome::Partial => ("~".yellow().to_string(), ""),
         Outcome::None => ("-".red().to_string(), ""),
         Outcome::NotJudged => (".".dimmed().to_string(), "  not judged"),
+        Outcome::AtHandIn => (".".dimmed().to_string(), "  judged when you hand in"),
     };
-    let earned = format!("{}/{}", points(check.points), points(check.max_points));
+    let earned = match check.outcome {
+        Outcome::AtHandIn => format!("({})", points(check.max_points)),
+        _ => format!("{}/{}", points(check.points), points(check.max_points)),
+    };
     line(
         out,
         &format!("  {mark} {earned:>9}  {}{word}", visible(&check.title)),
@@ -245,7 +269,14 @@ fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
         );
     }
     if let Some(next) = &check.next_step {
-        line(out, &format!("               {} {next}", "next:".cyan()));
+        let more = match check.has_hints {
+            true => format!("  (kinemark hint {})", hints::name(task, &check.name)),
+            false => String::new(),
+        };
+        line(
+            out,
+            &format!("               {} {next}{}", "next:".cyan(), more.dimmed()),
+        );
     }
 }
 
@@ -277,6 +308,9 @@ pub fn band(measure: &Measure, outcome: Outcome) -> String {
     {
         let _ = write!(text, "; margin {margin}");
     }
+    if let Some(beside) = measured.beside {
+        let _ = write!(text, "; {beside}");
+    }
     text
 }
 
@@ -307,6 +341,8 @@ mod tests {
             unit: "s".to_owned(),
             full: 2.0,
             zero: 4.0,
+            reference: None,
+            prediction: None,
         };
         let has_margin = |value, outcome| band(&measure(value), outcome).contains("; margin");
         assert!(has_margin(1.0, Outcome::Full) && has_margin(1.0, Outcome::Partial));

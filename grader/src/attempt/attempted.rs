@@ -8,7 +8,7 @@ pub struct Attempt<T> {
     /// What was recorded, up to the end.
     pub recorded: T,
     /// How it ended early, if it did: what stopped a run, or the first failure among the answers to cases, after which the other cases
-    /// were still called.
+    /// were still called. A run in which one call of `control` failed goes on, so its record may be whole all the same.
     pub ended: Option<Ended>,
     /// Operations used; in a function task those of visible cases.
     pub operations: u64,

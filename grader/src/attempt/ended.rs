@@ -62,6 +62,17 @@ pub enum Disclosure<'a> {
     },
 }
 
+impl EndReason {
+    /// Whether one call failed, so that a run can go on with the last command.
+    pub fn is_of_one_call(&self) -> bool {
+        match self {
+            Self::Stopped(stop) => is_of_one_call(stop),
+            Self::InvalidOutput(_) => true,
+            Self::Diverged { .. } => false,
+        }
+    }
+}
+
 impl Ended {
     /// The submission was stopped at `at`.
     pub fn stopped_by(stop: Stop, at: u64) -> Self {

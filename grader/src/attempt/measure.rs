@@ -5,6 +5,7 @@ use kinemark_sim::text::Dimension;
 use nalgebra::Vector3;
 
 use super::answers::{Answered, CaseError, CaseFacts};
+use super::branches::{beyond_limit, distinct_branches};
 use crate::submission::answer;
 use crate::task::jacobian;
 use crate::task::model::{Case, Function, Given, Rows};
@@ -131,7 +132,10 @@ impl Reading<'_> {
             Answered::Branches(found) => found
                 .iter()
                 .map(|q| {
-                    let reached = self.tcp_at(q);
+                    // where a joint cannot be, the arm does not get
+                    let reached = self
+                        .tcp_at(q)
+                        .filter(|_| beyond_limit(self.robot, q).is_none());
                     reached.map_or(f64::INFINITY, |p| (p - target).norm())
                 })
                 .collect(),
@@ -146,20 +150,6 @@ impl Reading<'_> {
                 expected,
             },
         )
-    }
-}
-
-/// Longer lists are not accepted as a list of branches.
-const MOST_LISTED: usize = 64;
-
-/// Branches, of which at most `most` may differ by more than full turns, so that an answer cannot try every combination of signs.
-fn distinct_branches(value: &Value, robot: &Robot, most: usize) -> Result<Vec<Vec<f64>>, String> {
-    let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
-    match count_distinct(robot, &branches) {
-        distinct if distinct > most => Err(format!(
-            "{distinct} different branches where at most {most} exist: return the right ones only"
-        )),
-        _ => Ok(branches),
     }
 }
 
@@ -182,39 +172,6 @@ pub fn relative_error(answer: &[f64], expected: &[f64]) -> f64 {
         size if size > 0.0 => off / size,
         _ => off,
     }
-}
-
-/// The number of branches that differ by more than full turns and rounding.
-pub fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
-    let mut distinct: Vec<&Vec<f64>> = Vec::new();
-    for branch in branches {
-        if !distinct
-            .iter()
-            .any(|other| same_branch(robot, branch, other))
-        {
-            distinct.push(branch);
-        }
-    }
-    distinct.len()
-}
-
-/// Whether two answers are the same configuration: angles equal up to full turns to 0.02 rad, positions of prismatic joints equal to
-/// 0.001 m.
-pub fn same_branch(robot: &Robot, a: &[f64], b: &[f64]) -> bool {
-    // answers that move the TCP by less than a band are the same branch; two branches inside the workspace differ by far more
-    let (near_rad, near_m) = (0.02, 1e-3);
-    robot
-        .moving_joints()
-        .zip(a.iter().zip(b))
-        .all(|(joint, (a, b))| {
-            let circle = 2.0 * std::f64::consts::PI;
-            if joint.kind.turns() {
-                let gap = (a - b).abs() % circle;
-                gap.min(circle - gap) <= near_rad
-            } else {
-                (a - b).abs() <= near_m
-            }
-        })
 }
 
 #[cfg(test)]

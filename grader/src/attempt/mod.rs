@@ -4,6 +4,7 @@
 
 pub mod answers;
 mod attempted;
+pub mod branches;
 pub mod diverged;
 pub mod ended;
 pub mod function;

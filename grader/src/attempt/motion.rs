@@ -1,5 +1,9 @@
 //! Runs a motion task: the simulator under the submission's `control`.
+//!
+//! If a call of `control` fails, the run goes on to its end under the last command, and the submission is not called again: what it did
+//! before is still there to be judged. Before the first command the arm is at rest.
 
+use kinemark_sim::control::Mode;
 use kinemark_sim::diagnosis::likely_cause;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::sensor::{Measured, Sensor};
@@ -97,6 +101,10 @@ pub struct Session<'a> {
     controller: Box<dyn Controller>,
     recorder: TraceRecorder<'a>,
     output: Output,
+    /// The last command, or rest.
+    held: Vec<f64>,
+    /// The call of `control` that failed, after which the last command is held.
+    cut: Option<Ended>,
     ended: Option<Result<(), Ended>>,
 }
 
@@ -153,6 +161,8 @@ impl<'a> Session<'a> {
                 controller,
                 recorder,
                 output,
+                held: rest(motion),
+                cut: None,
                 ended: None,
             }),
             Err(stop) => Err(Box::new(attempt(
@@ -173,9 +183,10 @@ impl<'a> Session<'a> {
         self.ended.is_some()
     }
 
-    /// How it ended, if it ended early.
+    /// How it ended early, or which call failed, if one did.
     pub fn ended(&self) -> Option<&Ended> {
-        self.ended.as_ref()?.as_ref().err()
+        let ended = self.ended.as_ref().and_then(|ended| ended.as_ref().err());
+        self.cut.as_ref().or(ended)
     }
 
     /// The signals recorded so far.
@@ -187,6 +198,10 @@ impl<'a> Session<'a> {
     pub fn advance_to(&mut self, tick: u64) {
         while self.ended.is_none() && self.run.tick() < tick {
             let mut control = |seen: &run::Observation<'_>, command: &mut [f64]| {
+                if self.cut.is_some() {
+                    command.copy_from_slice(&self.held);
+                    return Ok(());
+                }
                 let call = Call::Control(Observation {
                     tick: seen.tick,
                     time_s: seen.time_s,
@@ -197,11 +212,22 @@ impl<'a> Session<'a> {
                     tcp_m: seen.tcp.translation.vector.into(),
                     sensors: seen.sensors.to_vec(),
                 });
-                let value = ask(self.controller.as_mut(), &call, seen.tick, &mut self.output)
-                    .map_err(EndReason::Stopped)?;
-                let numbers = answer::command(&value, command.len())
-                    .map_err(|what| EndReason::InvalidOutput(format!("control returned {what}")))?;
-                command.copy_from_slice(&numbers);
+                let controller = self.controller.as_mut();
+                match command_of(
+                    controller,
+                    &call,
+                    seen.tick,
+                    &mut self.output,
+                    command.len(),
+                ) {
+                    Ok(numbers) => self.held.copy_from_slice(&numbers),
+                    Err(why) if why.is_of_one_call() => {
+                        let at = seen.tick;
+                        self.cut = Some(Ended { at, why });
+                    }
+                    Err(why) => return Err(why),
+                }
+                command.copy_from_slice(&self.held);
                 Ok(())
             };
             self.ended = match self.run.advance(&mut control, &mut self.recorder) {
@@ -222,7 +248,7 @@ impl<'a> Session<'a> {
 
     /// Ends the session and returns its attempt.
     pub fn finish(self) -> Attempt<Trace> {
-        let ended = self.ended.and_then(Result::err);
+        let ended = self.cut.or(self.ended.and_then(Result::err));
         let mut attempt = attempt(self.recorder, self.output, ended);
         if let Some(Ended {
             why: EndReason::Diverged { what, cause },
@@ -233,6 +259,27 @@ impl<'a> Session<'a> {
         }
         attempt
     }
+}
+
+/// The command of an arm at rest.
+fn rest(motion: &MotionTask) -> Vec<f64> {
+    match motion.servo.mode {
+        Mode::Position => motion.start_q.clone(),
+        Mode::Velocity | Mode::Effort => vec![0.0; motion.start_q.len()],
+    }
+}
+
+/// The command that a call of `control` returns: `count` finite numbers.
+fn command_of(
+    controller: &mut dyn Controller,
+    call: &Call,
+    tick: u64,
+    output: &mut Output,
+    count: usize,
+) -> Result<Vec<f64>, EndReason> {
+    let value = ask(controller, call, tick, output).map_err(EndReason::Stopped)?;
+    answer::command(&value, count)
+        .map_err(|what| EndReason::InvalidOutput(format!("control returned {what}")))
 }
 
 fn attempt(recorder: TraceRecorder<'_>, output: Output, ended: Option<Ended>) -> Attempt<Trace> {

@@ -5,11 +5,11 @@
 //! and the name of that form.
 
 mod hidden_losses;
+mod practice_file;
 mod staff_code;
 mod variants;
 
 use kinemark_sim::text::Source;
-use kinemark_sim::text::number::{metres, seconds};
 use serde::Serialize;
 
 use self::hidden_losses::{hidden_losses, lines_of};
@@ -19,14 +19,15 @@ use crate::lab::TaskWork;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::staff::{Mutant, Staff};
 use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped, TaskGrade};
-use crate::record::graded::{GradedRun, TcpPath};
+use crate::record::graded::GradedRun;
 use crate::record::quantity::points;
 use crate::record::verdict::Verdict;
 use crate::submission::host::InProcess;
 
 pub use self::hidden_losses::LostDraw;
+pub use self::practice_file::{PracticeError, practice_forms};
 pub use self::staff_code::staff_code;
-pub use self::variants::{VariantMargin, Variants};
+pub use self::variants::{RelativeBand, VariantMargin, Variants};
 
 /// The share of a lab's points that a starter may earn, for a warm-up task that it solves.
 pub const MOST_STARTER_SHARE: f64 = 0.1;
@@ -34,8 +35,6 @@ pub const MOST_STARTER_SHARE: f64 = 0.1;
 pub const LEAST_MUTANTS: usize = 6;
 /// The share of a function task's cases in which a mutant must give a wrong answer.
 pub const LEAST_SHARE: f64 = 0.3;
-/// How far `reference-path.json` may be from the reference solution's path: its numbers are rounded to a tenth of a micrometre \[m\].
-const SAME_PATH_M: f64 = 1e-6;
 
 /// The parts of a lab that were tried, and their problems.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -60,8 +59,8 @@ pub enum Tried {
     Starter,
     /// The reference solution.
     Reference,
-    /// The file with the reference solution's path, which students see.
-    ReferencePath,
+    /// The file with what students get of the reference solution.
+    Practice,
     /// The number of mutants.
     Mutants,
     /// A mutant in one task.
@@ -75,7 +74,7 @@ impl Tried {
             Self::Brief => "brief",
             Self::Starter => "starter",
             Self::Reference => "reference",
-            Self::ReferencePath => "reference-path",
+            Self::Practice => "practice",
             Self::Mutants => "mutants",
             Self::Mutant => "mutant",
         }
@@ -162,8 +161,9 @@ impl Audit {
         });
     }
 
-    /// Checks the brief: it exists, its numbers can be computed for every variant, and it marks the position of the table of points.
-    pub fn brief(&mut self, lab: &Lab, brief: Option<&str>) {
+    /// Checks the brief: it exists, its numbers can be computed for every variant, its formulas can be drawn (`formula` is what is wrong
+    /// with one, in words), and it marks the position of the table of points.
+    pub fn brief(&mut self, lab: &Lab, brief: Option<&str>, formula: Option<&str>) {
         let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
             None => Some((
                 "there is no brief.md".to_owned(),
@@ -172,6 +172,10 @@ impl Audit {
             Some((_, Err(why))) => Some((
                 format!("brief.md: {why}"),
                 "a mark is `<!-- = expression -->`, right after the number that it computes",
+            )),
+            Some((_, Ok(_))) if let Some(why) = formula => Some((
+                format!("brief.md: {why}"),
+                "a formula is LaTeX between `$` and `$`, or `$$` and `$$`; a dollar sign is `\\$`",
             )),
             Some((brief, Ok(_))) if !has_place_for_grading(brief) => Some((
                 format!(
@@ -236,19 +240,6 @@ impl Audit {
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Reference, form), None, earned, problem);
         Some(run)
-    }
-
-    /// Compares `reference-path.json` with the reference solution's run in the default variant.
-    pub fn reference_paths(&mut self, lab: &Lab, reference: &GradedRun) {
-        for (task, path) in &lab.reference_paths.paths {
-            let run = reference.runs.iter().find(|run| run.task == *task);
-            let problem = match run {
-                None => Some("there is no such motion task".to_owned()),
-                Some(run) => path_problem(path, &run.trace),
-            };
-            let problem = problem.map(|what| (what, "write the reference solution's path anew"));
-            self.add((Tried::ReferencePath, ""), Some(task), None, problem);
-        }
     }
 
     /// Tries every mutant in each of its tasks: it must lose points, show in enough cases, and be named.
@@ -432,32 +423,6 @@ fn loss_of(task: &TaskGrade) -> String {
             None => check.title.clone(),
         }
     })
-}
-
-fn path_problem(path: &TcpPath, trace: &kinemark_sim::trace::Trace) -> Option<String> {
-    let mut last_tick = 0;
-    for (i, place) in path.points_m.iter().enumerate() {
-        let time_s = i as f64 * path.period_s;
-        let tick = (time_s / trace.step_s).round() as usize;
-        if tick >= trace.len() {
-            return Some(format!(
-                "reference-path.json continues after the end of the run, from {}",
-                seconds(time_s)
-            ));
-        }
-        last_tick = tick;
-        let apart = (trace.tcp_position(tick) - nalgebra::Vector3::from(*place)).norm();
-        if apart > SAME_PATH_M {
-            return Some(format!(
-                "reference-path.json is {} from the path of the reference solution at {}",
-                metres(apart),
-                seconds(time_s)
-            ));
-        }
-    }
-    let rest_s = trace.len().saturating_sub(last_tick + 1) as f64 * trace.step_s;
-    (rest_s >= path.period_s)
-        .then(|| "reference-path.json ends before the reference solution does".to_owned())
 }
 
 /// Whether a lab has tasks whose hidden cases depend on the salt.

@@ -41,6 +41,45 @@ pub struct VariantMargin {
     pub least: f64,
     /// The greatest such margin.
     pub greatest: f64,
+    /// The band where it depends on the reference, as numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<RelativeBand>,
+}
+
+/// A band that depends on what the reference solution reaches, over the variants that were tried; each range is least and greatest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RelativeBand {
+    /// What the reference solution reaches.
+    pub reference: [f64; 2],
+    /// What earns all points.
+    pub full: [f64; 2],
+    /// What earns none.
+    pub zero: [f64; 2],
+    /// The unit of all of them; empty for a ratio.
+    pub unit: String,
+}
+
+impl RelativeBand {
+    /// Of one variant.
+    fn of(measure: &Measure) -> Option<Self> {
+        Some(Self {
+            reference: [measure.reference?; 2],
+            full: [measure.full; 2],
+            zero: [measure.zero; 2],
+            unit: measure.unit.clone(),
+        })
+    }
+
+    fn widen(&mut self, other: &Self) {
+        let pairs = [
+            (&mut self.reference, other.reference),
+            (&mut self.full, other.full),
+            (&mut self.zero, other.zero),
+        ];
+        for ([low, high], [other_low, other_high]) in pairs {
+            (*low, *high) = (low.min(other_low), high.max(other_high));
+        }
+    }
 }
 
 /// The margin of a measure; `None` if it has no value or its band has no width.
@@ -119,6 +158,7 @@ impl Variants {
                         check: check.name.clone(),
                         least: margin,
                         greatest: margin,
+                        relative: check.measure.as_ref().and_then(RelativeBand::of),
                     });
                 }
             }
@@ -133,6 +173,10 @@ impl Variants {
             Some(known) => {
                 known.least = known.least.min(margin.least);
                 known.greatest = known.greatest.max(margin.greatest);
+                match (&mut known.relative, &margin.relative) {
+                    (Some(known), Some(other)) => known.widen(other),
+                    (known, other) => *known = known.take().or_else(|| other.clone()),
+                }
             }
             None => self.rooms.push(margin),
         }
@@ -177,6 +221,8 @@ mod tests {
             unit: String::new(),
             full,
             zero,
+            reference: None,
+            prediction: None,
         }
     }
 
@@ -195,6 +241,13 @@ mod tests {
             check: "speed".to_owned(),
             least,
             greatest,
+            relative: Some(
+                RelativeBand::of(&Measure {
+                    reference: Some(least),
+                    ..measure(0.0, 2.0 * least, 3.0 * greatest)
+                })
+                .expect("a reference"),
+            ),
         };
         let some = |student: &str, rooms| Variants {
             students: 2,
@@ -209,6 +262,12 @@ mod tests {
         let mut all = some("s4", vec![margin(0.2, 0.3)]);
         all.join(some("s1", vec![margin(0.1, 0.25)]));
         assert_eq!(all.students, 4);
-        assert_eq!(all.rooms, [margin(0.1, 0.3)]);
+        let [room] = &all.rooms[..] else {
+            panic!("one check")
+        };
+        assert_eq!([room.least, room.greatest], [0.1, 0.3]);
+        let band = room.relative.as_ref().unwrap();
+        assert_eq!(band.reference, [0.1, 0.2]);
+        assert_eq!((band.full, band.zero), ([0.2, 0.4], [0.75, 3.0 * 0.3]));
     }
 }

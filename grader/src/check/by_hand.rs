@@ -118,6 +118,8 @@ fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> F
             zero: 1.0,
         },
         reference: None,
+        solution: None,
+        reached: &[],
         sweeps: Vec::new(),
     };
     judge_motion(&checks[0], &facts)

@@ -23,8 +23,9 @@ pub struct Criterion {
     pub points: f64,
     /// Earlier checks of the task that must earn something before this one counts, by index.
     pub needs: Vec<usize>,
-    /// The next step to suggest where points are lost, in place of the kind's own.
-    pub hint: Option<String>,
+    /// A question, which is the next step where points are lost in place of the kind's own, and the steps that `kinemark hint` unfolds
+    /// behind it; empty where the lab has none.
+    pub hints: Vec<String>,
     /// What earns all points and what earns none, in words.
     pub bounds: [String; 2],
 }
@@ -55,6 +56,17 @@ impl<K: ?Sized> Deref for Check<K> {
     }
 }
 
+/// What a check needs of the reference solution, run in the same variant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FromReference {
+    /// Nothing: its band is made of numbers.
+    Nothing,
+    /// The value that its measure reaches there.
+    Value,
+    /// The whole run.
+    Run,
+}
+
 /// A kind of check that judges the run of a motion task.
 pub trait MotionCheck: Debug + Send + Sync {
     /// What earns all points and what earns none, for the table of a brief.
@@ -79,9 +91,15 @@ pub trait MotionCheck: Debug + Send + Sync {
         None
     }
 
-    /// Whether it compares a whole run with the reference's path, which is that of the lab's own numbers.
-    fn follows_one_path(&self) -> bool {
-        false
+    /// What it needs of the reference solution before it can judge.
+    fn reference_use(&self) -> FromReference {
+        FromReference::Nothing
+    }
+
+    /// The same check where its measure reaches `value` in the reference solution's run; `None` if that gives it no band.
+    fn at_reference(&self, value: f64) -> Option<Arc<dyn MotionCheck>> {
+        let _ = value;
+        None
     }
 }
 
@@ -97,11 +115,17 @@ pub trait FunctionCheck: Debug + Send + Sync {
     fn answer_band(&self) -> Option<Band>;
 }
 
-/// Judges a check of a motion task; its curve gets the check's name.
+/// Judges a check of a motion task; its curve gets the check's name, and what the reference solution reaches stands beside it.
 pub fn judge_motion(check: &Check<dyn MotionCheck>, facts: &MotionFacts<'_>) -> Finding {
     let mut finding = check.kind.judge(facts);
+    let mut reached = facts.reached.iter();
+    let reached = reached.find(|reached| reached.check == check.name);
+    if let (Some(measure), Some(reached)) = (&mut finding.measure, reached) {
+        measure.reference = reached.value;
+    }
     if let Some(curve) = &mut finding.curve {
         curve.check.clone_from(&check.name);
+        curve.reference = reached.and_then(|reached| reached.curve.clone());
     }
     finding
 }

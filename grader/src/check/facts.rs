@@ -31,8 +31,23 @@ pub struct MotionFacts<'a> {
     pub pose_band: Band,
     /// The reference's path.
     pub reference: Option<&'a TcpPath>,
+    /// The reference solution's run in the same variant, where a check compares with it.
+    pub solution: Option<&'a Trace>,
+    /// What the reference solution reaches in checks whose bands depend on it.
+    pub reached: &'a [Reached],
     /// How the same motion went under the levels of robustness checks; empty where nothing was disturbed.
     pub sweeps: Vec<SweepRuns>,
+}
+
+/// What the reference solution reaches in a check.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reached {
+    /// The check's name.
+    pub check: String,
+    /// The value of its measure, where its band depends on it.
+    pub value: Option<f64>,
+    /// The values of its curve, tick by tick, where they may be drawn.
+    pub curve: Option<Vec<f64>>,
 }
 
 /// The runs of one robustness check.

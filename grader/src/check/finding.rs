@@ -15,9 +15,9 @@ pub struct Finding {
     pub measure: Option<Measure>,
     /// Why points were lost, worst first.
     pub evidence: Vec<Evidence>,
-    /// The next step where points were lost; the lab's own hint comes before it, unless this one `insists`.
+    /// The next step where points were lost; the lab's own question comes before it, unless this one `insists`.
     pub next_step: String,
-    /// Whether what was seen makes the lab's hint beside the point, such as a joint that never comes to rest.
+    /// Whether what was seen makes the lab's question beside the point, such as a joint that never comes to rest.
     pub insists: bool,
     /// The curve it judged.
     pub curve: Option<Curve>,
@@ -116,6 +116,14 @@ impl Finding {
         self
     }
 
+    /// With the value that the linear loop would have reached, if there is one to compare with.
+    pub fn beside_prediction(mut self, predicted: Option<f64>) -> Self {
+        if let Some(measure) = &mut self.measure {
+            measure.prediction = predicted.filter(|value| value.is_finite());
+        }
+        self
+    }
+
     /// With the curve it judged.
     pub fn drawn(mut self, curve: Curve) -> Self {
         self.curve = Some(curve);
@@ -136,6 +144,8 @@ pub(super) fn measure(
         unit: unit.to_owned(),
         full,
         zero,
+        reference: None,
+        prediction: None,
     }
 }
 
@@ -157,6 +167,7 @@ pub(super) fn curve(
         full: band.map(|band| band.full),
         zero: band.map(|band| band.zero),
         marks: Vec::new(),
+        reference: None,
         step: None,
     }
 }

@@ -1,25 +1,73 @@
 //! A measured value judged in a band: what most kinds of checks are. A kind says what it measures; that it has a band, and what a
 //! brief, a plot and a dwell take from that, is here.
+//!
+//! An end of the band of a run may depend on the value that the reference solution reaches in the same variant. Such a check is judged
+//! once that value is known: [`MotionCheck::at_reference`].
 
+use std::borrow::Cow;
 use std::fmt::Debug;
+use std::sync::Arc;
+
+use kinemark_sim::text::Linear;
+use kinemark_sim::text::number::trimmed;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
 
 use super::cases::Cases;
-use super::contract::{FunctionCheck, MotionCheck};
+use super::contract::{FromReference, FunctionCheck, MotionCheck};
 use super::facts::MotionFacts;
 use super::finding::Finding;
 use super::reading::Reading;
 use crate::attempt::answers::CaseFacts;
 use crate::record::quantity::with_unit;
 use crate::task::model::{Band, Function};
-use crate::task::problem::LabError;
+use crate::task::problem::{LabError, problems};
+
+/// An end of the band of a run as typed: a number, or an expression over `reference`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct BandEnd(Linear);
+
+/// In a schema it is a number: what every number of a lab file may be is added there.
+impl JsonSchema for BandEnd {
+    fn inline_schema() -> bool {
+        f64::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        f64::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        f64::json_schema(generator)
+    }
+}
+
+impl From<BandEnd> for Linear {
+    fn from(end: BandEnd) -> Self {
+        end.0
+    }
+}
+
+problems! {
+    /// Ends of a band over `reference` that are in no order.
+    enum EndsProblem {
+        Cross:
+            "lab::band", "`full` may exceed `zero`, depending on what the reference solution reaches", "this band",
+            "name `reference` in both ends, and let `zero` multiply it and add to it no less than `full`";
+    }
+}
 
 /// A measure with its band.
 #[derive(Debug)]
 pub(crate) struct InBand<M> {
-    band: Band,
+    /// What earns all points, in the value of the reference.
+    full: Linear,
+    /// What earns none.
+    zero: Linear,
     /// Unit of the band; empty for a ratio.
     unit: &'static str,
-    measure: M,
+    measure: Arc<M>,
 }
 
 /// What a kind measures of a run.
@@ -37,8 +85,8 @@ pub(crate) trait RunMeasure: Debug + Send + Sync + 'static {
         None
     }
 
-    /// As [`MotionCheck::follows_one_path`].
-    fn follows_one_path(&self) -> bool {
+    /// Whether it compares the run with that of the reference solution.
+    fn compares_runs(&self) -> bool {
         false
     }
 }
@@ -64,26 +112,66 @@ fn up_to(full: String, zero: String) -> [String; 2] {
 }
 
 impl<T> Reading<'_, T> {
-    /// `measure` in the band `[full, zero]` of values in `unit`.
+    /// `measure` in the band `[full, zero]` of values in `unit`. `full` does not exceed `zero` whatever the reference reaches from 0 up.
     pub(super) fn in_band<M>(
         &self,
-        [full, zero]: [f64; 2],
+        [full, zero]: [impl Into<Linear>; 2],
         unit: &'static str,
         measure: M,
     ) -> Result<InBand<M>, LabError> {
+        let (full, zero): (Linear, Linear) = (full.into(), zero.into());
+        if full.is_of_later() || zero.is_of_later() {
+            if full.plus > zero.plus || full.times > zero.times {
+                return self.refuse(EndsProblem::Cross);
+            }
+        } else {
+            self.report.band(full.plus, zero.plus, self.at.clone())?;
+        }
         Ok(InBand {
-            band: self.report.band(full, zero, self.at.clone())?,
+            full,
+            zero,
             unit,
-            measure,
+            measure: Arc::new(measure),
         })
     }
 }
 
 impl<M> InBand<M> {
+    /// The band where it depends on no reference; else one of no width, in which nothing but the measured value is of use.
+    fn band(&self) -> Band {
+        if self.is_of_reference() {
+            return Band::default();
+        }
+        Band {
+            full: self.full.plus,
+            zero: self.zero.plus,
+        }
+    }
+
+    fn is_of_reference(&self) -> bool {
+        self.full.is_of_later() || self.zero.is_of_later()
+    }
+
+    /// An end of the band in words.
+    fn end(&self, end: Linear) -> String {
+        if !end.is_of_later() {
+            return with_unit(end.plus, self.unit);
+        }
+        let times = trimmed(end.times, 4);
+        let mut words = match times.as_str() {
+            "1" => "the reference".to_owned(),
+            _ => format!("{times} × the reference"),
+        };
+        if end.plus.abs() > 0.0 {
+            let sign = if end.plus < 0.0 { "−" } else { "+" };
+            words += &format!(" {sign} {}", with_unit(end.plus.abs(), self.unit));
+        }
+        words
+    }
+
     /// Both ends of the band, with their unit.
     fn ends(&self) -> (String, String) {
-        let Band { full, zero } = self.band;
-        (with_unit(full, self.unit), with_unit(zero, self.unit))
+        (self.end(self.full), self.end(self.zero))
     }
 }
 
@@ -94,19 +182,41 @@ impl<M: RunMeasure> MotionCheck for InBand<M> {
     }
 
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        self.measure.judge(facts, self.band)
+        self.measure.judge(facts, self.band())
     }
 
     fn dwell_band(&self) -> Option<Band> {
-        self.measure.judges_dwells().then_some(self.band)
+        let has_band = self.measure.judges_dwells() && !self.is_of_reference();
+        has_band.then(|| self.band())
     }
 
     fn path_band(&self, path: &str) -> Option<Band> {
-        (self.measure.path() == Some(path)).then_some(self.band)
+        let has_band = self.measure.path() == Some(path) && !self.is_of_reference();
+        has_band.then(|| self.band())
     }
 
-    fn follows_one_path(&self) -> bool {
-        self.measure.follows_one_path()
+    fn reference_use(&self) -> FromReference {
+        if self.measure.compares_runs() {
+            FromReference::Run
+        } else if self.is_of_reference() {
+            FromReference::Value
+        } else {
+            FromReference::Nothing
+        }
+    }
+
+    fn at_reference(&self, value: f64) -> Option<Arc<dyn MotionCheck>> {
+        let [full, zero] = [self.full.at(value), self.zero.at(value)];
+        let is_band = full.is_finite() && zero.is_finite() && full <= zero;
+        is_band.then(|| {
+            let fixed: Arc<dyn MotionCheck> = Arc::new(Self {
+                full: Linear::constant(full),
+                zero: Linear::constant(zero),
+                unit: self.unit,
+                measure: Arc::clone(&self.measure),
+            });
+            fixed
+        })
     }
 }
 
@@ -117,7 +227,7 @@ impl<M: AnswerMeasure> FunctionCheck for InBand<M> {
     }
 
     fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
-        let (band, unit) = (self.band, self.unit);
+        let (band, unit) = (self.band(), self.unit);
         self.measure.judge(&Cases {
             function,
             cases,
@@ -127,6 +237,6 @@ impl<M: AnswerMeasure> FunctionCheck for InBand<M> {
     }
 
     fn answer_band(&self) -> Option<Band> {
-        self.measure.is_of_single_answers().then_some(self.band)
+        self.measure.is_of_single_answers().then(|| self.band())
     }
 }

@@ -11,6 +11,7 @@ mod documentation;
 mod dwell;
 mod facts;
 mod finding;
+mod hints;
 mod in_band;
 pub mod kind;
 mod path_following;
@@ -28,11 +29,12 @@ mod step_keys;
 mod step_response;
 
 pub use contract::{
-    Check, Criterion, FunctionCheck, MotionCheck, answer_band, dwell_band, judge_motion, path_band,
+    Check, Criterion, FromReference, FunctionCheck, MotionCheck, answer_band, dwell_band,
+    judge_motion, path_band,
 };
 pub use disturbance::Level;
 pub use dwell::{Dwell, best_dwells};
-pub use facts::{MotionFacts, SweepRuns};
+pub use facts::{MotionFacts, Reached, SweepRuns};
 pub use finding::Finding;
 pub use kind::{function_cases, robustness};
 pub use registry::Kind;

@@ -52,6 +52,42 @@ impl FollowedSegment {
         samples.max_by(|a, b| a.deviation_m.total_cmp(&b.deviation_m))
     }
 
+    /// The longest stretch of the length that counts that was not passed within `within_m`: its two ends \[m\], and the tick in its
+    /// middle; of equal ones the first. What was left out before the first sample and after the last one counts, too.
+    pub(super) fn longest_gap(&self, within_m: f64) -> Option<([f64; 2], usize)> {
+        let first = self.samples.first()?;
+        let last = self.samples.last()?;
+        let mut gaps = vec![([0.0, first.progress_m], [first.tick; 2])];
+        for step in self.samples.windows(2) {
+            let [before, after] = [step[0], step[1]];
+            if after.deviation_m <= within_m {
+                continue;
+            }
+            match gaps.last_mut() {
+                Some((ends, ticks)) if ends[1] >= before.progress_m => {
+                    (ends[1], ticks[1]) = (after.progress_m, after.tick);
+                }
+                _ => gaps.push((
+                    [before.progress_m, after.progress_m],
+                    [before.tick, after.tick],
+                )),
+            }
+        }
+        match gaps.last_mut() {
+            Some((ends, _)) if ends[1] >= last.progress_m => ends[1] = self.length_m,
+            _ => gaps.push(([last.progress_m, self.length_m], [last.tick; 2])),
+        }
+        let length = |ends: &[f64; 2]| ends[1] - ends[0];
+        let mut longest: Option<([f64; 2], [usize; 2])> = None;
+        for gap in gaps {
+            if longest.is_none_or(|known| length(&gap.0) > length(&known.0)) {
+                longest = Some(gap);
+            }
+        }
+        let (ends, [from, to]) = longest.filter(|(ends, _)| length(ends) > 0.0)?;
+        Some((ends, usize::midpoint(from, to)))
+    }
+
     /// Of the length that counts, what was passed within `within_m` \[m\].
     pub(super) fn passed_m(&self, within_m: f64) -> f64 {
         let steps = self.samples.windows(2);
@@ -184,6 +220,46 @@ fn squares(p: &Vector3<f64>, along: &Vector3<f64>, a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A segment of 1 m, sampled at these progresses and deviations, a tick each.
+    fn sampled(samples: &[(f64, f64)]) -> FollowedSegment {
+        let samples = samples.iter().enumerate();
+        FollowedSegment {
+            length_m: 1.0,
+            rms_m: 0.0,
+            left_out_m: 0.0,
+            samples: samples
+                .map(|(i, &(progress_m, deviation_m))| Sample {
+                    tick: 100 + i,
+                    progress_m,
+                    deviation_m,
+                    back_m: 0.0,
+                    counts: true,
+                })
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn the_longest_gap_is_found_wherever_it_is() {
+        let near = [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0)];
+        assert_eq!(sampled(&near).longest_gap(0.01), None);
+        // a hump of two steps in the middle, and a short one before
+        let hump = [
+            (0.0, 0.0),
+            (0.1, 0.05),
+            (0.3, 0.0),
+            (0.5, 0.05),
+            (0.75, 0.05),
+            (1.0, 0.0),
+        ];
+        assert_eq!(sampled(&hump).longest_gap(0.01), Some(([0.3, 0.75], 103)));
+        // begun late, and left early
+        let late = [(0.4, 0.0), (0.7, 0.0)];
+        assert_eq!(sampled(&late).longest_gap(0.01), Some(([0.0, 0.4], 100)));
+        let early = [(0.0, 0.0), (0.25, 0.0), (0.5, 0.05)];
+        assert_eq!(sampled(&early).longest_gap(0.01), Some(([0.25, 1.0], 101)));
+    }
 
     fn path(points: &[[f64; 2]]) -> PathToFollow {
         PathToFollow {

@@ -73,12 +73,8 @@ pub(crate) type FunctionReading<'a> = Reading<'a, &'a FunctionTask>;
 pub(crate) struct InMotion<'a> {
     /// The robot of the lab.
     pub(crate) robot: &'a Robot,
-    /// The name of the task.
-    pub(crate) task: &'a str,
     /// The task.
     pub(crate) motion: &'a MotionTask,
-    /// Whether the lab has the reference's path in this task.
-    pub(crate) has_reference_path: bool,
     /// The name of the check.
     pub(crate) check: &'a str,
     /// The checks before it.

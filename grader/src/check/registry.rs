@@ -3,6 +3,7 @@
 //! The list of kinds is [`super::kind`]. A kind's table says how it is read ([`MotionTable`], [`FunctionTable`]).
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, schema_for};
@@ -11,6 +12,7 @@ use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use toml::Spanned;
 
 use super::contract::{Check, Criterion, FunctionCheck, MotionCheck};
+use super::hints::{EARLIER_KEY, HintsTable};
 use super::kind;
 use super::reading::{FunctionReading, InMotion, MotionReading, Reading};
 use crate::task::model::{FunctionTask, MotionTask};
@@ -188,7 +190,7 @@ pub(crate) struct CheckTable {
     title: String,
     points: Spanned<f64>,
     needs: Vec<Spanned<String>>,
-    hint: Option<String>,
+    hints: HintsTable,
     kinds: Vec<KindTable>,
 }
 
@@ -204,9 +206,12 @@ impl<'de> Deserialize<'de> for Key {
                 f.write_str("a key of a check")
             }
             fn visit_str<E: serde::de::Error>(self, key: &str) -> Result<Key, E> {
-                let known = kind::KEYS.iter().find(|known| **known == key);
+                // refused later, with what to write instead
+                let known = kind::KEYS.iter().chain([&EARLIER_KEY]);
                 known
-                    .map(|known| Key(known))
+                    .copied()
+                    .find(|known| *known == key)
+                    .map(Key)
                     .ok_or_else(|| E::unknown_field(key, kind::KEYS))
             }
         }
@@ -224,14 +229,16 @@ impl<'de> Deserialize<'de> for CheckTable {
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<CheckTable, A::Error> {
                 let (mut name, mut title, mut points) = (None, None, None);
-                let (mut needs, mut hint, mut kinds) = (Vec::new(), None, Vec::new());
+                let (mut needs, mut kinds) = (Vec::new(), Vec::new());
+                let mut hints = HintsTable::default();
                 while let Some(Key(key)) = map.next_key()? {
                     match key {
                         "name" => name = Some(map.next_value()?),
                         "title" => title = Some(map.next_value()?),
                         "points" => points = Some(map.next_value()?),
                         "needs" => needs = map.next_value()?,
-                        "hint" => hint = map.next_value()?,
+                        "hints" => hints.hints = Some(map.next_value()?),
+                        EARLIER_KEY => hints.earlier = Some(map.next_value()?),
                         kind => kinds.push(kind::table(kind, &mut map)?),
                     }
                 }
@@ -241,7 +248,7 @@ impl<'de> Deserialize<'de> for CheckTable {
                     title: title.ok_or_else(|| missing("title"))?,
                     points: points.ok_or_else(|| missing("points"))?,
                     needs,
-                    hint,
+                    hints,
                     kinds,
                 })
             }
@@ -292,7 +299,7 @@ pub(crate) fn motion_checks(
             ..of
         };
         let kind = kind.read(report, of)?;
-        let mut criterion = table.criterion(needs, kind.bounds());
+        let mut criterion = table.criterion(report, needs, kind.bounds())?;
         // what earned nothing undisturbed is not tried again
         if let Some(sweep) = kind.sweep()
             && !criterion.needs.contains(&sweep.check)
@@ -324,7 +331,7 @@ pub(crate) fn function_checks(
         };
         let needs = table.needs(report, checks.iter().map(|check| check.name.as_str()))?;
         let kind = kind.read(report, task)?;
-        let criterion = table.criterion(needs, kind.bounds());
+        let criterion = table.criterion(report, needs, kind.bounds())?;
         checks.push(Check { criterion, kind });
     }
     Ok(checks)
@@ -364,15 +371,25 @@ impl CheckTable {
         self.needs.iter().map(index).collect()
     }
 
-    fn criterion(&self, needs: Vec<usize>, bounds: [String; 2]) -> Criterion {
-        Criterion {
+    /// The bytes of its steps behind the question of its hints, which no grade depends on.
+    pub(crate) fn steps_behind_question(&self) -> Option<Range<usize>> {
+        self.hints.behind_question()
+    }
+
+    fn criterion(
+        &self,
+        report: Reporter<'_>,
+        needs: Vec<usize>,
+        bounds: [String; 2],
+    ) -> Result<Criterion, LabError> {
+        Ok(Criterion {
             name: self.name.get_ref().clone(),
             title: self.title.clone(),
             points: *self.points.get_ref(),
             needs,
-            hint: self.hint.clone(),
+            hints: self.hints.read(report, self.name.get_ref())?,
             bounds,
-        }
+        })
     }
 
     fn misfit<T>(

@@ -6,7 +6,10 @@
 //! its target (or, without one, by less than 0.001), and one that *never settles*, with a tick of the final part further from
 //! the final value than a share of the step, have no step response: they earn nothing.
 
+use kinemark_sim::control::StepCurve;
 use kinemark_sim::control::linear_step::Fed;
+pub(super) use kinemark_sim::control::step_metrics::SETTLED;
+use kinemark_sim::control::step_metrics::{LEAST_STEP, final_value};
 use kinemark_sim::text::number::{seconds, trimmed};
 
 use super::alternation;
@@ -17,13 +20,6 @@ use super::step_keys::StepResponse;
 use crate::record::grade::Evidence;
 use crate::record::graded::{Curve, StepBackdrop};
 use crate::task::model::Band;
-
-/// A step is at least this share of the way to the target.
-const LEAST_WAY: f64 = 0.01;
-/// A step is at least this, where no target is known \[rad or rad/s\].
-const LEAST_STEP: f64 = 1e-3;
-/// A response has settled where its final part stays this near its mean, as a share of the step; the settling time has its own.
-pub(super) const SETTLED: f64 = 0.05;
 
 /// A step response as measured.
 pub(super) struct Response<'a> {
@@ -44,8 +40,23 @@ pub(super) struct Loss {
     pub(super) next_step: String,
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+/// What the linear loop would have done.
+pub(super) struct Predicted {
+    /// The signal at every tick.
+    pub(super) values: Vec<f64>,
+    /// Where it ends over the final part.
+    pub(super) end: f64,
+}
+
+impl Predicted {
+    /// Its response to a step from `start`.
+    pub(super) fn curve(&self, start: f64) -> StepCurve<'_> {
+        StepCurve {
+            values: &self.values,
+            start,
+            end: self.end,
+        }
+    }
 }
 
 impl<'a> Response<'a> {
@@ -58,7 +69,7 @@ impl<'a> Response<'a> {
         let final_tick = values.len().saturating_sub(1 + asked.final_ticks);
         // a signal that is no number somewhere has no final value, and so earns nothing
         let end = if values.iter().all(|value| value.is_finite()) {
-            mean(&values[final_tick..])
+            final_value(&values, asked.final_ticks)
         } else {
             f64::NAN
         };
@@ -72,8 +83,17 @@ impl<'a> Response<'a> {
         }
     }
 
+    /// What is measured of it.
+    pub(super) fn measured(&self) -> StepCurve<'_> {
+        StepCurve {
+            values: &self.values,
+            start: self.start,
+            end: self.end,
+        }
+    }
+
     pub(super) fn step(&self) -> f64 {
-        self.end - self.start
+        self.measured().step()
     }
 
     pub(super) fn name(&self) -> &str {
@@ -147,12 +167,7 @@ impl<'a> Response<'a> {
 
     /// Whether the joint hardly moved.
     pub(super) fn stayed(&self) -> Option<Loss> {
-        let way = self.asked.target.map(|target| target - self.start);
-        let moved = match way {
-            Some(way) if way.abs() > LEAST_STEP => self.step() / way >= LEAST_WAY,
-            _ => self.step().abs() >= LEAST_STEP,
-        };
-        if moved {
+        if self.measured().has_moved(self.asked.target) {
             return None;
         }
         if let Some(seen) = shape::seen(self) {
@@ -185,11 +200,8 @@ impl<'a> Response<'a> {
     /// Whether some tick of the final part is further than `tolerance` from the final value.
     pub(super) fn unsettled(&self, tolerance: f64) -> Option<Loss> {
         let part = &self.values[self.final_tick..];
-        let far = |value: &f64| {
-            let near = (value - self.end).abs() <= tolerance;
-            !near
-        };
-        let tick = self.final_tick + part.iter().rposition(far)?;
+        let last = self.measured().last_outside(tolerance);
+        let tick = last.filter(|tick| *tick >= self.final_tick)?;
         let (mut low, mut high, mut turns) = (f64::INFINITY, f64::NEG_INFINITY, 0);
         for pair in part.windows(2) {
             (low, high) = (
@@ -236,16 +248,16 @@ impl<'a> Response<'a> {
         })
     }
 
-    /// What the linear loop would have done, from the start to the target, and where it ends over the same final part.
-    pub(super) fn predicted(&self) -> Option<(Vec<f64>, f64)> {
+    /// What the linear loop would have done, from the start to the target.
+    pub(super) fn predicted(&self) -> Option<Predicted> {
         let (prediction, target) = (self.asked.prediction?, self.asked.target?);
         let step_s = self.facts.motion.periods.step_s;
         let mut values = prediction.response(step_s, self.values.len())?;
         for value in &mut values {
             *value = self.start + (target - self.start) * *value;
         }
-        let end = mean(&values[self.final_tick..]);
-        Some((values, end))
+        let end = final_value(&values, self.asked.final_ticks);
+        Some(Predicted { values, end })
     }
 
     /// The curve of the run, with what is drawn beside it.
@@ -264,7 +276,7 @@ impl<'a> Response<'a> {
         Curve {
             marks,
             step: Some(StepBackdrop {
-                prediction: self.predicted().map(|(values, _)| values),
+                prediction: self.predicted().map(|predicted| predicted.values),
                 target: self.asked.target,
                 band,
             }),

@@ -7,7 +7,7 @@ use crate::record::grade::{CheckGrade, Evidence, Instant, Measure, Outcome};
 use crate::record::quantity::{points, whole_hundredths};
 
 /// The grades of a task's checks: `visible` and `first_lost` have one entry per check. If `explained`, a stop or a diagnosis already
-/// explains the loss, and a check's general hint would look like another cause.
+/// explains the loss, and a check's general question would look like another cause.
 pub(super) fn check_grades<K: ?Sized>(
     checks: &[Check<K>],
     visible: &[JudgedCheck],
@@ -23,7 +23,7 @@ pub(super) fn check_grades<K: ?Sized>(
         } else if !hidden.is_empty() {
             parts = parts.averaged(checks, i, hidden);
         }
-        let has_hint = !explained || parts.outcome == Outcome::NotJudged;
+        let has_step = !explained || parts.outcome == Outcome::NotJudged;
         CheckGrade {
             name: check.name.clone(),
             title: check.title.clone(),
@@ -33,7 +33,8 @@ pub(super) fn check_grades<K: ?Sized>(
             measure: parts.measure,
             first_lost: *first_lost,
             evidence: parts.evidence,
-            next_step: parts.next_step.filter(|_| has_hint),
+            next_step: parts.next_step.filter(|_| has_step),
+            has_hints: parts.has_hints && has_step,
         }
     });
     grades.collect()
@@ -47,6 +48,8 @@ struct Parts {
     measure: Option<Measure>,
     evidence: Vec<Evidence>,
     next_step: Option<String>,
+    /// Whether the next step is the lab's question.
+    has_hints: bool,
 }
 
 impl Default for Parts {
@@ -58,6 +61,7 @@ impl Default for Parts {
             measure: None,
             evidence: Vec::new(),
             next_step: None,
+            has_hints: false,
         }
     }
 }
@@ -70,11 +74,11 @@ fn visible_parts<K: ?Sized>(
     hidden: &HiddenAttempts,
 ) -> Parts {
     let loss = judged.loss();
+    let question = loss
+        .filter(|finding| !finding.insists)
+        .and_then(|_| check.hints.first());
     let next_step = match (loss, judged.unmet) {
-        (Some(finding), _) => {
-            let hint = check.hint.clone().filter(|_| !finding.insists);
-            Some(hint.unwrap_or_else(|| finding.next_step.clone()))
-        }
+        (Some(finding), _) => Some(question.unwrap_or(&finding.next_step).clone()),
         // with its points of hidden runs it would seem to earn some
         (None, Some(need)) if hidden.sum_of_scores(need) > 0.0 => Some(format!(
             "Not judged in the visible run: \"{}\" earns nothing in it.",
@@ -93,6 +97,7 @@ fn visible_parts<K: ?Sized>(
         measure: finding.and_then(|finding| finding.measure.clone()),
         evidence: loss.map_or(Vec::new(), |finding| finding.evidence.clone()),
         next_step,
+        has_hints: question.is_some(),
     }
 }
 
@@ -132,6 +137,7 @@ impl Parts {
             measure: self.measure,
             evidence,
             next_step,
+            has_hints: self.has_hints,
         }
     }
 }

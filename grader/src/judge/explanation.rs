@@ -59,7 +59,11 @@ pub fn explain(
             attempts: attempts.collect::<Result<_, _>>()?,
         });
     }
-    Ok(Explanation { graded, tasks })
+    Ok(Explanation {
+        graded,
+        tasks,
+        hints: lab.hints(),
+    })
 }
 
 /// What every exposed lab is graded with.
@@ -83,7 +87,7 @@ impl Exposition<'_> {
         grader.judges_each_case = true;
         let (mut graded, mut scores) = grader.graded(host)?;
         let solution = &self.staff.solution;
-        let mut reference = grade(&exposed.lab, None, solution, &mut InProcess)?;
+        let mut reference = grade(&exposed.lab, Some(&self.open), solution, &mut InProcess)?;
         for (run, of_solution) in graded.runs.iter_mut().zip(reference.runs.drain(..)) {
             let task = reference.grade.tasks.first();
             // a solution that stops early is nothing to compare with
@@ -174,11 +178,13 @@ fn run(
         let value = |grade: &CheckGrade| grade.measure.as_ref().and_then(|measure| measure.value);
         let score = scores.checks.get(i).copied().unwrap_or(0.0);
         let was_judged = judged.is_some_and(|check| check.outcome != Outcome::NotJudged);
+        let reached = of_solution.and_then(|task| value(task.checks.get(i)?));
         DrawCheck {
+            bounds: bounds_at(exposed.task(), i, reached).unwrap_or(check.bounds.clone()),
             score: was_judged.then_some(score),
             counted: Some(counted_score(score)),
             measure: judged.and_then(|check| check.measure.clone()),
-            reference: of_solution.and_then(|task| value(task.checks.get(i)?)),
+            reference: reached,
             evidence: judged.map_or_else(Vec::new, |check| check.evidence.clone()),
             ..unjudged(check)
         }
@@ -191,6 +197,15 @@ fn run(
         stopped: record.stopped.clone(),
         checks: checks.collect(),
     }]
+}
+
+/// What earns all points and what earns none of a check of a motion task whose band depends on the reference, which reaches this value.
+fn bounds_at(task: &Task, check: usize, reached: Option<f64>) -> Option<[String; 2]> {
+    let TaskWork::Motion(_, checks) = &task.work else {
+        return None;
+    };
+    let fixed = checks.get(check)?.kind.at_reference(reached?)?;
+    Some(fixed.bounds())
 }
 
 /// A check that found nothing.

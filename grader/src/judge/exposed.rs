@@ -95,7 +95,7 @@ fn of_one_task(lab: &Lab, task: Task) -> Lab {
         tasks: vec![task],
         ..lab.clone()
     };
-    own.reference_paths.paths.clear();
+    own.practice = own.practice.without_paths();
     own
 }
 

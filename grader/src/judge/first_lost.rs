@@ -60,6 +60,7 @@ mod tests {
             values: values.to_vec(),
             full: Some(1.0),
             zero: Some(2.0),
+            reference: None,
             marks: Vec::new(),
             step: None,
         }

@@ -40,7 +40,7 @@ impl Grader<'_> {
         let (mut verdict, stopped) = self.ended(&attempt)?;
         let facts = &attempt.recorded.facts;
         let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
-        let judged = judge(checks, can_be_judged, |check| {
+        let judged = judge(checks, can_be_judged, &[], |check| {
             check.kind.judge(&work.function, facts)
         });
         if !all_full(&judged) {
@@ -134,6 +134,7 @@ impl Grader<'_> {
             verdict,
             points: sum_of_points(checks.iter().map(|check| check.points)),
             max_points: task.max_points(),
+            points_at_hand_in: 0.0,
             stopped,
             checks,
             diagnoses,

@@ -12,6 +12,7 @@ use super::staff_faults::staff_fault;
 use crate::attempt::Ended;
 use crate::lab::Staff;
 use crate::lab::TaskWork;
+use crate::lab::practice;
 use crate::lab::staff::Mutant;
 use crate::lab::{Lab, Task};
 use crate::record::grade::{
@@ -68,6 +69,7 @@ fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<Task
         verdict: verdicts.min().unwrap_or(Verdict::Passed),
         points: sum_of_points(tasks.iter().map(|task| task.points)),
         max_points: tasks.iter().map(|task| task.max_points).sum(),
+        points_at_hand_in: tasks.iter().map(|task| task.points_at_hand_in).sum(),
         tasks,
     }
 }
@@ -111,15 +113,14 @@ fn part(name: &str, digest: blake3::Hash) -> Part {
     }
 }
 
-/// The digest of the lab's own files, and of the numbers of its variant.
+/// The digest of the lab's own files, and of the numbers of its variant. Of hints only the questions are in a grade.
 fn digest_of_lab(lab: &Lab) -> blake3::Hash {
     let variant = lab.variant.as_ref();
     let numbers = variant.map_or(String::new(), |variant| format!("\n{}", variant.numbers()));
-    let texts = format!(
-        "{}\n{}{numbers}",
-        lab.source.text(),
-        lab.reference_paths.text
-    );
+    let practice = practice::form(variant, lab.practice.clone());
+    // a value that JSON has no number for was not read from JSON
+    let practice = practice::file_text(&[practice]).unwrap_or_default();
+    let texts = format!("{}\n{practice}{numbers}", lab.graded_text);
     blake3::hash(texts.as_bytes())
 }
 

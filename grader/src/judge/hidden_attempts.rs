@@ -22,7 +22,7 @@ struct HiddenAttempt {
     class: String,
     /// The share of points of each check.
     scores: Vec<f64>,
-    /// For each check, whether it was judged: a check that needs another one may not be.
+    /// For each check, whether it was judged: a check that needs another one may not be, and none is of a run without an end.
     judged: Vec<bool>,
     digest: blake3::Hash,
     stopped: Option<(Verdict, Stopped)>,
@@ -40,24 +40,24 @@ impl HiddenAttempt {
 
     /// Whether the check was not judged because one that it needs earned nothing.
     fn needs_failed(&self, check: usize) -> bool {
-        self.stopped.is_none() && !self.judged.get(check).copied().unwrap_or(false)
+        self.judged.contains(&true) && !self.judged.get(check).copied().unwrap_or(false)
     }
 }
 
 impl HiddenAttempts {
-    /// Runs the task called `task` under `submission` in every lab of `runs`.
+    /// Runs the task called `task` under `submission` in every lab of `runs`, compared with `solution` where a check asks for it.
     ///
     /// # Errors
     /// [`Interrupted`] if the host says so.
     pub(super) fn run(
         runs: &[&HiddenRun],
         task: &str,
-        submission: &Source,
+        (submission, solution): (&Source, &Source),
         host: &mut dyn Host,
     ) -> Result<Self, Interrupted> {
         let mut attempts = Vec::new();
         for run in runs {
-            attempts.extend(attempt(run, task, submission, host)?);
+            attempts.extend(attempt(run, task, (submission, solution), host)?);
             // a worker that ran out of time or memory would do so again
             if attempts.last().is_some_and(HiddenAttempt::is_undecided) {
                 break;
@@ -179,7 +179,7 @@ pub(super) fn counted_score(score: f64) -> f64 {
 fn attempt(
     run: &HiddenRun,
     name: &str,
-    submission: &Source,
+    (submission, solution): (&Source, &Source),
     host: &mut dyn Host,
 ) -> Result<Option<HiddenAttempt>, Interrupted> {
     let lab = &run.lab;
@@ -189,7 +189,7 @@ fn attempt(
     let TaskWork::Motion(work, checks) = &task.work else {
         return Ok(None);
     };
-    let judge = MotionJudge::new(lab, task, (work, checks), submission, None);
+    let judge = MotionJudge::new(lab, task, (work, checks), submission, None).against(solution);
     let attempt = judge.attempt(host);
     let disclosure = Disclosure::HiddenRun { class: &run.class };
     let judged = judge.judge(&attempt, disclosure, host)?;

@@ -7,8 +7,8 @@ use super::motion_judge::MotionJudge;
 use crate::attempt::Attempt;
 use crate::check::{self, Check, Dwell, MotionCheck, SweepRuns};
 use crate::record::grade::{
-    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LevelDigest, LogEntry, SecondDigests,
-    Stopped, TaskGrade, TaskKind,
+    CheckGrade, Diagnosis, Digests, Divergence, HiddenClass, LevelDigest, LogEntry, Outcome,
+    SecondDigests, Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
 use crate::record::names::{contacts, events};
@@ -38,7 +38,8 @@ impl MotionResult {
             kind: TaskKind::Motion,
             verdict: self.verdict,
             points: sum_of_points(self.checks.iter().map(|check| check.points)),
-            max_points: task.max_points(),
+            max_points: max_points(&self.checks, false),
+            points_at_hand_in: max_points(&self.checks, true),
             stopped: self.stopped.clone(),
             checks: self.checks.clone(),
             diagnoses: self.diagnoses.clone(),
@@ -67,7 +68,7 @@ impl MotionResult {
         curves: Vec<Curve>,
     ) -> TaskRun {
         let (lab, task, work) = (judge.lab, judge.task, judge.work);
-        let checks = judge.checks;
+        let checks = &judge.checks;
         let titles = checks.iter();
         let titles = titles.map(|check| (check.name.clone(), check.title.clone()));
         let paths = work.paths.iter().map(|path| AskedPath {
@@ -94,6 +95,14 @@ impl MotionResult {
             trace: attempt.recorded,
         }
     }
+}
+
+/// What checks are worth: those that are judged when the submission is handed in, or the others.
+fn max_points(checks: &[CheckGrade], at_hand_in: bool) -> f64 {
+    let counted = checks
+        .iter()
+        .filter(|check| (check.outcome == Outcome::AtHandIn) == at_hand_in);
+    counted.map(|check| check.max_points).sum()
 }
 
 /// The goals with the dwells that were judged.

@@ -1,5 +1,7 @@
 //! Grading a motion task: its visible run is judged and diagnosed, then its hidden runs, and both together make the grade.
 
+use std::borrow::Cow;
+
 use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
@@ -18,8 +20,8 @@ use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck};
 use crate::lab::Task;
 use crate::lab::staff::Mutant;
-use crate::record::grade::{Diagnosis, Digests, Divergence, Instant, Outcome};
-use crate::record::graded::{Curve, TcpPath};
+use crate::record::grade::{CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome};
+use crate::record::graded::Curve;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::host::{Host, InProcess};
@@ -33,8 +35,10 @@ impl Grader<'_> {
         checks: &[Check<dyn MotionCheck>],
         host: &mut dyn Host,
     ) -> Result<GradedTask, Interrupted> {
-        let path = self.reference_path(&task.name);
+        let path = self.lab.practice.path(&task.name);
         let judge = MotionJudge::new(self.lab, task, (work, checks), self.submission, path);
+        let judge = self.beside_reference(judge);
+        let checks = &judge.checks[..];
         let attempt = judge.attempt(host);
         let disclosure = Disclosure::Run {
             names: judge.names(),
@@ -43,16 +47,18 @@ impl Grader<'_> {
         let mut visible = judge.judge(&attempt, disclosure, host)?;
         let (differs, diagnoses) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
-        let hidden = self.hidden(task, &attempt, host)?;
+        let hidden = self.hidden(&judge, &attempt, host)?;
         let grades = check_grades(
             checks,
             &visible.checks,
             &first_lost,
             &hidden,
-            !diagnoses.is_empty(),
+            visible.stopped.is_some() || !diagnoses.is_empty(),
         );
         let mut verdict = visible.verdict;
-        if grades.iter().any(|check| check.outcome != Outcome::Full) {
+        let is_lost =
+            |check: &CheckGrade| !matches!(check.outcome, Outcome::Full | Outcome::AtHandIn);
+        if grades.iter().any(is_lost) {
             verdict = verdict.min(Verdict::Missed);
         }
         let digest = attempt.recorded.digest();
@@ -64,7 +70,8 @@ impl Grader<'_> {
         let mut stopped = visible.stopped.take();
         if let Some((worst, record)) = hidden.into_stopped() {
             verdict = verdict.min(worst);
-            stopped = Some(record);
+            // what stopped the visible run has its place, and that of a hidden one has none
+            stopped = stopped.or(Some(record));
         }
         let result = MotionResult {
             verdict,
@@ -90,6 +97,19 @@ impl Grader<'_> {
             run: Some(run),
             scores,
         })
+    }
+
+    /// The judge with what is known of the reference solution.
+    fn beside_reference<'j>(&self, judge: MotionJudge<'j>) -> MotionJudge<'j> {
+        let Some(staff) = self.staff else {
+            return judge.in_practice();
+        };
+        let judge = judge.against(&staff.solution);
+        if let Some(run) = &judge.of_reference.run {
+            let (whose, ended) = (StaffSubmission::Solution, run.ended.as_ref());
+            self.note_stop(whose, judge.task, &staff.solution, ended);
+        }
+        judge
     }
 
     /// Where a run that lost points first differs from the reference solution's, and which mutant it matches.
@@ -176,10 +196,13 @@ impl Grader<'_> {
     }
 
     /// The reference solution's run of a task, if the course staff's part is present and the run reaches its end.
-    fn solution_run(&self, judge: &MotionJudge<'_>) -> Option<Trace> {
+    fn solution_run<'j>(&self, judge: &'j MotionJudge<'_>) -> Option<Cow<'j, Trace>> {
         let solution = &self.staff?.solution;
+        if let Some(run) = &judge.of_reference.run {
+            return run.ended.is_none().then_some(Cow::Borrowed(&run.recorded));
+        }
         let run = self.staff_run(judge, StaffSubmission::Solution, solution);
-        run.ended.is_none().then_some(run.recorded)
+        run.ended.is_none().then_some(Cow::Owned(run.recorded))
     }
 
     /// The run of a submission of the course staff; an early stop is recorded.
@@ -192,7 +215,7 @@ impl Grader<'_> {
         let own = MotionJudge::new(
             self.lab,
             judge.task,
-            (judge.work, judge.checks),
+            (judge.work, &judge.checks),
             source,
             None,
         );
@@ -201,24 +224,21 @@ impl Grader<'_> {
         run
     }
 
-    /// The hidden runs of a task whose visible run reached its end.
+    /// The hidden runs of a task whose visible run reached its last tick.
     fn hidden(
         &self,
-        task: &Task,
+        judge: &MotionJudge<'_>,
         visible: &Attempt<Trace>,
         host: &mut dyn Host,
     ) -> Result<HiddenAttempts, Interrupted> {
         match self.staff {
-            Some(staff) if visible.ended.is_none() => {
-                HiddenAttempts::run(&staff.runs(&task.name), &task.name, self.submission, host)
+            Some(staff) if judge.is_whole(visible, visible.ended.as_ref()) => {
+                let sources = (self.submission, &staff.solution);
+                let task = &judge.task.name;
+                HiddenAttempts::run(&staff.runs(task), task, sources, host)
             }
             _ => Ok(HiddenAttempts::default()),
         }
-    }
-
-    fn reference_path(&self, task: &str) -> Option<&TcpPath> {
-        let mut paths = self.lab.reference_paths.paths.iter();
-        paths.find(|(name, _)| name == task).map(|(_, path)| path)
     }
 }
 

@@ -2,13 +2,16 @@
 
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::run::Disturbance;
+use kinemark_sim::text::number::seconds;
 use kinemark_sim::trace::Trace;
 
 use super::motion_judge::MotionJudge;
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::robustness::{EarlyEnd, LevelOutcome};
-use crate::check::{self, Check, Level, MotionCheck, MotionFacts, SweepRuns};
+use crate::check::{self, Check, Finding, Level, MotionCheck, MotionFacts, SweepRuns};
+use crate::record::grade::Evidence;
+use crate::record::quantity::with_unit;
 use crate::submission::controller::Stop;
 use crate::submission::host::Host;
 use crate::task::workcell::Workcell;
@@ -27,7 +30,7 @@ pub(super) fn sweeps(
     host: &mut dyn Host,
 ) -> Result<Vec<SweepRuns>, Undecided> {
     let mut sweeps = Vec::new();
-    for check in judge.checks {
+    for check in judge.checks.iter() {
         let Some(sweep) = check.kind.sweep() else {
             continue;
         };
@@ -86,20 +89,43 @@ fn judged(
     repeated: &Check<dyn MotionCheck>,
     attempt: &Attempt<Trace>,
 ) -> Result<LevelOutcome, Undecided> {
+    let found = || check::judge_motion(repeated, &judge.facts(&attempt.recorded));
     let outcome = match &attempt.ended {
-        None => Ok(check::judge_motion(
-            repeated,
-            &judge.facts(&attempt.recorded),
-        )),
-        Some(ended) => Err(EarlyEnd {
-            message: end_message(judge, ended)?,
-            tick: ended.at,
-        }),
+        None => Ok(found()),
+        Some(ended) => {
+            let message = end_message(judge, ended)?;
+            if judge.is_whole(attempt, Some(ended)) {
+                let kept = judge.lab.kept_after_stop;
+                let time_s = judge.work.periods.time_s(ended.at);
+                Ok(kept_finding(found(), kept, &message, time_s))
+            } else {
+                let tick = ended.at;
+                Err(EarlyEnd { message, tick })
+            }
+        }
     };
     Ok(LevelOutcome {
         outcome,
         digest: attempt.recorded.digest().all.to_hex().to_string(),
     })
+}
+
+/// What was found in a level in which the submission failed: a share of it counts, and the failure is the first evidence.
+fn kept_finding(finding: Finding, kept: f64, failure: &str, time_s: f64) -> Finding {
+    let mut evidence = vec![Evidence {
+        message: format!(
+            "at {}: {failure}; with the last command held, {} of what the run earns count",
+            seconds(time_s),
+            with_unit(kept, "")
+        ),
+        ..Evidence::default()
+    }];
+    evidence.extend(finding.evidence);
+    Finding {
+        score: finding.score * kept,
+        evidence,
+        ..finding
+    }
 }
 
 fn end_message(judge: &MotionJudge<'_>, ended: &Ended) -> Result<String, Undecided> {

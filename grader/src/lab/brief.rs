@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use kinemark_sim::text::expression::evaluate_named;
 use kinemark_sim::text::number::trimmed;
 
-use super::model::Lab;
+use super::model::{Lab, Task, TaskWork};
+use crate::check::Criterion;
 use crate::record::quantity::points;
 
 /// The line before the table.
@@ -122,7 +123,7 @@ fn table(lab: &Lab) -> String {
         let checks = task.checks();
         for check in &checks {
             total += check.points;
-            let [full, zero] = &check.bounds;
+            let [full, zero] = bounds(lab, task, check);
             let needs: Vec<String> = check
                 .needs
                 .iter()
@@ -146,6 +147,48 @@ fn table(lab: &Lab) -> String {
     }
     let _ = writeln!(text, "| | **together** | **{}** | | | |\n", points(total));
     text
+}
+
+/// What earns all points and what earns none, with the numbers of the lab's variant where they are known.
+fn bounds(lab: &Lab, task: &Task, check: &Criterion) -> [String; 2] {
+    let known = || {
+        let TaskWork::Motion(_, checks) = &task.work else {
+            return None;
+        };
+        let own = checks.iter().find(|known| known.name == check.name)?;
+        let value = lab.practice.value(&task.name, &check.name)?;
+        Some(own.kind.at_reference(value)?.bounds())
+    };
+    let bounds = check.bounds.clone();
+    let Some(numbers) = known() else {
+        return bounds;
+    };
+    // `up to 0.332 s (the reference + 0.1 s)`
+    let both = |number: String, words: &String| {
+        let words = words
+            .trim_start_matches("up to ")
+            .trim_start_matches("from ");
+        if number.ends_with(words) {
+            number
+        } else {
+            format!("{number} ({words})")
+        }
+    };
+    let [full, zero] = numbers;
+    [both(full, &bounds[0]), both(zero, &bounds[1])]
+}
+
+/// The brief without its marks `<!-- = expression -->`, which are for whoever writes the lab; a mark without an end stays.
+pub fn without_marks(brief: &str) -> String {
+    let mut out = String::new();
+    let mut rest = brief;
+    while let Some((before, behind)) = rest.split_once(MARK)
+        && let Some((_, tail)) = behind.split_once(MARK_END)
+    {
+        out += before;
+        rest = tail;
+    }
+    out + rest
 }
 
 #[cfg(test)]
@@ -211,6 +254,24 @@ joints = [{ name = "j", type = "revolute", parent = "a", child = "b", axis = [0.
             ),
         ] {
             assert_eq!(with_numbers(brief, &lab), Err(why.to_owned()));
+        }
+    }
+
+    #[test]
+    fn a_brief_without_marks_keeps_everything_else() {
+        for (brief, expected) in [
+            (
+                "from 3.0<!-- = far --> to -1.5<!-- =l[1] | 2 -->.",
+                "from 3.0 to -1.5.",
+            ),
+            (BEGIN, BEGIN),
+            (
+                "a <!-- comment --> $x = 1$ ≤",
+                "a <!-- comment --> $x = 1$ ≤",
+            ),
+            ("1<!-- = far -->2<!-- = far", "12<!-- = far"),
+        ] {
+            assert_eq!(without_marks(brief), expected);
         }
     }
 

@@ -3,6 +3,7 @@
 use kinemark_sim::text::{Dimension, Dimensions};
 
 use super::model::Lab;
+use super::practice::{self, PRACTICE_FILE, Practice};
 use super::variant::{VARIANT_FILE, Variant};
 use crate::task::files::Files;
 use crate::task::problem::LoadError;
@@ -69,13 +70,25 @@ impl Files for Copies {
 impl Lab {
     /// Copies of all files it was read from, `variant.toml` among them where it is a variant.
     pub fn copies(&self) -> Copies {
+        self.copies_with(self.source.text(), &self.practice)
+    }
+
+    /// The copies that a report holds: of the hints they have the questions alone.
+    pub fn graded_copies(&self) -> Copies {
+        self.copies_with(&self.graded_text, &self.practice)
+    }
+
+    fn copies_with(&self, lab_text: &str, practice: &Practice) -> Copies {
         let mut copies = Copies::default();
-        copies.add(self.source.name(), self.source.text());
+        copies.add(self.source.name(), lab_text);
         let robot = self.robot_file.source();
         copies.add(robot.name(), robot.text());
-        if !self.reference_paths.text.is_empty() {
-            let path = format!("{}/reference-path.json", self.name);
-            copies.add(path, self.reference_paths.text.as_str());
+        let form = practice::form(self.variant.as_ref(), practice.clone());
+        // a value that JSON has no number for was not read from JSON
+        if let Ok(text) = practice::file_text(&[form])
+            && !text.is_empty()
+        {
+            copies.add(format!("{}/{PRACTICE_FILE}", self.name), text);
         }
         for scene in &self.scenes {
             let source = scene.file.source();
@@ -108,6 +121,8 @@ impl Lab {
             .collect();
         let student = self.variant.as_ref().and_then(Variant::student);
         let variant = Variant::new(&self.name, student, &pairs)?;
-        Self::load_variant(&self.copies(), &self.name, Some(&variant))
+        // other numbers have values of their own
+        let copies = self.copies_with(self.source.text(), &Practice::default());
+        Self::load_variant(&copies, &self.name, Some(&variant))
     }
 }

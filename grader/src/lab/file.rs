@@ -26,6 +26,7 @@ pub(super) struct LabTable {
     pub(super) frame: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) budgets: BudgetTable,
+    pub(super) kept_after_stop: Option<NumberAt>,
     // read before all else, for the expressions: see `parameters`
     #[serde(default, rename = "parameters")]
     _parameters: NumbersTable,

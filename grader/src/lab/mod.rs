@@ -5,12 +5,15 @@ pub mod brief;
 pub mod copies;
 pub mod draw;
 pub mod file;
+mod hints;
 pub mod load;
 mod model;
 mod parameters;
+pub mod practice;
 pub mod staff;
 pub mod variant;
 
-pub use model::{Lab, ReferencePaths, Task, TaskWork};
+pub use model::{Lab, Task, TaskWork};
+pub use practice::Practice;
 pub use staff::Staff;
 pub use variant::Variant;

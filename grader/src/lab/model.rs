@@ -7,9 +7,9 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimensions;
 use kinemark_sim::text::Source;
 
+use super::practice::Practice;
 use super::variant::{Variant, VariantRule};
 use crate::check::{Check, Criterion, FunctionCheck, MotionCheck};
-use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
 use crate::task::mesh_file::MeshFile;
 use crate::task::model::{FunctionTask, MotionTask};
@@ -27,6 +27,8 @@ pub struct Lab {
     pub summary: String,
     /// The text of `lab.toml`.
     pub source: Source,
+    /// That text with the questions of its hints alone: what a grade follows from, and what a report holds.
+    pub graded_text: String,
     /// Its parameters, with the numbers of its variant where it is one.
     pub parameters: Dimensions,
     /// How variants are drawn; empty where everyone has the same numbers.
@@ -45,19 +47,12 @@ pub struct Lab {
     pub frame: String,
     /// What submissions may use up.
     pub budgets: Budgets,
-    /// The reference solution's TCP paths by task, and the text they were read from.
-    pub reference_paths: ReferencePaths,
+    /// The share of its points that a run keeps in which the submission failed, in `[0, 1]`.
+    pub kept_after_stop: f64,
+    /// What students get of the reference solution in this variant.
+    pub practice: Practice,
     /// The tasks, in order.
     pub tasks: Vec<Task>,
-}
-
-/// The TCP paths of the reference solution: all that students see of it.
-#[derive(Debug, Clone, Default)]
-pub struct ReferencePaths {
-    /// The file's text; empty where the lab has none.
-    pub text: String,
-    /// Task names with paths.
-    pub paths: Vec<(String, TcpPath)>,
 }
 
 impl Lab {
@@ -97,16 +92,6 @@ impl Task {
             TaskWork::Function(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
             TaskWork::Motion(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
         }
-    }
-
-    /// The name of its first check that compares the whole run with the reference's path.
-    pub fn one_path(&self) -> Option<&str> {
-        let TaskWork::Motion(_, checks) = &self.work else {
-            return None;
-        };
-        let mut checks = checks.iter();
-        let found = checks.find(|check| check.kind.follows_one_path())?;
-        Some(&found.name)
     }
 
     /// Points of all its checks.

@@ -25,8 +25,17 @@ problems! {
         DrawnFromExpression:
             "lab::variants", "[variants] holds numbers, not expressions: parameters are drawn from it", "an expression",
             "write the number";
+        OfReference:
+            "lab::bad_name", "`reference` cannot be a parameter: in a band it is what the reference solution reaches", "this name",
+            "choose another name";
+        NoReferenceHere:
+            "lab::expression", "`reference` has no value here: it is what the reference solution reaches in a check",
+            "not in the band of a run", "name it only in `full` and `zero` of a check that judges a run";
     }
 }
+
+/// What the reference solution reaches in a check, in the expressions of its band.
+pub(super) const REFERENCE: &str = "reference";
 
 /// What the readers of TOML and of expressions refuse, in their words.
 #[derive(Debug, thiserror::Error)]
@@ -78,6 +87,9 @@ pub(super) fn stated(source: &Source) -> Result<Dimensions, LabError> {
 /// A parameter's name is one that an expression can use.
 fn named(report: Reporter<'_>, at: &Spanned<String>) -> Result<(), LabError> {
     let name = at.get_ref();
+    if name == REFERENCE {
+        return report.refuse_at(at, ParameterProblem::OfReference);
+    }
     let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
     if name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
         return Ok(());
@@ -98,7 +110,15 @@ pub(super) fn tables_with<T: DeserializeOwned>(
     if let Some(variants) = table.get_ref().get("variants") {
         refuse_expressions(variants, source)?;
     }
-    read_with_marked_numbers(source, parameters, "parameter").map_err(|problem| match problem {
+    let read = read_with_marked_numbers(source, parameters, "parameter", REFERENCE);
+    read.map_err(|problem| match problem {
+        MarkedNumbersProblem::Refused(refusal) if is_of_reference(source, &refusal) => {
+            LabError::new(
+                Box::new(ParameterProblem::NoReferenceHere),
+                source,
+                refusal.at,
+            )
+        }
         MarkedNumbersProblem::Refused(refusal) => refusal_at(source, refusal),
         MarkedNumbersProblem::Expression(ExpressionProblem { message, help, at }) => {
             let problem = ReadersProblem {
@@ -126,6 +146,14 @@ fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(
             .try_for_each(|item| refuse_expressions(item, source)),
         _ => Ok(()),
     }
+}
+
+/// Whether a value was refused because its expression names the reference.
+fn is_of_reference(source: &Source, refusal: &TomlRefusal) -> bool {
+    let typed = source.text().get(refusal.at.clone()).unwrap_or_default();
+    let inside = typed.trim_matches(['"', '\'']);
+    let mut words = inside.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    inside.starts_with(MARK) && words.any(|word| word == REFERENCE)
 }
 
 /// What the TOML reader refused, with its place.

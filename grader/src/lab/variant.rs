@@ -6,6 +6,7 @@ use kinemark_sim::text::Source;
 use kinemark_sim::text::number::{short, trimmed};
 use serde::Deserialize;
 use toml::Spanned;
+use unicode_normalization::UnicodeNormalization as _;
 
 use super::file::{StepsOrEach, StepsTable};
 use super::load::tables;
@@ -241,11 +242,14 @@ impl Steps {
 }
 
 impl Lab {
-    /// The variant of `student` under `salt`: the same numbers on every machine.
+    /// The variant of `student` under `salt`: the same numbers on every machine, and for every way to write the same letters (an `é`
+    /// may be one character or two).
     ///
     /// # Errors
     /// An id that cannot be one.
     pub fn variant_of(&self, salt: &str, student: &str) -> Result<Variant, LabError> {
+        let student: String = student.nfc().collect();
+        let student = student.as_str();
         let parameters: Vec<(String, Dimension)> = self
             .variants
             .iter()
@@ -421,6 +425,25 @@ mod tests {
         for id in ["", " a", "a\n", "a\u{7}"] {
             assert!(Variant::new("x", Some(id), &[]).is_err(), "{id:?}");
         }
+    }
+
+    #[test]
+    fn one_name_draws_one_variant_however_its_letters_are_written() {
+        let lab = "format = 1\nname = \"x\"\ntitle = \"X\"\nrobot = \"r\"\n\
+            parameters = { far = 3.0 }\nvariants = { far = { from = 0.0, to = 1000.0, step = 1.0 } }\n\
+            [[tasks]]\nname = \"t\"\ntitle = \"T\"\n\
+            function = { call = \"forward_kinematics\", cases = [{ name = \"c\", q_rad = [0.0] }] }\n\
+            checks = [{ name = \"c\", title = \"C\", points = 1.0, fk-error = { full_m = 0.1, zero_m = 0.2 } }]\n";
+        let robot = "format = 1\nname = \"r\"\n\
+            links = [{ name = \"a\" }, { name = \"b\", shapes = [{ box = { size_m = [1.0, 1.0, 1.0] } }], inertia = { mass_kg = 1.0 } }]\n\
+            joints = [{ name = \"j\", type = \"revolute\", parent = \"a\", child = \"b\", axis = [0.0, 0.0, 1.0] }]\n";
+        let files =
+            crate::lab::copies::Copies::from_texts([("x/lab.toml", lab), ("robots/r.toml", robot)]);
+        let lab = Lab::load(&files, "x").unwrap();
+        let [composed, apart, other] = ["Ren\u{e9}e", "Rene\u{301}e", "Renee"]
+            .map(|id| lab.variant_of("salt", id).unwrap().text());
+        assert_eq!(composed, apart);
+        assert_ne!(composed, other);
     }
 
     #[test]

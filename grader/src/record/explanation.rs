@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::record::grade::{CaseGrade, Evidence, Measure, Stopped, TaskKind};
 use crate::record::graded::GradedRun;
+use crate::record::hints::Hints;
 use crate::record::quantity::with_unit_unlike;
 
 /// A hidden case or run with its numbers.
@@ -45,6 +46,8 @@ pub struct Explanation {
     pub graded: GradedRun,
     /// The tasks with hidden cases or runs, in the lab's order.
     pub tasks: Vec<ExplainedTask>,
+    /// The hints of the lab.
+    pub hints: Hints,
 }
 
 /// A task with hidden cases or runs.

@@ -42,8 +42,20 @@ pub struct Grade {
     pub points: f64,
     /// Maximum points.
     pub max_points: f64,
+    /// Points of checks that are judged when the submission is handed in, in practice; they are not among the maximum points.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub points_at_hand_in: f64,
     /// One per task, in the lab's order.
     pub tasks: Vec<TaskGrade>,
+}
+
+/// No points are left out of a record.
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde passes a reference"
+)]
+fn is_zero(points: &f64) -> bool {
+    points.abs() <= 0.0
 }
 
 /// A variant of a lab: its student and its numbers.
@@ -128,6 +140,9 @@ pub struct TaskGrade {
     pub points: f64,
     /// Maximum points.
     pub max_points: f64,
+    /// As in the grade.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub points_at_hand_in: f64,
     /// The stop of the submission, if it was stopped.
     pub stopped: Option<Stopped>,
     /// Its checks, in the lab's order.
@@ -232,6 +247,9 @@ pub struct Stopped {
     pub time_s: Option<f64>,
     /// The visible case of a function task in which it happened, or the class of a hidden one.
     pub case: Option<String>,
+    /// The share of its points that a run keeps, which went on with the last command; absent where nothing was left to judge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept: Option<f64>,
 }
 
 /// How many of a check's points were earned.
@@ -246,6 +264,9 @@ pub enum Outcome {
     None,
     /// None, because a check that it needs earned none, or the submission was stopped before.
     NotJudged,
+    /// Not decided in practice: it is judged with the reference solution, when the submission is handed in. Its points are not among the
+    /// maximum points.
+    AtHandIn,
 }
 
 /// One check, graded.
@@ -272,6 +293,9 @@ pub struct CheckGrade {
     pub evidence: Vec<Evidence>,
     /// The next step, if points were lost.
     pub next_step: Option<String>,
+    /// Whether the next step is the lab's question, to which `kinemark hint TASK/CHECK` has hints; left out if it is not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_hints: bool,
 }
 
 /// A moment of the visible run of a motion task, which the report shows.
@@ -298,6 +322,12 @@ pub struct Measure {
     pub full: f64,
     /// The value that earns none.
     pub zero: f64,
+    /// The value that the reference solution reaches in the same variant, where the band depends on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<f64>,
+    /// The value of the linear loop, where the lab predicts one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prediction: Option<f64>,
 }
 
 impl Measure {
@@ -467,6 +497,8 @@ mod tests {
             unit: String::new(),
             full,
             zero,
+            reference: None,
+            prediction: None,
         };
         assert_eq!(measure(1.0, 2.0, 4.0).margin(), Some(1.0));
         assert_eq!(measure(3.0, 2.0, 4.0).margin(), Some(-1.0));

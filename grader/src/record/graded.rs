@@ -7,6 +7,7 @@ use kinemark_sim::control::Mode;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::sensor::Sensor;
 use kinemark_sim::trace::Trace;
+use serde::{Deserialize, Serialize};
 
 use crate::record::grade::{Divergence, Grade};
 use crate::record::names::Names;
@@ -99,7 +100,8 @@ pub struct AskedPath {
 }
 
 /// TCP positions at a fixed period, from time zero.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TcpPath {
     /// Time from one point to the next \[s\].
     pub period_s: f64,
@@ -126,6 +128,8 @@ pub struct Curve {
     pub zero: Option<f64>,
     /// Marked moments, with their labels.
     pub marks: Vec<(f64, String)>,
+    /// The same curve of the reference solution's run from time zero, where it may be drawn.
+    pub reference: Option<Vec<f64>>,
     /// Additions for the plot of a step response, if it is one.
     pub step: Option<StepBackdrop>,
 }

@@ -4,6 +4,7 @@ pub mod comparison;
 pub mod explanation;
 pub mod grade;
 pub mod graded;
+pub mod hints;
 pub mod names;
 pub mod quantity;
 #[cfg(any(test, feature = "sample"))]

@@ -143,6 +143,7 @@ pub fn task_run_of(seconds: u32) -> TaskRun {
     });
     let values: Vec<f64> = off_line.collect();
     let curves = vec![Curve {
+        reference: None,
         check: "trajectory-match".to_owned(),
         title: "distance to the reference path".to_owned(),
         unit: "m".to_owned(),
@@ -278,6 +279,8 @@ fn measure(
     zero: f64,
 ) -> Option<Measure> {
     Some(Measure {
+        reference: None,
+        prediction: None,
         quantity: quantity.to_owned(),
         value,
         unit: unit.to_owned(),
@@ -303,6 +306,7 @@ fn check(
         first_lost: None,
         evidence: Vec::new(),
         next_step: None,
+        has_hints: false,
     }
 }
 
@@ -314,6 +318,7 @@ fn task(
     checks: Vec<CheckGrade>,
 ) -> TaskGrade {
     TaskGrade {
+        points_at_hand_in: 0.0,
         name: name.to_owned(),
         title: title.to_owned(),
         kind,
@@ -495,6 +500,7 @@ fn ik() -> TaskGrade {
         ],
     );
     ik.stopped = Some(Stopped {
+        kept: None,
         message: "function not found: `atan` with 2 arguments".to_owned(),
         help: Some("the angle of a point is `atan2(y, x)`".to_owned()),
         line: Some(14),
@@ -615,6 +621,7 @@ pub fn graded() -> GradedRun {
     let tasks = vec![warm_up, fk(), ik(), moving()];
     GradedRun {
         grade: Grade {
+            points_at_hand_in: 0.0,
             format: FORMAT.to_owned(),
             engine: "kinemark 0.1.0".to_owned(),
             mode: GradeMode::Practice,

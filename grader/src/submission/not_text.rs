@@ -14,6 +14,15 @@ const OTHERS: [(&[u8], &str); 7] = [
     (b"\xfe\xff", "text in UTF-16"),
 ];
 
+/// How bytes begin that stand for a submission that is not there; no script begins so.
+const ABSENT: &[u8] = b"\0no submission\n";
+
+/// The bytes of a submission that is not there, as reports keep them: `what` is wrong, in a line, and what to do about it.
+pub fn absent(what: &str, help: &str) -> Vec<u8> {
+    let line = |text: &str| text.replace('\n', " ");
+    [ABSENT, line(what).as_bytes(), b"\n", line(help).as_bytes()].concat()
+}
+
 /// A submission that no host can open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NotText {
@@ -25,6 +34,18 @@ pub struct NotText {
 impl NotText {
     /// What is wrong with the bytes of a file; `None` where they are UTF-8.
     pub fn of(bytes: &[u8]) -> Option<Self> {
+        if let Some(lines) = bytes.strip_prefix(ABSENT) {
+            let lines = String::from_utf8_lossy(lines);
+            let (what, help) = lines.split_once('\n').unwrap_or((&lines, ""));
+            return Some(Self {
+                shown: String::new(),
+                mistake: Mistake {
+                    message: what.to_owned(),
+                    place: None,
+                    help: Some(help.to_owned()),
+                },
+            });
+        }
         let other = OTHERS.iter().find(|(first, _)| bytes.starts_with(first));
         let valid = match std::str::from_utf8(bytes) {
             Ok(_) if other.is_none() => return None,
@@ -83,6 +104,15 @@ mod tests {
         assert_eq!((place.line, place.column), (2, 8));
         assert!(latin.mistake.message.contains("byte 0xdf"));
         assert!(latin.shown.contains('\u{fffd}'));
+    }
+
+    #[test]
+    fn what_is_not_there_says_why_again() {
+        let bytes = absent("`a` is a link\nto b", "copy the file itself");
+        let found = NotText::of(&bytes).expect("no script");
+        assert_eq!(found.mistake.message, "`a` is a link to b");
+        assert_eq!(found.mistake.help.as_deref(), Some("copy the file itself"));
+        assert_eq!(found.shown, "");
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! Perturbed models of a robot: with a payload, friction or another damping that its controller does not know.
+//! Perturbed models of a robot: with a payload, friction, another damping or drag that its controller does not know.
 
 use nalgebra::Vector3;
 
+use super::air::Drag;
 use super::inertia::Inertia;
 use super::robot::{JointKind, Robot};
 use crate::spatial::Symmetric3;
@@ -49,6 +50,17 @@ impl Robot {
         self
     }
 
+    /// The same robot with this drag on every link that moves, in place of its own.
+    #[must_use]
+    pub fn with_drag(mut self, drag: Drag) -> Self {
+        for link in &mut self.links {
+            if link.attachment.body.is_some() {
+                link.drag = Some(drag);
+            }
+        }
+        self
+    }
+
     /// The same robot with the viscous damping of every joint multiplied.
     #[must_use]
     pub fn with_damping_times(mut self, factor: f64) -> Self {
@@ -67,6 +79,7 @@ mod tests {
     use crate::dynamics::GRAVITY_M_S2;
     use crate::dynamics::rnea::Rnea;
     use crate::format::RobotFile;
+    use crate::model::air::Drag;
     use crate::model::robot::Robot;
     use crate::text::Source;
 
@@ -130,5 +143,16 @@ mod tests {
             pendulum().with_more_friction(0.0).with_damping_times(1.0),
             pendulum()
         );
+    }
+
+    #[test]
+    fn drag_is_on_what_moves() {
+        let drag = Drag {
+            area_m2: 0.05,
+            coefficient: 1.1,
+        };
+        let robot = pendulum().with_drag(drag);
+        let drags: Vec<Option<Drag>> = robot.links().iter().map(|link| link.drag).collect();
+        assert_eq!(drags, [None, Some(drag)]);
     }
 }

@@ -1,10 +1,13 @@
 //! TOML in which a string that begins with `=` is an expression: each is replaced by its number before the tables are read.
+//!
+//! An expression over a number that is not known yet, such as what a reference run will reach, is replaced by a [`super::Linear`] instead.
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::expression::{ExpressionProblem, MARK, evaluate_in};
+use super::linear::{linear_in, names};
 use super::{Dimensions, Source, TomlRefusal};
 
 /// Why tables could not be read.
@@ -17,6 +20,7 @@ pub enum MarkedNumbersProblem {
 }
 
 /// Reads the tables of `source` with every `"= expression"` over `named` as a number; messages call those values `noun` (`parameter`).
+/// An expression that names `later` is read as a [`super::Linear`] in it.
 ///
 /// # Errors
 /// An expression that has no value, and what the TOML reader refuses. If a table has a wrong name, the error names the table and not the
@@ -25,6 +29,7 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     source: &Source,
     named: &Dimensions,
     noun: &'static str,
+    later: &'static str,
 ) -> Result<T, MarkedNumbersProblem> {
     let refused = |error: &toml::de::Error| {
         MarkedNumbersProblem::Refused(TomlRefusal::with_expressions(error, source.text()))
@@ -34,8 +39,12 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     let mut table = DeTable::parse(source.text()).map_err(|error| refused(&error))?;
     for value in table.get_ref().values() {
         let evaluated = each_expression(value, &mut |text, value| {
-            let number = evaluate_in(source, &value.span(), text, named, noun)?;
-            numbers.push(as_toml(number));
+            let at = value.span();
+            numbers.push(if names(text, later) {
+                linear_in(source, &at, text, named, (noun, later))?.as_toml()
+            } else {
+                as_toml(evaluate_in(source, &at, text, named, noun)?)
+            });
             Ok(())
         });
         if let Err(problem) = evaluated {

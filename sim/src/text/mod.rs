@@ -3,6 +3,7 @@
 
 mod dimensions;
 pub mod expression;
+mod linear;
 mod marked_numbers;
 pub mod number;
 mod source;
@@ -11,6 +12,7 @@ mod toml_refusal;
 mod typed_table;
 
 pub use dimensions::{Dimension, Dimensions};
+pub use linear::Linear;
 pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};
 pub use source::{Located, Problem, Source};
 pub use suggest::{nearest, suggest};

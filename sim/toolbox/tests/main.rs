@@ -2,6 +2,7 @@
 
 mod eval_answers;
 mod eval_errors;
+mod step_responses;
 mod texts;
 
 use kinemark_sim::format::{ReadOptions, detect};

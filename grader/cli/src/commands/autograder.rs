@@ -7,12 +7,13 @@ use kinemark_course::gradescope_results::{FAILED, GradescopeResults, Upload};
 use kinemark_course::layout::PersonFiles;
 use kinemark_course::pack::{ROSTER_FILE, SALT_FILE};
 use kinemark_course::roster::{Person, Roster};
-use kinemark_course::staffed_lab::{StaffedLab, engine_id};
+use kinemark_course::staffed_lab::{StaffedLab, StudentLab, engine_id};
 use kinemark_course::student::{StudentId, folded};
 use kinemark_course::submission_file::submission_of;
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_course::tree::{Limits, Tree};
 use kinemark_course::working_folder::STARTER_FILE;
+use kinemark_grader::judge;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::task::files::Files as _;
@@ -182,7 +183,7 @@ fn upload(args: &Args, submission: &Path) -> Result<GradescopeResults, NotGraded
     let of_student = lab
         .for_student(student.as_ref().unwrap_or(&anybody))
         .map_err(Failure::from)?;
-    let practice = graded(&uploaded.source, of_student.lab(), None)?;
+    let practice = graded(&uploaded.source, &with_own_practice(&of_student)?, None)?;
     let full = graded(&uploaded.source, of_student.lab(), of_student.staff())?;
     for grade in [&practice, &full] {
         if !grade.verdict.is_decided() {
@@ -201,6 +202,16 @@ fn upload(args: &Args, submission: &Path) -> Result<GradescopeResults, NotGraded
         hidden_at_upload: args.hidden_at_upload,
         notes: &uploaded.notes,
     }))
+}
+
+/// The lab of a student with what the reference solution reaches in it: at the upload they see points of checks that compare with it.
+fn with_own_practice(of_student: &StudentLab<'_>) -> Result<Lab, Failure> {
+    let mut lab = of_student.lab().clone();
+    if let Some(staff) = of_student.staff() {
+        lab.practice = judge::practice(&lab, staff)
+            .map_err(|why| Failure::broken(why.to_string(), "correct `solution.rhai`"))?;
+    }
+    Ok(lab)
 }
 
 /// A grade; what this machine failed at is tried once more.

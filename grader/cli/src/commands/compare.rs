@@ -108,7 +108,7 @@ fn read(path: &Path) -> Result<Graded, Failure> {
     let (lab, _) = report_folder::lab_of(&report)?;
     Ok(Graded {
         lab,
-        submission: SubmissionSource::of_text(report.submission),
+        submission: report.submission,
         grade: report.grade,
     })
 }

@@ -11,6 +11,7 @@ use kinemark_course::history::{Attempt, History};
 use kinemark_course::staffed_lab::engine_id;
 use kinemark_course::student::StudentId;
 use kinemark_grader::record::explanation::{ExplainedDraw, Explanation};
+use kinemark_grader::record::hints::CheckHints;
 use kinemark_report::html::{ViewerCode, explanation};
 use kinemark_report::{explain_text, student_reply};
 use owo_colors::OwoColorize as _;
@@ -79,6 +80,8 @@ struct Explained<'a> {
     history: Vec<PastAttempt<'a>>,
     /// Hidden cases and runs, with their numbers.
     hidden: Vec<&'a ExplainedDraw>,
+    /// All hints of the checks that lost points.
+    hints: Vec<&'a CheckHints>,
     /// What can be sent to the student.
     paragraph: String,
     pages: Vec<String>,
@@ -134,6 +137,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             is_same_grade,
             history: past(attempts),
             hidden: explained.draws().collect(),
+            hints: explained.hints.of_losses(&explained.graded.grade),
             paragraph: student_reply::paragraph(&explained),
             pages,
         })?;

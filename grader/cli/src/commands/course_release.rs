@@ -17,6 +17,7 @@ use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_course::standing::Standing;
 use kinemark_course::student::StudentId;
 use kinemark_grader::lab::Task;
+use kinemark_grader::record::hints::Hints;
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
@@ -102,12 +103,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let open = course.open_files(rules)?;
     let standings = course.standings(rules, &history, &index, &open.students)?;
     let records = records(&course, rules, &standings)?;
-    let rows = rows(
-        &course,
-        &standings,
-        &records,
-        &earlier(rules, &index, &lab)?,
-    );
+    let hints = lab.lab.hints();
+    let earlier = earlier(rules, &index, &lab)?;
+    let rows = rows(&course, &standings, &records, &earlier, &hints);
     let export = args
         .export
         .as_ref()
@@ -152,6 +150,7 @@ fn rows<'a>(
     standings: &'a [Standing],
     records: &'a BTreeMap<&str, (Record, Option<String>)>,
     earlier: &BTreeSet<String>,
+    hints: &'a Hints,
 ) -> Vec<Row<'a>> {
     let people = course.roster.people().iter();
     people
@@ -164,6 +163,7 @@ fn rows<'a>(
                 standing,
                 record: known.map(|(record, _)| record),
                 report: known.and_then(|(_, page)| page.as_deref()),
+                hints,
                 is_of_earlier_lab: standing
                     .record
                     .as_ref()

@@ -3,39 +3,41 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_course::selection::MOST_SUBMISSION_BYTES;
-use kinemark_grader::judge;
+use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
 use kinemark_grader::task::files::Files;
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
-use kinemark_sim::text::Source;
+use serde::Serialize;
 
 use crate::chosen_variant::{self, LabArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
+use crate::practice_variants::{PracticeVariants, try_variants};
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{disk, handed_out_lab, interrupt, output, report_folder};
+use crate::{handed_out_lab, interrupt, named_submission, output, report_folder};
 
 /// Grade a submission
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
-    kinemark grade 01-kinematics submission.rhai --png --storyboard\n\n\
+    kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
+    kinemark grade 01-kinematics submission.rhai --variants 5\n\n\
     A file variant.toml beside the submission is used unless --variant or --student is given.\n\
-    Neither it nor the submission may be a symbolic link.\n\
+    What is no script is graded as `did-not-build`, with what to do; a symbolic link is never followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
-    /// The submission
+    /// The submission: a script, or a folder, a ZIP archive or a hand-in file with one in it
     pub(crate) submission: PathBuf,
     /// Folder to write to; an earlier report there is replaced
     #[arg(long, short, value_name = "DIR", default_value = "out")]
@@ -49,6 +51,9 @@ pub(crate) struct Args {
     /// Write a storyboard of each motion task: six moments of the run in one picture, TASK/storyboard.png and .svg
     #[arg(long)]
     pub(crate) storyboard: bool,
+    /// Grade on so many other variants as well, in practice: a number that is typed in shows there
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub(crate) variants: Option<u32>,
     /// Run the submission in this process: for profiling trusted code
     #[arg(long)]
     pub(crate) in_process: bool,
@@ -63,10 +68,20 @@ pub(crate) struct Args {
 /// A submission, graded.
 pub(crate) struct Work {
     lab: Lab,
-    submission: Source,
+    submission: SubmissionSource,
     pub(crate) graded: GradedRun,
     /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
+    /// The same submission on other variants, where that was asked for.
+    variants: Option<PracticeVariants>,
+}
+
+/// A grade with those on other variants.
+#[derive(Serialize)]
+struct WithVariants<'a> {
+    grade: &'a Grade,
+    #[serde(flatten)]
+    variants: &'a PracticeVariants,
 }
 
 /// Grades, writes the folder, prints.
@@ -75,13 +90,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let work = work(args)?;
     let grade = &work.graded.grade;
     // printed before anything is written: a full disk must not lose the grade
-    if args.json {
+    if let (true, Some(variants)) = (args.json, &work.variants) {
+        output::print_json(&WithVariants { grade, variants })?;
+    } else if args.json {
         output::print_json(grade)?;
     } else {
         if let Some(note) = &work.note {
             output::print(&format!("{note}\n"))?;
         }
-        output::print(&kinemark_report::text::text(grade))?;
+        output::print_lines(&kinemark_report::text::text(grade))?;
+        if let Some(variants) = &work.variants {
+            output::print_lines(&variants.text(grade))?;
+        }
     }
     write(args, &work)?;
     if !args.json {
@@ -139,8 +159,7 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
-    disk::refuse_link(&args.submission)?;
-    let submission = disk::read_submission(&args.submission, MOST_SUBMISSION_BYTES)?;
+    let submission = named_submission::read(&args.submission, &lab.name)?;
     report_folder::refuse_foreign(&args.out)?;
 
     let mut in_process = InProcess;
@@ -150,25 +169,36 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     } else {
         &mut workers
     };
-    let graded = judge::grade(&lab, staff.as_ref(), &submission, host);
+    let graded = submission.grade(&lab, staff.as_ref(), host);
     workers.finish();
     // a worker's processor is for workers alone
     drop(workers);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     for fault in &graded.staff_faults {
-        failure::warn(
-            "the grade is valid, but a file of the course staff failed, so some feedback is missing",
-            fault.as_ref(),
-        );
+        let what = if graded.grade.verdict.is_decided() {
+            "the grade is valid, but a file of the course staff failed, so some feedback is missing"
+        } else {
+            "nothing is decided in some task, because a file of the course staff failed"
+        };
+        failure::warn(what, fault.as_ref());
     }
     if let Some(staff) = staff.as_ref().filter(|_| args.reference_overlay) {
         reference_run::show_reference(&lab, staff, &mut graded);
     }
+    let variants = match args.variants {
+        Some(count) => {
+            let files = chosen.files.as_ref();
+            let own = &graded.grade;
+            Some(try_variants(count, &lab, files, &submission, own)?)
+        }
+        None => None,
+    };
     Ok(Work {
         lab,
         submission,
         graded,
         note,
+        variants,
     })
 }
 

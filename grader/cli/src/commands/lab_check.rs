@@ -7,10 +7,16 @@ use std::process::ExitCode;
 use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
-use kinemark_grader::audit::{Audit, Row, Tried, Variants, depends_on_salt};
+use kinemark_grader::audit::{
+    Audit, PracticeError, Row, Tried, Variants, depends_on_salt, practice_forms,
+};
+use kinemark_grader::lab::practice::{PRACTICE_SALT, practice_student};
 use kinemark_grader::lab::{Lab, Staff};
-use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::submission::rhai::STACK_BYTES;
+use kinemark_grader::task::files::Files;
+use kinemark_grader::task::problem::LoadError;
+use kinemark_report::formula::formula_problems;
 use kinemark_sim::text::Source;
 use owo_colors::OwoColorize as _;
 
@@ -80,11 +86,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         .map_err(|why| Failure::broken(format!("{path}: {why}"), "save it as UTF-8 text"))?;
 
     let mut audit = Audit::new(&lab);
-    audit.brief(&lab, brief.as_deref());
+    let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();
+    let formula = formulas.first().map(ToString::to_string);
+    audit.brief(&lab, brief.as_deref(), formula.as_deref());
     audit.starter(&lab, &own, &starter);
-    if let Some(run) = audit.reference(&lab, &own, "own hidden cases") {
-        audit.reference_paths(&lab, &run);
-    }
+    audit.reference(&lab, &own, "own hidden cases");
+    audit_practice(&mut audit, files.as_ref(), &lab, &own)?;
     let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
     for draw in 1..=draws {
         let staff = staff(Some(&format!("lab check {draw}")))?;
@@ -103,6 +110,29 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let bad = audit.problems().next().is_some();
     Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// Compares `practice.json` with what the reference solution gives now.
+fn audit_practice(
+    audit: &mut Audit,
+    files: &dyn Files,
+    lab: &Lab,
+    staff: &Staff,
+) -> Result<(), Failure> {
+    let forms = match practice_forms(files, lab, staff, &|| {}) {
+        Ok(forms) => forms,
+        // the rows of the reference and of the variants say what is wrong with them
+        Err(PracticeError::Load(_) | PracticeError::Solution { .. }) => return Ok(()),
+    };
+    let mut current = vec![lab.practice.clone()];
+    for number in 1..forms.len() as u32 {
+        let student = practice_student(number);
+        let variant = lab.variant_of(PRACTICE_SALT, &student);
+        let variant = variant.map_err(LoadError::from)?;
+        current.push(Lab::load_variant(files, &lab.name, Some(&variant))?.practice);
+    }
+    audit.practice(&forms, &current);
+    Ok(())
 }
 
 /// Tries the variants of so many students, on all cores: no variant knows of another.
@@ -170,6 +200,7 @@ fn text(audit: &Audit) -> String {
         let (least, greatest) = (100.0 * room.least, 100.0 * room.greatest);
         let _ = writeln!(out, "  {name:<42} {least:>7.1} % to {greatest:.1} %");
     }
+    push_relative(&mut out, audit);
     let problems = audit.problems().count();
     let conclusion = match problems {
         0 => "nothing is wrong".green().to_string(),
@@ -178,6 +209,39 @@ fn text(audit: &Audit) -> String {
     };
     let _ = writeln!(out, "\n{} tried, {conclusion}", audit.rows.len());
     out
+}
+
+/// The bands that depend on the reference, as the numbers that they are in the variants.
+fn push_relative(out: &mut String, audit: &Audit) {
+    let relative = audit.rooms.iter();
+    let mut relative = relative
+        .filter_map(|room| Some((room, room.relative.as_ref()?)))
+        .peekable();
+    if relative.peek().is_none() {
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "\nbands that depend on the reference, over the variants (what it reaches; all points up to; none from)"
+    );
+    for (room, band) in relative {
+        let name = format!("{}: {}", room.task, room.check);
+        let range = |[low, high]: [f64; 2]| {
+            let [low, high] = [low, high].map(|end| with_unit(end, &band.unit));
+            if low == high {
+                low
+            } else {
+                format!("{low} to {high}")
+            }
+        };
+        let _ = writeln!(
+            out,
+            "  {name:<32} {:<22} {:<22} {}",
+            range(band.reference),
+            range(band.full),
+            range(band.zero)
+        );
+    }
 }
 
 fn push(out: &mut String, row: &Row) {
@@ -195,7 +259,7 @@ fn push(out: &mut String, row: &Row) {
         Tried::Brief => "can be handed out",
         Tried::Starter => "misses",
         Tried::Reference => "full marks",
-        Tried::ReferencePath => "is the reference solution's",
+        Tried::Practice => "is what the reference solution gives",
         Tried::Mutants => "enough of them",
         Tried::Mutant => "loses and is named",
     };

@@ -10,6 +10,8 @@ use kinemark_course::pack::{self, Autograder, PackError, PackedLab};
 use kinemark_course::public::public_part;
 use kinemark_course::roster::Roster;
 use kinemark_course::student::StudentId;
+use kinemark_grader::judge::practice;
+use kinemark_grader::lab::Practice;
 use kinemark_grader::lab::copies::Copies;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::points;
@@ -199,7 +201,10 @@ fn for_students(
     let mut variants = Vec::new();
     for student in students(args)? {
         let variant = chosen_variant::of_student(lab, reference, &args.staff, student.as_str())?;
-        let variant = Lab::load_variant(packed.files, &lab.name, Some(&variant))?;
+        let mut variant = Lab::load_variant(packed.files, &lab.name, Some(&variant))?;
+        if let Some(reference) = reference {
+            variant.practice = own_practice(&variant, reference, args.staff.salt.as_deref())?;
+        }
         variants.push(variant);
     }
     let content = pack::for_students(packed, &variants).map_err(failed)?;
@@ -238,6 +243,15 @@ fn for_students(
         ),
     }
     Ok(content)
+}
+
+/// What a student gets of the reference solution in their own variant; nothing where there is no solution.
+fn own_practice(lab: &Lab, reference: &Folder, salt: Option<&str>) -> Result<Practice, Failure> {
+    match Staff::load_for_student(reference, lab, salt)? {
+        Some(staff) => practice(lab, &staff)
+            .map_err(|why| Failure::broken(why.to_string(), "correct `solution.rhai`")),
+        None => Ok(lab.practice.clone()),
+    }
 }
 
 /// The students whose variants are packed; none where everybody gets the same.

@@ -9,24 +9,21 @@ use kinemark_course::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use kinemark_course::staffed_lab::{engine_id, lab_version};
 use kinemark_course::student::StudentId;
 use kinemark_course::submission_source::SubmissionSource;
-use kinemark_course::working_folder::SUBMISSION_FILE;
-use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Lab, Variant};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::record::verdict::Verdict;
-use kinemark_grader::task::files::Files;
 use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use super::grade::progress;
 use crate::chosen_variant::{self, Chosen, LabArgs, VariantArgs};
 use crate::failure::{self, FAULT, Failure};
-use crate::hand_in_warnings::{self, BeforeUpload};
+use crate::hand_in_warnings::BeforeUpload;
 use crate::handed_out_lab::Warning;
-use crate::labs_folder::{self, LabsFolderArgs};
+use crate::labs_folder::LabsFolderArgs;
 use crate::staff_folder::{StaffArgs, StaffPart};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output};
+use crate::{disk, interrupt, output, working_lab};
 
 /// Write the one file to upload
 #[derive(Debug, clap::Args)]
@@ -130,17 +127,13 @@ fn lab_and_file(args: &Args) -> Result<(String, PathBuf), Failure> {
         (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
         (lab, file) => (lab.clone(), file.clone()),
     };
-    let file = file.unwrap_or_else(|| {
-        let here = PathBuf::from(SUBMISSION_FILE);
-        // `kinemark new` has made a folder of the lab's name
-        let below = lab.as_deref().map(|lab| Path::new(lab).join(&here));
-        below
-            .filter(|below| !here.exists() && below.is_file())
-            .unwrap_or(here)
-    });
+    let file = file.unwrap_or_else(|| working_lab::submission(lab.as_deref()));
     let lab = match lab {
         Some(lab) => lab,
-        None => lab_of(&file, args)?,
+        None => {
+            let help = "name the lab, such as `kinemark submit 01-kinematics submission.rhai`";
+            working_lab::lab_of(&file, args.variant.as_deref(), &args.labs_folder, help)?
+        }
     };
     Ok((lab, file))
 }
@@ -149,43 +142,6 @@ fn is_program(word: &str) -> bool {
     [".rhai", ".wasm", ".txt"]
         .iter()
         .any(|ending| word.ends_with(ending))
-}
-
-/// The lab of a submission where none is named: that of its variant, of its folder, or of the last report.
-fn lab_of(file: &Path, args: &Args) -> Result<String, Failure> {
-    let variant = args
-        .variant
-        .clone()
-        .unwrap_or_else(|| file.with_file_name(VARIANT_FILE));
-    if variant.is_file() {
-        disk::refuse_link(&variant)?;
-        let text = disk::read(&variant, "a variant", MOST_SUBMISSION_BYTES)?;
-        let variant =
-            Variant::parse(text).map_err(|error| Failure::diagnostic(failure::BROKEN, error))?;
-        return Ok(variant.lab().to_owned());
-    }
-    let (labs, _) = labs_folder::open(&args.labs_folder)?;
-    let folder = disk::real(file).parent().map(Path::to_owned);
-    let folder = folder.as_deref().and_then(Path::file_name);
-    let folder = folder.and_then(|name| name.to_str());
-    if let Some(name) = folder.filter(|name| is_lab(labs.as_ref(), name)) {
-        return Ok(name.to_owned());
-    }
-    hand_in_warnings::last_lab()
-        .filter(|name| is_lab(labs.as_ref(), name))
-        .ok_or_else(|| {
-            Failure::usage(
-                "it is not clear which lab this is: there is no variant.toml, no report in `out`, and the folder is not \
-                 called like a lab"
-                    .to_owned(),
-                "name the lab, such as `kinemark submit 01-kinematics submission.rhai`",
-            )
-        })
-}
-
-fn is_lab(labs: &dyn Files, name: &str) -> bool {
-    labs.bytes(&format!("{name}/lab.toml"))
-        .is_ok_and(|file| file.is_some())
 }
 
 /// The bytes of the submission, text or not.

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::judge;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::variant::VARIANT_FILE;
@@ -92,7 +91,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
     };
     let mut host = WorkerHost::new(None);
-    let graded = judge::grade(&lab, staff.as_ref(), &report.submission, &mut host);
+    let graded = report.submission.grade(&lab, staff.as_ref(), &mut host);
     let mut graded = graded.map_err(|_| Failure::interrupted())?;
     if let Some(staff) = staff
         .as_ref()

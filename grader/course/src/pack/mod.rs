@@ -9,6 +9,7 @@ pub mod secrets;
 
 use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::Variant;
+use kinemark_grader::lab::practice::{PRACTICE_FILE, form, with_own};
 use kinemark_grader::task::files::Files;
 
 use crate::fixed_zip::ArchiveFile;
@@ -153,11 +154,18 @@ impl PackedLab<'_> {
     fn for_students(&self) -> Result<Vec<ArchiveFile>, PackError> {
         let name = &self.lab.name;
         let copies = self.lab.copies();
+        let practice = format!("{name}/{PRACTICE_FILE}");
         let mut files: Vec<ArchiveFile> = copies
             .iter()
+            // a copy has the form of one variant; students get all
+            .filter(|(path, _)| *path != practice)
             .map(|(path, bytes)| ArchiveFile::new(format!("{LABS}/{path}"), bytes))
             .collect();
-        let mut beside = vec![BRIEF_FILE.to_owned(), STARTER_FILE.to_owned()];
+        let mut beside = vec![
+            BRIEF_FILE.to_owned(),
+            STARTER_FILE.to_owned(),
+            PRACTICE_FILE.to_owned(),
+        ];
         beside.extend(
             self.files
                 .list(name)
@@ -214,8 +222,13 @@ pub fn for_students(
         for (name, text) in working_folder(packed.files, lab)? {
             files.push(ArchiveFile::new(inside(&name), text));
         }
-        let copies = shared.iter();
-        files.extend(copies.map(|file| ArchiveFile::new(inside(&file.path), file.bytes.clone())));
+        for file in &shared {
+            let bytes = match with_own_practice(&file.path, &file.bytes, lab)? {
+                Some(bytes) => bytes,
+                None => file.bytes.clone(),
+            };
+            files.push(ArchiveFile::new(inside(&file.path), bytes));
+        }
         refuse_too_large(&files)
     };
     if variants.is_empty() {
@@ -228,6 +241,18 @@ pub fn for_students(
         add(&folder, lab)?;
     }
     Ok(files)
+}
+
+/// The bytes of `practice.json` with what `lab`, a student's variant, says of the reference solution; `None` of another file.
+fn with_own_practice(path: &str, bytes: &[u8], lab: &Lab) -> Result<Option<Vec<u8>>, PackError> {
+    let is_practice = path == format!("{LABS}/{}/{PRACTICE_FILE}", lab.name);
+    if !is_practice || lab.variant.is_none() || lab.practice.is_empty() {
+        return Ok(None);
+    }
+    let own = form(lab.variant.as_ref(), lab.practice.clone());
+    let text =
+        with_own(&String::from_utf8_lossy(bytes), &own).map_err(|error| unwritten(&error))?;
+    Ok(Some(text.into_bytes()))
 }
 
 /// The pack for course staff: the lab and all of the course staff's part, with the course's salt where it has one of its own.

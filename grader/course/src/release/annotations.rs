@@ -101,7 +101,8 @@ fn loss(file: &str, of: &CheckPoints<'_>) -> (f64, String) {
     );
     let facts = check.evidence.iter().map(|fact| fact.message.clone());
     let next = check.next_step.iter().map(|next| format!("Next: {next}"));
-    let message: Vec<String> = facts.chain(next).collect();
+    let hints = of.hints.iter().map(|hint| format!("Hint: {hint}"));
+    let message: Vec<String> = facts.chain(next).chain(hints).collect();
     let message = if message.is_empty() {
         title.clone()
     } else {

@@ -1,4 +1,4 @@
-//! What a check says in lines of text: its facts, the next step, and points by hand with their reasons.
+//! What a check says in lines of text: its facts, the next step, the hints, and points by hand with their reasons.
 
 use kinemark_grader::record::grade::Outcome;
 
@@ -11,17 +11,22 @@ pub(super) fn check_text(of: &CheckPoints<'_>) -> String {
     let mut lines = Vec::new();
     if check.outcome == Outcome::NotJudged {
         lines.push(match &of.task.stopped {
-            Some(stopped) => format!(
+            Some(stopped) if stopped.kept.is_none() => format!(
                 "Not judged, because the submission was stopped: {}",
                 plain(&stopped.message, 600)
             ),
-            None => "Not judged, because a check that it needs earned nothing.".to_owned(),
+            _ => "Not judged, because a check that it needs earned nothing.".to_owned(),
         });
     }
     lines.extend(check.evidence.iter().map(|fact| plain(&fact.message, 600)));
     if let Some(next) = &check.next_step {
         lines.push(format!("Next: {}", plain(next, 600)));
     }
+    lines.extend(
+        of.hints
+            .iter()
+            .map(|hint| format!("Hint: {}", plain(hint, 600))),
+    );
     for by_hand in &of.by_hand {
         lines.push(format!(
             "By hand: {}: {}",

@@ -1,6 +1,7 @@
 //! The grade of a student that may be written as a number: one that is decided, with the points that people gave.
 
 use kinemark_grader::record::grade::{CheckGrade, Grade, TaskGrade};
+use kinemark_grader::record::hints::Hints;
 
 use super::Row;
 use crate::standing::{ByHand, Status};
@@ -16,6 +17,8 @@ pub(super) struct Decided<'a> {
     pub(super) grade: Option<&'a Grade>,
     /// Points by hand.
     pub(super) by_hand: &'a [ByHand],
+    /// The hints of the lab.
+    pub(super) hints: &'a Hints,
 }
 
 /// A check with the points that people gave for it.
@@ -28,6 +31,8 @@ pub(super) struct CheckPoints<'a> {
     pub(super) points: f64,
     /// Points by hand of this check.
     pub(super) by_hand: Vec<&'a ByHand>,
+    /// The hints behind its next step, where it lost points.
+    pub(super) hints: &'a [String],
 }
 
 impl CheckPoints<'_> {
@@ -56,6 +61,7 @@ pub(super) fn decided<'a>(row: &Row<'a>) -> Option<Decided<'a>> {
         max_points: standing.max_points.or(grade.map(|grade| grade.max_points)),
         grade,
         by_hand: &standing.by_hand,
+        hints: row.hints,
     })
 }
 
@@ -76,6 +82,7 @@ impl<'a> Decided<'a> {
                     number: (i + 1, j + 1),
                     points: hundredths((check.points + change).max(0.0)),
                     by_hand,
+                    hints: self.hints.behind_next_step(&task.name, check),
                 });
             }
         }

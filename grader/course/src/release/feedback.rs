@@ -1,7 +1,8 @@
 //! Feedback in a few lines, the same in every form: the total, lateness, points by hand with their reasons, and the first losses with
-//! evidence and next step. It has no path of a machine and no number of a hidden case.
+//! evidence, next step and hints. It has no path of a machine and no number of a hidden case.
 
-use kinemark_grader::record::grade::{Grade, TaskGrade};
+use kinemark_grader::record::grade::TaskGrade;
+use kinemark_grader::record::hints::Hints;
 use kinemark_report::html::feedback::{FeedbackPage, feedback_page};
 use kinemark_report::moment::{has_lost, lost_points};
 use kinemark_report::visible::shortened;
@@ -32,6 +33,16 @@ pub(super) fn plain(text: &str, most: usize) -> String {
     shortened(&without_paths(text.trim()), most)
 }
 
+/// What lost points.
+struct Loss {
+    /// What and why, and the next step.
+    line: String,
+    /// The hints behind the next step, to be added to the line where there is room.
+    hints: String,
+    /// How many points.
+    points: f64,
+}
+
 /// The feedback of one student.
 pub(super) struct Feedback<'a> {
     title: &'a str,
@@ -39,8 +50,8 @@ pub(super) struct Feedback<'a> {
     total: String,
     /// Lateness, and points by hand.
     facts: Vec<String>,
-    /// What lost points, in the lab's order, with how many.
-    losses: Vec<(String, f64)>,
+    /// What lost points, in the lab's order.
+    losses: Vec<Loss>,
     /// How to see the replay.
     replay: Option<String>,
 }
@@ -57,7 +68,7 @@ impl<'a> Feedback<'a> {
             decided,
             total: total(material, row.standing, &decided),
             facts,
-            losses: grade.map(losses).unwrap_or_default(),
+            losses: losses(&decided),
             replay: grade.map(|grade| {
                 let word = |text: &str, other: &str| {
                     let is_shown = plain(text, 60) == text;
@@ -86,17 +97,23 @@ impl<'a> Feedback<'a> {
             left = left.saturating_sub(length(line));
         }
         let mut shown = 0;
-        for (loss, _) in &self.losses {
-            if length(loss) > left {
+        for loss in &self.losses {
+            if length(&loss.line) > left {
                 break;
             }
-            left -= length(loss);
-            lines.push(loss.clone());
+            left -= length(&loss.line);
             shown += 1;
         }
-        let others = &self.losses[shown..];
+        let (shown, others) = self.losses.split_at(shown);
+        // hints cost no other loss its line
+        for Loss { line, hints, .. } in shown {
+            let has_room = hints.chars().count() <= left;
+            let hints = if has_room { hints.as_str() } else { "" };
+            left -= hints.chars().count();
+            lines.push(format!("{line}{hints}"));
+        }
         if !others.is_empty() {
-            let lost: f64 = others.iter().map(|(_, points)| points).sum();
+            let lost: f64 = others.iter().map(|loss| loss.points).sum();
             let what = if others.len() == 1 { "loss" } else { "losses" };
             lines.push(format!(
                 "- {} more {what} of {} points: see the report",
@@ -134,6 +151,7 @@ impl<'a> Feedback<'a> {
             facts: &self.facts,
             replay: self.replay.as_deref(),
             grade: self.decided.grade,
+            hints: self.decided.hints,
         })
     }
 }
@@ -238,27 +256,29 @@ pub(super) fn change(points: f64) -> String {
 }
 
 /// What lost points, in the lab's order: what stopped a task, then its checks.
-fn losses(grade: &Grade) -> Vec<(String, f64)> {
-    grade.tasks.iter().flat_map(of_task).collect()
+fn losses(decided: &Decided<'_>) -> Vec<Loss> {
+    let tasks = decided.grade.into_iter().flat_map(|grade| &grade.tasks);
+    tasks
+        .flat_map(|task| of_task(task, decided.hints))
+        .collect()
 }
 
-fn of_task(task: &TaskGrade) -> Vec<(String, f64)> {
+fn of_task(task: &TaskGrade, hints: &Hints) -> Vec<Loss> {
     let mut losses = Vec::new();
     let title = plain(&task.title, 60);
     if let Some(stopped) = &task.stopped {
         let line = stopped.line.map(|line| format!(" in line {line}"));
         let lost = (task.max_points - task.points).max(0.0);
-        losses.push((
-            with_next(
-                format!(
-                    "- {title} was stopped{}: {}",
-                    line.unwrap_or_default(),
-                    plain(&stopped.message, 200)
-                ),
-                stopped.help.as_deref(),
-            ),
-            lost,
-        ));
+        let what = format!(
+            "- {title} was stopped{}: {}",
+            line.unwrap_or_default(),
+            plain(&stopped.message, 200)
+        );
+        losses.push(Loss {
+            line: with_next(what, stopped.help.as_deref()),
+            hints: String::new(),
+            points: lost,
+        });
     }
     for check in task.checks.iter().filter(|check| has_lost(check)) {
         let mut loss = format!(
@@ -275,7 +295,12 @@ fn of_task(task: &TaskGrade) -> Vec<(String, f64)> {
             Some(_) => 0.0,
             None => lost_points(check),
         };
-        losses.push((with_next(loss, check.next_step.as_deref()), lost));
+        let hints = hints.behind_next_step(&task.name, check).iter();
+        losses.push(Loss {
+            line: with_next(loss, check.next_step.as_deref()),
+            hints: hints.map(|hint| format!(" {}", plain(hint, 300))).collect(),
+            points: lost,
+        });
     }
     losses
 }

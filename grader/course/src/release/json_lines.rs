@@ -66,6 +66,8 @@ struct Check<'a> {
     measure: Option<&'a Measure>,
     evidence: &'a [Evidence],
     next_step: Option<&'a str>,
+    /// The hints behind the next step, where points were lost.
+    hints: &'a [String],
 }
 
 fn make(material: &Material<'_>) -> Result<Made, ReleaseError> {
@@ -128,6 +130,7 @@ fn tasks<'a>(grade: &'a Grade, decided: &Decided<'a>) -> Vec<Task<'a>> {
                     measure: of.check.measure.as_ref(),
                     evidence: &of.check.evidence,
                     next_step: of.check.next_step.as_deref(),
+                    hints: of.hints,
                 })
                 .collect();
             Task {

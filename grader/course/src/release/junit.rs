@@ -97,7 +97,9 @@ fn case(material: &Material<'_>, of: &CheckPoints<'_>, counts: &mut Counts) -> S
     let outcome = match check.outcome {
         // points by hand can make it full
         _ if of.points >= check.max_points => String::new(),
-        Outcome::NotJudged if of.task.stopped.is_some() => {
+        Outcome::NotJudged
+            if (of.task.stopped.as_ref()).is_some_and(|stopped| stopped.kept.is_none()) =>
+        {
             counts.errors += 1;
             let stopped = of
                 .task
@@ -110,7 +112,7 @@ fn case(material: &Material<'_>, of: &CheckPoints<'_>, counts: &mut Counts) -> S
                 of.task.verdict.name()
             )
         }
-        Outcome::NotJudged => {
+        Outcome::NotJudged | Outcome::AtHandIn => {
             counts.skipped += 1;
             format!(
                 "      <skipped message=\"{}\"/>\n",

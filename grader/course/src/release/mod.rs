@@ -32,6 +32,7 @@ use crate::book::Record;
 use crate::roster::Person;
 use crate::standing::Standing;
 use crate::student::StudentId;
+use kinemark_grader::record::hints::Hints;
 
 pub use error::ReleaseError;
 pub use note::Note;
@@ -47,6 +48,8 @@ pub struct Row<'a> {
     pub record: Option<&'a Record>,
     /// The page of the whole report, where it was made.
     pub report: Option<&'a str>,
+    /// The hints of the lab as it is today: whoever has the feedback has all of them.
+    pub hints: &'a Hints,
     /// Whether the record was made with another lab, staff part or engine than those of today.
     pub is_of_earlier_lab: bool,
 }

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::hints::{CheckHints, Hints};
 use kinemark_grader::record::sample;
 use kinemark_grader::record::verdict::Verdict;
 
@@ -36,6 +37,22 @@ static GRADE: LazyLock<Grade> = LazyLock::new(|| {
     grade.tasks.remove(0);
     grade.max_points = MAXIMUM;
     grade
+});
+
+/// The hints of the lab: of the check that lost points in every grade, and of one that lost none.
+static HINTS: LazyLock<Hints> = LazyLock::new(|| {
+    let of = |check: &str, hints: [&str; 2]| CheckHints {
+        task: "fk".to_owned(),
+        check: check.to_owned(),
+        title: "Hinted".to_owned(),
+        hints: hints.map(str::to_owned).to_vec(),
+    };
+    let lost = of(
+        "mean-error",
+        ["Which angle is it?", "It is q1 + q2 <here>."],
+    );
+    let full = of("no-such", ["Which point?", "The elbow."]);
+    [lost, full].into_iter().collect()
 });
 
 /// The grade that everybody has.
@@ -130,6 +147,7 @@ impl Class {
                 standing,
                 record: record.as_ref(),
                 report: Some("<!DOCTYPE html><title>report</title>"),
+                hints: &HINTS,
                 is_of_earlier_lab: false,
             })
             .collect()

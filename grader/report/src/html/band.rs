@@ -14,6 +14,8 @@ pub(super) struct MeasureText {
     pub(super) band: String,
     /// How far the value is from where all points are earned, if it is not right there.
     pub(super) margin: Option<String>,
+    /// What the reference solution and the linear loop reach, where that is known.
+    pub(super) beside: Option<String>,
 }
 
 /// The words for a measure.
@@ -44,6 +46,7 @@ pub(super) fn measure_text(measure: &Measure) -> MeasureText {
         margin: measured
             .margin
             .map(|margin| format!("{} {words}", kept(&margin))),
+        beside: measured.beside.map(|beside| kept(&beside)),
     }
 }
 
@@ -79,6 +82,7 @@ pub(super) fn outcome(check: &CheckGrade) -> Markup {
         Outcome::Partial => ("partial", "partial", "M3.5 8 H12.5 M8 3.5 V12.5"),
         Outcome::None => ("none", "none", "M4 4 L12 12 M12 4 L4 12"),
         Outcome::NotJudged => ("unjudged", "not judged", "M4 8 H12"),
+        Outcome::AtHandIn => ("unjudged", "when you hand in", "M4 8 H12"),
     };
     html! {
         span class={ "pill " (class) } {
@@ -108,6 +112,8 @@ mod tests {
             unit: "m".to_owned(),
             full,
             zero,
+            reference: None,
+            prediction: None,
         }
     }
 

@@ -162,6 +162,7 @@ fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
                 td class="number" {
                     @match outcome {
                         Outcome::NotJudged => "not judged",
+                        Outcome::AtHandIn => "when handed in",
                         Outcome::Full | Outcome::Partial | Outcome::None => (points(earned)),
                     }
                 }

@@ -4,7 +4,7 @@
 use maud::{Markup, html};
 
 use super::head::earned;
-use super::{ViewerCode, foreign, page, page_with_notice};
+use super::{ViewerCode, foreign, page, page_with_notice, prose};
 use crate::explain_text::{FOR_STAFF, HOW_RUNS_COUNT, band_of, case_error, scores, value_of};
 use crate::plot::plots;
 use crate::stop_words::{is_missing_function, message_with_line, stop_of_whole_file};
@@ -102,6 +102,7 @@ fn overview(explanation: &Explanation) -> String {
                 section { p { strong { "Nothing of it could be run: " } (foreign(&message_with_line(stopped))) } }
             }
             @for task in &explanation.tasks { (section(task, record(&task.name), whole_file.is_some())) }
+            (hints(explanation))
             section aria-labelledby="reply" {
                 h2 id="reply" { "To send to the student" }
                 p class="lead" { "Without hidden numbers:" }
@@ -110,6 +111,22 @@ fn overview(explanation: &Explanation) -> String {
         }
     };
     page(&title, &grade.engine, &body, &[], ViewerCode::Inside)
+}
+
+/// All hints of the checks that lost points, which the student's report does not have.
+fn hints(explanation: &Explanation) -> Markup {
+    let losses = explanation.hints.of_losses(&explanation.graded.grade);
+    html! {
+        @if !losses.is_empty() {
+            section aria-labelledby="hints" {
+                h2 id="hints" { "Hints of the checks that lost points" }
+                @for check in losses {
+                    h3 { (foreign(&check.title)) " " code { (check.name()) } }
+                    ol class="hints" { @for hint in &check.hints { li { (prose(hint)) } } }
+                }
+            }
+        }
+    }
 }
 
 fn section(task: &ExplainedTask, record: Option<&TaskGrade>, is_no_program: bool) -> Markup {

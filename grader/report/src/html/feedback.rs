@@ -12,6 +12,7 @@ use super::viewer::ViewerCode;
 use super::{foreign, page, prose};
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::{CheckGrade, Grade, Outcome, Stopped, TaskGrade};
+use kinemark_grader::record::hints::Hints;
 use kinemark_grader::record::quantity::points;
 
 /// The most bytes of a page.
@@ -35,6 +36,8 @@ pub struct FeedbackPage<'a> {
     pub replay: Option<&'a str>,
     /// The grade; none where points were given without a file.
     pub grade: Option<&'a Grade>,
+    /// The hints of the lab.
+    pub hints: &'a Hints,
 }
 
 /// How much of a grade is shown.
@@ -76,7 +79,7 @@ fn with_detail(shown: &FeedbackPage<'_>, detail: Detail) -> String {
             main {
                 @if !matches!(detail, Detail::Total) { (scores(grade)) }
                 @if let Detail::Facts(most) = detail {
-                    @for (i, task) in grade.tasks.iter().enumerate() { (task_section(i, task, most)) }
+                    @for (i, task) in grade.tasks.iter().enumerate() { (task_section(i, task, shown.hints, most)) }
                 }
             }
             @if matches!(detail, Detail::Facts(_)) { (facts(grade)) }
@@ -121,7 +124,7 @@ fn head(shown: &FeedbackPage<'_>) -> Markup {
 }
 
 /// What a task lost; a task that lost nothing is in the table of scores.
-fn task_section(index: usize, task: &TaskGrade, most: usize) -> Markup {
+fn task_section(index: usize, task: &TaskGrade, hints: &Hints, most: usize) -> Markup {
     let id = anchor(index);
     let of = TaskShown {
         name: &task.name,
@@ -129,6 +132,7 @@ fn task_section(index: usize, task: &TaskGrade, most: usize) -> Markup {
         run: None,
         has_replay: false,
         stopped: task.stopped.is_some(),
+        hints: Some(hints),
     };
     let lost: Vec<CheckGrade> = task
         .checks
@@ -181,6 +185,9 @@ mod tests {
     use super::*;
     use kinemark_grader::record::grade::Evidence;
     use kinemark_grader::record::sample;
+    use std::sync::LazyLock;
+
+    static NO_HINTS: LazyLock<Hints> = LazyLock::new(Hints::default);
 
     fn shown<'a>(grade: Option<&'a Grade>, facts: &'a [String]) -> FeedbackPage<'a> {
         FeedbackPage {
@@ -190,6 +197,7 @@ mod tests {
             facts,
             replay: Some("To see the runs: kinemark grade 01 submission.rhai"),
             grade,
+            hints: &NO_HINTS,
         }
     }
 

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::band::{measure_text, outcome};
 use super::foreign;
+use crate::text::points_at_hand_in;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Grade, GradeMode, Outcome, Part, TaskGrade};
 use kinemark_grader::record::quantity::points;
@@ -30,6 +31,9 @@ pub(super) fn meaning<'a>(
         Verdict::Missed => {
             let (mut lost, mut all) = (0, 0);
             for check in checks {
+                if check.outcome == Outcome::AtHandIn {
+                    continue;
+                }
                 lost += usize::from(check.outcome != Outcome::Full);
                 all += 1;
             }
@@ -82,6 +86,7 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
                     p class="score" {
                         @if grade.verdict.is_decided() {
                             b { (points(grade.points)) } span { "of " (points(grade.max_points)) " points" }
+                            @if let Some(later) = points_at_hand_in(grade) { span { "; " (later) } }
                         } @else {
                             b { "–" } span { "of " (points(grade.max_points)) " points, not decided" }
                         }

@@ -135,6 +135,7 @@ mod tests {
     fn what_stopped_a_task_is_shown_before_its_checks() {
         let mut grade = moving();
         grade.tasks[0].stopped = Some(Stopped {
+            kept: None,
             message: "`q` has no `x`".to_owned(),
             help: None,
             line: Some(7),

@@ -12,6 +12,7 @@ use super::viewer::place;
 use super::{foreign, prose};
 use crate::moment::{FirstLoss, first_loss_of, last_before};
 use crate::plot::Plot;
+use crate::text::kept_words;
 use crate::visible::{file_stem, visible};
 use kinemark_grader::record::grade::{
     CheckGrade, Diagnosis, Divergence, Outcome, Stopped, TaskGrade, TaskKind,
@@ -34,7 +35,11 @@ pub(super) fn section(
         kind: task.kind,
         run: run.map(|(run, _)| run),
         has_replay,
-        stopped: task.stopped.is_some(),
+        stopped: task
+            .stopped
+            .as_ref()
+            .is_some_and(|stop| stop.kept.is_none()),
+        hints: None,
     };
     let passed = task.verdict == Verdict::Passed;
     html! {
@@ -69,6 +74,7 @@ pub(super) fn not_run(stop: &Stopped) -> Markup {
         run: None,
         has_replay: false,
         stopped: true,
+        hints: None,
     };
     html! {
         section class="task" id=(NOT_RUN) aria-labelledby={ (NOT_RUN) "-title" } {
@@ -189,6 +195,7 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
             @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
+            @if let Some(kept) = stop.kept { p { (kept_words(kept)) } }
             @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
         }
     }

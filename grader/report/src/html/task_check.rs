@@ -12,6 +12,7 @@ use crate::plot::Plot;
 use crate::text::loss_without_evidence;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Outcome, TaskKind};
+use kinemark_grader::record::hints;
 use kinemark_grader::record::quantity::with_unit;
 
 /// A check, with the picture of what it judged beside it.
@@ -43,9 +44,12 @@ pub(super) fn checked(
                             (prose(&measure.quantity)) ": " b { (measured.value) }
                             @if let Some(margin) = measured.margin { ", " (margin) }
                             br; small { (measured.band) }
+                            @if let Some(beside) = measured.beside { br; small { (beside) } }
                         }
                         (gauge(measure))
                     }
+                } @else if check.outcome == Outcome::AtHandIn {
+                    p class="quiet" { "Judged with the reference solution, when you hand in. These points are not among those above." }
                 } @else if check.outcome == Outcome::NotJudged {
                     p class="quiet" {
                         "Not judged: "
@@ -59,11 +63,26 @@ pub(super) fn checked(
                 }
                 @if hides { p class="where" { a href={ "#" (id) "-hidden" } { "Points were lost in hidden runs" @if has_shown { ", too" } } } }
                 @if let Some(next) = &check.next_step { p class="next" { strong { "Next: " } (prose(next)) } }
+                (hints(check, of))
             }
             @if let Some(first) = loss_without_evidence(check) {
                 p class="where" { span { "points are lost from " (of.moment(first.time_s, &seconds(first.time_s))) " on" } span { "tick " (first.tick) } }
             }
             @if let Some(plot) = plot { div class="plots" { (figure(plot, of.name)) } }
+        }
+    }
+}
+
+/// The hints behind the next step: the steps themselves where the course staff release them, else the command that unfolds them.
+fn hints(check: &CheckGrade, of: &TaskShown<'_>) -> Markup {
+    let steps = of.hints.map(|hints| hints.behind_next_step(of.name, check));
+    html! {
+        @match steps {
+            Some([]) => {}
+            Some(steps) => ol class="hints" { @for step in steps { li { (prose(step)) } } },
+            None => @if check.has_hints {
+                p class="where" { "Step by step: " code { "kinemark hint " (hints::name(of.name, &check.name)) } }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::viewer::seek;
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::TaskRun;
+use kinemark_grader::record::hints::Hints;
 
 /// The task that a part of the page is about.
 pub(super) struct TaskShown<'a> {
@@ -12,8 +13,10 @@ pub(super) struct TaskShown<'a> {
     pub(super) kind: TaskKind,
     pub(super) run: Option<&'a TaskRun>,
     pub(super) has_replay: bool,
-    /// Whether something stopped the submission.
+    /// Whether something stopped the submission, with nothing left to judge.
     pub(super) stopped: bool,
+    /// The hints that the course staff release; without them the page names the command that unfolds them.
+    pub(super) hints: Option<&'a Hints>,
 }
 
 impl TaskShown<'_> {

@@ -9,7 +9,7 @@ use crate::plot::{Plot, plots};
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
     /// The submission.
-    pub submission: &'a str,
+    pub submission: &'a [u8],
     /// `lab.toml`.
     pub lab: &'a str,
     /// The robot's file.

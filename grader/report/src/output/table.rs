@@ -127,7 +127,7 @@ mod tests {
         let graded = sample::graded();
         let lab_files = [("one/lab.toml".to_owned(), Vec::new())];
         let sources = Sources {
-            submission: "",
+            submission: b"",
             lab: "",
             robot: "",
             lab_files: &lab_files,

@@ -12,17 +12,17 @@ mod plane;
 mod reading;
 mod scenery;
 mod signals;
+mod step_response;
 mod svg_backend;
 mod thin;
 mod timeline;
 mod view;
 
-use kinemark_sim::control::Mode;
-
 pub use self::differences::differences;
 pub use self::histogram::{Histogram, histogram};
 use self::joints::Of;
 use self::reading::Axes;
+pub use self::step_response::{ResponseCurve, ResponsePanel, ResponsePicture, response_picture};
 use crate::visible::{file_stem, shortened};
 use kinemark_grader::record::graded::TaskRun;
 
@@ -66,7 +66,7 @@ impl Plot {
     }
 }
 
-/// All plots of a run: the TCP's path, its distance to the goals, joints, efforts, one for each curve that a check judged, and the
+/// All plots of a run: the TCP's path, its distance to the goals, positions, velocities and efforts of the joints, one for each curve that a check judged, and the
 /// signals the submission drew. The same run gives the same bytes.
 pub fn plots(run: &TaskRun) -> Vec<Plot> {
     let mut plots = Plots {
@@ -78,12 +78,11 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
     }
     let mut pictures: Vec<(String, timeline::Timeline)> = Vec::new();
     pictures.extend(signals::error(run).map(|picture| ("error".to_owned(), picture)));
-    let mut of_joints = vec![("joints", Of::Positions)];
-    if run.mode == Mode::Velocity {
-        of_joints.push(("velocities", Of::Velocities));
-    }
-    of_joints.push(("effort", Of::Efforts));
-    for (name, of) in of_joints {
+    for (name, of) in [
+        ("joints", Of::Positions),
+        ("velocities", Of::Velocities),
+        ("effort", Of::Efforts),
+    ] {
         pictures.extend(
             joints::joints(run, of)
                 .into_iter()
@@ -136,11 +135,12 @@ impl Plots {
 
 #[cfg(test)]
 mod tests {
+    use kinemark_sim::control::Mode;
     use kinemark_sim::trace::PlotSignal;
 
     use super::reading::tests::Reader;
     use super::*;
-    use crate::palette::{BLUE, MUTED_DASHED, PURPLE_DASHED, hex};
+    use crate::palette::{AMBER_DASHED, BLUE, MUTED_DASHED, PURPLE_DASHED, hex};
     use kinemark_grader::record::graded::{Curve, StepBackdrop};
     use kinemark_grader::record::sample;
 
@@ -178,6 +178,7 @@ mod tests {
             "path",
             "error",
             "joints",
+            "velocities",
             "effort",
             "check-trajectory-match",
             "signals",
@@ -256,6 +257,8 @@ mod tests {
         for joint in 0..2 {
             let q = |tick: usize| run.trace.q.at(tick)[joint];
             read_at_ticks(&plots, ("move-joints", joint, 1), q, 2..7998, 0.15);
+            let qd = |tick: usize| run.trace.qd.at(tick)[joint];
+            read_at_ticks(&plots, ("move-velocities", joint, 0), qd, 2..7998, 0.15);
             let effort = |tick: usize| run.trace.effort.at(tick)[joint];
             read_at_ticks(&plots, ("move-effort", joint, 0), effort, 2..7998, 0.15);
         }
@@ -415,6 +418,7 @@ mod tests {
         run.goals = sample::task_run().goals;
         run.effort_limits = vec![1e-3, 0.0, f64::NAN];
         run.curves = vec![Curve {
+            reference: None,
             check: String::new(),
             title: "\u{202E}".repeat(500),
             unit: "m".to_owned(),
@@ -433,12 +437,13 @@ mod tests {
     }
 
     #[test]
-    fn a_step_response_has_its_prediction_target_and_band() {
+    fn a_step_response_has_its_reference_prediction_target_and_band() {
         let lag = |t_s: f64, rate: f64| 1.0 - libm::exp(-rate * t_s);
         let t_s: Vec<f64> = (0..1000).map(|tick| 0.001 * f64::from(tick)).collect();
         let of = |rate: f64| t_s.iter().map(|t_s| lag(*t_s, rate)).collect();
         let mut run = sample::chain(2, 1000, |_, _| 0.0);
         run.curves = vec![Curve {
+            reference: Some(of(9.0)),
             check: "settle".to_owned(),
             title: "position of joint `elbow`".to_owned(),
             unit: "rad".to_owned(),
@@ -460,14 +465,24 @@ mod tests {
             .expect("the curve");
         for word in [
             ">\nrun\n<",
+            ">\nreference\n<",
+            "run less reference",
             "linear prediction",
             "target 1.05\u{a0}rad",
             "within 2 % of the final value",
         ] {
             assert!(plot.svg.contains(word), "no {word:?}");
         }
-        // the run, the prediction and the target are three lines of different looks
-        for colour in [BLUE, PURPLE_DASHED, MUTED_DASHED] {
+        // the run lags behind the reference: the difference is below zero
+        let difference = Reader::new(plot, 1, 0);
+        let (low, high) = difference.at(0.1).expect("a value");
+        let expected = lag(0.1, 8.0) - lag(0.1, 9.0);
+        assert!(
+            low <= expected && expected <= high && high < 0.0,
+            "{low} {high}"
+        );
+        // the run, the reference, the prediction and the target are four lines of different looks
+        for colour in [BLUE, AMBER_DASHED, PURPLE_DASHED, MUTED_DASHED] {
             let dashes = colour
                 .dashes
                 .map(|dashes| format!("dasharray=\"{dashes}\" stroke-"));

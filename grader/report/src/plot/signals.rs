@@ -1,6 +1,5 @@
 //! Pictures over time besides those of the joints: distance to the goals, what checks judged, what the submission drew.
 
-use kinemark_sim::control::Mode;
 use kinemark_sim::text::number::typeset;
 use kinemark_sim::watch::event::EventKind;
 
@@ -9,7 +8,7 @@ use super::canvas::{Entry, Swatch};
 use super::timeline::{Line, MOST_POINTS, Panel, Timeline};
 use crate::goal::{current_goal, distances_m};
 use crate::palette::{
-    BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, PURPLE_DASHED, VERMILLION_DASHED,
+    AMBER_DASHED, BLUE, Colour, GREEN, GREEN_DASHED, MUTED_DASHED, PURPLE_DASHED, VERMILLION_DASHED,
 };
 use crate::shown_unit::{joined, shown_unit};
 use crate::visible::{shortened, visible};
@@ -17,6 +16,8 @@ use kinemark_grader::record::graded::{Curve, Goal, StepBackdrop, TaskRun};
 
 /// Panels of one picture.
 pub(super) const MOST_PANELS: usize = 6;
+/// What is drawn of each joint: its position, its velocity, its effort.
+const KINDS_OF_JOINTS: usize = 3;
 /// Points of all pictures of joints.
 const MOST_POINTS_OF_JOINTS: usize = 18_000;
 /// Signals of a submission that are drawn.
@@ -72,8 +73,7 @@ pub(super) fn timeline(
 
 /// Points of a picture: many joints make many pictures, which share what a page has room for.
 pub(super) fn most_points(run: &TaskRun) -> usize {
-    let kinds = if run.mode == Mode::Velocity { 3 } else { 2 };
-    let pictures = kinds * run.robot.n().div_ceil(MOST_PANELS).max(1);
+    let pictures = KINDS_OF_JOINTS * run.robot.n().div_ceil(MOST_PANELS).max(1);
     (MOST_POINTS_OF_JOINTS / pictures).min(MOST_POINTS)
 }
 
@@ -226,9 +226,9 @@ fn stay_s(run: &TaskRun, goal: &Goal) -> Option<(f64, f64)> {
 
 /// Words of what a step response is drawn with.
 fn step_entries(step: &StepBackdrop, unit: &str, scale: f64) -> Vec<Entry> {
-    let mut entries = vec![Entry::new(Swatch::Line(BLUE), "run")];
+    let mut entries = Vec::new();
     if step.prediction.is_some() {
-        entries.push(Entry::new(Swatch::Line(PURPLE_DASHED), "linear prediction"));
+        entries.push(Entry::new(Swatch::Line(AMBER_DASHED), "linear prediction"));
     }
     if let Some(target) = step.target {
         let target = joined(&typeset(target * scale, 4), unit);
@@ -261,10 +261,13 @@ fn curve_lines(curve: &Curve, scale: f64) -> Vec<Line> {
         curve.t_s.iter().copied().zip(values).collect()
     };
     let mut lines = vec![line(over_time(&curve.values), BLUE, false)];
+    if let Some(reference) = &curve.reference {
+        lines.push(line(over_time(reference), PURPLE_DASHED, false));
+    }
     let step = curve.step.as_ref();
     // its dashes on the run's line: where both are one, both are seen
     if let Some(prediction) = step.and_then(|step| step.prediction.as_ref()) {
-        lines.push(line(over_time(prediction), PURPLE_DASHED, false));
+        lines.push(line(over_time(prediction), AMBER_DASHED, false));
     }
     lines
 }
@@ -280,6 +283,32 @@ fn curve_marks(curve: &Curve) -> Vec<(f64, String)> {
         .collect();
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     marks
+}
+
+/// What the run is above the reference solution's, in a unit of its own size.
+fn difference(curve: &Curve) -> Option<Panel> {
+    let reference = curve.reference.as_ref()?;
+    let apart = || curve.values.iter().zip(reference).map(|(own, of)| own - of);
+    let typical = extent(apart()).map_or(0.0, |(low, high)| low.abs().max(high.abs()));
+    let (unit, scale) = shown_unit(&curve.unit, typical);
+    let points = curve
+        .t_s
+        .iter()
+        .copied()
+        .zip(apart().map(|gap| gap * scale));
+    let lines = vec![line(points.collect(), BLUE, false)];
+    let name = "run less reference".to_owned();
+    Some(Panel {
+        heading: format!("{name} [{}]", visible(unit)),
+        name,
+        unit: unit.to_owned(),
+        // what is off by rounding is drawn as nothing
+        axis: Axis::around(values(&lines), 1e-3 * typical_value(curve) * scale),
+        lines,
+        levels: Vec::new(),
+        spans: Vec::new(),
+        bands: Vec::new(),
+    })
 }
 
 /// A curve that a check judged, with its band and marks.
@@ -335,13 +364,20 @@ pub(super) fn curve(run: &TaskRun, curve: &Curve) -> Timeline {
         bands,
     };
     let mut legend = band_entries(curve.full, curve.zero, unit, scale);
+    if step.is_some() || curve.reference.is_some() {
+        legend.push(Entry::new(Swatch::Line(BLUE), "run"));
+    }
+    if curve.reference.is_some() {
+        legend.push(Entry::new(Swatch::Line(PURPLE_DASHED), "reference"));
+    }
     if let Some(step) = step {
         legend.extend(step_entries(step, unit, scale));
     }
     let last_s = extent(curve.t_s.iter().copied()).map_or(0.0, |reach| reach.1);
+    let difference = difference(curve);
     Timeline {
         title: format!("Judged: {}", shortened(&judged.replace('`', ""), 60)),
-        panels: vec![panel],
+        panels: std::iter::once(panel).chain(difference).collect(),
         legend,
         marks: curve_marks(curve),
         end_s: last_s.max(end_s(run)),

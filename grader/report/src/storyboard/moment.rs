@@ -97,9 +97,19 @@ pub(super) fn moments(run: &TaskRun, grade: &TaskGrade) -> Vec<Moment> {
     if last > 0 {
         chosen.push(Chosen::plain(last, "end"));
     }
-    if let (Some(words), Some(end)) = (ended_early(run, grade), chosen.last_mut()) {
-        end.moment.words.push(words);
-        end.moment.bad = true;
+    if let Some(words) = ended_early(run, grade) {
+        // a run that went on after the stop shows it where it was, and its end as well
+        match stopped_at(grade).filter(|tick| *tick > 0 && *tick < last) {
+            Some(tick) => chosen.push(Chosen::plain(tick, &words)),
+            None => {
+                if let Some(end) = chosen.last_mut() {
+                    end.moment.words.push(words);
+                }
+            }
+        }
+        if let Some(shown) = chosen.last_mut() {
+            shown.moment.bad = true;
+        }
     }
     let mut causes = causes(run, grade);
     // equal ranks in the order of time
@@ -180,6 +190,12 @@ fn progress(run: &TaskRun) -> Vec<f64> {
     let whole_m = behind_m.max(1e-3);
     let done = |(tick, behind_m): (usize, &f64)| 2.0 * tick as f64 / last + behind_m / whole_m;
     path.iter().enumerate().map(done).collect()
+}
+
+/// The tick that shows where the submission was stopped: the one before the call that failed.
+fn stopped_at(grade: &TaskGrade) -> Option<usize> {
+    let before = last_before(grade.stopped.as_ref()?)?;
+    Some(before.tick as usize)
 }
 
 /// Why the run ended before its time, if it did. What is shown of the end is the tick before the call that failed.

@@ -17,9 +17,9 @@ pub(crate) struct Table {
     /// The joint; the one with the most reversals where it is left out.
     joint: Option<At<String>>,
     /// Reversals in a second that earn all points \[Hz\].
-    full_hz: f64,
+    full_hz: BandEnd,
     /// Reversals in a second that earn none \[Hz\].
-    zero_hz: f64,
+    zero_hz: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -33,9 +33,9 @@ pub(crate) struct Table {
     /// The two: `arm` (any link of the robot), a link, a body of the scene, or `ground`.
     between: [At<String>; 2],
     /// Impulse that earns all points \[N s\].
-    full_n_s: f64,
+    full_n_s: BandEnd,
     /// Impulse that earns none \[N s\].
-    zero_n_s: f64,
+    zero_n_s: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -11,9 +11,9 @@ pub(crate) struct Table {
     /// The joint; the one with the greatest effort where it is left out.
     joint: Option<At<String>>,
     /// Effort that earns all points \[N m, or N of a prismatic joint\].
-    full_n_m: f64,
+    full_n_m: BandEnd,
     /// Effort that earns none.
-    zero_n_m: f64,
+    zero_n_m: BandEnd,
 }
 
 impl MotionTable for Table {

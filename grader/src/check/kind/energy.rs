@@ -10,9 +10,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Work that earns all points \[J\].
-    full_j: f64,
+    full_j: BandEnd,
     /// Work that earns none \[J\].
-    zero_j: f64,
+    zero_j: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -7,9 +7,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Time that earns all points \[s\].
-    full_s: f64,
+    full_s: BandEnd,
     /// Time that earns none \[s\].
-    zero_s: f64,
+    zero_s: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -2,10 +2,11 @@
 //!
 //! Judged where two or more branches exist. A case is scored by its worst branch; a branch that is missing, or equals another but
 //! for whole turns, scores nothing. Two branches are the same if every revolute joint agrees to 0.02 rad, apart from whole turns,
-//! and every prismatic joint to 1 mm.
+//! and every prismatic joint to 1 mm; joints that do not move the TCP, such as a wrist that turns about it, do not count. A branch
+//! beyond the limits of a joint is none.
 
-use super::ik_reach::of_every_target;
-use crate::attempt::measure::count_distinct;
+use super::ik_reach::{any_beyond_limit, of_every_target};
+use crate::attempt::branches::count_distinct;
 use crate::check::prelude::*;
 
 /// The keys.
@@ -74,7 +75,9 @@ fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
     };
     Some(CaseScore::of(facts, worst_m, band, || {
         let name = facts.label();
-        if complete {
+        if let Some(beyond) = any_beyond_limit(facts).filter(|_| complete) {
+            format!("{name}: {beyond}")
+        } else if complete {
             let off = metres(worst_m);
             format!("{name}: one of the branches ends {off} from the target")
         } else {

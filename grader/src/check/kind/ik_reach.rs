@@ -1,8 +1,10 @@
 //! ik-reach: how near the best branch of each answer comes to its target, by Kinemark's forward kinematics \[m\].
 //!
 //! Each reachable case is scored by the band; the check's score is their mean. Whole turns and the order of branches make no
-//! difference.
+//! difference. A branch beyond the limits of a joint does not reach its target; to a joint that can make a full turn, whole turns make
+//! no difference.
 
+use crate::attempt::branches::beyond_limit;
 use crate::check::prelude::*;
 
 /// The keys.
@@ -67,7 +69,18 @@ fn message(facts: &CaseFacts<'_>, nearest_m: f64) -> String {
             )
         }
         _ => without_answer(facts).unwrap_or_else(|| {
-            format!("{name}: the arm ends {} from the target", metres(nearest_m))
+            let beyond = any_beyond_limit(facts).filter(|_| !nearest_m.is_finite());
+            let missed = || format!("the arm ends {} from the target", metres(nearest_m));
+            format!("{name}: {}", beyond.unwrap_or_else(missed))
         }),
     }
+}
+
+/// The first joint that some branch of an answer puts beyond its limits, in words.
+pub(super) fn any_beyond_limit(facts: &CaseFacts<'_>) -> Option<String> {
+    let Answered::Branches(branches) = &facts.answer else {
+        return None;
+    };
+    let mut beyond = branches.iter();
+    beyond.find_map(|q| beyond_limit(facts.robot, q))
 }

@@ -10,9 +10,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Jerk that earns all points \[m/s³\].
-    full_m_s3: f64,
+    full_m_s3: BandEnd,
     /// Jerk that earns none \[m/s³\].
-    zero_m_s3: f64,
+    zero_m_s3: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -8,9 +8,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Distance beyond a limit that earns all points \[rad, or m of a prismatic joint\].
-    full_rad: f64,
+    full_rad: BandEnd,
     /// Distance that earns none.
-    zero_rad: f64,
+    zero_rad: BandEnd,
 }
 
 impl MotionTable for Table {

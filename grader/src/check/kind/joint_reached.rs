@@ -15,9 +15,9 @@ pub(crate) struct Table {
     /// The part at the end of the run that counts \[s\]; a multiple of the physics step.
     hold_s: At<f64>,
     /// Distance that earns all points.
-    full_rad: f64,
+    full_rad: BandEnd,
     /// Distance that earns none.
-    zero_rad: f64,
+    zero_rad: BandEnd,
 }
 
 impl MotionTable for Table {

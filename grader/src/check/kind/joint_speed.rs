@@ -7,9 +7,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Speed that earns all points \[rad/s, or m/s of a prismatic joint\].
-    full_rad_s: f64,
+    full_rad_s: BandEnd,
     /// Speed that earns none.
-    zero_rad_s: f64,
+    zero_rad_s: BandEnd,
 }
 
 impl MotionTable for Table {

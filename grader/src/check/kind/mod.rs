@@ -14,7 +14,7 @@ macro_rules! kinds {
 
         /// The keys of a check: those that all have, and the kinds.
         pub(super) const KEYS: &[&str] = &[
-            "name", "title", "points", "needs", "hint", $(name!($of $module)),*
+            "name", "title", "points", "needs", "hints", $(name!($of $module)),*
         ];
 
         /// Reads the table of the kind called `name`, one of [`KEYS`].
@@ -55,6 +55,7 @@ kinds! {
     motion effort_saturation
     motion joint_limits
     motion trajectory_match
+    motion response_match
     motion body_falls
     motion contact_impulse
     motion tcp_speed

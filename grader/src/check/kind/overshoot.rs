@@ -11,9 +11,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Fraction that earns all points.
-    full: f64,
+    full: BandEnd,
     /// Fraction that earns none.
-    zero: f64,
+    zero: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -3,6 +3,8 @@
 //! Measured is, of the lengths that count of all segments together, what progress gains at positions within `within_m`: see
 //! [How a path is followed](#how-a-path-is-followed). More is better.
 
+use nalgebra::Vector3;
+
 use crate::check::path_following::followed;
 use crate::check::prelude::*;
 use crate::check::segments::segment_name;
@@ -57,6 +59,17 @@ pub(crate) struct PathCoverage {
     shares: Shares,
 }
 
+impl PathCoverage {
+    /// The point of a segment so far along what counts of it \[m\], in the lab's frame, to a millimetre.
+    fn point(&self, segment: usize, along_m: f64) -> Vector3<f64> {
+        let [from, to] = [segment, segment + 1].map(|i| self.path.points_m[i]);
+        let length_m = (to - from).norm();
+        let share = (self.path.trim_m + along_m) / length_m;
+        let rounded = |x: f64| (x * 1000.0).round() / 1000.0 + 0.0;
+        (from + (to - from) * share).map(rounded)
+    }
+}
+
 impl MotionCheck for PathCoverage {
     fn bounds(&self) -> [String; 2] {
         [
@@ -88,16 +101,27 @@ impl MotionCheck for PathCoverage {
             if score >= 1.0 || share >= 1.0 - 1e-9 {
                 continue;
             }
-            let message = format!(
+            let mut message = format!(
                 "of {}, {} is covered within {within}",
                 segment_name(&self.path, i),
                 with_unit(share, ""),
             );
             let left = segment.samples.last().map_or(0, |sample| sample.tick);
+            let gap = segment.longest_gap(self.within_m);
+            if let Some((ends_m, tick)) = gap {
+                let [from, to] = ends_m.map(|along_m| self.point(i, along_m));
+                message += &format!(
+                    "; not from {} to {}, about {}",
+                    list(from.as_slice()),
+                    list(to.as_slice()),
+                    seconds(facts.time_s(tick)),
+                );
+            }
+            let tick = gap.map_or(left, |(_, tick)| tick);
             evidence.push(Evidence {
                 value: Some(share),
                 limit: Some(self.shares.full),
-                ..facts.evidence(message, "tcp".to_owned(), left)
+                ..facts.evidence(message, "tcp".to_owned(), tick)
             });
         }
         let share = |e: &Evidence| e.value.unwrap_or(0.0);

@@ -16,9 +16,9 @@ pub(crate) struct Table {
     /// The one segment that counts, from 1; the worst of all where it is left out.
     segment: Option<At<u64>>,
     /// Distance that earns all points \[m\].
-    full_m: f64,
+    full_m: BandEnd,
     /// Distance that earns none \[m\].
-    zero_m: f64,
+    zero_m: BandEnd,
 }
 
 impl MotionTable for Table {

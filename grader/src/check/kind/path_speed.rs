@@ -27,9 +27,9 @@ pub(crate) struct Table {
     /// The speed that is asked for \[m/s\].
     speed_m_s: At<f64>,
     /// Relative error that earns all points.
-    full: f64,
+    full: BandEnd,
     /// Relative error that earns none.
-    zero: f64,
+    zero: BandEnd,
 }
 
 impl MotionTable for Table {

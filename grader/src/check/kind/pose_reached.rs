@@ -10,9 +10,9 @@ use crate::check::prelude::*;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
     /// Distance from a goal that earns all points \[m\].
-    full_m: f64,
+    full_m: BandEnd,
     /// Distance from a goal that earns none \[m\].
-    zero_m: f64,
+    zero_m: BandEnd,
 }
 
 impl MotionTable for Table {
@@ -43,19 +43,46 @@ impl RunMeasure for PoseReached {
         let score = goals.clone().map(score_of).sum::<f64>() / goals.len() as f64;
         let mut lost: Vec<usize> = goals.clone().filter(|goal| score_of(*goal) < 1.0).collect();
         lost.sort_by(|a, b| settled_m(*b).total_cmp(&settled_m(*a)));
+        let settles = lost
+            .first()
+            .is_some_and(|&goal| still_settles(facts, goal, band));
         let evidence = lost.into_iter().map(|goal| evidence(facts, goal, band));
         let worst_m = goals.map(settled_m).fold(0.0, f64::max);
         let quantity = "greatest distance from a goal while it is held";
         let measure = measure(quantity, worst_m, "m", [band.full, band.zero]);
-        Finding::scored(score, measure)
+        let finding = Finding::scored(score, measure)
             .because(evidence.collect())
-            .advise("Compare the joint angles you command with those your inverse kinematics gives for the goal, and hold them until the dwell is over.")
-            .drawn(next_goal_curve(facts, band))
+            .drawn(next_goal_curve(facts, band));
+        if settles {
+            // the angles are right, so a hint about them would be beside the point
+            return Finding {
+                insists: true,
+                ..finding.advise("The place is right and was not at rest yet: stay there longer before you go on.")
+            };
+        }
+        finding.advise("Compare the joint angles you command with those your inverse kinematics gives for the goal, and hold them until the dwell is over.")
     }
 
     fn judges_dwells(&self) -> bool {
         true
     }
+}
+
+/// The distance from a goal at a tick \[m\].
+fn distance_m(facts: &MotionFacts<'_>, goal: usize, tick: usize) -> f64 {
+    (facts.trace.tcp_position(tick) - facts.motion.goals[goal].position_m).norm()
+}
+
+/// The window that is judged at a goal: its first and last tick.
+fn window(facts: &MotionFacts<'_>, goal: usize) -> Option<[usize; 2]> {
+    let last = facts.dwells.get(goal)?.settled_last;
+    let ticks = facts.motion.goals[goal].dwell_ticks as usize;
+    Some([last.saturating_sub(ticks), last])
+}
+
+/// Whether the TCP comes to a goal within the window that is judged there, and was beyond the band when the window began.
+fn still_settles(facts: &MotionFacts<'_>, goal: usize, band: Band) -> bool {
+    window(facts, goal).is_some_and(|[_, last]| distance_m(facts, goal, last) <= band.full)
 }
 
 /// Why the goal with this index loses points.
@@ -66,21 +93,33 @@ fn evidence(facts: &MotionFacts<'_>, index: usize, band: Band) -> Evidence {
         let message = format!("the run ended before goal {number} at {position} was held");
         return facts.evidence(message, "tcp".to_owned(), facts.last_tick());
     };
-    let p = facts.trace.tcp_position(dwell.settled_last);
+    let [first, last] = window(facts, index).unwrap_or([dwell.first, dwell.last]);
+    // the earliest of the worst moments of the window
+    let worst = (first..=last).fold(first, |worst, tick| {
+        let is_worse = distance_m(facts, index, tick) > distance_m(facts, index, worst);
+        if is_worse { tick } else { worst }
+    });
+    let p = facts.trace.tcp_position(worst);
     let away = p - goal.position_m;
-    let message = format!(
-        "goal {number} at {position}: in its best {} (to {}) the TCP is up to {} away, at {} in the end (off by {} along x, y, z)",
+    let mut message = format!(
+        "goal {number} at {position}: in its best {}, from {} to {}, the TCP is up to {} away: at {} it is at {}, off by {} along x, y, z",
         seconds(facts.motion.periods.time_s(goal.dwell_ticks)),
-        seconds(facts.time_s(dwell.settled_last)),
+        seconds(facts.time_s(first)),
+        seconds(facts.time_s(last)),
         metres(dwell.settled_m),
+        seconds(facts.time_s(worst)),
         list(p.as_slice()),
         list(away.as_slice()),
     );
+    if still_settles(facts, index, band) {
+        let end = metres(distance_m(facts, index, last));
+        message += &format!("; at the end it is {end} away: it was still settling");
+    }
     Evidence {
         value: Some(dwell.settled_m),
         limit: Some(band.full),
         unit: "m".to_owned(),
-        ..facts.evidence(message, "tcp".to_owned(), dwell.settled_last)
+        ..facts.evidence(message, "tcp".to_owned(), worst)
     }
 }
 

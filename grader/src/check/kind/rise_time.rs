@@ -24,9 +24,9 @@ step_table! {
     /// The upper share of the step, below 1; 0.9 where it is left out.
     to: Option<At<f64>>,
     /// Time that earns all points \[s\].
-    full_s: f64,
+    full_s: BandEnd,
     /// Time that earns none \[s\].
-    zero_s: f64,
+    zero_s: BandEnd,
 }
 
 impl MotionTable for Table {
@@ -59,30 +59,13 @@ pub(crate) struct RiseTime {
     shares: [f64; 2],
 }
 
-/// When the signal first reaches a share of the way from `start` to `end`, in ticks.
-fn first_at(values: &[f64], start: f64, end: f64, share: f64) -> Option<f64> {
-    let gone = |tick: usize| (values[tick] - start) / (end - start);
-    let tick = (0..values.len()).find(|tick| gone(*tick) >= share)?;
-    let Some(before) = tick.checked_sub(1) else {
-        return Some(0.0);
-    };
-    let (from, to) = (gone(before), gone(tick));
-    Some(before as f64 + (share - from) / (to - from))
-}
-
-/// When the signal passes both shares, in ticks.
-fn passes(values: &[f64], start: f64, end: f64, shares: [f64; 2]) -> Option<[f64; 2]> {
-    let [from, to] = shares.map(|share| first_at(values, start, end, share));
-    Some([from?, to?])
-}
-
 impl RunMeasure for RiseTime {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let response = Response::new(facts, &self.response);
         let fault = response.fault(SETTLED * response.step().abs());
         let passed = match fault {
             Some(_) => None,
-            None => passes(&response.values, response.start, response.end, self.shares),
+            None => response.measured().passes(self.shares),
         };
         let times_s = passed.map(|ticks| ticks.map(|ticks| response.time_s(ticks)));
         let value = times_s.map_or(f64::INFINITY, |[from_s, to_s]| to_s - from_s);
@@ -100,8 +83,13 @@ impl RunMeasure for RiseTime {
             "time of {what} from {from} to {to} of its step of {}",
             response.with_unit(response.step())
         );
-        let finding =
-            Finding::against(band, value, "s", quantity).drawn(response.curve(marks, None));
+        let predicted_s = response.predicted().and_then(|predicted| {
+            let [from, to] = predicted.curve(response.start).passes(self.shares)?;
+            Some(response.time_s(to - from))
+        });
+        let finding = Finding::against(band, value, "s", quantity)
+            .drawn(response.curve(marks, None))
+            .beside_prediction(predicted_s);
         Response::finding(finding, fault, || {
             let mut message = format!(
                 "{what} takes {} from {from} to {to} of its step, from {} to {}",
@@ -109,11 +97,8 @@ impl RunMeasure for RiseTime {
                 seconds(from_s),
                 seconds(to_s),
             );
-            if let Some((predicted, end)) = response.predicted()
-                && let Some([from, to]) = passes(&predicted, response.start, end, self.shares)
-            {
-                let linear = seconds(response.time_s(to - from));
-                message += &format!("; the linear loop takes {linear}");
+            if let Some(predicted_s) = predicted_s {
+                message += &format!("; the linear loop takes {}", seconds(predicted_s));
             }
             let last = passed.map_or(0.0, |ticks| ticks[1]);
             let next_step = "Make it faster: more proportional gain, or less damping.";

@@ -13,9 +13,9 @@ step_table! {
     /// How near, as a share of the step; 0.02 where it is left out.
     within: Option<At<f64>>,
     /// Time that earns all points \[s\].
-    full_s: f64,
+    full_s: BandEnd,
     /// Time that earns none \[s\].
-    zero_s: f64,
+    zero_s: BandEnd,
 }
 
 impl MotionTable for Table {
@@ -38,32 +38,12 @@ pub(crate) struct SettlingTime {
     within: f64,
 }
 
-/// When the signal is last further than `tolerance` from `end`, in ticks; 0 where it never is.
-fn last_off(values: &[f64], end: f64, tolerance: f64) -> f64 {
-    let far = |value: &f64| {
-        let near = (value - end).abs() <= tolerance;
-        !near
-    };
-    let Some(last) = values.iter().rposition(far) else {
-        return 0.0;
-    };
-    let Some(next) = values.get(last + 1) else {
-        return f64::INFINITY;
-    };
-    let edge = if values[last] > end {
-        end + tolerance
-    } else {
-        end - tolerance
-    };
-    last as f64 + (values[last] - edge) / (values[last] - next)
-}
-
 impl RunMeasure for SettlingTime {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let response = Response::new(facts, &self.response);
         let tolerance = self.within * response.step().abs();
         let fault = response.fault(tolerance);
-        let ticks = last_off(&response.values, response.end, tolerance);
+        let ticks = response.measured().settled_at(tolerance);
         let value = match fault {
             Some(_) => f64::INFINITY,
             None => response.time_s(ticks),
@@ -76,16 +56,19 @@ impl RunMeasure for SettlingTime {
         let what = response.what();
         let quantity = format!("time until {what} stays within {share} of its step");
         let curve = response.curve(mark.into_iter().collect(), edges);
-        let finding = Finding::against(band, value, "s", quantity).drawn(curve);
+        let predicted_s = response.predicted().map(|predicted| {
+            let curve = predicted.curve(response.start);
+            let tolerance = self.within * curve.step().abs();
+            response.time_s(curve.settled_at(tolerance))
+        });
+        let finding = Finding::against(band, value, "s", quantity)
+            .drawn(curve)
+            .beside_prediction(predicted_s);
         Response::finding(finding, fault, || {
             let from = seconds(value);
             let mut message = format!("{what} stays within {share} of its step from {from} on");
-            if let Some((predicted, end)) = response.predicted() {
-                let tolerance = self.within * (end - response.start).abs();
-                let predicted_s = response.time_s(last_off(&predicted, end, tolerance));
-                if predicted_s.is_finite() {
-                    message += &format!("; the linear loop does from {}", seconds(predicted_s));
-                }
+            if let Some(predicted_s) = predicted_s.filter(|time_s| time_s.is_finite()) {
+                message += &format!("; the linear loop does from {}", seconds(predicted_s));
             }
             let next_step = "Look at the curve: if it swings, add damping; if it creeps, add proportional gain.";
             response.late(message, (value, ticks), band, next_step)

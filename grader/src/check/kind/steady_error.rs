@@ -16,13 +16,13 @@ step_table! {
     /// The time at the end of the run whose mean counts \[s\]; 0.5 where it is left out.
     last_s = 0.5;
     /// Error of a `position` that earns all points \[rad, or m of a prismatic joint\].
-    full_rad: Option<At<f64>>,
+    full_rad: Option<At<BandEnd>>,
     /// Error of a `position` that earns none.
-    zero_rad: Option<At<f64>>,
+    zero_rad: Option<At<BandEnd>>,
     /// Error of a `velocity` that earns all points \[rad/s, or m/s of a prismatic joint\].
-    full_rad_s: Option<At<f64>>,
+    full_rad_s: Option<At<BandEnd>>,
     /// Error of a `velocity` that earns none.
-    zero_rad_s: Option<At<f64>>,
+    zero_rad_s: Option<At<BandEnd>>,
 }
 
 problems! {
@@ -97,7 +97,12 @@ impl RunMeasure for SteadyError {
             "steady-state error of {what} (target {})",
             response.with_unit(target)
         );
-        let finding = Finding::against(band, value, unit, quantity).drawn(curve);
+        let predicted = response
+            .predicted()
+            .map(|predicted| (predicted.end - target).abs());
+        let finding = Finding::against(band, value, unit, quantity)
+            .drawn(curve)
+            .beside_prediction(predicted);
         Response::finding(finding, fault, || self.loss(&response, value))
     }
 }

@@ -8,9 +8,9 @@ step_table! {
     /// The time at the end of the run whose mean is the final value \[s\]; 0.2 where it is left out.
     final_s = 0.2;
     /// Fraction that earns all points.
-    full: f64,
+    full: BandEnd,
     /// Fraction that earns none.
-    zero: f64,
+    zero: BandEnd,
 }
 
 impl MotionTable for Table {
@@ -27,19 +27,11 @@ impl MotionTable for Table {
 #[derive(Debug)]
 pub(crate) struct StepOvershoot(StepResponse);
 
-/// The greatest share of the way from `start` to `end` beyond all of it, and its tick; none of it is 0, and NaN stays.
-fn beyond(values: &[f64], start: f64, end: f64) -> (f64, usize) {
-    let gone = values.iter().map(|value| (value - start) / (end - start));
-    let (peak, most) = greatest(gone).unwrap_or((0, f64::NAN));
-    let over = most - 1.0;
-    (if over < 0.0 { 0.0 } else { over }, peak)
-}
-
 impl RunMeasure for StepOvershoot {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let response = Response::new(facts, &self.0);
         let fault = response.fault(SETTLED * response.step().abs());
-        let (over, peak) = beyond(&response.values, response.start, response.end);
+        let (over, peak) = response.measured().overshoot();
         let value = if fault.is_some() { f64::INFINITY } else { over };
         let is_past = value > 0.0 && value.is_finite();
         let mark = is_past.then(|| (facts.time_s(peak), "furthest".to_owned()));
@@ -49,8 +41,11 @@ impl RunMeasure for StepOvershoot {
         let edges = (response.end.is_finite() && band.full > 0.0).then_some(edges);
         let curve = response.curve(mark.into_iter().collect(), edges);
         let what = response.what();
-        let finding =
-            Finding::against(band, value, "", format!("overshoot of {what}")).drawn(curve);
+        let predicted = response.predicted();
+        let predicted = predicted.map(|predicted| predicted.curve(response.start).overshoot().0);
+        let finding = Finding::against(band, value, "", format!("overshoot of {what}"))
+            .drawn(curve)
+            .beside_prediction(predicted);
         Response::finding(finding, fault, || {
             let mut message = format!(
                 "{what} goes to {} at {}, {} of its step past the final value of {}",
@@ -59,8 +54,7 @@ impl RunMeasure for StepOvershoot {
                 with_unit(value, ""),
                 response.with_unit(response.end),
             );
-            if let Some((predicted, end)) = response.predicted() {
-                let (over, _) = beyond(&predicted, response.start, end);
+            if let Some(over) = predicted {
                 message += &format!("; the linear loop goes {} past", with_unit(over, ""));
             }
             Loss {

@@ -36,9 +36,9 @@ pub(crate) struct Table {
     /// A body of the scene, at a `touch`.
     body: Option<At<String>>,
     /// Speed that earns all points \[m/s\].
-    full_m_s: f64,
+    full_m_s: BandEnd,
     /// Speed that earns none \[m/s\].
-    zero_m_s: f64,
+    zero_m_s: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -38,9 +38,9 @@ pub(crate) struct Table {
     /// A path of `[tasks.motion.paths]`.
     path: Option<At<String>>,
     /// Time that earns all points \[s\].
-    full_s: f64,
+    full_s: BandEnd,
     /// Time that earns none \[s\].
-    zero_s: f64,
+    zero_s: BandEnd,
 }
 
 impl MotionTable for Table {

@@ -1,10 +1,10 @@
-//! trajectory-match: how far the TCP is from the reference's path in `reference-path.json`, whichever time shift fits best \[m, root
-//! mean square\].
+//! trajectory-match: how far the TCP is from the reference's, whichever time shift fits best \[m, root mean square\].
 //!
 //! Over `dwells`, each of the best dwells is compared with the reference's dwell at the same goal, point by point from their
-//! beginnings, and the worst goal counts: between goals every path is right. Over the `run`, all of it is compared, at the shift
-//! that fits best. Joint motion is never compared: other branches are as good. A variant has numbers of its own and no path; where
-//! its reference dwells is at the goals.
+//! beginnings, and the worst goal counts: between goals every path is right. The reference's path is that of `practice.json`; in a
+//! variant of which it has none, the goals stand for it. Over the `run`, all of it is compared with the run of the reference solution in
+//! the same variant, at the shift that fits best: only where the brief prescribes the motion. That needs the solution, so in practice
+//! it is judged when the submission is handed in. Joint motion is never compared: other branches are as good.
 
 use nalgebra::Vector3;
 
@@ -23,11 +23,11 @@ pub(crate) enum Span {
 }
 
 problems! {
-    /// Why there is nothing to compare with.
+    /// What cannot be compared.
     enum MatchProblem {
-        NoPath { task: String }:
-            "lab::trajectory_match", "`reference-path.json` has no path for task `{task}`", "this check",
-            "put the reference solution's TCP path there: see docs/lab-format.md";
+        NoGoals:
+            "lab::trajectory_match", "there are no dwells to compare: this task has no `goals`", "this check",
+            "compare over the `run`, or add goals";
         ShiftOfDwells:
             "lab::trajectory_match", "`max_shift_s` has no meaning over `dwells`, which are found wherever they are", "this check",
             "remove it";
@@ -54,14 +54,9 @@ impl MotionTable for Table {
     const NAME: &'static str = "trajectory-match";
     type Check = InBand<TrajectoryMatch>;
 
-    fn lacks(task: &MotionTask) -> Option<&'static str> {
-        lacks_goals(task)
-    }
-
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        if !reading.has_reference_path {
-            let task = reading.task.to_owned();
-            return reading.refuse(MatchProblem::NoPath { task });
+        if self.over == Span::Dwells && reading.motion.goals.is_empty() {
+            return reading.refuse(MatchProblem::NoGoals);
         }
         let max_shift_s = match (self.over, self.max_shift_s) {
             (Span::Dwells, Some(_)) => return reading.refuse(MatchProblem::ShiftOfDwells),
@@ -90,8 +85,9 @@ impl RunMeasure for TrajectoryMatch {
         let matched = match (self.span, facts.reference) {
             (Span::Dwells, Some(reference)) => dwells(facts, reference),
             (Span::Dwells, None) => dwells_at_goals(facts),
-            (Span::Run, reference) => {
-                reference.and_then(|reference| run(facts, reference, self.max_shift_ticks))
+            (Span::Run, _) => {
+                let solution = facts.solution;
+                solution.and_then(|solution| run(facts, solution, self.max_shift_ticks))
             }
         };
         let rms_m = matched.as_ref().map(|matched| matched.rms_m);
@@ -112,7 +108,7 @@ impl RunMeasure for TrajectoryMatch {
         finding.advise("Look at the path plot: the dashed line is the reference's.")
     }
 
-    fn follows_one_path(&self) -> bool {
+    fn compares_runs(&self) -> bool {
         self.span == Span::Run
     }
 }
@@ -218,20 +214,25 @@ fn ticks_per_point(facts: &MotionFacts<'_>, reference: &TcpPath) -> usize {
     ((reference.period_s / facts.motion.periods.step_s).round() as usize).max(1)
 }
 
-/// Compares the whole run at the shift, in whole points of the path, that fits best; past its ends the path stands still.
-fn run(facts: &MotionFacts<'_>, reference: &TcpPath, max_shift_ticks: u64) -> Option<Matched> {
-    let per_point = ticks_per_point(facts, reference);
-    let end = reference.points_m.len().checked_sub(1)? as i64;
-    let most = (max_shift_ticks as usize / per_point) as i64;
+/// Compares the whole run at the shift, in whole control periods, that fits best; past its ends the reference stands still.
+fn run(facts: &MotionFacts<'_>, solution: &Trace, max_shift_ticks: u64) -> Option<Matched> {
+    let period = facts.motion.periods.ticks_per_control.get() as usize;
+    let last = solution.len().checked_sub(1)? as i64;
+    let most = (max_shift_ticks as usize / period) as i64;
     let mut best: Option<Matched> = None;
     for shift in -most..=most {
-        let distances = (0..facts.trace.len()).step_by(per_point).map(|tick| {
-            let k = ((tick / per_point) as i64 - shift).clamp(0, end) as usize;
-            let gap = facts.trace.tcp_position(tick) - point(reference, k);
+        let shift_ticks = shift * period as i64;
+        let distances = (0..facts.trace.len()).step_by(period).map(|tick| {
+            let of_solution = (tick as i64 - shift_ticks).clamp(0, last) as usize;
+            let gap = facts.trace.tcp_position(tick) - solution.tcp_position(of_solution);
             (tick, gap.norm())
         });
-        let shift_s = shift as f64 * reference.period_s;
-        let matched = summary(distances, format!(" at a shift of {}", seconds(shift_s)))?;
+        let shift_s = shift_ticks as f64 * facts.motion.periods.step_s;
+        let where_ = match shift {
+            0 => String::new(),
+            _ => format!(" at a shift of {}", seconds(shift_s)),
+        };
+        let matched = summary(distances, where_)?;
         if best.as_ref().is_none_or(|best| matched.rms_m < best.rms_m) {
             best = Some(matched);
         }

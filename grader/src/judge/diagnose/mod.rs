@@ -8,7 +8,8 @@ mod whole_run;
 pub use self::whole_run::{Compared, whole_run};
 
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
-use crate::attempt::measure::{relative_error, same_branch};
+use crate::attempt::branches::same_branch;
+use crate::attempt::measure::relative_error;
 use crate::check::{Dwell, best_dwells};
 use crate::lab::staff::Mutant;
 use crate::record::grade::Diagnosis;

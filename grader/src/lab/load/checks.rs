@@ -22,13 +22,10 @@ impl Reader<'_> {
         &self,
         tables: &[Spanned<CheckTable>],
         motion: &MotionTask,
-        task: &str,
     ) -> Result<Vec<Check<dyn MotionCheck>>, LabError> {
         let of = InMotion {
             robot: self.robot,
-            task,
             motion,
-            has_reference_path: self.reference_paths.iter().any(|(name, _)| name == task),
             check: "",
             earlier: &[],
         };

@@ -10,7 +10,6 @@ mod paths;
 mod reading;
 mod target;
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -20,10 +19,11 @@ use kinemark_sim::text::suggest;
 use toml::Spanned;
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
-use super::model::{Lab, ReferencePaths, Task, TaskWork};
+use super::hints::with_questions_alone;
+use super::model::{Lab, Task, TaskWork};
 use super::parameters;
+use super::practice::Practice;
 use super::variant::{self, Variant};
-use crate::record::graded::TcpPath;
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
 use crate::task::problem::{LabError, LoadError, near, problems};
@@ -45,9 +45,6 @@ problems! {
         UnknownFrame { robot: String, frame: String, known: Vec<String> }:
             "lab::unknown_frame", "robot `{robot}` has no frame `{frame}`", "not a frame of this robot",
             near(frame, "frames", known);
-        OnePath { check: String }:
-            "lab::variants", "check `{check}` compares with one path, and every variant has its own", "varies the path",
-            "judge the task by goals or a path of its own instead";
         Dimension { name: String, error: String, known: Vec<String> }:
             "lab::dimensions", "{error}", "this dimension", near(name, "dimensions", known);
         Dimensions { error: String }:
@@ -61,6 +58,9 @@ problems! {
         Namesake { body: String, robot: String }:
             "lab::scene_names", "`{body}` is a body of this scene and a link or frame of robot `{robot}`", "two things of one name",
             "give the body of the scene another name";
+        Kept { share: f64 }:
+            "lab::out_of_range", "a share is 0 to 1, got {share}", "out of range",
+            format!("left out it is {KEPT_AFTER_STOP}; 0 takes all points of a run in which the submission fails");
         Budget { highest: u64, value: u64 }:
             "lab::budget", "a budget is 1 to {highest} operations, got {value}", "out of range";
         NoTasks:
@@ -134,7 +134,7 @@ impl Lab {
         let robot_file = of_dimensions(report, file, &lab)?;
         let robot = robot_file.build(&[])?;
         let frame = frame(report, &lab, &robot)?;
-        let mut reference_paths = reference_paths(files, name)?;
+        let practice = Practice::load(files, name, (&stated, &parameters))?;
         let scenes = scenes(files, report, &robot, &lab)?;
         let reader = Reader {
             report,
@@ -142,24 +142,21 @@ impl Lab {
             robot_at: lab.robot.span(),
             scenes: &scenes,
             robot_file: &robot_file,
-            reference_paths: &reference_paths.paths,
         };
         let tasks = reader.tasks(&lab)?;
         let budgets = reader.budgets(&lab.budgets)?;
+        let kept_after_stop = kept_after_stop(report, lab.kept_after_stop.as_ref())?;
         let variants = variant::rules(report, &lab.variants, &stated)?;
-        varies_no_path(report, &lab, &tasks)?;
-        if parameters != stated {
-            // it is the path of the numbers in lab.toml
-            reference_paths.paths.clear();
-        }
         Ok(Self {
             name: name.to_owned(),
+            graded_text: with_questions_alone(&source, &lab),
             title: lab.title,
             summary: lab.summary,
             parameters,
             variants,
             variant: variant.cloned(),
             budgets,
+            kept_after_stop,
             tasks,
             source,
             robot_file,
@@ -167,9 +164,24 @@ impl Lab {
             robot,
             scenes,
             frame,
-            reference_paths,
+            practice,
         })
     }
+}
+
+/// The share of its points that a run keeps in which the submission failed, where the lab does not say.
+const KEPT_AFTER_STOP: f64 = 0.8;
+
+/// That share.
+fn kept_after_stop(report: Reporter<'_>, typed: Option<&NumberAt>) -> Result<f64, LabError> {
+    let Some(typed) = typed else {
+        return Ok(KEPT_AFTER_STOP);
+    };
+    let share = *typed.get_ref();
+    if (0.0..=1.0).contains(&share) {
+        return Ok(share);
+    }
+    report.refuse_at(typed, LabFileProblem::Kept { share })
 }
 
 /// Refuses a lab that is not called like its folder.
@@ -212,18 +224,6 @@ fn frame(report: Reporter<'_>, lab: &LabTable, robot: &Robot) -> Result<String, 
         known: known.collect(),
     };
     report.refuse_at(typed, problem)
-}
-
-/// Refuses variants of a lab that compares with one path.
-fn varies_no_path(report: Reporter<'_>, lab: &LabTable, tasks: &[Task]) -> Result<(), LabError> {
-    let (Some(at), Some(check)) = (
-        lab.variants.keys().next(),
-        tasks.iter().find_map(Task::one_path),
-    ) else {
-        return Ok(());
-    };
-    let check = check.to_owned();
-    report.refuse_at(at, LabFileProblem::OnePath { check })
 }
 
 /// The robot file with the dimensions that the lab changes.
@@ -301,35 +301,6 @@ fn scenes(
     Ok(scenes)
 }
 
-/// Reads `reference-path.json`: an object of tasks, each with `period_s` and `points_m`.
-fn reference_paths(files: &dyn Files, name: &str) -> Result<ReferencePaths, LoadError> {
-    #[derive(serde::Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct PathTable {
-        period_s: f64,
-        points_m: Vec<[f64; 3]>,
-    }
-    let path = format!("{name}/reference-path.json");
-    let Some(source) = read_source(files, &path)? else {
-        return Ok(ReferencePaths::default());
-    };
-    let tables: BTreeMap<String, PathTable> = match serde_json::from_str(source.text()) {
-        Ok(tables) => tables,
-        Err(error) => return Ok(Reporter { source: &source }.json(&error)?),
-    };
-    let paths = tables.into_iter().map(|(task, table)| {
-        let path = TcpPath {
-            period_s: table.period_s,
-            points_m: table.points_m,
-        };
-        (task, path)
-    });
-    Ok(ReferencePaths {
-        paths: paths.collect(),
-        text: source.text().to_owned(),
-    })
-}
-
 /// So many numbers, in words.
 fn numbers(count: usize) -> String {
     match count {
@@ -345,7 +316,6 @@ struct Reader<'a> {
     robot_at: Range<usize>,
     scenes: &'a [Arc<LabScene>],
     robot_file: &'a RobotFile,
-    reference_paths: &'a [(String, TcpPath)],
 }
 
 impl Reader<'_> {
@@ -391,7 +361,7 @@ impl Reader<'_> {
             (None, Some(motion)) => {
                 let motion = self.motion(motion)?;
                 self.has_checks(table)?;
-                let checks = self.motion_checks(&table.checks, &motion, name)?;
+                let checks = self.motion_checks(&table.checks, &motion)?;
                 TaskWork::Motion(Box::new(motion), checks)
             }
             _ => {

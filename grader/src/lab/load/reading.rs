@@ -16,7 +16,7 @@ problems! {
         NotFinite:
             "lab::not_finite", "a lab's numbers are finite", "not a finite number", "leave a limit out to have none";
         Json { refusal: String, help: String }:
-            "lab::reference_path", "{refusal}", "here", help;
+            "lab::practice", "{refusal}", "here", help;
         Format { found: i64 }:
             "lab::unknown_format", "format {found} is not known", "this version reads format 1", "write `format = 1`";
     }
@@ -76,8 +76,7 @@ impl Reporter<'_> {
             let name = quoted.next().unwrap_or_default();
             suggest(name, "keys", quoted)
         } else {
-            "an object of tasks, each { \"period_s\": 0.02, \"points_m\": [[x, y, z], ...] }"
-                .to_owned()
+            "`kinemark lab fill LAB` writes this file anew".to_owned()
         };
         let refusal = message.replace("unknown field", "unknown key");
         let at = at..(at + 1).min(text.len());

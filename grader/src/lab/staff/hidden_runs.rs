@@ -5,9 +5,9 @@ use toml::Spanned;
 
 use super::{Ends, HiddenRun, all_rising, known_task, named};
 use crate::lab::Lab;
+use crate::lab::TaskWork;
 use crate::lab::draw::parameters;
 use crate::lab::file::{HiddenRunsTable, Ranges, RangesTable};
-use crate::lab::{Task, TaskWork};
 use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
 
@@ -20,9 +20,6 @@ problems! {
             "staff::runs", "task `{task}` is not a motion task", "this task", "hidden cases of function tasks are [[draws]]";
         Count { count: u32 }:
             "staff::runs", "there are 1 to {MOST_RUNS} hidden runs of a class, got {count}", "this count", "change `count`";
-        OnePath { check: String }:
-            "staff::runs", "check `{check}` compares with one path, and every run has its own", "these runs",
-            "judge the task by goals or a path of its own instead";
         SameNumbers:
             "staff::runs", "a hidden run without other numbers is the visible run again", "nothing is drawn",
             "give parameters, such as { can_y = [0.95, 1.05] }";
@@ -42,7 +39,7 @@ pub(super) fn hidden_runs(
     spanned: &Spanned<HiddenRunsTable>,
 ) -> Result<Vec<HiddenRun>, LabError> {
     let table = spanned.get_ref();
-    is_of_goals(report, lab, spanned)?;
+    is_of_a_motion(report, lab, spanned)?;
     let ranges = fitting_ranges(report, lab, spanned)?;
     let with = |parameters: Vec<(String, Dimension)>| {
         lab.with_parameters(&parameters).or_else(|error| {
@@ -72,8 +69,8 @@ pub(super) fn hidden_runs(
         .collect()
 }
 
-/// Refuses a task that is not a motion task, or is judged by one path; and a count beyond what a class can wait for.
-fn is_of_goals(
+/// Refuses a task that is not a motion task, and a count beyond what a class can wait for.
+fn is_of_a_motion(
     report: Reporter<'_>,
     lab: &Lab,
     spanned: &Spanned<HiddenRunsTable>,
@@ -86,14 +83,6 @@ fn is_of_goals(
     let count = *table.count.get_ref();
     if count == 0 || count > MOST_RUNS {
         return report.refuse_at(&table.count, RunsProblem::Count { count });
-    }
-    let task = lab
-        .tasks
-        .iter()
-        .find(|task| task.name == *table.task.get_ref());
-    if let Some(check) = task.and_then(Task::one_path) {
-        let check = check.to_owned();
-        return report.refuse_at(spanned, RunsProblem::OnePath { check });
     }
     Ok(())
 }

@@ -15,4 +15,4 @@
 mod linear;
 mod stability;
 
-pub use stability::{SampledLoop, sampled_loop};
+pub use stability::{SampledLoop, VariedGain, sampled_loop, stable_gain_factor};

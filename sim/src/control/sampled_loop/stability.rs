@@ -7,11 +7,11 @@ use crate::control::matrix_functions::{is_stable, spectral_radius};
 use crate::control::servo::{Gains, ServoSettings};
 use crate::model::robot::Robot;
 
-/// The search for a stable period uses steps of this factor, and so misses narrower gaps.
-const PERIOD_FACTOR: f64 = 1.25;
+/// The search for a stable period or gain uses steps of this factor, and so misses narrower gaps.
+const RANGE_FACTOR: f64 = 1.25;
 
-/// The search for a stable period goes this far, as a factor of the period either way.
-const PERIOD_REACH: f64 = 256.0;
+/// The search for a stable period or gain goes this far, as a factor of the given value either way.
+const RANGE_REACH: f64 = 256.0;
 
 /// The search for a stable share of the gains uses steps of this factor, down to [`LEAST_SHARE`].
 const SHARE_FACTOR: f64 = 0.75;
@@ -97,10 +97,56 @@ pub fn sampled_loop(
         worst_joint,
         stable_share: share(Some(worst_joint)),
         stable_share_of_all: share(None),
-        stable_period_s: end_of_stable_periods(servo_s, |period_s| {
+        stable_period_s: end_of_stable_range(servo_s, |period_s| {
             let plant = near.discretize(period_s);
             plant.is_some_and(|plant| stable(&plant, &settings.gains))
         }),
+    })
+}
+
+/// One of the three gains of a servo.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VariedGain {
+    /// The proportional gain.
+    Kp,
+    /// The integral gain.
+    Ki,
+    /// The derivative gain.
+    Kd,
+}
+
+/// The factor on one gain of all joints up to which the loop of [`sampled_loop`] is stable, with the other gains as they are: the end
+/// of the range of stable factors that contains 1 or, if that is unstable, of the next range below it.
+///
+/// Infinite if no factor up to 256 is unstable; `None` if none down to a 256th is stable, and where [`sampled_loop`] has no result.
+///
+/// # Panics
+/// If `q` does not have the shape of the robot.
+pub fn stable_gain_factor(
+    robot: &Robot,
+    settings: &ServoSettings,
+    servo_s: f64,
+    gravity_m_s2: &Vector3<f64>,
+    q: &[f64],
+    varied: VariedGain,
+) -> Option<f64> {
+    assert_eq!(q.len(), robot.n(), "one position per joint that moves");
+    if settings.gains.len() != robot.n() || !(servo_s > 0.0 && servo_s.is_finite()) {
+        return None;
+    }
+    let near = Linear::new(robot, settings, gravity_m_s2, q)?;
+    let plant = near.discretize(servo_s)?;
+    end_of_stable_range(1.0, |factor| {
+        let mut gains = settings.gains.clone();
+        for gains in &mut gains {
+            match varied {
+                VariedGain::Kp => gains.kp *= factor,
+                VariedGain::Ki => gains.ki *= factor,
+                VariedGain::Kd => gains.kd *= factor,
+            }
+        }
+        let transition = near.transition(&plant, &gains);
+        transition.is_some_and(|transition| is_stable(&transition))
     })
 }
 
@@ -120,24 +166,25 @@ fn greatest_share(stable: impl Fn(f64) -> bool) -> Option<f64> {
     None
 }
 
-fn end_of_stable_periods(given_s: f64, stable: impl Fn(f64) -> bool) -> Option<f64> {
-    let mut period_s = given_s;
-    if stable(given_s) {
-        while period_s <= given_s * PERIOD_REACH {
-            let longer_s = period_s * PERIOD_FACTOR;
-            if !stable(longer_s) {
-                return Some(last_stable(period_s, longer_s, stable));
+/// The end of the range of stable values that contains `given` or, if that is unstable, of the next range below it.
+fn end_of_stable_range(given: f64, stable: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut value = given;
+    if stable(given) {
+        while value <= given * RANGE_REACH {
+            let greater = value * RANGE_FACTOR;
+            if !stable(greater) {
+                return Some(last_stable(value, greater, stable));
             }
-            period_s = longer_s;
+            value = greater;
         }
         return Some(f64::INFINITY);
     }
-    while period_s >= given_s / PERIOD_REACH {
-        let shorter_s = period_s / PERIOD_FACTOR;
-        if stable(shorter_s) {
-            return Some(last_stable(shorter_s, period_s, stable));
+    while value >= given / RANGE_REACH {
+        let smaller = value / RANGE_FACTOR;
+        if stable(smaller) {
+            return Some(last_stable(smaller, value, stable));
         }
-        period_s = shorter_s;
+        value = smaller;
     }
     None
 }

@@ -38,6 +38,7 @@ fn feedback_says_what_matters() {
         "By hand: −0.5 for the total: no name in the header\n",
         "- Forward kinematics, Mean position error: 1.2 of 3 points. case `bent`: the answer is 12.4 mm",
         " Next: Draw the arm at q = (0, pi/2)",
+        " Which angle is it? It is q1 + q2 <here>.\n",
         "To see the runs: kinemark grade 01-kinematics submission.rhai\n",
     ] {
         assert!(text.contains(part), "{part}\n{text}");
@@ -47,7 +48,40 @@ fn feedback_says_what_matters() {
     let feedback = Feedback::of(&material(&rows, None), &rows[0]).unwrap();
     assert!(is_ours(&feedback.html()) && is_ours(&feedback.line()));
     assert!(!feedback.line().contains('\n') && !feedback.html().contains('\n'));
-    assert!(feedback.page().contains("the projector hid a line"));
+    let page = feedback.page();
+    assert!(page.contains("the projector hid a line"));
+    assert!(page.contains("It is q1 + q2 &lt;here&gt;."));
+    assert!(!page.contains("The elbow.") && !page.contains("kinemark hint"));
+}
+
+/// A line with what was lost comes before the hints of another.
+#[test]
+fn hints_take_no_room_from_losses() {
+    let mut class = Class::of_roster("id,name\ns1,Ada\n");
+    class.grade("s1", 12.0);
+    let record = class.records[0].as_mut().unwrap();
+    let task = &mut record.grade.tasks[0];
+    let lost = task
+        .checks
+        .iter()
+        .find(|check| check.name == "mean-error")
+        .unwrap()
+        .clone();
+    for number in 0..40 {
+        let mut check = lost.clone();
+        check.name = format!("c{number}");
+        task.checks.push(check);
+    }
+    let text = text_of(&class, 0);
+    let without = Hints::default();
+    let mut rows = class.rows();
+    rows[0].hints = &without;
+    let plain = Feedback::of(&material(&rows, None), &rows[0]).unwrap();
+    let losses = |text: &str| text.matches("\n- Forward kinematics,").count();
+    assert_eq!(losses(&text), losses(&plain.text()));
+    assert!(losses(&text) > 2 && text.contains("more losses of"));
+    assert!(text.matches("Which angle is it?").count() < losses(&text));
+    assert!(text.chars().count() <= MOST_CHARACTERS);
 }
 
 #[test]

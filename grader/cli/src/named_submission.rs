@@ -1,0 +1,76 @@
+//! The submission that a person names: a script, or a folder, an archive or a hand-in file with one in it. What is none of them gets a
+//! grade all the same, `did-not-build` with what to do: a report of an earlier file must not stand in for it.
+
+use std::path::Path;
+
+use kinemark_course::hand_in_file::HandInFile;
+use kinemark_course::layout::PersonFiles;
+use kinemark_course::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
+use kinemark_course::submission_file::{Unclear, submission_of};
+use kinemark_course::submission_source::SubmissionSource;
+use kinemark_course::tree::{Limits, Tree};
+use kinemark_grader::submission::not_text::absent;
+
+use crate::disk;
+use crate::failure::Failure;
+
+/// Reads what lies at `path` as a submission for `lab`.
+///
+/// # Errors
+/// Exit code 2 for a path at which nothing is, or what can be no submission: a pipe, a TOML file, a file of more than a megabyte.
+pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    let name = name.to_string_lossy();
+    let missing = |what: &str, help: &str| SubmissionSource::new(&name, &absent(what, help));
+    if path
+        .symlink_metadata()
+        .is_ok_and(|there| there.is_symlink())
+    {
+        // what it points to could be a secret of whoever grades
+        let what = format!("`{name}` is a link to another file");
+        return Ok(missing(
+            &what,
+            "hand in the file itself: copy it to this place",
+        ));
+    }
+    if path.is_dir() || has_ending(path, &["zip", "tar", "gz", "tgz"]) {
+        let opened = Tree::open(path, &Limits::default());
+        let found = match &opened {
+            Ok(tree) => submission_of(tree, &PersonFiles::of_all(tree), lab),
+            Err(error) => {
+                return Ok(missing(
+                    &format!("`{name}` cannot be opened: {}", error.what),
+                    "hand in the script itself, saved as UTF-8 text",
+                ));
+            }
+        };
+        return Ok(match found {
+            Ok(file) => SubmissionSource::new(&file.name, &file.bytes),
+            Err(Unclear { what, .. }) => missing(
+                &format!("`{name}`: {what}"),
+                "name the script itself, such as submission.rhai",
+            ),
+        });
+    }
+    if has_ending(path, &["kinemark"]) {
+        let bytes = disk::read_bytes(path, "a hand-in file", MOST_HAND_IN_BYTES)?;
+        return Ok(match HandInFile::read(&bytes) {
+            Ok(file) => SubmissionSource::new(&file.statement.file, &file.submission),
+            Err(error) => missing(
+                &format!("`{name}`: {error}"),
+                "run `kinemark submit` again, and name that file as it is",
+            ),
+        });
+    }
+    let bytes = disk::read_submission_bytes(path, MOST_SUBMISSION_BYTES)?;
+    Ok(SubmissionSource::new(&name, &bytes))
+}
+
+/// Whether a file's name ends in one of `endings`.
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let is_one = |ending: &std::ffi::OsStr| {
+        let mut known = endings.iter();
+        known.any(|known| ending.eq_ignore_ascii_case(known))
+    };
+    path.is_file() && path.extension().is_some_and(is_one)
+}
