@@ -127,9 +127,13 @@ fn a_step_has_full_marks_and_its_prediction_beside_it() {
 fn an_arm_that_stays_earns_nothing() {
     let task = own_lab().graded("fn control(observation) { [0.0, 0.0] }\n", 1);
     assert_eq!(task["points"], 0.0, "{task}");
+    let evidence = &check(&task, "rise")["evidence"];
     assert_eq!(
-        message(check(&task, "rise")),
-        "joint `elbow` hardly moved: it ends at 0 rad; 0.5 rad was asked for"
+        [&evidence[0]["message"], &evidence[1]["message"]],
+        [
+            "`control` returns [0, 0] at every call, which is the angles at which the arm starts",
+            "joint `elbow` hardly moved: it ends at 0 rad; 0.5 rad was asked for",
+        ]
     );
     for name in ["peak", "rms", "work", "smooth", "calm"] {
         assert_eq!(check(&task, name)["outcome"], "not-judged");

@@ -4,6 +4,7 @@ mod alternation;
 #[cfg(test)]
 mod by_hand;
 mod cases;
+pub(crate) mod cause;
 mod contract;
 mod disturbance;
 #[cfg(test)]

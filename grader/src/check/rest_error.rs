@@ -6,6 +6,7 @@ use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
 use kinemark_sim::text::number::trimmed;
 
+use super::cause::{Law, gravity_term, wrong_setpoint};
 use super::shape;
 use super::step_response::Response;
 
@@ -40,6 +41,8 @@ pub(super) struct Reason {
     pub(super) help: String,
     /// Whether the joint is not at rest at all.
     pub(super) moves: bool,
+    /// Whether it is a mistake that the run shows, beside which a general question would lead astray.
+    pub(super) insists: bool,
 }
 
 impl Reason {
@@ -48,7 +51,15 @@ impl Reason {
             words: words.into(),
             help: help.into(),
             moves: false,
+            insists: false,
         })
+    }
+
+    fn insists(self) -> Self {
+        Self {
+            insists: true,
+            ..self
+        }
     }
 }
 
@@ -94,7 +105,9 @@ impl<'a> Rest<'a> {
     fn reason(&self) -> Option<Reason> {
         self.command_is_beside()
             .or_else(|| self.is_of_another())
+            .or_else(|| self.is_steered_elsewhere())
             .or_else(|| self.still_swings())
+            .map(Reason::insists)
             .or_else(|| self.is_still_nearing())
             .or_else(|| match self.response.asked.of {
                 Fed::Position => self.gravity(),
@@ -128,6 +141,12 @@ impl<'a> Rest<'a> {
             None => shape::place_of_another(self.response, self.target)?,
         };
         Reason::new(words, help)
+    }
+
+    /// What is returned steers it there.
+    fn is_steered_elsewhere(&self) -> Option<Reason> {
+        let seen = wrong_setpoint(self.response)?;
+        Reason::new(seen.words, seen.next_step)
     }
 
     /// It swings where it is judged: then its distance at two moments says nothing.
@@ -206,6 +225,9 @@ impl<'a> Rest<'a> {
             return None;
         }
         let reason = format!("gravity takes {} {force} there", number(gravity.abs()));
+        if let Some((seen, question)) = gravity_term(self.response) {
+            return Reason::new(format!("{reason}, and {seen}"), question).map(Reason::insists);
+        }
         self.proportional(gravity, reason)
     }
 
@@ -231,6 +253,17 @@ impl<'a> Rest<'a> {
                 format!(
                     "{reason}, and kp = {} needs {needed} {unit} of error to supply it",
                     number(kp)
+                ),
+                "More proportional gain makes the error smaller; integral action, or adding that effort yourself, takes it away.",
+            )
+        } else if let Some(law) = Law::of(self.response)
+            .filter(|law| law.error > 0.0 && law.integral.abs() <= 0.0 && law.gravity.abs() <= 0.0)
+        {
+            let needed = number((effort / law.error).abs());
+            Reason::new(
+                format!(
+                    "{reason}, and the {} {force} that `control` gives for each {unit} of error need {needed} {unit} of it",
+                    number(law.error)
                 ),
                 "More proportional gain makes the error smaller; integral action, or adding that effort yourself, takes it away.",
             )

@@ -4,6 +4,7 @@
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::text::number::{seconds, trimmed};
 
+use super::cause::{speed_term, wrong_setpoint};
 use super::step_response::Response;
 use crate::task::value::Value;
 
@@ -36,6 +37,8 @@ const KEPT: f64 = 0.9;
 pub(super) fn seen(response: &Response<'_>) -> Option<Seen> {
     away(response)
         .or_else(|| swapped(response))
+        .or_else(|| wrong_setpoint(response))
+        .or_else(|| speed_term(response))
         .or_else(|| lasting_swing(response))
 }
 
@@ -182,6 +185,11 @@ fn swing(values: &[f64], centre: f64, step_s: f64) -> Option<Swing> {
 
 /// It swings across its target and does not get smaller: nothing brakes it.
 fn lasting_swing(response: &Response<'_>) -> Option<Seen> {
+    // a joint that is to stop in the end may turn to and fro before
+    if response.asked.of == Fed::Velocity && response.asked.target.is_some_and(|it| it.abs() <= 0.0)
+    {
+        return None;
+    }
     let centre = response.asked.target.unwrap_or(response.end);
     let step_s = response.facts.motion.periods.step_s;
     let swing = swing(&response.values, centre, step_s)?;

@@ -38,6 +38,8 @@ pub(super) struct Response<'a> {
 pub(super) struct Loss {
     pub(super) evidence: Evidence,
     pub(super) next_step: String,
+    /// Whether it is a mistake that the run shows.
+    pub(super) insists: bool,
 }
 
 /// What the linear loop would have done.
@@ -149,6 +151,7 @@ impl<'a> Response<'a> {
                 ..self.evidence(message, tick)
             },
             next_step: next_step.to_owned(),
+            insists: false,
         }
     }
 
@@ -157,6 +160,7 @@ impl<'a> Response<'a> {
         Loss {
             evidence: self.evidence(seen.words, seen.tick),
             next_step: seen.next_step,
+            insists: true,
         }
     }
 
@@ -194,6 +198,7 @@ impl<'a> Response<'a> {
         Some(Loss {
             evidence: self.evidence(message, last),
             next_step: format!("Bring {} to its target first.", self.what()),
+            insists: true,
         })
     }
 
@@ -245,6 +250,7 @@ impl<'a> Response<'a> {
         Some(Loss {
             evidence: self.evidence(message, tick),
             next_step,
+            insists: true,
         })
     }
 
@@ -291,13 +297,13 @@ impl<'a> Response<'a> {
         fault: Option<Loss>,
         short: impl FnOnce() -> Loss,
     ) -> Finding {
-        let insists = fault.is_some();
+        let is_fault = fault.is_some();
         let loss = fault.or_else(|| finding.is_lost().then(short));
         let Some(loss) = loss else {
             return finding;
         };
         Finding {
-            insists,
+            insists: is_fault || loss.insists,
             ..finding.with(loss.evidence).advise(loss.next_step)
         }
     }

@@ -11,7 +11,7 @@ use super::judged::{JudgedCheck, all_full, judge};
 use super::single_case::single_cases;
 use crate::attempt::answers::{Answered, Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
-use crate::check::{self, Check, FunctionCheck};
+use crate::check::{self, Check, FunctionCheck, cause};
 use crate::lab::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{CheckGrade, Diagnosis, Digests, Stopped, TaskGrade, TaskKind};
@@ -40,7 +40,7 @@ impl Grader<'_> {
         let (mut verdict, stopped) = self.ended(&attempt)?;
         let facts = &attempt.recorded.facts;
         let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
-        let judged = judge(checks, can_be_judged, &[], |check| {
+        let mut judged = judge(checks, can_be_judged, &[], |check| {
             check.kind.judge(&work.function, facts)
         });
         if !all_full(&judged) {
@@ -52,6 +52,9 @@ impl Grader<'_> {
         } else {
             self.function_diagnoses(task, (&work.function, band), &cases, &attempt)
         };
+        if diagnoses.is_empty() {
+            self.name_cause(&work.function, facts, band, &mut judged);
+        }
         // a stop explains the cases that it stopped, and no wrong answer to another one
         let is_wrong = |facts: &CaseFacts<'_>| {
             let is_answer = !matches!(facts.answer, Answered::Invalid(_) | Answered::Stopped);
@@ -152,6 +155,24 @@ impl Grader<'_> {
                 rungs: Vec::new(),
             },
             divergence: None,
+        }
+    }
+
+    /// Says what all answers together show at the first check that lost points.
+    fn name_cause(
+        &self,
+        function: &Function,
+        facts: &[CaseFacts<'_>],
+        band: Band,
+        judged: &mut [JudgedCheck],
+    ) {
+        let mut lost = judged.iter_mut().filter(|check| check.loss().is_some());
+        let Some(finding) = lost.next().and_then(|check| check.finding.as_mut()) else {
+            return;
+        };
+        let cause = cause::of_answers(&self.lab.frame, facts, |facts| is_good(facts, band));
+        if let Some(cause) = cause {
+            cause.explains(function, finding);
         }
     }
 

@@ -17,7 +17,7 @@ use super::motion_judge::MotionJudge;
 use super::motion_record::{MotionResult, level_digests, second_digests};
 use crate::attempt::motion::Session;
 use crate::attempt::{Attempt, Disclosure, Ended};
-use crate::check::{Check, MotionCheck};
+use crate::check::{Check, MotionCheck, cause};
 use crate::lab::Task;
 use crate::lab::staff::Mutant;
 use crate::record::grade::{CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome};
@@ -47,6 +47,9 @@ impl Grader<'_> {
         let mut visible = judge.judge(&attempt, disclosure, host)?;
         let (differs, diagnoses) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
+        if visible.stopped.is_none() && diagnoses.is_empty() {
+            name_cause(&judge, &attempt.recorded, &first_lost, &mut visible.checks);
+        }
         let hidden = self.hidden(&judge, &attempt, host)?;
         let grades = check_grades(
             checks,
@@ -248,6 +251,36 @@ fn first_losses(judge: &MotionJudge<'_>, judged: &[JudgedCheck]) -> Vec<Option<I
         .iter()
         .map(|judged| first_lost(judged.loss()?, &judge.work.periods));
     losses.collect()
+}
+
+/// Says what the whole run shows at the first check that lost points, and leads there from the others. One of those that says already
+/// what its curve shows stays as it is.
+fn name_cause(
+    judge: &MotionJudge<'_>,
+    trace: &Trace,
+    first_lost: &[Option<Instant>],
+    judged: &mut [JudgedCheck],
+) {
+    let Some(first) = judged.iter().position(|check| check.loss().is_some()) else {
+        return;
+    };
+    let facts = judge.facts(trace);
+    let earliest = first_lost.iter().flatten().map(|lost| lost.tick as usize);
+    let Some(cause) = cause::of_run(&facts, earliest.min()) else {
+        return;
+    };
+    if let Some(finding) = &mut judged[first].finding {
+        cause.explains(&facts, finding);
+    }
+    let title = &judge.checks[first].title;
+    let others = judged.iter_mut().skip(first + 1);
+    for check in others.filter(|check| check.loss().is_some()) {
+        if let Some(finding) = check.finding.as_mut().filter(|finding| !finding.insists) {
+            finding.insists = true;
+            finding.next_step =
+                format!("First look at \"{title}\": what is seen there may be why.");
+        }
+    }
 }
 
 /// The curves that checks judged.

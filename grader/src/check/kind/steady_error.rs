@@ -120,6 +120,7 @@ impl SteadyError {
             response.with_unit(value),
             response.with_unit(self.target),
         );
+        let insists = reason.as_ref().is_some_and(|reason| reason.insists);
         let mut next_step = "Add integral action.".to_owned();
         if moves {
             message += ", and is still moving";
@@ -135,6 +136,7 @@ impl SteadyError {
                 ..response.evidence(message, response.facts.last_tick())
             },
             next_step,
+            insists,
         }
     }
 }

@@ -63,6 +63,7 @@ impl RunMeasure for StepOvershoot {
                     ..response.evidence(message, peak)
                 },
                 next_step: "Add damping, or ask for the step less suddenly.".to_owned(),
+                insists: false,
             }
         })
     }

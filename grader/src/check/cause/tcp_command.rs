@@ -1,0 +1,106 @@
+//! What a velocity command asks of the TCP, and where its path leads from there.
+
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::check::facts::MotionFacts;
+use crate::check::path_following::passages;
+use crate::task::jacobian::jacobian_in;
+use crate::task::model::Rows;
+use crate::task::watched::PathToFollow;
+
+/// A segment's two ends, and the ticks between which it is followed.
+type FollowedBetween = ([Vector3<f64>; 2], [usize; 2]);
+
+/// Commands below this ask for nothing \[rad/s or m/s\].
+const LEAST_RATE: f64 = 1e-6;
+
+/// The velocity commands of a run, seen at the TCP.
+pub(super) struct TcpCommand<'a> {
+    pub(super) facts: &'a MotionFacts<'a>,
+}
+
+impl<'a> TcpCommand<'a> {
+    pub(super) fn new(facts: &'a MotionFacts<'a>) -> Self {
+        Self { facts }
+    }
+
+    /// The path that the TCP is to follow, if it has one.
+    pub(super) fn path(&self) -> Option<&'a PathToFollow> {
+        self.facts.motion.paths.first()
+    }
+
+    /// Ticks from one call of `control` to the next.
+    pub(super) fn stride(&self) -> usize {
+        self.facts.motion.periods.ticks_per_control.get() as usize
+    }
+
+    /// The tick of the first call that asks for a motion.
+    pub(super) fn first_call(&self) -> Option<usize> {
+        let calls = (0..self.facts.trace.len()).step_by(self.stride());
+        let asks = |tick: &usize| {
+            let command = self.facts.trace.command.at(*tick);
+            command.iter().any(|rate| rate.abs() > LEAST_RATE)
+        };
+        calls.into_iter().find(asks)
+    }
+
+    /// The linear part of the Jacobian at `q`, shape `(3, n)`, in the lab's frame.
+    pub(super) fn jacobian(&self, q: &[f64]) -> Option<DMatrix<f64>> {
+        let (robot, frame) = (self.facts.robot, self.facts.names.seen_from);
+        let rows = jacobian_in(robot, frame, q, Rows::LINEAR)?;
+        Some(DMatrix::from_fn(3, robot.n(), |row, column| {
+            rows[row][column]
+        }))
+    }
+
+    /// The velocity of the TCP under `command` at `q` \[m/s\].
+    pub(super) fn under(&self, q: &[f64], command: &[f64]) -> Option<Vector3<f64>> {
+        let v = self.jacobian(q)? * DVector::from_column_slice(command);
+        Some(Vector3::new(v[0], v[1], v[2]))
+    }
+
+    /// The velocity for which the command of a tick asks \[m/s\].
+    pub(super) fn velocity_m_s(&self, tick: usize) -> Option<Vector3<f64>> {
+        let trace = self.facts.trace;
+        self.under(trace.q.at(tick), trace.command.at(tick))
+    }
+
+    /// Unit vectors of the directions that lead on from where the TCP is at the start of its path: to the next point, and along the
+    /// first segment.
+    pub(super) fn ways_on(&self, tick: usize) -> Vec<Vector3<f64>> {
+        let Some(path) = self.path() else {
+            return Vec::new();
+        };
+        let p = self.facts.trace.tcp_position(tick);
+        let points = &path.points_m;
+        let at_first = (p - points[0]).norm() <= path.trim_m;
+        let mut ways = vec![points[usize::from(at_first)] - p];
+        if at_first {
+            ways.push(points[1] - points[0]);
+        }
+        let long = ways.into_iter().filter(|way| way.norm() > 1e-6);
+        long.map(|way| way.normalize()).collect()
+    }
+
+    /// The angle between the velocity for which the command of a tick asks and the nearest way on \[rad\].
+    pub(super) fn angle_aside(&self, tick: usize) -> Option<f64> {
+        let v = self.velocity_m_s(tick)?;
+        let ways = self.ways_on(tick);
+        ways.iter().map(|way| angle(&v, way)).min_by(f64::total_cmp)
+    }
+
+    /// The segments of the path: their ends, and the ticks between which each is followed.
+    pub(super) fn segments(&self) -> Option<Vec<FollowedBetween>> {
+        let path = self.path()?;
+        let passages = passages(&self.facts.p_tcp_m(), path)?;
+        let ends = path.points_m.windows(2).zip(passages.windows(2));
+        let segments =
+            ends.map(|(ends, passages)| ([ends[0], ends[1]], [passages[0].tick, passages[1].tick]));
+        Some(segments.collect())
+    }
+}
+
+/// The angle between two directions, in `[0, π]` \[rad\].
+pub(super) fn angle(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    libm::atan2(a.cross(b).norm(), a.dot(b))
+}

@@ -1,0 +1,23 @@
+//! Answers that are right for the lab's arm and wrong for arms of other sizes: a size is typed in.
+
+use super::{Answers, CauseOfAnswers};
+use crate::attempt::answers::CaseFacts;
+
+pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
+    let is_other = |facts: &&&CaseFacts<'_>| !facts.case.dimensions.is_empty();
+    let are_other = answers.wrong.iter().all(|facts| is_other(&facts));
+    let own_right = answers
+        .right
+        .iter()
+        .filter(|facts| !is_other(facts))
+        .count();
+    let other_right = answers.right.iter().filter(is_other).count();
+    (are_other && own_right >= super::LEAST_WRONG && other_right == 0).then(|| CauseOfAnswers {
+        words:
+            "right in every case with the arm of this lab, and wrong in every case with another arm"
+                .to_owned(),
+        question:
+            "Which sizes of the arm are typed into your function? `robot` has those of the case."
+                .to_owned(),
+    })
+}
