@@ -235,9 +235,13 @@ impl<'a> Response<'a> {
                 self.with_unit(high),
                 trimmed(0.5 * f64::from(turns) / length_s, 0)
             );
-            next_step =
-                "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
-                    .to_owned();
+            next_step = match self.asked.of {
+                Fed::Position => {
+                    "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
+                }
+                Fed::Velocity => "Lower the gains: the feedback of the speed overcorrects.",
+            }
+            .to_owned();
         }
         if let Some((why, help)) =
             alternation::explained(self.facts, self.asked.joint, self.final_tick)

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use kinemark_sim::control::Mode;
 use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
@@ -18,14 +19,14 @@ use super::motion_record::{MotionResult, level_digests, second_digests};
 use crate::attempt::motion::Session;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck, cause};
-use crate::lab::Task;
 use crate::lab::staff::Mutant;
+use crate::lab::{Task, TaskWork};
 use crate::record::grade::{CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome};
 use crate::record::graded::Curve;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::host::{Host, InProcess};
-use crate::task::model::MotionTask;
+use crate::task::model::{Function, MotionTask};
 
 impl Grader<'_> {
     pub(super) fn motion(
@@ -48,7 +49,14 @@ impl Grader<'_> {
         let (differs, diagnoses) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
         if visible.stopped.is_none() && diagnoses.is_empty() {
-            name_cause(&judge, &attempt.recorded, &first_lost, &mut visible.checks);
+            let unsolved = self.unsolved_before(task, work);
+            name_cause(
+                &judge,
+                &attempt.recorded,
+                &first_lost,
+                unsolved,
+                &mut visible.checks,
+            );
         }
         let hidden = self.hidden(&judge, &attempt, host)?;
         let grades = check_grades(
@@ -100,6 +108,27 @@ impl Grader<'_> {
             run: Some(run),
             scores,
         })
+    }
+
+    /// An earlier task of the function from which such a motion is made, if it lost points: the Jacobian for velocities, inverse
+    /// kinematics for positions.
+    fn unsolved_before(&self, task: &Task, work: &MotionTask) -> Option<&str> {
+        let is_needed = |function: &Function| match work.servo.mode {
+            Mode::Velocity => matches!(function, Function::Jacobian(_)),
+            Mode::Position => matches!(function, Function::InverseKinematics),
+            Mode::Effort => false,
+        };
+        let before = self
+            .lab
+            .tasks
+            .iter()
+            .take_while(|known| known.name != task.name);
+        let mut functions = before.filter(|known| match &known.work {
+            TaskWork::Function(work, _) => is_needed(&work.function),
+            TaskWork::Motion(..) => false,
+        });
+        let lost = functions.find(|known| !self.passed.contains(&known.name))?;
+        Some(&lost.name)
     }
 
     /// The judge with what is known of the reference solution.
@@ -253,12 +282,13 @@ fn first_losses(judge: &MotionJudge<'_>, judged: &[JudgedCheck]) -> Vec<Option<I
     losses.collect()
 }
 
-/// Says what the whole run shows at the first check that lost points, and leads there from the others. One of those that says already
+/// Says what the whole run shows at the first check that lost points, or which task to repair first, and leads there from the others. One of those that says already
 /// what its curve shows stays as it is.
 fn name_cause(
     judge: &MotionJudge<'_>,
     trace: &Trace,
     first_lost: &[Option<Instant>],
+    unsolved: Option<&str>,
     judged: &mut [JudgedCheck],
 ) {
     let Some(first) = judged.iter().position(|check| check.loss().is_some()) else {
@@ -266,11 +296,20 @@ fn name_cause(
     };
     let facts = judge.facts(trace);
     let earliest = first_lost.iter().flatten().map(|lost| lost.tick as usize);
-    let Some(cause) = cause::of_run(&facts, earliest.min()) else {
+    let cause = cause::of_run(&facts, earliest.min());
+    if cause.is_none() && unsolved.is_none() {
         return;
-    };
+    }
     if let Some(finding) = &mut judged[first].finding {
-        cause.explains(&facts, finding);
+        if let Some(cause) = cause {
+            cause.explains(&facts, finding);
+        }
+        if let Some(task) = unsolved {
+            finding.insists = true;
+            finding.next_step = format!(
+                "Task `{task}` has lost points. If this run uses the same function, repair that first."
+            );
+        }
     }
     let title = &judge.checks[first].title;
     let others = judged.iter_mut().skip(first + 1);

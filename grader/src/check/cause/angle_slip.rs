@@ -89,8 +89,12 @@ impl AngleSlip {
                 "Which way does joint `{}` turn for a positive angle? Try one alone.",
                 name(0)
             ),
-            Self::Sign(joint) => format!(
+            Self::Sign(0) => format!(
                 "Which way does joint `{}` turn for a positive angle? Try one alone.",
+                name(0)
+            ),
+            Self::Sign(joint) => format!(
+                "Do your angles belong together? For each way to bend joint `{}` the joints before it have angles of their own.",
                 name(joint)
             ),
             Self::FromAxis(joint) => format!(

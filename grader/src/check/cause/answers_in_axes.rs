@@ -14,6 +14,15 @@ use kinemark_sim::text::number::list;
 const SAME_M: f64 = 1e-4;
 /// Matrices that are the same, as a share of their norm.
 const SAME: f64 = 1e-4;
+/// What a unit is taken for, by the factor between the two.
+const UNITS: [(f64, &str); 4] = [
+    (1e-3, "taken as millimetres"),
+    (1e3, "taken as kilometres"),
+    (std::f64::consts::PI / 180.0, "times π / 180"),
+    (180.0 / std::f64::consts::PI, "times 180 / π"),
+];
+const UNIT_QUESTION: &str =
+    "In which unit do you return numbers? Lengths are in metres, and angles in radians.";
 /// A step of all positions is no rounding \[m\].
 const LEAST_STEP_M: f64 = 1e-3;
 
@@ -38,6 +47,14 @@ fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             .iter()
             .all(|(answered, truth)| (meant(*answered) - truth).norm() <= SAME_M)
     };
+    for (factor, taken) in UNITS {
+        if all(&|p| p * factor) {
+            return Some(CauseOfAnswers {
+                words: format!("all {count} wrong positions are right {taken}"),
+                question: UNIT_QUESTION.to_owned(),
+            });
+        }
+    }
     for (first, second) in [(0, 1), (0, 2), (1, 2)] {
         let exchanged = |mut p: Vector3<f64>| {
             p.swap_rows(first, second);
@@ -97,68 +114,93 @@ fn matrices(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
         return None;
     }
     let [rows, columns] = [wrong[0].1.len(), wrong[0].1.first().map_or(0, Vec::len)];
-    let all = |meant: &dyn Fn(&Matrix) -> Matrix| {
-        wrong
-            .iter()
-            .all(|(answer, truth)| jacobian::relative_distance(&meant(answer), truth) <= SAME)
-    };
-    let count = wrong.len();
-    let cause = |what: String, question: &str| {
-        Some(CauseOfAnswers {
-            words: format!("all {count} wrong matrices are right {what}"),
-            question: question.to_owned(),
+    let is_right = |slip: &Slip| {
+        let mut wrong = wrong.iter();
+        wrong.all(|(answer, truth)| {
+            jacobian::relative_distance(&(slip.meant)(answer), truth) <= SAME
         })
     };
+    let slip = slips(rows, columns).into_iter().find(is_right)?;
+    let count = wrong.len();
+    Some(CauseOfAnswers {
+        words: format!("all {count} wrong matrices are right {}", slip.what),
+        question: slip.question.to_owned(),
+    })
+}
+
+/// What was done to a right matrix.
+struct Slip {
+    /// After "right".
+    what: String,
+    question: &'static str,
+    /// The matrix that was meant.
+    meant: Box<dyn Fn(&Matrix) -> Matrix>,
+}
+
+/// What may have been done to matrices of so many rows and columns.
+fn slips(rows: usize, columns: usize) -> Vec<Slip> {
     const ORDER: &str = "Which row is for which coordinate, and which column for which joint?";
     const SIGN: &str =
         "Differentiate that coordinate once more: the derivative of a cosine is minus the sine.";
-    if rows == columns && all(&|m| transposed(m)) {
-        return cause("with rows and columns exchanged".to_owned(), ORDER);
+    let slip = |what: String, question, meant: Box<dyn Fn(&Matrix) -> Matrix>| Slip {
+        what,
+        question,
+        meant,
+    };
+    let mut slips: Vec<Slip> = UNITS
+        .iter()
+        .map(|&(factor, taken)| {
+            let meant = move |m: &Matrix| each_entry(m, |_, entry| factor * entry);
+            slip(taken.to_owned(), UNIT_QUESTION, Box::new(meant))
+        })
+        .collect();
+    if rows == columns {
+        let what = "with rows and columns exchanged".to_owned();
+        slips.push(slip(what, ORDER, Box::new(transposed)));
     }
-    for first in 0..rows {
-        for second in first + 1..rows {
-            let exchanged = |m: &Matrix| {
-                let mut m = m.clone();
-                m.swap(first, second);
-                m
-            };
-            if all(&exchanged) {
-                let [a, b] = [first + 1, second + 1];
-                return cause(format!("with rows {a} and {b} exchanged"), ORDER);
-            }
-        }
-    }
-    for first in 0..columns {
-        for second in first + 1..columns {
-            let exchanged = |m: &Matrix| {
-                let mut m = m.clone();
-                m.iter_mut().for_each(|row| row.swap(first, second));
-                m
-            };
-            if all(&exchanged) {
-                let [a, b] = [first + 1, second + 1];
-                return cause(format!("with columns {a} and {b} exchanged"), ORDER);
-            }
-        }
-    }
-    for row in 0..rows {
-        let turned = |m: &Matrix| {
+    for [first, second] in pairs(rows) {
+        let what = format!("with rows {} and {} exchanged", first + 1, second + 1);
+        let meant = move |m: &Matrix| {
             let mut m = m.clone();
-            m[row].iter_mut().for_each(|entry| *entry = -*entry);
+            m.swap(first, second);
             m
         };
-        if all(&turned) {
-            return cause(format!("with the other sign of row {}", row + 1), SIGN);
-        }
+        slips.push(slip(what, ORDER, Box::new(meant)));
     }
-    if all(&|m| {
-        m.iter()
-            .map(|row| row.iter().map(|x| -x).collect())
-            .collect()
-    }) {
-        return cause("with the other sign".to_owned(), SIGN);
+    for [first, second] in pairs(columns) {
+        let what = format!("with columns {} and {} exchanged", first + 1, second + 1);
+        let meant = move |m: &Matrix| {
+            let mut m = m.clone();
+            m.iter_mut().for_each(|row| row.swap(first, second));
+            m
+        };
+        slips.push(slip(what, ORDER, Box::new(meant)));
     }
-    None
+    for turned in 0..rows {
+        let what = format!("with the other sign of row {}", turned + 1);
+        let meant = move |m: &Matrix| {
+            each_entry(m, |row, entry| if row == turned { -entry } else { entry })
+        };
+        slips.push(slip(what, SIGN, Box::new(meant)));
+    }
+    let meant = |m: &Matrix| each_entry(m, |_, entry| -entry);
+    slips.push(slip(
+        "with the other sign".to_owned(),
+        SIGN,
+        Box::new(meant),
+    ));
+    slips
+}
+
+fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..count).flat_map(move |first| (first + 1..count).map(move |second| [first, second]))
+}
+
+/// A matrix with `make` of each entry, which is given its row, too.
+fn each_entry(matrix: &Matrix, make: impl Fn(usize, f64) -> f64) -> Matrix {
+    let rows = matrix.iter().enumerate();
+    rows.map(|(i, row)| row.iter().map(|entry| make(i, *entry)).collect())
+        .collect()
 }
 
 fn transposed(matrix: &Matrix) -> Matrix {

@@ -49,6 +49,8 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
             question = ask.to_owned();
         }
         None if asides.iter().any(|aside| *aside < FAR_ASIDE) => return None,
+        // what turns to and fro has no direction
+        None if calls.iter().any(|tick| turns(&motion, &v, *tick)) => return None,
         None => {}
     }
     Some(Cause {
@@ -57,6 +59,12 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         tick: first,
         question: Some(question),
     })
+}
+
+/// Whether the velocity for which a call asks has turned away from `v`.
+fn turns(motion: &TcpCommand<'_>, v: &Vector3<f64>, tick: usize) -> bool {
+    let later = motion.velocity_m_s(tick);
+    later.is_none_or(|later| angle(&later, v) > FAR_ASIDE)
 }
 
 /// What was done to the command, if one slip alone explains the first direction, and those of the calls after it lead back to the path

@@ -31,7 +31,8 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
                 since.get_or_insert(tick);
             } else if let Some(from) = since.take() {
                 // what comes after points were lost did not cost them
-                let counts = tick - from >= least && from <= until;
+                // and neither did what was over long before
+                let counts = tick - from >= least && from <= until && until <= tick + least;
                 if counts && longest.is_none_or(|(_, known, to)| tick - from > to - known) {
                     longest = Some((joint, from, tick));
                 }
