@@ -17,6 +17,8 @@ pub struct Ended {
     pub at: u64,
     /// The reason.
     pub why: EndReason,
+    /// Whether it was in `init`, before the first tick.
+    pub in_init: bool,
 }
 
 /// Why an attempt ended early.
@@ -76,9 +78,23 @@ impl EndReason {
 impl Ended {
     /// The submission was stopped at `at`.
     pub fn stopped_by(stop: Stop, at: u64) -> Self {
+        Self::because(EndReason::Stopped(stop), at)
+    }
+
+    /// The submission was stopped before the first tick.
+    pub fn stopped_in_init(stop: Stop) -> Self {
+        Self {
+            in_init: true,
+            ..Self::stopped_by(stop, 0)
+        }
+    }
+
+    /// It ended at `at` for the reason `why`.
+    pub fn because(why: EndReason, at: u64) -> Self {
         Self {
             at,
-            why: EndReason::Stopped(stop),
+            why,
+            in_init: false,
         }
     }
 
@@ -117,6 +133,14 @@ impl Ended {
                 case: Some(name.to_owned()),
                 ..self.whole_record(source, None)
             },
+            Disclosure::Run { names, task } if self.in_init => {
+                let record = self.whole_record(source, Some((names, task)));
+                Stopped {
+                    message: format!("{} in `init`", record.message),
+                    help: self.help_in_init().map(str::to_owned).or(record.help),
+                    ..record
+                }
+            }
             Disclosure::Run { names, task } => Stopped {
                 tick: Some(self.at),
                 time_s: Some(task.periods.time_s(self.at)),
@@ -146,6 +170,20 @@ impl Ended {
             help,
             ..Stopped::default()
         }
+    }
+
+    /// What helps in `init` and nowhere else.
+    fn help_in_init(&self) -> Option<&'static str> {
+        let Some(Stop::OverBudget { budget, .. }) = self.stop() else {
+            return None;
+        };
+        let is_of_operations = matches!(
+            budget,
+            Budget::OperationsPerCall | Budget::OperationsPerTask
+        );
+        is_of_operations.then_some(
+            "look for a loop that does not end: `init` may take as many operations as a call of `control`",
+        )
     }
 
     fn hidden_run_words(&self) -> &'static str {

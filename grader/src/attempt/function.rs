@@ -85,10 +85,7 @@ fn first_invalid(facts: &[CaseFacts<'_>], log: &[LogEntry]) -> Option<Ended> {
                 Some(origin) => format!("{what}; {}", origin.trim_end_matches(": ")),
                 None => what.clone(),
             };
-            Some(Ended {
-                at,
-                why: EndReason::InvalidOutput(what),
-            })
+            Some(Ended::because(EndReason::InvalidOutput(what), at))
         }
         Answered::Position(_)
         | Answered::Branches(_)

@@ -168,7 +168,7 @@ impl<'a> Session<'a> {
             Err(stop) => Err(Box::new(attempt(
                 recorder,
                 output,
-                Some(Ended::stopped_by(stop, 0)),
+                Some(Ended::stopped_in_init(stop)),
             ))),
         }
     }
@@ -223,7 +223,7 @@ impl<'a> Session<'a> {
                     Ok(numbers) => self.held.copy_from_slice(&numbers),
                     Err(why) if why.is_of_one_call() => {
                         let at = seen.tick;
-                        self.cut = Some(Ended { at, why });
+                        self.cut = Some(Ended::because(why, at));
                     }
                     Err(why) => return Err(why),
                 }
@@ -233,10 +233,10 @@ impl<'a> Session<'a> {
             self.ended = match self.run.advance(&mut control, &mut self.recorder) {
                 Ok(None) => None,
                 Ok(Some(End::Finished)) => Some(Ok(())),
-                Ok(Some(End::Stopped { tick, why })) => Some(Err(Ended { at: tick, why })),
+                Ok(Some(End::Stopped { tick, why })) => Some(Err(Ended::because(why, tick))),
                 Ok(Some(End::Diverged { tick, what })) => {
                     let why = EndReason::Diverged { what, cause: None };
-                    Some(Err(Ended { at: tick, why }))
+                    Some(Err(Ended::because(why, tick)))
                 }
                 Err(error) => {
                     let fault = Stop::GraderFault(error.to_string());

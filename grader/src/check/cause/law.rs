@@ -10,7 +10,7 @@ use crate::check::step_response::Response;
 
 /// Root mean square of what the law leaves over, as a share of that of the commands.
 const LEFT_OVER: f64 = 3e-3;
-/// Terms that differ less than this, as a share of their size, cannot be told apart.
+/// Terms that differ less than this, as a share of their size, cannot be separated.
 const APART: f64 = 1e-4;
 /// Calls that are looked at, at most.
 const MOST_CALLS: usize = 500;

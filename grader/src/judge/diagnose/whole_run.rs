@@ -379,7 +379,7 @@ mod tests {
                 bound_j: 1e6,
             };
             let why = EndReason::Diverged { what, cause: None };
-            Ended { at: tick, why }
+            Ended::because(why, tick)
         };
         let same = |a: Option<Ended>, b: Option<Ended>| same_end(a.as_ref(), b.as_ref(), 100);
         assert!(same(None, None));
@@ -390,7 +390,7 @@ mod tests {
         assert!(!same(None, Some(lost(500, 1))));
         let stopped = || {
             let why = EndReason::InvalidOutput("no".to_owned());
-            Some(Ended { at: 500, why })
+            Some(Ended::because(why, 500))
         };
         assert!(!same(stopped(), stopped()));
     }
