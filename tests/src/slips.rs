@@ -1,6 +1,7 @@
 //! Slips as classes hand them in: `tests/slips/LAB/NAME.rhai`. The head of each file has, a line each, the `task` that loses points, what
 //! is said of it (`says`), what the student is asked (`asks`), and advice that would mislead (`never`); without `check` the first check
-//! that lost points counts. A file with `verdict: passed` is right, and nothing is said of it.
+//! that lost points counts. A file with `verdict: passed` is right, and nothing is said of it. What `stopped`
+//! the task, what `helps` and at which `line` are of a submission that fails.
 
 use std::path::Path;
 
@@ -58,6 +59,9 @@ fn is_named(lab: &Lab, text: &str) {
         assert_eq!(task.verdict.name(), "passed", "{}", all_said(task));
         return;
     }
+    if is_stopped_as_said(task, text) {
+        return;
+    }
     let lost = |outcome: Outcome| matches!(outcome, Outcome::None | Outcome::Partial);
     let mut checks = task.checks.iter();
     let check = match heads(text, "check")[..] {
@@ -83,6 +87,24 @@ fn is_named(lab: &Lab, text: &str) {
     for never in heads(text, "never") {
         assert!(!everything.contains(never), "{never}: {everything}");
     }
+}
+
+/// Whether the head says what stopped the task; then it is checked.
+fn is_stopped_as_said(task: &TaskGrade, text: &str) -> bool {
+    let [said] = heads(text, "stopped")[..] else {
+        return false;
+    };
+    let stopped = task.stopped.as_ref().expect("a stop");
+    assert!(stopped.message.contains(said), "{}", stopped.message);
+    for helps in heads(text, "helps") {
+        let help = stopped.help.as_deref().unwrap_or_default();
+        assert!(help.contains(helps), "{help}");
+    }
+    for line in heads(text, "line") {
+        let found = stopped.line.map(|line| line.to_string());
+        assert_eq!(found.as_deref(), Some(line));
+    }
+    true
 }
 
 /// Everything that the checks of a task say and ask.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
 use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::sums::contradictions;
 use kinemark_report::text::text as shown;
 use toml::{Table, Value};
 
@@ -72,6 +73,7 @@ fn gets_its_verdict(lab: &Lab, staff: &Staff, folder: &Path) {
     knows(&expect, &["verdict", "tasks"]);
     let submission = read("submission.rhai");
     let graded = grade(lab, Some(staff), "submission.rhai", &submission).grade;
+    assert_eq!(contradictions(&graded), [], "{}", shown(&graded));
     assert_eq!(
         Some(graded.verdict.name()),
         word(&expect, "verdict"),

@@ -58,6 +58,43 @@ fn a_forged_grade_is_found() {
 }
 
 #[test]
+fn a_grade_that_contradicts_itself_is_found_without_the_staffs_part() {
+    for (from, to, differs) in [
+        (
+            "\"points\": 24.0",
+            "\"points\": 25.0",
+            "`points`\n  recorded 25\n  now      24",
+        ),
+        (
+            "\"max_points\": 24.0",
+            "\"max_points\": 30.0",
+            "`max_points`",
+        ),
+        (
+            "\"outcome\": \"full\",\n          \"points\": 5.0",
+            "\"outcome\": \"none\",\n          \"points\": 5.0",
+            "`tasks[1].checks[0].outcome`",
+        ),
+        (
+            "\"points\": 10.0,\n      \"max_points\": 10.0",
+            "\"points\": 9.0,\n      \"max_points\": 10.0",
+            "`tasks[3].points`\n  recorded 9\n  now      10",
+        ),
+        (
+            "\"verdict\": \"passed\",\n  \"points\"",
+            "\"verdict\": \"missed\",\n  \"points\"",
+            "`verdict`\n  recorded missed",
+        ),
+    ] {
+        let bed = graded();
+        bed.edit("out/grade.json", from, to);
+        let ran = bed.run(&["verify", "out", "--practice"]);
+        assert_eq!(ran.code, Some(1), "{to}: {ran:?}");
+        assert!(ran.stdout.contains(differs), "{to}: {ran:?}");
+    }
+}
+
+#[test]
 fn a_changed_page_or_plot_is_found() {
     let bed = graded();
     bed.edit("out/report.html", "</body>", "<p>25 points</p></body>");

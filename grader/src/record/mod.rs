@@ -10,4 +10,5 @@ pub mod quantity;
 #[cfg(any(test, feature = "sample"))]
 pub mod sample;
 pub mod staff_fault;
+pub mod sums;
 pub mod verdict;

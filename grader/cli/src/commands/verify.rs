@@ -6,8 +6,10 @@ use std::process::ExitCode;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::variant::VARIANT_FILE;
-use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
+use kinemark_grader::record::grade::{CheckGrade, Grade, GradeMode, Outcome, TaskGrade, TaskKind};
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::sums::{self, Contradiction};
 use kinemark_report::output::{Manifest, Pixels, digest};
 use kinemark_report::visible::visible;
 use serde::Serialize;
@@ -25,6 +27,7 @@ use crate::{disk, interrupt, output, report_folder};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  kinemark verify out\n\n\
     Uses the copies of lab, robot and submission inside the folder.\n\
+    Without the course staff's part, what is hidden is not graded again; sums and verdicts of the record are checked all the same.\n\
     Exit codes: 0 same bits, 1 something differs, 2 usage, 3 the folder is not a report, 4 the grader or this machine failed.")]
 pub(crate) struct Args {
     /// The output folder of `kinemark grade`
@@ -191,11 +194,53 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
             });
         }
     }
+    if differences.is_empty() {
+        let contradictions = sums::contradictions(recorded).into_iter();
+        let visible = visible_differences(recorded, now).into_iter();
+        differences.extend(contradictions.chain(visible).map(|found| Difference {
+            what: format!("{RECORD}`{}`", found.place),
+            task: None,
+            second: None,
+            signal: None,
+            recorded: found.recorded,
+            now: found.follows,
+        }));
+    }
     Ok(Comparison {
         same: differences.is_empty(),
         differences,
         not_compared,
     })
+}
+
+/// Points that are not as recorded, of checks that nothing hidden and no reference takes part in.
+fn visible_differences(recorded: &Grade, now: &Grade) -> Vec<Contradiction> {
+    let mut differences = Vec::new();
+    for (i, before) in recorded.tasks.iter().enumerate() {
+        let has_hidden = before.kind == TaskKind::Function || !before.hidden.is_empty();
+        let after = now.tasks.iter().find(|task| task.name == before.name);
+        let Some(after) = after.filter(|_| !has_hidden) else {
+            continue;
+        };
+        for (j, (before, after)) in before.checks.iter().zip(&after.checks).enumerate() {
+            let reference = |check: &CheckGrade| {
+                check.outcome == Outcome::AtHandIn
+                    || check
+                        .measure
+                        .as_ref()
+                        .is_some_and(|measure| measure.reference.is_some())
+            };
+            let [recorded, follows] = [before, after].map(|check| points(check.points));
+            if recorded != follows && !reference(before) && !reference(after) {
+                differences.push(Contradiction {
+                    place: format!("tasks[{i}].checks[{j}].points"),
+                    recorded,
+                    follows,
+                });
+            }
+        }
+    }
+    differences
 }
 
 /// Where two records first differ, as a path such as `tasks[3].points`, with both values.
