@@ -27,7 +27,7 @@ fn a_wrong_path_names_the_near_file() {
         ran.stderr.contains("did you mean `./submission.rhai`?"),
         "{ran:?}"
     );
-    let ran = bed().run(&["grade", "01-kinematic", "submission.rhai"]);
+    let ran = bed().run(&["grade", "01-kinematiks", "submission.rhai"]);
     assert_eq!(ran.code, Some(2));
     assert!(
         ran.stderr.contains("did you mean `01-kinematics`?"),

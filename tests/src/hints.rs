@@ -244,7 +244,7 @@ fn slips_of_the_keyboard_are_answered() {
         (&["near"], "no task `near`", "the check `fk/near`"),
         (&["turn/calm"], "`turn/calm` has no hints", "shoulder"),
         (
-            &["--lab", "95-hint"],
+            &["--lab", "95-hinds"],
             "no lab is",
             "did you mean `95-hints`?",
         ),

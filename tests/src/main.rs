@@ -74,6 +74,7 @@ mod verify;
 mod view;
 mod wasm;
 mod watch;
+mod working_folder;
 
 /// A file that no `mod` names would be a test that never runs.
 #[test]

@@ -163,7 +163,10 @@ proptest! {
         let TaskWork::Motion(work, _) = &lab.tasks.iter().find(|known| known.name == *task).expect("the task").work else {
             panic!("a motion task");
         };
-        let tick = ((work.ticks as f64 * share) as u64).max(1);
+        // a failure after the last call is none
+        let every = u64::from(work.periods.ticks_per_control.get());
+        let last_call = (work.ticks - 1) / every * every;
+        let tick = ((work.ticks as f64 * share) as u64).clamp(1, last_call);
         let [cut, held, whole] = [
             from_tick(source, tick, CRASH),
             from_tick(source, tick, HOLD),

@@ -135,6 +135,13 @@ impl TestBed {
         self.command(args).output().expect("the binary runs").into()
     }
 
+    /// The same in `folder`, a folder of this one.
+    pub(crate) fn run_in(&self, folder: &Path, args: &[&str]) -> CommandResult {
+        let mut command = self.command(args);
+        let ran = command.current_dir(folder).output();
+        ran.expect("the binary runs").into()
+    }
+
     /// The course, and a submission of lab 1 that loses points in the move.
     pub(crate) fn a_little_off() -> Self {
         let bed = Self::new();

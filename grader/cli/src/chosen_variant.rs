@@ -56,6 +56,8 @@ pub(crate) struct Chosen {
 /// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
 pub(crate) fn choose(name: &str, args: &LabArgs, beside: Option<&Path>) -> Result<Chosen, Failure> {
     let mut args = args.clone();
+    let (files, _) = labs_folder::open(&args.labs_folder)?;
+    let name = &labs_folder::full_name(files.as_ref(), name)?;
     if !args.staff.practice {
         let note = enclosing_course::fill(name, &mut args.labs_folder, &mut args.staff.part)?;
         if let Some(note) = note {

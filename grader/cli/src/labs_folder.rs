@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::task::files::Files;
 use rust_embed::Embed;
 
@@ -85,6 +86,33 @@ pub(crate) fn text(files: &dyn Files, lab: &str, name: &str) -> Result<String, F
             format!("{lab}/{name}: {why}"),
             "save it as UTF-8 text",
         )),
+    }
+}
+
+/// The name of the lab that is meant by what was typed: that name, or the only lab that begins with it.
+///
+/// # Errors
+/// Exit code 2 where several labs begin with it.
+pub(crate) fn full_name(files: &dyn Files, typed: &str) -> Result<String, Failure> {
+    let names = lab_names(files);
+    if typed.is_empty() || names.iter().any(|name| name == typed) {
+        return Ok(typed.to_owned());
+    }
+    let begin: Vec<&String> = names
+        .iter()
+        .filter(|name| name.starts_with(typed))
+        .collect();
+    match &begin[..] {
+        [one] => Ok((*one).clone()),
+        // whoever loads it says which labs there are
+        [] => Ok(typed.to_owned()),
+        several => {
+            let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
+            Err(Failure::usage(
+                format!("`{typed}` may be {}", names.join(" or ")),
+                "type enough of the name that one lab is left",
+            ))
+        }
     }
 }
 

@@ -6,9 +6,8 @@ use kinemark_grader::record::grade::Grade;
 use kinemark_report::output::RECORD_FILE;
 
 use crate::disk;
+use crate::working_lab::REPORT_FOLDER;
 
-/// The folder to which `kinemark grade` writes unless it is given another.
-const REPORT_FOLDER: &str = "out";
 /// Records are far smaller.
 const MOST_RECORD_BYTES: u64 = 64 << 20;
 

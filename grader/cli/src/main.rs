@@ -16,6 +16,7 @@ mod failure;
 mod fresh_folder;
 mod hand_in_warnings;
 mod handed_out_lab;
+mod history;
 mod interrupt;
 mod lab_counts;
 mod labs_folder;

@@ -28,8 +28,11 @@ pub(crate) struct Saves {
 
 impl Saves {
     /// Starts to send an event to `events` for every save that concerns the grade.
-    pub(crate) fn listen(args: &grade::Args, events: Sender<WatchEvent>) -> Result<Self, Failure> {
-        let concerns = Concerns::of(args)?;
+    pub(crate) fn listen(
+        request: &grade::Request<'_>,
+        events: Sender<WatchEvent>,
+    ) -> Result<Self, Failure> {
+        let concerns = Concerns::of(request)?;
         let trees = concerns.trees.clone();
         // folders and not files: editors put another file in a file's place
         let folders = concerns.files.iter().map(|file| parent(file).to_owned());
@@ -86,10 +89,11 @@ struct Concerns {
 }
 
 impl Concerns {
-    fn of(args: &grade::Args) -> Result<Self, Failure> {
+    fn of(request: &grade::Request<'_>) -> Result<Self, Failure> {
+        let args = request.args;
         let mut files = vec![
-            real(&args.submission)?,
-            real(&args.submission.with_file_name(VARIANT_FILE))?,
+            real(&request.submission)?,
+            real(&request.submission.with_file_name(VARIANT_FILE))?,
         ];
         if let Some(variant) = &args.from.variant.variant {
             files.push(real(variant)?);
@@ -97,16 +101,16 @@ impl Concerns {
         let (_, labs) = labs_folder::open(&args.from.labs_folder)?;
         let mut trees = Vec::new();
         // any other text names no folder of the labs; grading says so
-        let mut parts = Path::new(&args.lab).components();
+        let mut parts = Path::new(&request.lab).components();
         let is_name = matches!(
             (parts.next(), parts.next()),
             (Some(Component::Normal(_)), None)
         );
         if let (Some(labs), true) = (&labs, is_name) {
-            let parts = ["robots", "scenes", &args.lab];
+            let parts = ["robots", "scenes", &request.lab];
             trees.extend(parts.map(|part| labs.join(part)));
             if let Some(reference) = staff_folder::open(&args.from.staff, Some(labs))? {
-                trees.push(reference.path().join(&args.lab));
+                trees.push(reference.path().join(&request.lab));
             }
         }
         // where links lead, as events name it; what is not there cannot be listened to
@@ -116,7 +120,7 @@ impl Concerns {
         Ok(Self {
             files,
             trees: trees.collect(),
-            out: disk::real(&args.out),
+            out: disk::real(&request.out),
         })
     }
 
@@ -195,7 +199,7 @@ mod tests {
             let Some(crate::command_line::Command::Grade(args)) = args.command else {
                 panic!("{args:?}")
             };
-            let concerns = Concerns::of(&args).unwrap();
+            let concerns = Concerns::of(&args.filled().unwrap()).unwrap();
             assert!(
                 !concerns.path(&folder.join(out).join("report.html")),
                 "{out}"

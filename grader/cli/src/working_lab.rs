@@ -1,16 +1,85 @@
-//! Which submission and which lab are meant where a command in a student's folder names neither.
+//! Which submission and which lab are meant where a command in a student's folder names neither, and where its report goes.
 
 use std::path::{Path, PathBuf};
 
 use kinemark_course::selection::MOST_SUBMISSION_BYTES;
-use kinemark_course::working_folder::SUBMISSION_FILE;
+use kinemark_course::working_folder::{FOLDER_FILE, FolderFile, SUBMISSION_FILE};
 use kinemark_grader::lab::Variant;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::task::files::Files;
 
 use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::{disk, last_report};
+use crate::{disk, last_report, output};
+
+/// Where reports go unless another folder is named.
+pub(crate) const REPORT_FOLDER: &str = "out";
+
+/// The lab and the submission that are meant by up to two words; `help` names both for `variant` and everything beside it.
+///
+/// # Errors
+/// As [`lab_of`].
+pub(crate) fn lab_and_submission(
+    words: (Option<&str>, Option<&Path>),
+    variant: Option<&Path>,
+    labs_folder: &LabsFolderArgs,
+    help: &str,
+) -> Result<(String, PathBuf), Failure> {
+    let (lab, file) = match words {
+        // one word that can only be a file
+        (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
+        (lab, file) => (lab, file.map(Path::to_owned)),
+    };
+    let file = file.unwrap_or_else(|| submission(lab));
+    let lab = match lab {
+        Some(lab) => lab.to_owned(),
+        None => lab_of(&file, variant, labs_folder, help)?,
+    };
+    Ok((lab, file))
+}
+
+fn is_program(word: &str) -> bool {
+    [".rhai", ".wasm", ".txt"]
+        .iter()
+        .any(|ending| word.ends_with(ending))
+}
+
+/// Where the report on a submission goes unless another folder is named: beside it where `kinemark new` has made its folder, so that
+/// every lab has its own, else in the working folder.
+pub(crate) fn report_folder(submission: &Path) -> PathBuf {
+    let beside = submission.with_file_name(FOLDER_FILE);
+    if beside.is_file() {
+        submission.with_file_name(REPORT_FOLDER)
+    } else {
+        PathBuf::from(REPORT_FOLDER)
+    }
+}
+
+/// What the file beside the submission says about its folder, if there is one.
+///
+/// # Errors
+/// Exit code 2 for a file that cannot be read, and where the variant that it names is gone.
+fn folder_file(submission: &Path) -> Result<Option<FolderFile>, Failure> {
+    let path = submission.with_file_name(FOLDER_FILE);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let help = "write `lab = \"NAME\"` into it, or remove it and name the lab";
+    let text = disk::read(&path, "a note of the lab", MOST_SUBMISSION_BYTES)?;
+    let folder = FolderFile::parse(text.text())
+        .map_err(|why| Failure::usage(format!("{}: {why}", output::path(&path)), help))?;
+    let variant = submission.with_file_name(VARIANT_FILE);
+    if folder.variant.is_some() && !variant.exists() {
+        return Err(Failure::usage(
+            format!(
+                "{} says that this folder has a variant, and there is no {VARIANT_FILE}",
+                output::path(&path)
+            ),
+            "put your variant.toml back, or name the lab to work with its default numbers",
+        ));
+    }
+    Ok(Some(folder))
+}
 
 /// The submission where none is named: here, or in the folder that `kinemark new` has made for the lab.
 pub(crate) fn submission(lab: Option<&str>) -> PathBuf {
@@ -22,8 +91,8 @@ pub(crate) fn submission(lab: Option<&str>) -> PathBuf {
         .unwrap_or(here)
 }
 
-/// The lab of a submission where none is named: that of its variant (`variant`, else the one beside it), of its folder, or of the last
-/// report.
+/// The lab of a submission where none is named: that of the kinemark.toml beside it, of its variant (`variant`, else the one beside it), of
+/// its folder, or of the last report.
 ///
 /// # Errors
 /// Exit code 2 where none of them says, with `help`; exit code 3 for a variant that cannot be read.
@@ -33,6 +102,9 @@ pub(crate) fn lab_of(
     labs_folder: &LabsFolderArgs,
     help: &str,
 ) -> Result<String, Failure> {
+    if let Some(folder) = folder_file(file)? {
+        return Ok(folder.lab);
+    }
     let beside = file.with_file_name(VARIANT_FILE);
     let variant = variant.unwrap_or(&beside);
     if variant.is_file() {
@@ -53,8 +125,8 @@ pub(crate) fn lab_of(
         .filter(|name| is_lab(labs.as_ref(), name))
         .ok_or_else(|| {
             Failure::usage(
-                "it is not clear which lab this is: there is no variant.toml, no report in `out`, and the folder is not \
-                 called like a lab"
+                "it is not clear which lab this is: there is no kinemark.toml, no variant.toml, no report in `out`, and the \
+                 folder is not called like a lab"
                     .to_owned(),
                 help,
             )

@@ -5,6 +5,7 @@ use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::task::files::Files;
 use kinemark_report::brief_page::brief_page;
+use serde::{Deserialize, Serialize};
 
 /// The file that a student works in.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
@@ -14,6 +15,48 @@ pub const BRIEF_FILE: &str = "brief.md";
 pub const BRIEF_PAGE: &str = "brief.html";
 /// The starter in the folder of a lab.
 pub const STARTER_FILE: &str = "starter.rhai";
+
+/// The file that says which lab a folder is for.
+pub const FOLDER_FILE: &str = "kinemark.toml";
+
+/// What [`FOLDER_FILE`] says: which lab, and whose numbers. No grade depends on it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FolderFile {
+    /// The lab.
+    pub lab: String,
+    /// The id of the student whose variant is beside it; none with the lab's default numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
+}
+
+impl FolderFile {
+    fn of(lab: &Lab) -> Self {
+        let variant = lab.variant.as_ref();
+        Self {
+            lab: lab.name.clone(),
+            variant: variant.map(|variant| variant.student().unwrap_or("practice").to_owned()),
+        }
+    }
+
+    /// Reads the text of such a file.
+    ///
+    /// # Errors
+    /// In words, with line and column.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
+    }
+
+    fn text(&self) -> String {
+        let variant = self.variant.as_ref();
+        let variant = variant.map(|id| format!("variant = {}\n", toml::Value::from(id.as_str())));
+        format!(
+            "# Which lab this folder is for: `kinemark grade`, `watch`, `hint` and `submit` need no names here.\nlab = {}\n{}",
+            toml::Value::from(self.lab.as_str()),
+            variant.unwrap_or_default()
+        )
+    }
+}
 
 /// Why there is no such folder.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
@@ -72,6 +115,7 @@ pub fn working_folder(
         (BRIEF_PAGE.to_owned(), page),
         (BRIEF_FILE.to_owned(), brief),
     ];
+    written.push((FOLDER_FILE.to_owned(), FolderFile::of(lab).text()));
     if let Some(variant) = &lab.variant {
         written.push((VARIANT_FILE.to_owned(), variant.text()));
     }

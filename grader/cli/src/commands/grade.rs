@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
-use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::grade::{Grade, GradeMode};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
@@ -17,31 +17,34 @@ use serde::Serialize;
 
 use crate::chosen_variant::{self, LabArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
+use crate::history::History;
 use crate::practice_variants::{PracticeVariants, try_variants};
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
-use crate::{handed_out_lab, interrupt, named_submission, output, report_folder};
+use crate::{
+    handed_out_lab, interrupt, labs_folder, named_submission, output, report_folder, working_lab,
+};
 
 /// Grade a submission
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark grade 01-kinematics submission.rhai\n  \
+    after_help = "Examples:\n  kinemark grade\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
     kinemark grade 01-kinematics submission.rhai --variants 5\n\n\
-    A file variant.toml beside the submission is used unless --variant or --student is given.\n\
+    In a folder of `kinemark new`, kinemark.toml names the lab. A file variant.toml beside the submission is used unless --variant or --student is given.\n\
     What is no script is graded as `did-not-build`, with what to do; a symbolic link is never followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]
 pub(crate) struct Args {
-    /// The lab, as `kinemark` lists it
-    pub(crate) lab: String,
-    /// The submission: a script, or a folder, a ZIP archive or a hand-in file with one in it
-    pub(crate) submission: PathBuf,
-    /// Folder to write to; an earlier report there is replaced
-    #[arg(long, short, value_name = "DIR", default_value = "out")]
-    pub(crate) out: PathBuf,
+    /// The lab, as `kinemark` lists it, or the beginning of its name [default: that of the folder]
+    pub(crate) lab: Option<String>,
+    /// The submission: a script, or a folder, a ZIP archive or a hand-in file with one in it [default: submission.rhai]
+    pub(crate) submission: Option<PathBuf>,
+    /// Folder to write to; an earlier report there is replaced [default: `out`; in practice beside the submission, where `kinemark new` has made its folder]
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
     /// Print the grade record as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -63,6 +66,48 @@ pub(crate) struct Args {
     pub(crate) reference_overlay: bool,
     #[command(flatten)]
     pub(crate) from: LabArgs,
+}
+
+/// What was typed, with what was left out filled in.
+pub(crate) struct Request<'a> {
+    /// The rest of what was typed.
+    pub(crate) args: &'a Args,
+    /// The lab.
+    pub(crate) lab: String,
+    /// The submission.
+    pub(crate) submission: PathBuf,
+    /// Folder to write to.
+    pub(crate) out: PathBuf,
+}
+
+impl Args {
+    /// Fills in what was left out from the folder of the submission.
+    ///
+    /// # Errors
+    /// Exit code 2 where nothing says which lab is meant.
+    pub(crate) fn filled(&self) -> Result<Request<'_>, Failure> {
+        let (lab, submission) = working_lab::lab_and_submission(
+            (self.lab.as_deref(), self.submission.as_deref()),
+            self.from.variant.variant.as_deref(),
+            &self.from.labs_folder,
+            "name both, such as `kinemark grade 01-kinematics submission.rhai`",
+        )?;
+        let (files, labs) = labs_folder::open(&self.from.labs_folder)?;
+        let out = match &self.out {
+            Some(out) => out.clone(),
+            // what course staff grade goes where they are, and not into the folder of a student
+            None if staff_folder::open(&self.from.staff, labs.as_deref())?.is_some() => {
+                PathBuf::from(working_lab::REPORT_FOLDER)
+            }
+            None => working_lab::report_folder(&submission),
+        };
+        Ok(Request {
+            args: self,
+            lab: labs_folder::full_name(files.as_ref(), &lab)?,
+            submission,
+            out,
+        })
+    }
 }
 
 /// A submission, graded.
@@ -87,7 +132,8 @@ struct WithVariants<'a> {
 /// Grades, writes the folder, prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let work = work(args)?;
+    let request = args.filled()?;
+    let work = work(&request)?;
     let grade = &work.graded.grade;
     // printed before anything is written: a full disk must not lose the grade
     if let (true, Some(variants)) = (args.json, &work.variants) {
@@ -103,41 +149,61 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             output::print_lines(&variants.text(grade))?;
         }
     }
-    write(args, &work)?;
+    write(&request, &work)?;
+    let is_practice = grade.mode == GradeMode::Practice;
+    let history = is_practice.then(|| History::beside(&request.submission));
+    let history = history.flatten();
     if !args.json {
-        let report = output::path(&args.out.join(PAGE_FILE));
+        let change = history.as_ref().and_then(|(known, _)| known.change(grade));
+        output::print_lines(&change.unwrap_or_default())?;
+        let report = output::path(&request.out.join(PAGE_FILE));
         output::print(&format!("report: {report}\n"))?;
         if let Some(loss) = kinemark_report::moment::first_loss(grade) {
             let place = loss.fragment();
             output::print(&format!("first lost point: {report}{place}\n"))?;
         }
         if args.storyboard {
-            output::print(&storyboards(&args.out, &work.graded))?;
+            output::print(&storyboards(&request.out, &work.graded))?;
         }
     }
+    remember(history, grade)?;
     Ok(exit_code(grade.verdict))
 }
 
+/// Adds a grade to the history of its folder.
+fn remember(history: Option<(History, Option<String>)>, grade: &Grade) -> Result<(), Failure> {
+    let Some((mut history, note)) = history else {
+        return Ok(());
+    };
+    if let Some(note) = note {
+        failure::note_in_words(&note);
+    }
+    history.add(grade);
+    history.write()
+}
+
 /// Writes the folder.
-pub(crate) fn write(args: &Args, work: &Work) -> Result<(), Failure> {
-    let request = ReportRequest {
+pub(crate) fn write(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
+    let args = request.args;
+    let drawn = ReportRequest {
         reference_overlay: args.reference_overlay,
         png: args.png,
         storyboard: args.storyboard,
     };
     report_folder::write(
-        &args.out,
+        &request.out,
         &work.lab,
         &work.submission,
         &work.graded,
-        request,
+        drawn,
     )
 }
 
 /// Reads what was named, and grades.
-pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
+pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
+    let args = request.args;
     refuse_pixels_without_png(args)?;
-    let chosen = chosen_variant::choose(&args.lab, &args.from, Some(&args.submission))?;
+    let chosen = chosen_variant::choose(&request.lab, &args.from, Some(&request.submission))?;
     let (lab, mut note) = (chosen.lab, chosen.note);
     let default = Lab::load(chosen.files.as_ref(), &lab.name)?;
     for warning in handed_out_lab::warnings(chosen.files.as_ref(), &default, false) {
@@ -159,8 +225,8 @@ pub(crate) fn work(args: &Args) -> Result<Work, Failure> {
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
-    let submission = named_submission::read(&args.submission, &lab.name)?;
-    report_folder::refuse_foreign(&args.out)?;
+    let submission = named_submission::read(&request.submission, &lab.name)?;
+    report_folder::refuse_foreign(&request.out)?;
 
     let mut in_process = InProcess;
     let mut workers = WorkerHost::new((!args.in_process).then(|| progress(lab.tasks.len())));

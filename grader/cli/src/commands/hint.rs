@@ -29,7 +29,7 @@ pub(crate) struct Args {
     /// The task or the check, as `kinemark grade` names it
     #[arg(value_name = "TASK[/CHECK]")]
     pub(crate) check: Option<String>,
-    /// The lab [default: that of variant.toml, of the folder, or of the last report]
+    /// The lab [default: that of kinemark.toml, of variant.toml, of the folder, or of the last report]
     #[arg(long, value_name = "LAB")]
     pub(crate) lab: Option<String>,
     /// Show all hints of the check
@@ -147,6 +147,7 @@ fn known(args: &Args) -> Result<LabHints, Failure> {
         }
     };
     let (files, _) = labs_folder::open(&args.labs_folder)?;
+    let name = labs_folder::full_name(files.as_ref(), &name)?;
     let lab = Lab::load(files.as_ref(), &name)?;
     let hints = lab.hints();
     let (unfolded, note) = UnfoldedHints::beside(&submission);

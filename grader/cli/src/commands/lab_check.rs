@@ -57,7 +57,10 @@ pub(crate) struct Args {
 /// Audits the lab and prints what was tried.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let lab = Lab::load(
+        files.as_ref(),
+        &labs_folder::full_name(files.as_ref(), &args.lab)?,
+    )?;
     let from = StaffPart {
         reference: args.reference.clone(),
         salt: None,

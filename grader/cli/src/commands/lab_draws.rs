@@ -58,7 +58,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let args = &args;
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let mut lab = Lab::load(files.as_ref(), &args.lab)?;
+    let mut lab = Lab::load(
+        files.as_ref(),
+        &labs_folder::full_name(files.as_ref(), &args.lab)?,
+    )?;
     let help = "give the course staff's folder";
     let reference = staff_folder::part(&args.staff, labs_folder.as_deref(), help)?;
     let reference = reference.ok_or_else(|| {

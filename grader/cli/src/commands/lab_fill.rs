@@ -52,7 +52,10 @@ struct Filled<'a> {
 /// Runs the solution and writes.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let lab = Lab::load(
+        files.as_ref(),
+        &labs_folder::full_name(files.as_ref(), &args.lab)?,
+    )?;
     let Some(labs_folder) = labs_folder else {
         return Err(Failure::usage(
             "the labs that are built into kinemark cannot be written to".to_owned(),
@@ -70,7 +73,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     };
     put(&mut filled, &folder.join(PRACTICE_FILE), &practice)?;
     // the table names what the reference reaches, so it follows what was just written
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let lab = Lab::load(
+        files.as_ref(),
+        &labs_folder::full_name(files.as_ref(), &args.lab)?,
+    )?;
     let path = format!("{}/brief.md", lab.name);
     let brief = files
         .read(&path)

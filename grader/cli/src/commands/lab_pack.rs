@@ -124,7 +124,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         ));
     }
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let lab = Lab::load(files.as_ref(), &args.lab)?;
+    let lab = Lab::load(
+        files.as_ref(),
+        &labs_folder::full_name(files.as_ref(), &args.lab)?,
+    )?;
     let help = "give the folder that holds LAB/solution.rhai";
     let reference = staff_folder::part(&args.staff, labs_folder.as_deref(), help)?;
     let packed = PackedLab {

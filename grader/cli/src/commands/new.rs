@@ -13,7 +13,7 @@ use crate::{interrupt, output};
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade 01-kinematics submission.rhai"
+    after_help = "Example:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade"
 )]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
@@ -57,12 +57,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             files: paths,
         })?;
     } else {
-        let submission = paths[0].display().to_string();
         output::print(&format!(
-            "{}\nRead {}, then edit {submission} and run:\n  kinemark grade {} {submission}\n",
+            "{}\nRead {}, then edit {} and run in that folder:\n  cd {}\n  kinemark grade\n",
             lab.title,
             paths[1].display(),
-            lab.name
+            paths[0].display(),
+            dir.display()
         ))?;
     }
     Ok(ExitCode::SUCCESS)

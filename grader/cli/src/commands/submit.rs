@@ -32,7 +32,7 @@ use crate::{disk, interrupt, output, working_lab};
     kinemark submit 01-kinematics submission.rhai --student s1234567\n\n\
     Grades in practice, writes LAB.kinemark (with the id of your variant in its name), and warns of what looks like a slip; \
     a warning stops nothing.\n\
-    Without LAB it is the lab of variant.toml, of the folder, or of the last report; without FILE it is submission.rhai.\n\
+    Without LAB it is the lab of kinemark.toml, of variant.toml, of the folder, or of the last report; without FILE it is submission.rhai.\n\
     Exit codes: 0 written, 2 usage, 3 the lab is broken, 4 it cannot be written, or this machine could not grade it."
 )]
 pub(crate) struct Args {
@@ -73,7 +73,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let student = args.student.as_deref().map(StudentId::new).transpose();
     let student =
         student.map_err(|why| Failure::usage(why, "write the id as the course writes it"))?;
-    let (lab, path) = lab_and_file(args)?;
+    let (lab, path) = working_lab::lab_and_submission(
+        (args.lab.as_deref(), args.submission.as_deref()),
+        args.variant.as_deref(),
+        &args.labs_folder,
+        "name the lab, such as `kinemark submit 01-kinematics submission.rhai`",
+    )?;
     let bytes = submission(&path)?;
     let Chosen { lab, files, .. } = chosen_variant::choose(&lab, &practice(args), Some(&path))?;
     let default = Lab::load(files.as_ref(), &lab.name)?;
@@ -118,30 +123,6 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::from(FAULT)
     })
-}
-
-/// The lab and the submission that are meant.
-fn lab_and_file(args: &Args) -> Result<(String, PathBuf), Failure> {
-    let (lab, file) = match (&args.lab, &args.submission) {
-        // one word that can only be a file
-        (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
-        (lab, file) => (lab.clone(), file.clone()),
-    };
-    let file = file.unwrap_or_else(|| working_lab::submission(lab.as_deref()));
-    let lab = match lab {
-        Some(lab) => lab,
-        None => {
-            let help = "name the lab, such as `kinemark submit 01-kinematics submission.rhai`";
-            working_lab::lab_of(&file, args.variant.as_deref(), &args.labs_folder, help)?
-        }
-    };
-    Ok((lab, file))
-}
-
-fn is_program(word: &str) -> bool {
-    [".rhai", ".wasm", ".txt"]
-        .iter()
-        .any(|ending| word.ends_with(ending))
 }
 
 /// The bytes of the submission, text or not.

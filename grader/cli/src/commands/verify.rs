@@ -69,6 +69,20 @@ struct Difference {
     now: String,
 }
 
+impl Difference {
+    /// One that has no moment.
+    fn of(what: &str, recorded: String, now: String) -> Self {
+        Self {
+            what: what.to_owned(),
+            task: None,
+            second: None,
+            signal: None,
+            recorded,
+            now,
+        }
+    }
+}
+
 /// Grades again and compares.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
@@ -120,39 +134,33 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     })
 }
 
-fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
-    let mut differences = Vec::new();
-    let mut not_compared = Vec::new();
+/// The parts that a grade follows from and that are others now.
+fn changed_parts(recorded: &Grade, now: &Grade) -> Vec<Difference> {
     let mut parts = vec![
-        ("engine", recorded.engine.clone(), now.engine.clone()),
-        ("lab", recorded.lab.digest.clone(), now.lab.digest.clone()),
-        (
-            "robot",
-            recorded.robot.digest.clone(),
-            now.robot.digest.clone(),
-        ),
+        ("engine", &recorded.engine, &now.engine),
+        ("lab", &recorded.lab.digest, &now.lab.digest),
+        ("robot", &recorded.robot.digest, &now.robot.digest),
         (
             "submission",
-            recorded.submission.digest.clone(),
-            now.submission.digest.clone(),
+            &recorded.submission.digest,
+            &now.submission.digest,
         ),
     ];
-    let hidden_too = recorded.mode == now.mode;
     if let (Some(before), Some(after)) = (&recorded.reference, &now.reference) {
-        parts.push(("reference", before.digest.clone(), after.digest.clone()));
+        parts.push(("reference", &before.digest, &after.digest));
     }
-    for (what, recorded, now) in parts {
-        if recorded != now {
-            differences.push(Difference {
-                what: what.to_owned(),
-                task: None,
-                second: None,
-                signal: None,
-                recorded,
-                now,
-            });
-        }
-    }
+    let changed = parts
+        .into_iter()
+        .filter(|(_, before, after)| before != after);
+    changed
+        .map(|(what, before, after)| Difference::of(what, before.clone(), after.clone()))
+        .collect()
+}
+
+fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
+    let mut differences = changed_parts(recorded, now);
+    let mut not_compared = Vec::new();
+    let hidden_too = recorded.mode == now.mode;
     for before in &recorded.tasks {
         let Some(after) = now.tasks.iter().find(|task| task.name == before.name) else {
             continue;
@@ -184,26 +192,15 @@ fn compare(recorded: &Grade, now: &Grade) -> Result<Comparison, Failure> {
             })
         };
         if let Some((path, recorded, now)) = first_difference(&value(recorded)?, &value(now)?) {
-            differences.push(Difference {
-                what: format!("{RECORD}`{path}`"),
-                task: None,
-                second: None,
-                signal: None,
-                recorded,
-                now,
-            });
+            differences.push(Difference::of(&format!("{RECORD}`{path}`"), recorded, now));
         }
     }
     if differences.is_empty() {
         let contradictions = sums::contradictions(recorded).into_iter();
         let visible = visible_differences(recorded, now).into_iter();
-        differences.extend(contradictions.chain(visible).map(|found| Difference {
-            what: format!("{RECORD}`{}`", found.place),
-            task: None,
-            second: None,
-            signal: None,
-            recorded: found.recorded,
-            now: found.follows,
+        differences.extend(contradictions.chain(visible).map(|found| {
+            let place = format!("{RECORD}`{}`", found.place);
+            Difference::of(&place, found.recorded, found.follows)
         }));
     }
     Ok(Comparison {

@@ -12,7 +12,7 @@ use kinemark_report::visible::visible;
 use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
-use super::grade::{self, Work};
+use super::grade::{self, Request, Work};
 use crate::failure::Failure;
 use crate::saves::{Saves, WatchEvent};
 use crate::serve::{self, ServeArgs, Server};
@@ -22,7 +22,7 @@ use crate::{interrupt, output};
 #[derive(Debug, clap::Args)]
 #[group(id = "watch")] // its own name is that of the arguments of `grade`
 #[command(
-    after_help = "Example:\n  kinemark watch 01-kinematics submission.rhai\n\n\
+    after_help = "Examples:\n  kinemark watch\n  kinemark watch 01-kinematics submission.rhai\n\n\
     Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. The report opens in the browser \
     and reloads at the same moment and position. With --json each grade is one line.\n\
     See docs/watch-and-compare.md.\n\
@@ -50,22 +50,23 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let _ = stop.send(true);
         let _ = on_stop.send(WatchEvent::Stop);
     });
+    let request = args.grade.filled()?;
     // listened to before the first grade: what is saved while it runs counts
-    let _saves = Saves::listen(&args.grade, sender)?;
-    let first = match grade::work(&args.grade) {
+    let _saves = Saves::listen(&request, sender)?;
+    let first = match grade::work(&request) {
         Ok(work) => work,
         Err(_) if interrupt::asked() => return Ok(ExitCode::SUCCESS),
         Err(failure) => return Err(failure),
     };
     let (count, changes) = watch::channel(0_u64);
-    publish(args, &first, &count)?;
-    let server = Server::bind(&args.grade.out, args.serve.port, Some(changes))?;
+    publish(&request, &first, &count)?;
+    let server = Server::bind(&request.out, args.serve.port, Some(changes))?;
     let address = server.address();
     say(
         args,
         &format!(
             "{} is open at {address}\ngraded again on every save; end with Ctrl-C\n",
-            output::path(&args.grade.out)
+            output::path(&request.out)
         ),
     )?;
     if !args.serve.no_open {
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     std::thread::scope(|threads| {
         let serving = threads.spawn(|| server.run(stopped));
-        follow(args, &events, &count)?;
+        follow(&request, &events, &count)?;
         // it ended by the same Ctrl-C
         serving.join().unwrap_or_else(|_| {
             Err(Failure::fault(
@@ -87,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 
 /// Grades whenever something was saved.
 fn follow(
-    args: &Args,
+    request: &Request<'_>,
     events: &Receiver<WatchEvent>,
     count: &watch::Sender<u64>,
 ) -> Result<(), Failure> {
@@ -106,9 +107,9 @@ fn follow(
                 Err(_) => break,
             }
         }
-        if !args.grade.submission.exists() {
+        if !request.submission.exists() {
             if !is_gone {
-                let name = args.grade.submission.display();
+                let name = request.submission.display();
                 print_beside(&format!(
                     "{name} is gone; it is graded again when it is back\n"
                 ));
@@ -117,8 +118,8 @@ fn follow(
             continue;
         }
         is_gone = false;
-        let graded = grade::work(&args.grade);
-        match graded.and_then(|work| publish(args, &work, count)) {
+        let graded = grade::work(request);
+        match graded.and_then(|work| publish(request, &work, count)) {
             Ok(()) => {}
             Err(_) if interrupt::asked() => return Ok(()),
             // a lab that is broken for the moment, a variant that is half typed, a full disk
@@ -130,9 +131,9 @@ fn follow(
 }
 
 /// Prints a grade in one line, writes the folder, and notifies open pages.
-fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
+fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
-    if args.grade.json {
+    if request.args.json {
         let text = serde_json::to_string(grade).map_err(|error| {
             Failure::fault(
                 format!("a value could not be written as JSON: {error}"),
@@ -143,7 +144,7 @@ fn publish(args: &Args, work: &Work, count: &watch::Sender<u64>) -> Result<(), F
     } else {
         output::print(&line(grade, work.note.as_deref()))?;
     }
-    grade::write(&args.grade, work)?;
+    grade::write(request, work)?;
     count.send_modify(|count| *count += 1);
     Ok(())
 }

@@ -85,6 +85,7 @@ fn students_get_the_lab_ready_to_work_in_and_nothing_else() {
             "10-own/submission.rhai",
             "10-own/brief.html",
             "10-own/brief.md",
+            "10-own/kinemark.toml",
             "10-own/frame.svg",
             "10-own/labs/10-own/brief.md",
             "10-own/labs/10-own/frame.svg",
