@@ -47,7 +47,7 @@ fn every_lost_point_with_a_moment_has_its_link() {
     assert_eq!(ran.code, Some(1), "{ran:?}");
     let last = ran.stdout.lines().last().expect("lines");
     let link = last
-        .strip_prefix("first lost point: out/report.html#task=move&t=")
+        .strip_prefix("look here first: out/report.html#task=move&t=")
         .unwrap_or_else(|| panic!("{last}"));
     let time_s: f64 = link.parse().expect("a time");
     // the same moment is shown with its evidence, and its link works in the page

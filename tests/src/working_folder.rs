@@ -87,6 +87,35 @@ fn what_staff_grade_leaves_no_trace_in_a_students_folder() {
 }
 
 #[test]
+fn an_editor_reads_a_line_for_each_thing_that_went_wrong() {
+    let bed = begun();
+    let folder = bed.path("01-kinematics");
+    let short = || bed.run_in(&folder, &["grade", "--format", "short"]).stdout;
+    bed.write(
+        "01-kinematics/submission.rhai",
+        "fn control(observation) {\n    let a = [];\n    a[1]\n}\n",
+    );
+    let said = short();
+    assert!(
+        said.starts_with("submission.rhai:3:7: error: warm-up: index 1 is past the end"),
+        "{said}"
+    );
+    assert!(
+        said.contains("\nsubmission.rhai:1:1: warning: warm-up/shoulder-turned: 0 of 1 points: joint `shoulder` did not move"),
+        "{said}"
+    );
+    assert!(said.ends_with(" of 24 points, crashed\n"), "{said}");
+    // a mistake of the whole file is said once
+    bed.write(
+        "01-kinematics/submission.rhai",
+        "fn control(o) {\n    let = 1;\n}\n",
+    );
+    let said = short();
+    assert!(said.starts_with("submission.rhai:2:"), "{said}");
+    assert_eq!(said.lines().count(), 2, "{said}");
+}
+
+#[test]
 fn the_list_of_labs_shows_how_far_each_is_and_what_is_next() {
     let bed = TestBed::new();
     let said = || bed.run(&[]).stdout;

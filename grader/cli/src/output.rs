@@ -154,7 +154,7 @@ mod tests {
             "  + 2/2  short\n      next: \u{1b}[2mlook where the arm\u{1b}[0m stands at\n            the end of the run\n"
         );
         // a link is not taken apart
-        let link = "      first lost point: out/report.html#task=knock&t=6.0512345";
+        let link = "      look here first: out/report.html#task=knock&t=6.0512345";
         assert!(wrapped(link, 40).contains("\n      out/report.html#task=knock&t=6.0512345"));
     }
 }

@@ -26,6 +26,7 @@ pub mod plot;
 pub mod png;
 pub mod replay;
 pub mod response_page;
+pub mod short_text;
 mod shown_unit;
 mod solid;
 mod stop_words;

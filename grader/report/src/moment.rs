@@ -61,6 +61,14 @@ pub fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
     grade.tasks.iter().find_map(first_loss_of)
 }
 
+/// Where to look first: in the first task of the lab's order that lost points what stopped it, else the cause that its whole run or all its
+/// answers show, else where it lost the first of them.
+pub fn look_first(grade: &Grade) -> Option<FirstLoss<'_>> {
+    let first = first_loss(grade)?;
+    let cause = cause_of(first.task).filter(|_| first.task.stopped.is_none());
+    Some(cause.unwrap_or(first))
+}
+
 /// Where a task lost its first points: what stopped it, whatever its run lost besides; else the earliest moment given for all its checks
 /// that lost some, of equal ones the costliest. Where no moment is given, the first check that lost points.
 pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
@@ -92,6 +100,20 @@ pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
     }
 }
 
+/// The cause that the run of a task, or all its answers together, show, if they show one.
+fn cause_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
+    let mut lost = task.checks.iter().filter(|check| has_lost(check));
+    lost.find_map(|check| {
+        let cause = check.evidence.first().filter(|fact| fact.is_cause)?;
+        let at = cause.tick.zip(cause.time_s);
+        Some(FirstLoss {
+            task,
+            check: Some(check),
+            at: at.map(|(tick, time_s)| Instant { tick, time_s }),
+        })
+    })
+}
+
 /// Whether a check was judged and lost points.
 pub fn has_lost(check: &CheckGrade) -> bool {
     matches!(check.outcome, Outcome::Partial | Outcome::None)
@@ -105,7 +127,38 @@ pub fn lost_points(check: &CheckGrade) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kinemark_grader::record::grade::Evidence;
     use kinemark_grader::record::sample;
+
+    #[test]
+    fn a_cause_is_looked_at_before_the_earliest_moment() {
+        let mut grade = sample::graded().grade;
+        let first = |grade: &Grade| {
+            let loss = look_first(grade).expect("a loss");
+            (
+                loss.task.name.clone(),
+                loss.check.map(|check| check.name.clone()),
+            )
+        };
+        let before = first(&grade);
+        assert_eq!(before.0, first_loss(&grade).expect("a loss").task.name);
+        let mut tasks = grade.tasks.iter_mut();
+        let task = tasks.find(|task| task.name == before.0).expect("the task");
+        task.stopped = None;
+        let lost = task.checks.iter_mut().filter(|check| has_lost(check));
+        let last = lost.last().expect("a lost check");
+        let name = last.name.clone();
+        let cause = Evidence {
+            is_cause: true,
+            tick: Some(7000),
+            time_s: Some(7.0),
+            ..Evidence::default()
+        };
+        last.evidence.insert(0, cause);
+        assert_eq!(first(&grade), (before.0.clone(), Some(name)));
+        let fragment = look_first(&grade).map(|loss| loss.fragment());
+        assert_eq!(fragment, Some(format!("#task={}&t=7", before.0)));
+    }
 
     #[test]
     fn a_moment_is_a_fragment_of_an_address() {

@@ -361,6 +361,9 @@ pub struct Evidence {
     pub limit: Option<f64>,
     /// Unit of value and limit.
     pub unit: String,
+    /// Whether it is the mistake that the whole run, or all answers together, show: to be looked at first.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_cause: bool,
 }
 
 /// A common mistake that the answers agree with.

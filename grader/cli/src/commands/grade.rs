@@ -13,6 +13,7 @@ use kinemark_grader::submission::host::{Host, InProcess};
 use kinemark_grader::task::files::Files;
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
+use kinemark_report::short_text::short_text;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, LabArgs};
@@ -31,7 +32,8 @@ use crate::{
     after_help = "Examples:\n  kinemark grade\n  kinemark grade 01-kinematics submission.rhai\n  \
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
-    kinemark grade 01-kinematics submission.rhai --variants 5\n\n\
+    kinemark grade 01-kinematics submission.rhai --variants 5\n  \
+    kinemark grade --format short\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. A file variant.toml beside the submission is used unless --variant or --student is given.\n\
     What is no script is graded as `did-not-build`, with what to do; a symbolic link is never followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
@@ -48,6 +50,9 @@ pub(crate) struct Args {
     /// Print the grade record as JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// What to print: everything, or a line for each thing that went wrong, as editors read it
+    #[arg(long, value_enum, default_value = "full", conflicts_with = "json")]
+    pub(crate) format: Format,
     /// Write each plot as a PNG beside the SVG
     #[arg(long)]
     pub(crate) png: bool,
@@ -66,6 +71,15 @@ pub(crate) struct Args {
     pub(crate) reference_overlay: bool,
     #[command(flatten)]
     pub(crate) from: LabArgs,
+}
+
+/// How a grade is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// Every check, with evidence.
+    Full,
+    /// `FILE:LINE:COLUMN: KIND: WORDS`, a line each.
+    Short,
 }
 
 /// What was typed, with what was left out filled in.
@@ -136,7 +150,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let work = work(&request)?;
     let grade = &work.graded.grade;
     // printed before anything is written: a full disk must not lose the grade
-    if let (true, Some(variants)) = (args.json, &work.variants) {
+    if args.format == Format::Short {
+        let file = output::path(&request.submission);
+        output::print(&short_text(grade, &file))?;
+    } else if let (true, Some(variants)) = (args.json, &work.variants) {
         output::print_json(&WithVariants { grade, variants })?;
     } else if args.json {
         output::print_json(grade)?;
@@ -153,14 +170,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let is_practice = grade.mode == GradeMode::Practice;
     let history = is_practice.then(|| History::beside(&request.submission));
     let history = history.flatten();
-    if !args.json {
+    if !args.json && args.format == Format::Full {
         let change = history.as_ref().and_then(|(known, _)| known.change(grade));
         output::print_lines(&change.unwrap_or_default())?;
         let report = output::path(&request.out.join(PAGE_FILE));
         output::print(&format!("report: {report}\n"))?;
-        if let Some(loss) = kinemark_report::moment::first_loss(grade) {
+        if let Some(loss) = kinemark_report::moment::look_first(grade) {
             let place = loss.fragment();
-            output::print(&format!("first lost point: {report}{place}\n"))?;
+            output::print(&format!("look here first: {report}{place}\n"))?;
         }
         if args.storyboard {
             output::print(&storyboards(&request.out, &work.graded))?;

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::points;
-use kinemark_report::moment::{FirstLoss, first_loss};
+use kinemark_report::moment::{FirstLoss, look_first};
 use kinemark_report::visible::visible;
 use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
@@ -164,7 +164,7 @@ fn print_beside(text: &str) {
     let _ = anstream::stderr().write_all(text.as_bytes());
 }
 
-/// A grade in a line: points, verdict, and where the first points were lost.
+/// A grade in a line: points, verdict, and where to look first.
 fn line(grade: &Grade, note: Option<&str>) -> String {
     let mut line = format!(
         "{} of {} points, {}",
@@ -172,7 +172,7 @@ fn line(grade: &Grade, note: Option<&str>) -> String {
         points(grade.max_points),
         grade.verdict.name()
     );
-    if let Some(loss) = first_loss(grade) {
+    if let Some(loss) = look_first(grade) {
         line += &format!("; {}", lost(&loss));
     }
     if let Some(note) = note {

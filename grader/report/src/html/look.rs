@@ -7,14 +7,14 @@ use super::head::anchor;
 use super::task::NOT_RUN;
 use super::viewer::seek;
 use super::{foreign, prose};
-use crate::moment::{first_loss, last_before};
+use crate::moment::{last_before, look_first};
 use crate::stop_words::stop_of_whole_file;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
 use kinemark_grader::record::quantity::points;
 
 /// A card that shows what cost points first; nothing where nothing did, or where nothing is decided.
 pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup {
-    let first = first_loss(grade).filter(|_| grade.verdict.is_decided());
+    let first = look_first(grade).filter(|_| grade.verdict.is_decided());
     let Some(loss) = first else {
         return html! {};
     };
@@ -72,16 +72,17 @@ fn share(lost: f64, of: f64) -> String {
     format!("{} of {} points", points(lost), points(of))
 }
 
-/// The fact of a check that says most about its first loss: the earliest that has a time, else the first.
+/// The fact of a check that says most about its first loss: its cause, else the earliest that has a time, else the first.
 fn earliest_fact(check: &CheckGrade) -> Option<&Evidence> {
     let timed = check
         .evidence
         .iter()
         .filter_map(|fact| Some((fact, fact.time_s?)));
+    let cause = check.evidence.first().filter(|fact| fact.is_cause);
     let earliest = timed
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(fact, _)| fact);
-    earliest.or(check.evidence.first())
+    cause.or(earliest).or(check.evidence.first())
 }
 
 #[cfg(test)]

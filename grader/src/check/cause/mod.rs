@@ -80,7 +80,10 @@ pub(crate) fn of_run(facts: &MotionFacts<'_>, first_lost: Option<usize>) -> Opti
 impl Cause {
     /// A finding that begins with this cause.
     pub(crate) fn explains(self, facts: &MotionFacts<'_>, finding: &mut Finding) {
-        let evidence = facts.evidence(self.words, self.signal, self.tick);
+        let evidence = Evidence {
+            is_cause: true,
+            ..facts.evidence(self.words, self.signal, self.tick)
+        };
         finding.evidence.insert(0, evidence);
         if let Some(question) = self.question {
             finding.next_step = question;
@@ -143,6 +146,7 @@ impl CauseOfAnswers {
         let evidence = Evidence {
             message: self.words,
             signal: function.name().to_owned(),
+            is_cause: true,
             ..Evidence::default()
         };
         finding.evidence.insert(0, evidence);
