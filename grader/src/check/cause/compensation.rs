@@ -4,9 +4,9 @@
 use kinemark_sim::control::Mode;
 use kinemark_sim::dynamics::gravity_effort;
 use kinemark_sim::text::number::metres;
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
 
-use super::tcp_command::TcpCommand;
+use super::tcp_command::{TcpCommand, damped_inverse};
 use super::{Cause, Lost};
 use crate::check::facts::MotionFacts;
 use crate::task::tcp::tcp_in;
@@ -110,11 +110,10 @@ fn angles_at(facts: &MotionFacts<'_>, q: &[f64], goal_m: Vector3<f64>) -> Option
         if off.norm() < 1e-9 {
             return Some(q);
         }
-        let jacobian: DMatrix<f64> = motion.jacobian(&q)?;
-        let inverse = jacobian.pseudo_inverse(1e-6).ok()?;
-        let step = inverse * DVector::from_column_slice(off.as_slice());
-        for (value, step) in q.iter_mut().zip(step.iter()) {
-            *value += step.clamp(-0.3, 0.3);
+        let jacobian = motion.jacobian(&q)?;
+        let along = damped_inverse(&jacobian)? * off;
+        for (value, column) in q.iter_mut().zip(&jacobian) {
+            *value += column.dot(&along).clamp(-0.3, 0.3);
         }
     }
     None

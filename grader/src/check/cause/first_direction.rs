@@ -3,9 +3,9 @@
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::text::number::{list, trimmed};
-use nalgebra::{DVector, Matrix2, Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2, Vector3};
 
-use super::tcp_command::{TcpCommand, angle};
+use super::tcp_command::{TcpCommand, angle, combined, damped_inverse};
 use super::{Cause, Lost};
 
 /// Less than this aside says nothing \[rad\].
@@ -157,9 +157,8 @@ fn axes_exchanged(motion: &TcpCommand<'_>, tick: usize, _: &Vector3<f64>) -> Opt
 fn of_transpose(motion: &TcpCommand<'_>, tick: usize, _: &Vector3<f64>) -> Option<Vector3<f64>> {
     let trace = motion.facts.trace;
     let jacobian = motion.jacobian(trace.q.at(tick))?;
-    let inverse = jacobian.transpose().pseudo_inverse(1e-6).ok()?;
-    let v = inverse * DVector::from_column_slice(trace.command.at(tick));
-    Some(Vector3::new(v[0], v[1], v[2]))
+    let inverse = damped_inverse(&jacobian)?;
+    Some(inverse * combined(&jacobian, trace.command.at(tick)))
 }
 
 /// The velocity from which the inverse of the Jacobian, with the other sign in one entry, makes the command; of the four, the one
@@ -171,12 +170,12 @@ fn of_wrong_inverse(
 ) -> Option<Vector3<f64>> {
     let trace = motion.facts.trace;
     let jacobian = motion.jacobian(trace.q.at(tick))?;
-    let moves = |row: &usize| jacobian.row(*row).norm() > 1e-9;
+    let moves = |row: &usize| jacobian.iter().any(|column| column[*row].abs() > 1e-9);
     let rows: Vec<usize> = (0..3).filter(moves).collect();
-    let (&[first, second], 2) = (&rows[..], jacobian.ncols()) else {
+    let (&[first, second], 2) = (&rows[..], jacobian.len()) else {
         return None;
     };
-    let planar = Matrix2::from_fn(|row, column| jacobian[(rows[row], column)]);
+    let planar = Matrix2::from_fn(|row, column| jacobian[column][rows[row]]);
     let inverse = planar.try_inverse()?;
     let command = Vector2::from_column_slice(trace.command.at(tick));
     let right = planar * command;

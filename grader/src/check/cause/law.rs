@@ -4,7 +4,6 @@
 use kinemark_sim::control::Mode;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
-use nalgebra::{DMatrix, DVector};
 
 use crate::check::step_response::Response;
 
@@ -88,7 +87,7 @@ pub(super) fn setpoint(response: &Response<'_>) -> Option<f64> {
 
 /// The calls of a run: what was returned for the joint, and what the terms were.
 struct Calls {
-    returned: DVector<f64>,
+    returned: Vec<f64>,
     /// One list for each [`Term`].
     terms: [Vec<f64>; 5],
 }
@@ -124,10 +123,7 @@ impl Calls {
                 .for_each(|(term, now)| term.push(now));
             returned.push(trace.command.at(tick)[joint]);
         }
-        Some(Self {
-            returned: DVector::from_vec(returned),
-            terms,
-        })
+        Some(Self { returned, terms })
     }
 
     /// The law of these terms, if it gives what was returned.
@@ -143,30 +139,100 @@ impl Calls {
 
     /// The gain of each [`Term`], 0 of those that are not among `terms`, if together they give what was returned.
     fn gains(&self, terms: &[Term]) -> Option<[f64; 5]> {
-        let rows = self.returned.len();
-        let column = |term: &Term| &self.terms[*term as usize];
-        let size = |term: &Term| column(term).iter().map(|x| x * x).sum::<f64>().sqrt();
-        let sizes: Vec<f64> = terms.iter().map(size).collect();
-        if rows <= 2 * terms.len() || sizes.iter().any(|size| *size <= 0.0 || !size.is_finite()) {
-            return None;
-        }
-        let matrix = DMatrix::from_fn(rows, terms.len(), |row, i| {
-            column(&terms[i])[row] / sizes[i]
+        let columns: Vec<&[f64]> = terms
+            .iter()
+            .map(|term| &self.terms[*term as usize][..])
+            .collect();
+        let fitted = least_squares(&columns, &self.returned)?;
+        let left = self.returned.iter().enumerate().map(|(row, returned)| {
+            let given = columns
+                .iter()
+                .zip(&fitted)
+                .map(|(column, gain)| column[row] * gain);
+            returned - given.sum::<f64>()
         });
-        let svd = matrix.clone().svd(true, true);
-        if svd.singular_values.min() < APART * svd.singular_values.max() {
-            return None;
-        }
-        let fitted = svd.solve(&self.returned, 0.0).ok()?;
-        let left = (&matrix * &fitted - &self.returned).norm();
-        let whole = self.returned.norm();
+        let left = norm(&left.collect::<Vec<f64>>());
+        let whole = norm(&self.returned);
         if whole.is_nan() || whole <= 0.0 || left > LEFT_OVER * whole {
             return None;
         }
         let mut gains = [0.0; 5];
         for (i, term) in terms.iter().enumerate() {
-            gains[*term as usize] = fitted[i] / sizes[i];
+            gains[*term as usize] = fitted[i];
         }
         Some(gains)
+    }
+}
+
+/// The factors of `columns` whose sum is nearest to `wanted`, by Gram and Schmidt; none where a column is nearly a sum of others. It is
+/// arithmetic and roots alone, so it has the same bits everywhere.
+fn least_squares(columns: &[&[f64]], wanted: &[f64]) -> Option<Vec<f64>> {
+    if wanted.len() <= 2 * columns.len() {
+        return None;
+    }
+    // columns[i] = sum of across[j] times upper[j][i]
+    let count = columns.len();
+    let mut across: Vec<Vec<f64>> = Vec::with_capacity(count);
+    let mut upper = vec![vec![0.0; count]; count];
+    for (i, column) in columns.iter().enumerate() {
+        let mut rest = column.to_vec();
+        let size = norm(&rest);
+        for (j, known) in across.iter().enumerate() {
+            let share = dot(known, &rest);
+            upper[j][i] = share;
+            let pairs = rest.iter_mut().zip(known);
+            pairs.for_each(|(value, known)| *value -= share * known);
+        }
+        let left = norm(&rest);
+        // NaN and a column of nothing, too
+        let stands_apart = left > APART * size;
+        if !stands_apart || !left.is_finite() {
+            return None;
+        }
+        upper[i][i] = left;
+        rest.iter_mut().for_each(|value| *value /= left);
+        across.push(rest);
+    }
+    let mut factors = vec![0.0; count];
+    for i in (0..count).rev() {
+        let later: f64 = (i + 1..count).map(|j| upper[i][j] * factors[j]).sum();
+        factors[i] = (dot(&across[i], wanted) - later) / upper[i][i];
+    }
+    Some(factors)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    dot(values, values).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::least_squares;
+
+    #[test]
+    fn factors_are_found_and_columns_that_do_not_stand_apart_are_refused() {
+        let ramp: Vec<f64> = (0..20).map(f64::from).collect();
+        let ones = vec![1.0; 20];
+        let wanted: Vec<f64> = ramp.iter().map(|x| 3.0 * x - 7.0).collect();
+        let found = least_squares(&[&ramp, &ones], &wanted).expect("factors");
+        assert!(
+            (found[0] - 3.0).abs() < 1e-12 && (found[1] + 7.0).abs() < 1e-11,
+            "{found:?}"
+        );
+        // of what is no sum of them the nearest: a line through 0, 1, 4, 9 by the normal equations
+        let squares: Vec<f64> = ramp[..6].iter().map(|x| x * x).collect();
+        let found = least_squares(&[&ramp[..6], &ones[..6]], &squares).expect("factors");
+        // Σ x = 15, Σ x² = 55, Σ x³ = 225: slope 5, offset -10/3
+        assert!((found[0] - 5.0).abs() < 1e-12, "{found:?}");
+        assert!((found[1] + 10.0 / 3.0).abs() < 1e-12, "{found:?}");
+        let twice: Vec<f64> = ramp.iter().map(|x| 2.0 * x).collect();
+        assert_eq!(least_squares(&[&ramp, &twice], &wanted), None);
+        assert_eq!(least_squares(&[&[0.0; 20]], &wanted), None);
+        assert_eq!(least_squares(&[&[f64::NAN; 20]], &wanted), None);
+        assert_eq!(least_squares(&[&ramp[..2]], &wanted[..2]), None);
     }
 }

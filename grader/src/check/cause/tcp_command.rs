@@ -1,6 +1,6 @@
 //! What a velocity command asks of the TCP, and where its path leads from there.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::check::facts::MotionFacts;
 use crate::check::path_following::passages;
@@ -44,19 +44,21 @@ impl<'a> TcpCommand<'a> {
         calls.into_iter().find(asks)
     }
 
-    /// The linear part of the Jacobian at `q`, shape `(3, n)`, in the lab's frame.
-    pub(super) fn jacobian(&self, q: &[f64]) -> Option<DMatrix<f64>> {
+    /// The linear part of the Jacobian at `q` by column, in the lab's frame.
+    pub(super) fn jacobian(&self, q: &[f64]) -> Option<Vec<Vector3<f64>>> {
         let (robot, frame) = (self.facts.robot, self.facts.names.seen_from);
         let rows = jacobian_in(robot, frame, q, Rows::LINEAR)?;
-        Some(DMatrix::from_fn(3, robot.n(), |row, column| {
-            rows[row][column]
-        }))
+        let columns = 0..robot.n();
+        Some(
+            columns
+                .map(|joint| Vector3::new(rows[0][joint], rows[1][joint], rows[2][joint]))
+                .collect(),
+        )
     }
 
     /// The velocity of the TCP under `command` at `q` \[m/s\].
     pub(super) fn under(&self, q: &[f64], command: &[f64]) -> Option<Vector3<f64>> {
-        let v = self.jacobian(q)? * DVector::from_column_slice(command);
-        Some(Vector3::new(v[0], v[1], v[2]))
+        Some(combined(&self.jacobian(q)?, command))
     }
 
     /// The velocity for which the command of a tick asks \[m/s\].
@@ -98,6 +100,21 @@ impl<'a> TcpCommand<'a> {
             ends.map(|(ends, passages)| ([ends[0], ends[1]], [passages[0].tick, passages[1].tick]));
         Some(segments.collect())
     }
+}
+
+/// The sum of `columns`, each times its factor.
+pub(super) fn combined(columns: &[Vector3<f64>], factors: &[f64]) -> Vector3<f64> {
+    let terms = columns.iter().zip(factors);
+    terms.map(|(column, factor)| column * *factor).sum()
+}
+
+/// `(J Jᵀ + λ I)⁻¹` of the Jacobian with these columns, with so little damping that only directions without any motion feel it. It is
+/// arithmetic and roots alone, so it has the same bits everywhere.
+pub(super) fn damped_inverse(columns: &[Vector3<f64>]) -> Option<Matrix3<f64>> {
+    const DAMPING: f64 = 1e-9;
+    let products = columns.iter().map(|column| column * column.transpose());
+    let product: Matrix3<f64> = products.sum();
+    (product + Matrix3::identity() * DAMPING).try_inverse()
 }
 
 /// The angle between two directions, in `[0, π]` \[rad\].
