@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::history::History;
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::output;
+use crate::{disk, output};
 
 /// What the list of labs can be asked for.
 #[derive(Debug, clap::Args)]
@@ -39,6 +39,9 @@ struct Row {
     best: Option<f64>,
 }
 
+/// Such a file has two lines.
+const MOST_FOLDER_FILE_BYTES: u64 = 1 << 16;
+
 /// Folders here that `kinemark new` has made, by lab.
 fn working_folders() -> BTreeMap<String, PathBuf> {
     let mut found = BTreeMap::new();
@@ -48,7 +51,8 @@ fn working_folders() -> BTreeMap<String, PathBuf> {
     let mut folders: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     folders.sort();
     for folder in folders {
-        let text = std::fs::read_to_string(folder.join(FOLDER_FILE)).ok();
+        let bytes = disk::bytes_of(&folder.join(FOLDER_FILE), MOST_FOLDER_FILE_BYTES);
+        let text = bytes.ok().and_then(|bytes| String::from_utf8(bytes).ok());
         if let Some(Ok(file)) = text.map(|text| FolderFile::parse(&text)) {
             let shown = folder.strip_prefix(".").unwrap_or(&folder).to_owned();
             found.entry(file.lab).or_insert(shown);
