@@ -57,6 +57,24 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("wrapToPi", "write wrap_pi(x)"),
     ("identity", "write eye(n)"),
     ("magnitude", "write norm(v)"),
+    ("normalize", "write v / norm(v)"),
+    ("normalized", "write v / norm(v)"),
+    ("unit", "write v / norm(v)"),
+    ("sind", "write sin(rad(x))"),
+    ("cosd", "write cos(rad(x))"),
+    ("tand", "write tan(rad(x))"),
+    ("asind", "write deg(asin(x))"),
+    ("acosd", "write deg(acos(x))"),
+    ("atand", "write deg(atan(x))"),
+    ("atan2d", "write deg(atan2(y, x))"),
+    ("mean", "write sum(v) / len(v)"),
+    ("trace", "write m[0][0] + m[1][1]"),
+    ("strcmp", "write a == b"),
+    ("error", "write throw \"text\""),
+    ("Vec2", "write [x, y]"),
+    ("Vec3", "write [x, y, z]"),
+    ("iter", "write for x in list { ... }"),
+    ("clone", "an assignment copies: let b = a;"),
     ("isnan", "write is_nan(x)"),
     ("isnumeric", "there is no test of types"),
     ("type_of", "there is no test of types"),
@@ -126,6 +144,11 @@ const VARIABLES: &[(&str, &str)] = &[
     ("null", "write ()"),
     ("nil", "write ()"),
     ("NULL", "write ()"),
+    ("undefined", "write ()"),
+    ("console", "write print(x)"),
+    ("NaN", "nothing is equal to it: write is_nan(x)"),
+    ("nan", "nothing is equal to it: write is_nan(x)"),
+    ("eps", "write 1e-12"),
     ("Inf", "write inf"),
     ("M_PI", "write pi"),
     ("PI", "write pi"),
@@ -170,6 +193,9 @@ const SYNTAX: &[(&str, &str)] = &[
     ("float", "declare a variable with let x = 1;"),
     ("int", "declare a variable with let x = 1;"),
     ("import", "everything there is, is built in"),
+    ("pub", "leave it out: fn name(x) { ... }"),
+    ("persistent", "keep it in `this`: this.x = 0; in init"),
+    ("global", "keep it in `this`: this.x = 0; in init"),
     ("from", "everything there is, is built in"),
 ];
 
@@ -181,6 +207,7 @@ const SIGNS: &[(&str, &str)] = &[
     ("++", "write x += 1"),
     ("--", "write x -= 1"),
     (":=", "write let x = 1; to declare and x = 2; to change"),
+    ("@(", "write a function with a name: fn name(x) { ... }"),
     ("@", "write * for the product of matrices"),
     ("#", "a comment begins with //"),
     ("?", "write if condition { a } else { b }"),
@@ -190,6 +217,7 @@ const SIGNS: &[(&str, &str)] = &[
     ("<-", "write x = 1; to set, and x < -1 to compare"),
     ("->", "write a function as fn name(x) { ... }"),
     ("(*", "a comment begins with //"),
+    ("~=", "write !="),
     ("~", "write ! for \"not\", and != for \"not equal\""),
     (
         "'",
@@ -211,6 +239,8 @@ const CHARACTERS: &[(&str, &str)] = &[
     ("≠", "write !="),
     ("∞", "write inf"),
     ("√", "write sqrt(x)"),
+    ("\\", "write solve(A, b) for A \\ b"),
+    ("&", "leave it out; \"and\" is &&"),
     ("°", "write rad(90) for 90 degrees"),
     (
         "%",
@@ -230,6 +260,11 @@ pub(super) fn character(sign: &str) -> Option<String> {
         }
         None => None,
     }
+}
+
+/// What to write instead of a sign of another language.
+pub(super) fn sign(sign: &str) -> Option<String> {
+    look_up(SIGNS, sign)
 }
 
 /// What to write instead of a word of another language's syntax.

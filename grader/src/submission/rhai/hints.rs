@@ -88,7 +88,7 @@ impl Names {
         if of_a_map {
             return (
                 format!("`robot.{name}` is not granted in this task"),
-                Some("write it yourself: the dimensions are in `robot`".to_owned()),
+                Some("write it yourself: the dimensions are in `robot`; if this line is for another task, `observation.task` is compared with another name".to_owned()),
             );
         }
         let message = format!("`{name}` is not a function");
@@ -159,7 +159,13 @@ impl Names {
         Some(keys)
     }
 
-    pub(super) fn unknown_variable(&self, name: &str, place: Option<SourcePosition>) -> Words {
+    /// The message for a variable that is not known; `is_set` where it stands on the left of `=`.
+    pub(super) fn unknown_variable(
+        &self,
+        name: &str,
+        place: Option<SourcePosition>,
+        is_set: bool,
+    ) -> Words {
         let message = format!("variable `{name}` is not known here");
         if let Some(help) = foreign::variable(name) {
             return (message, Some(help));
@@ -186,6 +192,19 @@ impl Names {
                 format!("`{name}` is a function"),
                 Some(format!("call it: {name}(...)")),
             );
+        }
+        if is_set {
+            let around = place.and_then(|place| self.places.around(place));
+            let help = match around.map(|(function, _)| function) {
+                Some("init") => {
+                    format!("write this.{name} = ...; what `let` declares is gone when `init` ends")
+                }
+                Some("control") => format!(
+                    "declare it first: let {name} = ...; it lasts for this call. What the next call should still know is this.{name}, first set in `init`"
+                ),
+                _ => format!("declare it first: let {name} = ...;"),
+            };
+            return (message, Some(help));
         }
         if self.observation.contains(name) {
             return (message, Some(format!("write observation.{name}")));

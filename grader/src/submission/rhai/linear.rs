@@ -260,10 +260,14 @@ fn register_indexing(library: &mut Library) {
     library.internal(GET, &[any, any], |_, arguments| {
         let owner = describe(arguments[0]);
         Err(match arguments[1].as_immutable_string_ref() {
-            Ok(key) if arguments[0].is_array() => fault_with_help(
-                format!("{owner} has no `{}`", key.as_str()),
-                "the elements of a list have numbers: the first is [0]",
-            ),
+            Ok(key) if arguments[0].is_array() => {
+                let other = foreign::function(key.as_str());
+                let help = "the elements of a list have numbers: the first is [0]";
+                fault_with_help(
+                    format!("{owner} has no `{}`", key.as_str()),
+                    other.unwrap_or_else(|| help.to_owned()),
+                )
+            }
             _ => fault(format!("{owner} has no elements")),
         })
     });
@@ -284,9 +288,11 @@ fn register_indexing(library: &mut Library) {
                 .ok_or_else(|| fault(format!("{} has no `{name}`", describe(arguments[0]))))
         });
     }
-    library.internal("get$T", &[matrices], |meter, arguments| {
-        transpose(meter, arguments[0])
-    });
+    for kind in [matrices, TypeId::of::<Array>()] {
+        library.internal("get$T", &[kind], |meter, arguments| {
+            transpose(meter, arguments[0])
+        });
+    }
 }
 
 fn get_element(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem> {

@@ -65,6 +65,15 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
+    /// Whether a name at a place is set there: an `=` follows.
+    fn is_set(&self, name: &str, place: SourcePosition) -> bool {
+        let line = self.line(place.line).unwrap_or_default();
+        let rest = line.chars().skip(place.column.saturating_sub(1));
+        let rest: String = rest.collect();
+        let rest = rest.strip_prefix(name).unwrap_or_default().trim_start();
+        rest.starts_with('=') && !rest.starts_with("==")
+    }
+
     /// Explains why the file does not compile.
     pub(super) fn parsing(&self, error: &ParseError) -> Stop {
         let ParseError(kind, position) = error;
@@ -106,7 +115,8 @@ impl Context<'_> {
                 self.names.unknown_function(name, &arguments)
             }
             EvalAltResult::ErrorVariableNotFound(name, _) => {
-                self.names.unknown_variable(name, place)
+                let is_set = place.is_some_and(|place| self.is_set(name, place));
+                self.names.unknown_variable(name, place, is_set)
             }
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
                 self.names.unknown_key(self.owner_of(place).as_deref(), key)

@@ -10,6 +10,7 @@ mod convert;
 mod copies;
 mod engine;
 mod foreign;
+mod further;
 mod granted;
 mod hints;
 mod library;
@@ -29,5 +30,8 @@ mod slips;
 mod tests;
 mod vector;
 mod words;
+
+/// Every function that a submission can call, with its arguments and what it does, as language servers of Rhai read it (`.d.rhai`).
+pub const DEFINITIONS: &str = include_str!("kinemark.d.rhai");
 
 pub use script::{STACK_BYTES, ScriptController, refused_name};

@@ -3,6 +3,7 @@
 use rhai::{LexError, ParseErrorType};
 
 use super::foreign;
+use super::further::further;
 use super::hints::ENTRY_POINTS;
 use super::mistake::{Context, WHOLE_INDEX, plain, shortened};
 use super::signs::Signs;
@@ -15,15 +16,21 @@ impl Context<'_> {
     /// The message for an error of the parser.
     pub(super) fn unparsed(&self, kind: &ParseErrorType, place: Option<SourcePosition>) -> Mistake {
         let signs = Signs::of(self.source);
-        if let Some(slip) = place.and_then(|place| self.slip(kind, place, &signs)) {
-            return slip;
-        }
-        let (message, help) = self.parse_words(kind, place, &signs);
-        Mistake {
-            message: shortened(message),
-            place,
-            help: help.map(shortened),
-        }
+        let slip = place.and_then(|place| self.slip(kind, place, &signs));
+        let mistake = slip.unwrap_or_else(|| {
+            let (message, help) = self.parse_words(kind, place, &signs);
+            Mistake {
+                message: shortened(message),
+                place,
+                help: help.map(shortened),
+            }
+        });
+        let further = place.and_then(|place| further(&signs, place));
+        let help = match (mistake.help, further) {
+            (Some(help), Some(further)) => Some(format!("{help}. Further down, {further}")),
+            (help, further) => help.or(further),
+        };
+        Mistake { help, ..mistake }
     }
 
     fn sign_at(&self, place: SourcePosition) -> Option<char> {
@@ -52,10 +59,13 @@ impl Context<'_> {
                 }
                 let near = place.and_then(|place| foreign::near_keyword(line, place.column));
                 let above = place.and_then(|place| foreign::word(&signs.word_before(place)?));
+                if let Some(help) = foreign.or(above) {
+                    return ("this is written differently here".to_owned(), Some(help));
+                }
                 let help = "end the statement before it with `;`".to_owned();
                 return (
                     "a `;` is missing before this".to_owned(),
-                    foreign.or(above).or(near).or(Some(help)),
+                    near.or(Some(help)),
                 );
             }
             ParseErrorType::MissingToken(token, what) => missing(
@@ -238,7 +248,7 @@ fn statement(kind: &ParseErrorType) -> Option<Words> {
         ),
         ParseErrorType::AssignmentToConstant(_) | ParseErrorType::AssignmentToInvalidLHS(_) => (
             "this cannot be set".to_owned(),
-            "on the left of `=` is a variable, an element or a key; == compares",
+            "on the left of `=` is a variable, an element v[0] or m[0][1], or a key; list.push(x) appends; == compares",
         ),
         ParseErrorType::DuplicatedProperty(key) => (
             format!("the map has two entries `{key}`"),

@@ -16,6 +16,7 @@ use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::mistake::{Context, Problem, raise};
 use super::places::Places;
+use super::slips;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
     SensorFacts, Stop, Value,
@@ -127,6 +128,9 @@ impl ScriptController {
             names: &names,
             beginning: None,
         };
+        if let Some(mistake) = slips::chat_fence(source) {
+            return Err(Stop::DidNotBuild(mistake));
+        }
         let ast = engine
             .compile(source)
             .map_err(|error| context.parsing(&error))?;

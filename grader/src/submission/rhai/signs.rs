@@ -59,6 +59,24 @@ impl Signs {
         found
     }
 
+    /// The lines that have signs, in order, each as its signs with a blank for what is between two of them.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (usize, String)> {
+        self.signs
+            .chunk_by(|a, b| a.0.line == b.0.line)
+            .map(|line| {
+                let mut text = String::new();
+                let mut next = line[0].0.column;
+                for (at, sign) in line {
+                    if at.column > next {
+                        text.push(' ');
+                    }
+                    text.push(*sign);
+                    next = at.column + 1;
+                }
+                (line[0].0.line, text)
+            })
+    }
+
     /// The signs before a place, from the last to the first.
     fn before(&self, place: SourcePosition) -> impl Iterator<Item = (SourcePosition, char)> {
         let end = self.signs.partition_point(|(at, _)| is_before(*at, place));

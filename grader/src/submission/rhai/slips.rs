@@ -7,6 +7,11 @@ use super::mistake::Context;
 use super::signs::{Signs, is_before};
 use crate::submission::controller::{Mistake, SourcePosition};
 
+/// Words that begin a statement or a part of it.
+const KEYWORDS: [&str; 10] = [
+    "let", "const", "if", "else", "for", "while", "return", "in", "fn", "switch",
+];
+
 /// Where the parser stopped, and what is there.
 struct Stopped<'a> {
     place: SourcePosition,
@@ -47,6 +52,9 @@ impl Context<'_> {
             word: &after[..end.unwrap_or(after.len())],
             signs,
         };
+        if let Some(slip) = stopped.other_language(kind) {
+            return Some(slip);
+        }
         match kind {
             ParseErrorType::MalformedIndexExpr(_) => stopped.between_lists(),
             ParseErrorType::MissingToken(token, what) => stopped.missing(token, what),
@@ -72,6 +80,106 @@ impl Context<'_> {
 impl Stopped<'_> {
     fn slip(&self, message: &str, help: &str) -> Mistake {
         slip_at(self.place, message.to_owned(), help)
+    }
+
+    /// What another language writes where the parser stopped.
+    fn other_language(&self, kind: &ParseErrorType) -> Option<Mistake> {
+        let after = &self.line[self.before.len()..];
+        let last = self.before.trim_end().chars().next_back();
+        let is_operand = |c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']');
+        let is_missing = |wanted: &[&str]| matches!(kind, ParseErrorType::MissingToken(token, _) if wanted.contains(&token.as_str()));
+        let opened = || self.signs.open_at(self.place);
+        let found = if self.line.contains("\"\"\"") {
+            (
+                "`\"\"\"` is not available here",
+                "a comment begins with //, or goes between /* and */",
+            )
+        } else if after.starts_with("::") || (self.sign == Some(':') && last == Some(':')) {
+            (
+                "`::` is not available here",
+                "functions are built in: write atan2(y, x) without a prefix; a vector is [x, y, z]",
+            )
+        } else if is_missing(&[",", ")"])
+            && self.sign == Some(':')
+            && self.line.trim_start().starts_with("fn ")
+        {
+            (
+                "parameters have no types",
+                "leave it out: fn name(x, y) { ... }",
+            )
+        } else if matches!(kind, ParseErrorType::VariableExpected)
+            && self.before.trim_end().ends_with("let")
+            && matches!(self.sign, Some('[' | '(' | '{'))
+        {
+            (
+                "`let` declares one variable at a time",
+                "write let a = p[0]; let b = p[1];",
+            )
+        } else if is_missing(&[";", ")", ","]) && self.is_product() {
+            (
+                "an operator is missing before this",
+                "for a product write *: 2 * x, a * (b + c)",
+            )
+        } else if is_missing(&[";"]) && after.starts_with("=>") {
+            (
+                "functions without a name are not available",
+                "write a function with a name: fn name(x) { ... }",
+            )
+        } else if is_missing(&[")"])
+            && self.sign == Some(',')
+            && opened().is_some_and(|(at, sign)| {
+                let before = self.signs.last_before(at).map(|(_, sign)| sign);
+                sign == '(' && matches!(before, Some('=' | ',' | '(' | '['))
+            })
+        {
+            ("a list is written with `[`", "write [1, 2]")
+        } else if is_missing(&[";"])
+            && self.sign == Some('(')
+            && last.is_some_and(|c| matches!(c, ')' | ']'))
+        {
+            (
+                "an element of a result is in square brackets",
+                "write f(x)[0]",
+            )
+        } else if matches!(
+            kind,
+            ParseErrorType::BadInput(LexError::MalformedChar(_) | LexError::UnterminatedString)
+        ) && self.sign == Some('\'')
+            && self.before.chars().next_back().is_some_and(is_operand)
+        {
+            (
+                "`'` is no transpose here",
+                "write transpose(m) or m.T; of two vectors dot(a, b) is the product",
+            )
+        } else {
+            return None;
+        };
+        Some(self.slip(found.0, found.1))
+    }
+
+    /// Whether two factors stand side by side, as on paper: `2 cos(x)`, `l1 cos(q)`, `2(a + b)`.
+    fn is_product(&self) -> bool {
+        let mut words = self
+            .before
+            .trim_end()
+            .rsplit(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let last = words.next().unwrap_or_default();
+        let is_number = last.starts_with(|c: char| c.is_ascii_digit());
+        let ends_value = is_number || self.before.trim_end().ends_with(')');
+        let next = self.line[self.before.len() + self.word.len()..].trim_start();
+        let is_factor = !self.word.is_empty() && foreign::word(self.word).is_none();
+        // a name and a call: `l1 cos(q)`; two names may be anything
+        let is_name =
+            !last.is_empty() && foreign::word(last).is_none() && !KEYWORDS.contains(&last);
+        let after_operator =
+            self.before.contains('=') || self.before.trim_start().starts_with("return");
+        match self.sign {
+            Some('(') => is_number,
+            _ if is_factor && !KEYWORDS.contains(&self.word) => {
+                ends_value || (is_name && next.starts_with('(') && after_operator)
+            }
+            _ => false,
+        }
     }
 
     /// A sign that the parser misses before the place.
@@ -133,6 +241,17 @@ impl Stopped<'_> {
                 "a function returns one value",
                 "return a list: return [a, b];",
             ),
+            (_, Some(':'))
+                if self
+                    .before
+                    .trim_end()
+                    .ends_with(|c: char| c.is_ascii_digit()) =>
+            {
+                (
+                    "a range is written with `..`",
+                    "write 0..3; linspace(a, b, n) is a vector of points",
+                )
+            }
             (None, Some(':')) if self.is_in_block_of_keys() => {
                 ("a map is written with `#{`", "write #{ a: 1, b: 2 }")
             }
@@ -150,7 +269,8 @@ impl Stopped<'_> {
         let opened = self.signs.open_at(self.place);
         opened.is_some_and(|(at, sign)| {
             let first = self.signs.first_after(at).map(|(_, sign)| sign);
-            sign == '{' && (first == Some('"') || self.before.contains('='))
+            let returned = self.before.trim_start().starts_with("return");
+            sign == '{' && (first == Some('"') || self.before.contains('=') || returned)
         })
     }
 
@@ -238,6 +358,21 @@ impl Stopped<'_> {
         let message = format!("the `{{` of line {} is never closed", opened.line);
         Some(slip_at(opened, message, "write a } where its block ends"))
     }
+}
+
+/// A line of backticks that marks code in a chat or on a web page. The language would take everything up to the next one for a string.
+pub(super) fn chat_fence(source: &str) -> Option<Mistake> {
+    let mut lines = source.lines().enumerate();
+    let (index, line) = lines.find(|(_, line)| line.trim_start().starts_with("```"))?;
+    let place = SourcePosition {
+        line: index + 1,
+        column: line.chars().take_while(|c| c.is_whitespace()).count() + 1,
+    };
+    Some(slip_at(
+        place,
+        "this line is not part of the script: it marks code in a chat or on a web page".to_owned(),
+        "delete it, and what is not code around it",
+    ))
 }
 
 /// The place behind a sign.

@@ -7,6 +7,7 @@ use crate::submission::controller::{
 
 mod budgets;
 mod calls;
+mod definitions;
 mod reference;
 mod slips;
 mod values;
