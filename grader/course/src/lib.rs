@@ -57,6 +57,7 @@ pub mod class_pages;
 pub mod clusters;
 pub mod course_file;
 pub mod course_text;
+mod editor_files;
 pub mod fixed_zip;
 pub mod fixes;
 pub mod forget;

@@ -202,6 +202,7 @@ pub(crate) fn task(name: &str, digest: &str, checks: Vec<CheckGrade>) -> TaskGra
             rungs: Vec::new(),
         },
         divergence: None,
+        figures: None,
     }
 }
 

@@ -3,6 +3,9 @@
 /// The ending of the one file that `kinemark submit` writes.
 const HAND_IN_ENDING: &str = ".kinemark";
 
+/// The ending of the functions' names that editors read: nobody's work.
+const DEFINITIONS_ENDING: &str = ".d.rhai";
+
 /// The name, without endings, that a submission has.
 const SUBMISSION: &str = "submission";
 
@@ -41,6 +44,9 @@ impl NameKind {
         };
         if strip_ending(stem, HAND_IN_ENDING).is_some() {
             return Self::HandIn;
+        }
+        if stem.ends_with(DEFINITIONS_ENDING) {
+            return Self::Other;
         }
         let script = strip_ending(stem, ".rhai").or_else(|| match text {
             false => strip_ending(stem, ".wasm"),

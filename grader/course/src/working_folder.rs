@@ -1,4 +1,4 @@
-//! What a student begins a lab with: the starter, the brief with their numbers, its pictures, and their variant.
+//! What a student begins a lab with: the starter, the brief with their numbers, its pictures, their variant, and files for editors.
 
 use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
@@ -6,6 +6,8 @@ use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::task::files::Files;
 use kinemark_report::brief_page::brief_page;
 use serde::{Deserialize, Serialize};
+
+use crate::editor_files::EDITOR_FILES;
 
 /// The file that a student works in.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
@@ -126,6 +128,7 @@ pub fn working_folder(
             written.push((name, picture));
         }
     }
+    written.extend(EDITOR_FILES.map(|(path, text)| (path.to_owned(), text.to_owned())));
     Ok(written)
 }
 

@@ -83,6 +83,12 @@ fn put_in_place(dir: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> 
         for (path, _) in &files[..there] {
             let _ = std::fs::remove_file(path);
         }
+        // folders that hold nothing, the inner ones first
+        for (path, _) in files {
+            if let Some(inner) = path.parent().filter(|inner| *inner != dir) {
+                let _ = std::fs::remove_dir(inner);
+            }
+        }
         if is_new {
             let _ = std::fs::remove_dir(dir);
         }
@@ -105,7 +111,10 @@ fn rename_in(
         std::fs::write(beside(at), text).map_err(|error| (0, path.clone(), error))?;
     }
     for (at, (path, _)) in files.iter().enumerate() {
-        std::fs::rename(beside(at), path).map_err(|error| (at, path.clone(), error))?;
+        let folder = path.parent().unwrap_or(dir);
+        std::fs::create_dir_all(folder)
+            .and_then(|()| std::fs::rename(beside(at), path))
+            .map_err(|error| (at, path.clone(), error))?;
     }
     Ok(())
 }
