@@ -157,8 +157,8 @@ impl<'a> Rest<'a> {
         let turns = judged
             .windows(2)
             .filter(|pair| above(pair[0]) != above(pair[1]));
-        // what creeps passes its mean once
-        if turns.count() < 2 {
+        // what creeps passes its mean once, and what bounces once twice
+        if turns.count() < 3 {
             return None;
         }
         let low = judged.iter().copied().fold(f64::INFINITY, f64::min);

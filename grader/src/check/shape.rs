@@ -1,8 +1,9 @@
 //! What a response looks like as a whole, before a sentence about it is chosen: it leaves its target at once, it swings and does not
 //! get smaller, or it is where another joint should be.
 
+use kinemark_sim::control::Mode;
 use kinemark_sim::control::linear_step::Fed;
-use kinemark_sim::text::number::{seconds, trimmed};
+use kinemark_sim::text::number::{list, seconds, trimmed};
 
 use super::cause::{speed_term, wrong_setpoint};
 use super::step_response::Response;
@@ -26,6 +27,9 @@ const RUN_OFF: f64 = 1.5;
 const SAME: f64 = 0.2;
 /// Ways below this may agree by chance \[rad, m, or a second of them\].
 const LEAST_WAY: f64 = 0.05;
+/// A joint that has turned so far and still turns so fast spins \[rad, rad/s\].
+const TURNED: f64 = std::f64::consts::TAU;
+const SPINS: f64 = 5.0;
 /// Fewer half swings than this say nothing.
 const LEAST_HALVES: usize = 4;
 /// A swing that keeps this share of its size from the first half of its half swings to the second hardly gets smaller.
@@ -35,11 +39,71 @@ const KEPT: f64 = 0.9;
 
 /// What is seen of a response that does not come to rest, or not at its target.
 pub(super) fn seen(response: &Response<'_>) -> Option<Seen> {
-    away(response)
+    swapped_output(response)
+        .or_else(|| away(response))
         .or_else(|| swapped(response))
+        .or_else(|| other_joint_spins(response))
         .or_else(|| wrong_setpoint(response))
         .or_else(|| speed_term(response))
         .or_else(|| lasting_swing(response))
+}
+
+/// The first command does nothing for the joint, which is away from its target, and something for another one: the numbers that
+/// `control` returns are exchanged.
+fn swapped_output(response: &Response<'_>) -> Option<Seen> {
+    let facts = response.facts;
+    let way = response.asked.target? - response.start;
+    if facts.motion.servo.mode != Mode::Effort || way.abs() < LEAST_WAY {
+        return None;
+    }
+    let joint = response.asked.joint;
+    let first = facts.trace.command.at(0);
+    let mut others = (0..facts.robot.n()).filter(|other| *other != joint);
+    let other = others.find(|other| first[*other] * way > 0.0)?;
+    (first[joint] == 0.0).then(|| Seen {
+        words: format!(
+            "the first command, {}, has nothing for {}, which is {} from its target, and something for joint `{}`",
+            list(first),
+            response.what(),
+            response.with_unit(way.abs()),
+            facts.joint_name(other),
+        ),
+        tick: 0,
+        next_step: are_swapped(response),
+    })
+}
+
+/// Another joint turns round and round at the end: what this one does follows from that.
+fn other_joint_spins(response: &Response<'_>) -> Option<Seen> {
+    let facts = response.facts;
+    let (trace, last) = (facts.trace, facts.last_tick());
+    let mut others = (0..facts.robot.n()).filter(|joint| *joint != response.asked.joint);
+    let other = others.find(|joint| {
+        let turned = trace.q.at(last)[*joint] - trace.q.at(0)[*joint];
+        let speed = trace.qd.at(last)[*joint];
+        facts.units(*joint).position() == "rad"
+            && turned.abs() > TURNED
+            && speed.abs() > SPINS
+            && turned * speed > 0.0
+    })?;
+    let units = facts.units(other);
+    let turned = trace.q.at(last)[other] - trace.q.at(0)[other];
+    let begins =
+        (0..=last).find(|tick| (trace.q.at(*tick)[other] - trace.q.at(0)[other]).abs() > 1.0);
+    let name = facts.joint_name(other);
+    Some(Seen {
+        words: format!(
+            "joint `{name}` spins: at the end it turns at {} {} and is {} {} from where it began",
+            trimmed(trace.qd.at(last)[other], 2),
+            units.speed(),
+            trimmed(turned.abs(), 2),
+            units.position(),
+        ),
+        tick: begins.unwrap_or(last),
+        next_step: format!(
+            "What do you return for joint `{name}`, and which way does that drive it?"
+        ),
+    })
 }
 
 /// It moves away from its target at once, and gets much further from it than it began: the sign of the error.

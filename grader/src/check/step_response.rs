@@ -197,7 +197,9 @@ impl<'a> Response<'a> {
         let last = self.values.len().saturating_sub(1);
         Some(Loss {
             evidence: self.evidence(message, last),
-            next_step: format!("Bring {} to its target first.", self.what()),
+            next_step:
+                "What does your `control` return for this joint, and which way does that drive it?"
+                    .to_owned(),
             insists: true,
         })
     }
@@ -219,13 +221,23 @@ impl<'a> Response<'a> {
         }
         let length_s = self.time_s((part.len() - 1) as f64);
         let last_s = seconds(length_s);
+        let [begins, ends] = [part[0], part[part.len() - 1]];
+        let goes_one_way = low.min(high) == begins.min(ends) && low.max(high) == begins.max(ends);
         let mut message = format!(
             "{} never settles: in the last {last_s} it still goes from {} to {}",
             self.what(),
-            self.with_unit(low),
-            self.with_unit(high),
+            self.with_unit(begins),
+            self.with_unit(ends),
         );
-        let mut next_step = "Come to rest sooner: at the end it is still on its way.".to_owned();
+        if !goes_one_way {
+            message += &format!(
+                ", and is between {} and {}",
+                self.with_unit(low),
+                self.with_unit(high)
+            );
+        }
+        let mut next_step =
+            "What still drives it at the end, and which term of your law gives that?".to_owned();
         // a swing passes the middle twice
         if turns >= 3 {
             message = format!(

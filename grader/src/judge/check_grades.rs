@@ -2,7 +2,7 @@
 
 use super::hidden_attempts::{HiddenAttempts, of_control};
 use super::judged::JudgedCheck;
-use crate::check::Check;
+use crate::check::{Check, Finding};
 use crate::record::grade::{CheckGrade, Evidence, Instant, Measure, Outcome};
 use crate::record::quantity::{points, whole_hundredths};
 
@@ -48,7 +48,7 @@ struct Parts {
     measure: Option<Measure>,
     evidence: Vec<Evidence>,
     next_step: Option<String>,
-    /// Whether the next step is the lab's question.
+    /// Whether the lab has hints that lead on from the next step.
     has_hints: bool,
 }
 
@@ -90,6 +90,9 @@ fn visible_parts<K: ?Sized>(
         )),
         (None, None) => None,
     };
+    // what leads to another check, or away from the lab's hints, does not lead to them
+    let is_cause = |finding: &Finding| finding.evidence.first().is_some_and(|fact| fact.is_cause);
+    let has_hints = loss.is_some_and(|finding| !finding.insists || is_cause(finding));
     let finding = judged.finding.as_ref();
     Parts {
         score: judged.score,
@@ -97,7 +100,7 @@ fn visible_parts<K: ?Sized>(
         measure: finding.and_then(|finding| finding.measure.clone()),
         evidence: loss.map_or(Vec::new(), |finding| finding.evidence.clone()),
         next_step,
-        has_hints: question.is_some(),
+        has_hints: has_hints && !check.hints.is_empty(),
     }
 }
 

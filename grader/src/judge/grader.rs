@@ -168,6 +168,8 @@ pub(super) struct Grader<'a> {
     pub(super) submission: &'a Source,
     /// Function tasks so far that passed.
     pub(super) passed: Vec<String>,
+    /// Function tasks so far that earned less than half of their points.
+    pub(super) broken: Vec<String>,
     /// Whether the cases of function tasks are also judged one by one, which a record has no place for.
     pub(super) judges_each_case: bool,
     /// Submissions of the course staff that failed.
@@ -200,6 +202,7 @@ impl<'a> Grader<'a> {
             staff,
             submission,
             passed: Vec::new(),
+            broken: Vec::new(),
             judges_each_case: false,
             staff_faults: RefCell::new(Vec::new()),
         }
@@ -225,6 +228,9 @@ impl<'a> Grader<'a> {
             };
             if graded.run.is_none() && graded.grade.verdict == Verdict::Passed {
                 self.passed.push(task.name.clone());
+            }
+            if graded.run.is_none() && graded.grade.points < 0.5 * graded.grade.max_points {
+                self.broken.push(task.name.clone());
             }
             tasks.push(graded.grade);
             runs.extend(graded.run);

@@ -110,8 +110,8 @@ impl Grader<'_> {
         })
     }
 
-    /// An earlier task of the function from which such a motion is made, if it lost points: the Jacobian for velocities, inverse
-    /// kinematics for positions.
+    /// An earlier task of the function from which such a motion is made, if it lost more than half of its points: the Jacobian for
+    /// velocities, inverse kinematics for positions. A function that is wrong in some cases alone says nothing about the motion.
     fn unsolved_before(&self, task: &Task, work: &MotionTask) -> Option<&str> {
         let is_needed = |function: &Function| match work.servo.mode {
             Mode::Velocity => matches!(function, Function::Jacobian(_)),
@@ -127,7 +127,7 @@ impl Grader<'_> {
             TaskWork::Function(work, _) => is_needed(&work.function),
             TaskWork::Motion(..) => false,
         });
-        let lost = functions.find(|known| !self.passed.contains(&known.name))?;
+        let lost = functions.find(|known| self.broken.contains(&known.name))?;
         Some(&lost.name)
     }
 

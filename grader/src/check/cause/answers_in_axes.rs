@@ -93,9 +93,14 @@ fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
                 "all {count} positions are off by the same step, {} m along x, y, z",
                 list(step.as_slice())
             ),
-            question:
-                "From which point do you measure, and where is the origin of the lab's frame?"
+            question: match (0..3).filter(|axis| step[*axis].abs() > SAME_M).collect::<Vec<_>>()[..] {
+                [axis] => format!(
+                    "Only {} is off, everywhere by the same amount: what adds to it, and how often?",
+                    ["x", "y", "z"][axis]
+                ),
+                _ => "From which point do you measure, and where is the origin of the lab's frame?"
                     .to_owned(),
+            },
         }
     })
 }
@@ -140,8 +145,7 @@ struct Slip {
 /// What may have been done to matrices of so many rows and columns.
 fn slips(rows: usize, columns: usize) -> Vec<Slip> {
     const ORDER: &str = "Which row is for which coordinate, and which column for which joint?";
-    const SIGN: &str =
-        "Differentiate that coordinate once more: the derivative of a cosine is minus the sine.";
+    const SIGN: &str = "Differentiate that coordinate once more: which of the derivatives of a sine and of a cosine has a minus?";
     let slip = |what: String, question, meant: Box<dyn Fn(&Matrix) -> Matrix>| Slip {
         what,
         question,

@@ -13,10 +13,12 @@ mod elbow_alone;
 mod first_direction;
 mod frozen_angles;
 mod goal_angles;
+mod goal_order;
 mod idle;
 mod late;
 mod law;
 mod no_stop;
+mod refused;
 mod runs_away;
 mod saturated;
 mod setpoint;
@@ -55,9 +57,10 @@ struct Lost<'a> {
 
 /// In the order in which they are looked for: what is wrong from the first call on, then what goes wrong on the way, then what is
 /// missing in the end.
-const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 10] = [
+const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 11] = [
     idle::seen,
     degrees::seen,
+    goal_order::seen,
     goal_angles::seen,
     first_direction::seen,
     frozen_angles::seen,
@@ -114,7 +117,8 @@ struct Answers<'a> {
 /// Fewer wrong answers may agree with a mistake by chance.
 const LEAST_WRONG: usize = 2;
 
-const OF_ANSWERS: [fn(&Answers<'_>) -> Option<CauseOfAnswers>; 4] = [
+const OF_ANSWERS: [fn(&Answers<'_>) -> Option<CauseOfAnswers>; 5] = [
+    refused::seen,
     typed_size::seen,
     answers_in_axes::seen,
     answers_in_angles::seen,

@@ -2,6 +2,7 @@
 
 use super::{Answers, CauseOfAnswers};
 use crate::attempt::answers::CaseFacts;
+use crate::task::model::Given;
 
 pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
     let is_other = |facts: &&&CaseFacts<'_>| !facts.case.dimensions.is_empty();
@@ -11,13 +12,17 @@ pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
         .iter()
         .filter(|facts| !is_other(facts))
         .count();
-    let other_right = answers.right.iter().filter(is_other).count();
+    // what is out of reach is refused by luck, too
+    let is_within =
+        |facts: &&&CaseFacts<'_>| !matches!(facts.case.given, Given::Position { branches: 0, .. });
+    let other_right = answers.right.iter().filter(is_other).filter(is_within);
+    let other_right = other_right.count();
     (are_other && own_right >= super::LEAST_WRONG && other_right == 0).then(|| CauseOfAnswers {
         words:
             "right in every case with the arm of this lab, and wrong in every case with another arm"
                 .to_owned(),
         question:
-            "Which sizes of the arm are typed into your function? `robot` has those of the case."
+            "Which sizes of the arm does your function take from `robot`, and each from the right place? `robot` has those of the case."
                 .to_owned(),
     })
 }

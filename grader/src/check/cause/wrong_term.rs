@@ -47,8 +47,9 @@ pub(in crate::check) fn gravity_term(response: &Response<'_>) -> Option<(String,
         ))
     } else if is(2.0) {
         Some((
-            "`control` adds it twice".to_owned(),
-            "How often is gravity in what you return?".to_owned(),
+            "what `control` adds is twice as much".to_owned(),
+            "How often is gravity in what you return? With a model of your own: is a mass or its lever arm too large?"
+                .to_owned(),
         ))
     } else {
         None

@@ -62,8 +62,8 @@ pub(crate) struct FunctionCases {
 impl AnswerMeasure for FunctionCases {
     fn judge(&self, cases: &Cases<'_>) -> Finding {
         let quantity = match &self.entry {
-            Some(entry) => format!("cases with {entry} right"),
-            None => "answers right".to_owned(),
+            Some(entry) => format!("mean score of {entry}"),
+            None => "mean score of the answers".to_owned(),
         };
         let score = |facts: &CaseFacts<'_>| Some(self.score(facts, cases.band));
         cases.mean_score(quantity, score).advise(
@@ -106,7 +106,11 @@ impl FunctionCases {
                         "" => "the answer",
                         name => name,
                     };
-                    let off = with_unit(relative, "");
+                    // of 0 there is no part
+                    let off = match as_slice(&expected[index].1).iter().all(|value| *value == 0.0) {
+                        true => trimmed(relative, 4),
+                        false => with_unit(relative, ""),
+                    };
                     let case = facts.label();
                     format!("{case}: {what} is {is}, should be {should} ({off} off)")
                 }

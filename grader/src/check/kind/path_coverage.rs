@@ -108,7 +108,8 @@ impl MotionCheck for PathCoverage {
             );
             let left = segment.samples.last().map_or(0, |sample| sample.tick);
             let gap = segment.longest_gap(self.within_m);
-            if let Some((ends_m, tick)) = gap {
+            // where nothing of it is covered there is no place and no moment to name
+            if let Some((ends_m, tick)) = gap.filter(|_| share > 0.0) {
                 let [from, to] = ends_m.map(|along_m| self.point(i, along_m));
                 message += &format!(
                     "; not from {} to {}, about {}",

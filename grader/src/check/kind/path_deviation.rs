@@ -67,9 +67,14 @@ impl PathDeviation {
     /// How segment `i` was followed, at its furthest.
     fn evidence(&self, facts: &MotionFacts<'_>, i: usize, segment: &FollowedSegment) -> Evidence {
         let mut message = format!(
-            "{}: {} off (root mean square along the path travelled)",
+            "{}: {} off (root mean square along the path travelled{})",
             segment_name(&self.0.path, i),
             metres(segment.rms_m),
+            // which alone can be further away than any place of the run
+            match segment.left_out_m > 1e-3 {
+                true => " and what is never covered",
+                false => "",
+            },
         );
         let mut tick = segment.samples.last().map_or(0, |sample| sample.tick);
         if let Some(furthest) = segment.furthest() {

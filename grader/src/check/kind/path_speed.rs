@@ -162,10 +162,10 @@ impl PathSpeed {
         {
             tick = at;
             message += &format!(
-                "; its mean is {} m/s, the furthest from it {} m/s at {}",
+                "; its mean is {} m/s, and at {} it is {} m/s",
                 trimmed(mean, 4),
-                trimmed(furthest, 4),
                 seconds(facts.time_s(at)),
+                trimmed(furthest, 4),
             );
         }
         if pace.left_out_m > 1e-3 {

@@ -45,7 +45,7 @@ impl RunMeasure for PoseReached {
         lost.sort_by(|a, b| settled_m(*b).total_cmp(&settled_m(*a)));
         let settles = lost
             .first()
-            .is_some_and(|&goal| still_settles(facts, goal, band));
+            .is_some_and(|&goal| settled(facts, goal, band).is_some());
         let evidence = lost.into_iter().map(|goal| evidence(facts, goal, band));
         let worst_m = goals.map(settled_m).fold(0.0, f64::max);
         let quantity = "greatest distance from a goal while it is held";
@@ -57,7 +57,7 @@ impl RunMeasure for PoseReached {
             // the angles are right, so a hint about them would be beside the point
             return Finding {
                 insists: true,
-                ..finding.advise("The place is right and was not at rest yet: stay there longer before you go on.")
+                ..finding.advise("The place is right, and the arm was not there for long enough: stay there longer before you go on.")
             };
         }
         finding.advise("Compare the joint angles you command with those your inverse kinematics gives for the goal, and hold them until the dwell is over.")
@@ -80,9 +80,21 @@ fn window(facts: &MotionFacts<'_>, goal: usize) -> Option<[usize; 2]> {
     Some([last.saturating_sub(ticks), last])
 }
 
-/// Whether the TCP comes to a goal within the window that is judged there, and was beyond the band when the window began.
-fn still_settles(facts: &MotionFacts<'_>, goal: usize, band: Band) -> bool {
-    window(facts, goal).is_some_and(|[_, last]| distance_m(facts, goal, last) <= band.full)
+/// The first and last tick of the longest stretch of the judged window in which the TCP is as near as all points ask, if it lasts a fifth
+/// of the window: a shorter one is passing by.
+fn settled(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<[usize; 2]> {
+    let [first, last] = window(facts, goal)?;
+    let is_near = |tick: &usize| distance_m(facts, goal, *tick) <= band.full;
+    let mut longest: Option<[usize; 2]> = None;
+    let mut tick = first;
+    while tick <= last {
+        let count = (tick..=last).take_while(is_near).count();
+        if count > longest.map_or(0, |[from, to]| to + 1 - from) {
+            longest = Some([tick, tick + count - 1]);
+        }
+        tick += count + 1;
+    }
+    longest.filter(|[from, to]| 5 * (to - from) >= last - first)
 }
 
 /// Why the goal with this index loses points.
@@ -111,9 +123,20 @@ fn evidence(facts: &MotionFacts<'_>, index: usize, band: Band) -> Evidence {
         list(p.as_slice()),
         list(away.as_slice()),
     );
-    if still_settles(facts, index, band) {
-        let end = metres(distance_m(facts, index, last));
-        message += &format!("; at the end it is {end} away: it was still settling");
+    match settled(facts, index, band) {
+        Some([_, to]) if to == last => {
+            let end = metres(distance_m(facts, index, last));
+            message += &format!("; at the end it is {end} away: it was still settling");
+        }
+        Some([from, to]) => {
+            message += &format!(
+                "; it is within {} from {} to {} only: too short a stay",
+                metres(band.full),
+                seconds(facts.time_s(from)),
+                seconds(facts.time_s(to)),
+            );
+        }
+        None => {}
     }
     Evidence {
         value: Some(dwell.settled_m),
