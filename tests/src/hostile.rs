@@ -41,10 +41,10 @@ fn a_hostile_function_costs_its_own_task_alone() {
     every_case(&cases, |(body, budget)| {
         let bed = TestBed::new();
         let submission = format!(
-            "fn forward_kinematics(robot, q) {{ {body} }}\nfn control(observation) {{ [0.5, 0.0] }}\n"
+            "fn position_loop(given) {{ {body} }}\nfn control(observation) {{ [0.5, 0.0] }}\n"
         );
         bed.write("submission.rhai", submission);
-        let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json"]);
+        let ran = bed.run(&["grade", "00-step-response", "submission.rhai", "--json"]);
         assert_eq!(ran.code, Some(1), "{ran:?}");
         let record: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a record");
         let task = |name: &str| {
@@ -56,11 +56,11 @@ fn a_hostile_function_costs_its_own_task_alone() {
                 .clone()
         };
         assert_eq!(task("warm-up")["points"], 1.0);
-        let fk = task("fk");
-        assert_eq!(fk["verdict"], "over-budget", "{fk:#}");
-        let message = fk["stopped"]["message"].as_str().expect("message");
+        let stopped = task("position-loop");
+        assert_eq!(stopped["verdict"], "over-budget", "{stopped:#}");
+        let message = stopped["stopped"]["message"].as_str().expect("message");
         assert!(message.contains(budget), "{message}");
-        assert_eq!(fk["stopped"]["line"], 1, "{fk:#}");
+        assert_eq!(stopped["stopped"]["line"], 1, "{stopped:#}");
     });
 }
 
@@ -70,17 +70,17 @@ fn a_crash_in_one_task_leaves_the_others_their_points() {
     bed.write(
         "submission.rhai",
         "fn control(observation) {
-    if observation.task == \"move\" && observation.time > 1.0 {
+    if observation.task == \"pid\" && observation.time > 1.0 {
         throw \"lost\";
     }
     [0.5, 0.0]
 }
 ",
     );
-    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    let ran = bed.run(&["grade", "00-step-response", "submission.rhai"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.stdout.contains("1/1  passed"), "{ran:?}");
-    assert!(ran.stdout.contains("(at 1.01 s, tick 1010)"), "{ran:?}");
+    assert!(ran.stdout.contains("(at 1.001 s, tick 1001)"), "{ran:?}");
     assert!(
         ran.stdout.contains("3 |         throw \"lost\";"),
         "{ran:?}"

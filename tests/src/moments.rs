@@ -227,7 +227,7 @@ fn the_costliest_check_is_in_the_picture() {
     let graded = graded("03-knock-with-position", "stays");
     let board = board(&graded, "knock");
     assert!(
-        board.contains("Lost: A push, not a blow (0 of 2)"),
+        board.contains("Lost: The can is pushed, not hit (0 of 2)"),
         "{board}"
     );
     assert!(!board.contains('`'));

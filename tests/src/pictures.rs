@@ -25,10 +25,10 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
     let bed = TestBed::new();
     bed.copy_labs();
     let both = ["--png", "--storyboard"];
-    let output = graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
+    let output = graded(&bed, "02-jacobian-velocity", "twitches", &both, "out");
     assert!(
         output.ends_with(
-            "\nstoryboard: out/warm-up/storyboard.png\nstoryboard: out/move/storyboard.png\n"
+            "\nstoryboard: out/line/storyboard.png\nstoryboard: out/through-the-shoulder/storyboard.png\n"
         ),
         "{output}"
     );
@@ -51,13 +51,13 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
     }
     assert!(pictures > 6, "{pictures}");
     // the same again, over the earlier report
-    graded(&bed, "01-kinematics", "first-goal-only", &both, "out");
+    graded(&bed, "02-jacobian-velocity", "twitches", &both, "out");
     assert!(files_below(&bed.path("out")) == files, "other bytes");
     let ran = bed.run(&["verify", "out"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     // pixels may differ between processors: a picture of another machine is one that its report lists
-    let path = "plots/move-path.png";
-    let other = "warm-up/storyboard.png";
+    let path = "plots/line-path.png";
+    let other = "line/storyboard.png";
     let list: serde_json::Value =
         serde_json::from_slice(of("report.json")).expect("the list of files");
     let digest = |path: &str| list["pixels"][path].as_str().expect("a digest");
@@ -67,18 +67,18 @@ fn every_plot_has_a_png_beside_it_and_every_run_a_storyboard() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     // one that was exchanged is found
     std::fs::copy(
-        bed.path("out/warm-up/storyboard.png"),
-        bed.path("out/move/storyboard.png"),
+        bed.path("out/line/storyboard.png"),
+        bed.path("out/through-the-shoulder/storyboard.png"),
     )
     .expect("copied");
-    std::fs::remove_file(bed.path("out/plots/move-path.png")).expect("removed");
+    std::fs::remove_file(bed.path("out/plots/line-path.png")).expect("removed");
     let ran = bed.run(&["verify", "out"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    for file in ["move/storyboard.png", "plots/move-path.png"] {
+    for file in ["through-the-shoulder/storyboard.png", "plots/line-path.png"] {
         assert!(ran.stdout.contains(&format!("file `{file}`")), "{ran:?}");
     }
     // without the options they are gone, and the rest is the same
-    graded(&bed, "01-kinematics", "first-goal-only", &[], "out");
+    graded(&bed, "02-jacobian-velocity", "twitches", &[], "out");
     let plain = files_below(&bed.path("out"));
     assert!(!plain.iter().any(|(name, _)| name.ends_with(".png")));
     // but for the list of the files

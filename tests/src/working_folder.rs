@@ -48,12 +48,24 @@ fn what_a_change_brought_is_said_and_the_best_is_kept() {
     bed.write("01-kinematics/submission.rhai", submission("good"));
     let said = grade();
     assert!(
-        said.contains("since the last grade: 1 to 24 of 24 points (+23); fk/position +5;"),
+        said.contains("since the last grade: 0 to 24 of 24 points (+24); fk/position +6;"),
+        "{said}"
+    );
+    // what can still be better is worth no points: the same run, and one that waits longer
+    assert!(said.contains("\nfull marks. "), "{said}");
+    assert!(said.contains("\n  move: at rest after "), "{said}");
+    assert!(!said.contains("your best"), "{said}");
+    let slower = submission("good").replace("time < 2.5", "time < 3.1");
+    bed.write("01-kinematics/submission.rhai", slower);
+    let said = grade();
+    assert!(
+        said.contains("at rest after ") && said.contains(" (your best: "),
         "{said}"
     );
     bed.write("01-kinematics/submission.rhai", submission("millimetres"));
     let said = grade();
-    assert!(said.contains("; fk/position -5"), "{said}");
+    assert!(!said.contains("full marks"), "{said}");
+    assert!(said.contains("; fk/position -6"), "{said}");
     assert!(said.contains("your best so far: 24\n"), "{said}");
     // the record and the report do not depend on it
     let record = std::fs::read(folder.join("out/grade.json")).expect("a record");
@@ -97,11 +109,11 @@ fn an_editor_reads_a_line_for_each_thing_that_went_wrong() {
     );
     let said = short();
     assert!(
-        said.starts_with("submission.rhai:3:7: error: warm-up: index 1 is past the end"),
+        said.starts_with("submission.rhai:3:7: error: move: index 1 is past the end"),
         "{said}"
     );
     assert!(
-        said.contains("\nsubmission.rhai:1:1: warning: warm-up/shoulder-turned: 0 of 1 points: joint `shoulder` did not move"),
+        said.contains("\nsubmission.rhai:1:1: warning: move/pose-reached: 0 of 5 points: "),
         "{said}"
     );
     assert!(said.ends_with(" of 24 points, crashed\n"), "{said}");
@@ -113,6 +125,46 @@ fn an_editor_reads_a_line_for_each_thing_that_went_wrong() {
     let said = short();
     assert!(said.starts_with("submission.rhai:2:"), "{said}");
     assert_eq!(said.lines().count(), 2, "{said}");
+}
+
+/// What VS Code lists under Problems: file, line, column, severity and message, as the task in `.vscode/tasks.json` reads them.
+fn problems(bed: &TestBed) -> Vec<[String; 5]> {
+    let folder = bed.path("01-kinematics");
+    let tasks = std::fs::read(folder.join(".vscode/tasks.json")).expect("tasks");
+    let tasks: serde_json::Value = serde_json::from_slice(&tasks).expect("JSON");
+    let task = &tasks["tasks"][0];
+    assert_eq!(task["command"], "kinemark");
+    let options = task["args"].as_array().expect("options").iter();
+    let options: Vec<&str> = options.filter_map(serde_json::Value::as_str).collect();
+    let pattern = &task["problemMatcher"]["pattern"];
+    let line = regex::Regex::new(pattern["regexp"].as_str().expect("a pattern")).expect("a regexp");
+    let group = |name: &str| usize::try_from(pattern[name].as_u64().expect(name)).expect("small");
+    let groups = ["file", "line", "column", "severity", "message"].map(group);
+    let said = bed.run_in(&folder, &options).stdout;
+    let found = said.lines().filter_map(|text| line.captures(text));
+    found
+        .map(|parts| groups.map(|group| parts[group].to_owned()))
+        .collect()
+}
+
+#[test]
+fn the_task_of_an_editor_reads_what_a_grade_prints() {
+    let bed = begun();
+    bed.write(
+        "01-kinematics/submission.rhai",
+        "fn control(observation) {\n    let a = [];\n    a[1]\n}\n",
+    );
+    let found = problems(&bed);
+    let first = found.first().expect("a problem");
+    assert_eq!(
+        first[..4],
+        ["submission.rhai", "3", "7", "error"].map(str::to_owned),
+        "{first:?}"
+    );
+    assert!(first[4].contains("index 1 is past the end"), "{first:?}");
+    assert!(found.iter().any(|problem| problem[3] == "warning"));
+    bed.write("01-kinematics/submission.rhai", submission("good"));
+    assert_eq!(problems(&bed), Vec::<[String; 5]>::new());
 }
 
 #[test]

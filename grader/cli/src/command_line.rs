@@ -20,7 +20,7 @@ use crate::worker;
 #[derive(Debug, Parser)]
 #[command(name = "kinemark", version = version(), max_term_width = 100)]
 #[command(args_conflicts_with_subcommands = true)]
-#[command(after_help = "Start with `kinemark new 01-kinematics`.\n\
+#[command(after_help = "Start with `kinemark new 00-step-response`.\n\
     Exit codes: 0 full marks or done, 1 points lost or answers with errors, 2 usage, 3 the lab, robot or scene is broken, \
     4 the grader or this machine failed.")]
 pub(crate) struct CommandLine {

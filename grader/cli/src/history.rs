@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use kinemark_course::working_folder::FOLDER_FILE;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::{difference_of_points, points};
+use kinemark_grader::record::run_figures::RunFigures;
+use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +33,9 @@ pub(crate) struct History {
     format: String,
     /// The best so far by lab; older entries go.
     best: BTreeMap<String, f64>,
+    /// The least figures of runs with full points, by lab and `TASK/FIGURE`.
+    #[serde(default)]
+    figures: BTreeMap<String, BTreeMap<String, f64>>,
     /// Oldest first.
     entries: Vec<Entry>,
     #[serde(skip)]
@@ -95,6 +100,7 @@ impl History {
         Self {
             format: FORMAT.to_owned(),
             best: BTreeMap::new(),
+            figures: BTreeMap::new(),
             entries: Vec::new(),
             path: PathBuf::new(),
         }
@@ -141,11 +147,52 @@ impl History {
         Some(words)
     }
 
+    /// What the runs took where nothing is left to earn, in words, each beside the least so far.
+    pub(crate) fn beyond(&self, grade: &Grade) -> Option<String> {
+        if grade.verdict != Verdict::Passed {
+            return None;
+        }
+        let best = self.figures.get(&grade.lab.name);
+        let mut words = String::new();
+        for task in &grade.tasks {
+            let figures = task.figures.iter().flat_map(|figures| figures.named());
+            let shown = figures.map(|(name, title, value, unit)| {
+                let best = best.and_then(|best| best.get(&format!("{}/{name}", task.name)));
+                let shown = RunFigures::shown(value, unit);
+                // what reads the same is the same
+                let other = best.map(|best| (*best, RunFigures::shown(*best, unit)));
+                match other.filter(|(_, words)| *words != shown) {
+                    Some((best, _)) if value < best => format!("{title} {shown} (your best yet)"),
+                    Some((_, words)) => format!("{title} {shown} (your best: {words})"),
+                    None => format!("{title} {shown}"),
+                }
+            });
+            let shown: Vec<String> = shown.collect();
+            if !shown.is_empty() {
+                let _ = writeln!(words, "  {}: {}", task.name, shown.join(", "));
+            }
+        }
+        let next = "`kinemark` in the folder above lists the labs and what is next.";
+        Some(match words.is_empty() {
+            true => format!("full marks. {next}\n"),
+            false => format!("full marks. {next}\nWorth no points, lower is better:\n{words}"),
+        })
+    }
+
     /// Adds a grade.
     pub(crate) fn add(&mut self, grade: &Grade) {
         let entry = Entry::of(grade);
         let best = self.best.entry(entry.lab.clone()).or_insert(entry.points);
         *best = best.max(entry.points);
+        let least = self.figures.entry(entry.lab.clone()).or_default();
+        for task in &grade.tasks {
+            let figures = task.figures.iter().flat_map(|figures| figures.named());
+            for (name, _, value, _) in figures {
+                let figure = format!("{}/{name}", task.name);
+                let known = least.entry(figure).or_insert(value);
+                *known = known.min(value);
+            }
+        }
         if self.entries.last() != Some(&entry) {
             self.entries.push(entry);
         }

@@ -39,7 +39,10 @@ impl Measured {
             || "nothing to measure".to_owned(),
             |value| with_unit_unlike(value, measure.full, unit),
         );
-        let margin = measure.margin().filter(|margin| *margin != 0.0);
+        // short of 0 by the value itself would be the same number twice
+        let margin = measure
+            .margin()
+            .filter(|margin| *margin != 0.0 && Some(-margin) != measure.value);
         Self {
             value,
             full: with_unit(measure.full, unit),

@@ -214,7 +214,7 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
         }
     }
     if let Some(kept) = stopped.kept {
-        line(out, &format!("  {}", kept_words(kept)));
+        line(out, &format!("  {}", kept_words(stopped, kept)));
     }
     if let Some(help) = &stopped.help {
         line(out, &format!("  {} {}", "next:".cyan(), visible(help)));
@@ -222,11 +222,13 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
 }
 
 /// What is kept of a run in which the submission failed.
-pub(crate) fn kept_words(kept: f64) -> String {
-    format!(
-        "The run went on with the last command; {} of what it earns count.",
-        with_unit(kept, "")
-    )
+pub(crate) fn kept_words(stopped: &Stopped, kept: f64) -> String {
+    let went_on = match stopped.tick {
+        Some(0) => "No command was ever returned, so the motors did nothing",
+        _ => "The run went on with the last command",
+    };
+    let kept = with_unit(kept, "");
+    format!("{went_on}. The task keeps {kept} of the points that this run earns.")
 }
 
 fn push_check(out: &mut String, check: &CheckGrade, task: &str) {

@@ -155,6 +155,7 @@ impl Grader<'_> {
                 rungs: Vec::new(),
             },
             divergence: None,
+            figures: None,
         }
     }
 

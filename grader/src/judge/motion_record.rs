@@ -13,6 +13,7 @@ use crate::record::grade::{
 use crate::record::graded::{AskedPath, Curve, Goal, TaskRun};
 use crate::record::names::{contacts, events};
 use crate::record::quantity::sum_of_points;
+use crate::record::run_figures::RunFigures;
 use crate::record::verdict::Verdict;
 
 /// The result of a motion task, visible and hidden runs together.
@@ -56,7 +57,19 @@ impl MotionResult {
                 .collect(),
             digests: self.digests.clone(),
             divergence: self.divergence.clone(),
+            figures: self.figures(judge, trace),
         }
+    }
+
+    /// What a run with full points took.
+    fn figures(&self, judge: &MotionJudge<'_>, trace: &Trace) -> Option<RunFigures> {
+        let gains = judge.work.servo.gains.iter();
+        let limits: Vec<f64> = gains.map(|gains| gains.effort_limit).collect();
+        let is_full = self.verdict == Verdict::Passed;
+        let stride = judge.work.periods.ticks_per_control.get() as usize;
+        is_full
+            .then(|| RunFigures::of(trace, stride, &limits))
+            .flatten()
     }
 
     /// The visible run, for renderers.

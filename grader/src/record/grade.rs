@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::record::run_figures::RunFigures;
 use crate::record::verdict::Verdict;
 
 /// The record version that this build writes.
@@ -168,6 +169,9 @@ pub struct TaskGrade {
     /// The first difference of a motion task's run that lost points from the reference solution's run; absent if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub divergence: Option<Divergence>,
+    /// What the visible run of a motion task with full points took; worth no points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figures: Option<RunFigures>,
 }
 
 /// The first control tick at which a run differs from the reference solution's. It is not a mistake by itself: another path or another

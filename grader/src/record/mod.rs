@@ -7,6 +7,7 @@ pub mod graded;
 pub mod hints;
 pub mod names;
 pub mod quantity;
+pub mod run_figures;
 #[cfg(any(test, feature = "sample"))]
 pub mod sample;
 pub mod staff_fault;

@@ -351,6 +351,7 @@ fn task(
             rungs: Vec::new(),
         },
         divergence: None,
+        figures: None,
     }
 }
 

@@ -82,29 +82,29 @@ test("the link of a moment opens there, paused", async () => {
 });
 
 test("a link to nowhere does no harm, and anchors of tasks keep working", async () => {
-  // what `move` shows, and what the page says of the link
+  // what the second task shows, and what the page says of the link
   const wrong = [
-    ["#task=nowhere&t=1", 0, /no task “nowhere”.*It has: .*move/],
-    ["#task=move", 0, /^$/],
-    ["#task=move&t=NaN", 0, /“NaN” of this link cannot be read/],
-    ["#task=move&t=-3", 0, /^$/],
-    ["#task=move&t=1e99", 0, /“1e99” of this link cannot be read/],
+    ["#task=nowhere&t=1", 0, /no task “nowhere”.*It has: .*line/],
+    ["#task=through-the-shoulder", 0, /^$/],
+    ["#task=through-the-shoulder&t=NaN", 0, /“NaN” of this link cannot be read/],
+    ["#task=through-the-shoulder&t=-3", 0, /^$/],
+    ["#task=through-the-shoulder&t=1e99", 0, /“1e99” of this link cannot be read/],
     ["#task=%E0%A4%A&t=1", 0, /no task/],
     ["#t=1", 0, /^$/],
     ["#%%%", 0, /^$/],
     ["#task=__proto__&t=1", 0, /no task “__proto__”/],
-    ["#task=move&t=1&t=2", 2, /^$/],
+    ["#task=through-the-shoulder&t=1&t=2", 2, /^$/],
   ];
   for (const [fragment, t, says] of wrong) {
-    await visit("01-kinematics", { fragment }, async (page) => {
+    await visit("02-jacobian-velocity", { fragment }, async (page) => {
       await soon(async () => {
-        assert.deepEqual(await page.evaluate(() => window.kinemark.replays.map((replay) => [replay.task, replay.shown().t])), [["warm-up", 0], ["move", t]], fragment);
+        assert.deepEqual(await page.evaluate(() => window.kinemark.replays.map((replay) => [replay.task, replay.shown().t])), [["line", 0], ["through-the-shoulder", t]], fragment);
         assert.match(await page.locator(".replay-notice p").allTextContents().then((all) => all.join("")), says, fragment);
       });
     });
   }
-  await visit("01-kinematics", { fragment: "#task-4" }, async (page) => {
-    await page.waitForFunction(() => document.getElementById("task-4").getBoundingClientRect().top < innerHeight && scrollY > 0);
+  await visit("02-jacobian-velocity", { fragment: "#task-3" }, async (page) => {
+    await page.waitForFunction(() => document.getElementById("task-3").getBoundingClientRect().top < innerHeight && scrollY > 0);
   });
 });
 

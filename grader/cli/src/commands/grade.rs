@@ -173,6 +173,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if !args.json && args.format == Format::Full {
         let change = history.as_ref().and_then(|(known, _)| known.change(grade));
         output::print_lines(&change.unwrap_or_default())?;
+        let beyond = history.as_ref().and_then(|(known, _)| known.beyond(grade));
+        output::print_lines(&beyond.unwrap_or_default())?;
         let report = output::path(&request.out.join(PAGE_FILE));
         output::print(&format!("report: {report}\n"))?;
         if let Some(loss) = kinemark_report::moment::look_first(grade) {

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::band::{measure_text, outcome};
+use super::beyond::has_full_marks;
 use super::foreign;
 use crate::text::points_at_hand_in;
 use crate::visible::visible;
@@ -76,7 +77,7 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
         0.0
     };
     html! {
-        header class="head" {
+        header class={ "head" @if has_full_marks(grade) { " won" } } {
             p class="eyebrow" { "Kinemark report" }
             h1 { (foreign(title)) }
             p class="by" { (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name)) }

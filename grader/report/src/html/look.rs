@@ -3,6 +3,7 @@
 use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
+use super::beyond::{has_full_marks, success};
 use super::head::anchor;
 use super::task::NOT_RUN;
 use super::viewer::seek;
@@ -12,8 +13,11 @@ use crate::stop_words::stop_of_whole_file;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
 use kinemark_grader::record::quantity::points;
 
-/// A card that shows what cost points first; nothing where nothing did, or where nothing is decided.
+/// A card that shows what cost points first, or that nothing did; nothing where nothing is decided.
 pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup {
+    if has_full_marks(grade) {
+        return success(grade, has_replay);
+    }
     let first = look_first(grade).filter(|_| grade.verdict.is_decided());
     let Some(loss) = first else {
         return html! {};

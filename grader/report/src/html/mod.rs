@@ -1,6 +1,7 @@
 //! The report: one file with everything in it, that asks nothing of the network and runs no code but the viewer's of its replays.
 
 mod band;
+mod beyond;
 mod comparison;
 mod explanation;
 pub mod feedback;
@@ -81,6 +82,7 @@ fn page_with_notice(
         (head(grade, title_of(graded), &look::look(grade, has_replay)))
         main {
             @if let Some(stop) = whole_file { (task::not_run(stop)) }
+            (beyond::beyond(graded))
             (scores(grade))
             @for (i, task) in grade.tasks.iter().enumerate() {
                 @match whole_file {

@@ -195,7 +195,7 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
             @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
-            @if let Some(kept) = stop.kept { p { (kept_words(kept)) } }
+            @if let Some(kept) = stop.kept { p { (kept_words(stop, kept)) } }
             @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
         }
     }
@@ -256,7 +256,7 @@ fn differing(differs: &Divergence, of: &TaskShown<'_>) -> Markup {
                 span { "signal " code { (foreign(&differs.signal)) } }
                 span { "less than " (visible(&with_unit(differs.tolerance, &differs.unit))) " apart counts as the same" }
             }
-            p { "This is where to look first, and no mistake by itself: another path, or another time, may be as right." }
+            p { "It is not a mistake by itself: another path, or another time, may be as right." }
         }
     }
 }
