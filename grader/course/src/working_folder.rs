@@ -3,6 +3,7 @@
 use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::submission::rhai::code_parts;
 use kinemark_grader::task::files::Files;
 use kinemark_report::brief_page::brief_page;
 use serde::{Deserialize, Serialize};
@@ -106,7 +107,11 @@ pub fn working_folder(
     let brief = with_numbers(&with_grading(&brief, lab), lab)
         .map_err(|why| WorkingFolderError::Brief { why })?;
     let brief = without_marks(&brief);
-    let page = brief_page(&lab.title, &brief);
+    let parts = |program: &str| {
+        let parts = code_parts(program).into_iter();
+        parts.map(|(part, at)| (part.name(), at)).collect()
+    };
+    let page = brief_page(&lab.title, &brief, &parts);
     let mut written = vec![
         (
             SUBMISSION_FILE.to_owned(),

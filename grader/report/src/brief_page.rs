@@ -5,6 +5,7 @@
 use maud::{DOCTYPE, PreEscaped, html};
 use pulldown_cmark::Parser;
 
+use crate::code_block::{CodeParts, coloured};
 use crate::formula::{MARKDOWN, drawn};
 
 /// What a browser may load for the page: its own styles, and pictures from its own folder.
@@ -12,10 +13,11 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src 'se
 
 /// The page of a brief in Markdown. Links to pictures stay as they are written, so the pictures must lie beside the page.
 ///
-/// A brief is its course's own text: HTML in it is kept.
-pub fn brief_page(title: &str, brief: &str) -> String {
+/// A brief is its course's own text: HTML in it is kept. Programs in it are coloured by `parts`.
+pub fn brief_page(title: &str, brief: &str, parts: CodeParts<'_>) -> String {
     let mut text = String::new();
-    pulldown_cmark::html::push_html(&mut text, Parser::new_ext(brief, MARKDOWN).map(drawn));
+    let events = Parser::new_ext(brief, MARKDOWN).map(drawn);
+    pulldown_cmark::html::push_html(&mut text, coloured(events, parts));
     // a wide table or a long line of a program scrolls by itself, the page does not
     let text = text
         .replace("<table>", "<div class=\"wide\"><table>")
@@ -46,7 +48,8 @@ mod tests {
     fn a_brief_keeps_its_tables_pictures_and_hints() {
         let page = brief_page(
             "Lab <1>",
-            "# Lab\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![the arm](frame.svg)\n\n<details>\n<summary>why</summary>\n\nso\n\n</details>\n\n```\nfn f() {}\n```\n\nWith $q^2$.\n",
+            "# Lab\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![the arm](frame.svg)\n\n<details>\n<summary>why</summary>\n\nso\n\n</details>\n\n```\nfn f() {}\n```\n\nWith $q^2$.\n\n```rust\nfn g() {}\n```\n",
+            &|_: &str| vec![("keyword", 0..2)],
         );
         for part in [
             "<title>Lab &lt;1&gt;</title>",
@@ -57,6 +60,7 @@ mod tests {
             "<summary>why</summary>",
             "<p>so</p>",
             "<pre><code>fn f() {}",
+            "<pre><code class=\"language-rust\"><span class=\"code-keyword\">fn</span> g() {}",
             "<p>With <math><msup><mi>q</mi><mn>2</mn></msup></math>.</p>",
         ] {
             assert!(page.contains(part), "{part}\n{page}");

@@ -6,6 +6,7 @@
 
 mod arithmetic;
 mod budget;
+mod code_parts;
 mod convert;
 mod copies;
 mod engine;
@@ -30,4 +31,5 @@ mod tests;
 mod vector;
 mod words;
 
+pub use code_parts::{CodePart, code_parts};
 pub use script::{STACK_BYTES, ScriptController, refused_name};
