@@ -68,10 +68,11 @@ export class ArmMarks {
     this.drawRings(project, seen && this.ellipse);
     const columns = this.jacobian ? this.world.columnsInWorld() : [];
     const taken: Box[] = [];
-    for (const arrow of this.arrows) {
+    const tips = this.arrows.map(({ joint }): readonly number[] => (this.jacobian ? [...this.at(project, columns[joint])] : origin));
+    this.arrows.forEach((arrow, i) => {
       arrow.group.style.display = seen && this.jacobian ? "" : "none";
-      if (this.jacobian) this.drawArrow(arrow, columns[arrow.joint], origin, project, taken);
-    }
+      if (this.jacobian) this.drawArrow(arrow, tips[i], origin, goesOn(tips[i], tips, origin), taken);
+    });
   }
 
   private at(project: Project, direction: readonly number[]): [number, number] {
@@ -80,8 +81,7 @@ export class ArmMarks {
     return this.spot;
   }
 
-  private drawArrow({ shaft, head, name, wide }: Arrow, column: readonly number[], [x, y]: readonly [number, number], project: Project, taken: Box[]): void {
-    const [tipX, tipY] = this.at(project, column);
+  private drawArrow({ shaft, head, name, wide }: Arrow, [tipX, tipY]: readonly number[], [x, y]: readonly [number, number], covered: boolean, taken: Box[]): void {
     const length = Math.hypot(tipX - x, tipY - y);
     const [ux, uy] = length > 0 ? [(tipX - x) / length, (tipY - y) / length] : [0, 0];
     const long = length >= SHORT;
@@ -94,9 +94,9 @@ export class ArmMarks {
     if (!long) return;
     const corner = (along: number, beside: number): string => `${(tipX - along * ux - beside * uy).toFixed(1)} ${(tipY - along * uy + beside * ux).toFixed(1)}`;
     head.setAttribute("d", `M${corner(0, 0)}L${corner(size, 0.45 * size)}L${corner(size, -0.45 * size)}Z`);
-    // beyond the tip, inside of the picture, and not over another name
+    // beyond the tip, or beside it where a longer arrow goes on there; inside of the picture, and not over another name
     const { clientWidth, clientHeight } = this.element;
-    let at = { x: tipX + ux * (wide + 4), y: tipY + uy * LINE, wide };
+    let at = covered ? { x: tipX - uy * (wide + 8), y: tipY + ux * LINE, wide } : { x: tipX + ux * (wide + 4), y: tipY + uy * LINE, wide };
     at.x = Math.min(clientWidth - wide, Math.max(wide, at.x));
     for (const other of taken) if (Math.abs(at.x - other.x) < wide + other.wide && Math.abs(at.y - other.y) < LINE) at = { ...at, y: other.y + (at.y < other.y ? -LINE : LINE) };
     at.y = Math.min(clientHeight - 0.5 * LINE, Math.max(0.5 * LINE, at.y));
@@ -119,4 +119,15 @@ export class ArmMarks {
       ring.setAttribute("d", `M${points.join("L")}Z`);
     });
   }
+}
+
+/** Whether another arrow of those from `origin` goes on behind a tip, so that it would run through what stands there. */
+function goesOn(tip: readonly number[], tips: readonly (readonly number[])[], [x, y]: readonly number[]): boolean {
+  const [dx, dy] = [tip[0] - x, tip[1] - y];
+  const length = Math.hypot(dx, dy);
+  return tips.some((other) => {
+    const [ox, oy] = [other[0] - x, other[1] - y];
+    const longer = Math.hypot(ox, oy);
+    return other !== tip && longer > length && dx * ox + dy * oy > 0.9 * length * longer;
+  });
 }

@@ -56,12 +56,15 @@ export async function draws(page) {
     await put(page, q);
     await frames(page, 3);
     // on a busy machine a picture is coarse at first: the one that stays
-    for (let before = await stage.screenshot(); ; ) {
+    let before = await stage.screenshot();
+    await soon(async () => {
       await page.waitForTimeout(400);
       const now = await stage.screenshot();
-      if (now.equals(before)) return now;
+      const same = now.equals(before);
       before = now;
-    }
+      assert.ok(same, "the picture moves by itself");
+    });
+    return before;
   };
   const { q } = await shown(page);
   const [a, b, again] = [await picture(q), await picture(q.map((x) => x + 0.3)), await picture(q)];
