@@ -218,10 +218,10 @@ reports() {
   reports_made=yes
 }
 
-# The viewer on pages made for it, and the pages of a class; .ci/full has the reports of all labs beside these.
+# The viewer on pages made for it, the pages of a class, and the briefs of all labs with their kinematics against the engine's; .ci/full has the reports of all labs beside these.
 step_browser_sample() {
   need browser || return 0
-  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/screen.test.mjs test/classes.test.mjs)
+  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
 }
 
 step_browser() {

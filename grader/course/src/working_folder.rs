@@ -1,10 +1,13 @@
 //! What a student begins a lab with: the starter, the brief with their numbers, its pictures, their variant, and files for editors.
 
-use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::lab::{Lab, TaskWork};
+use kinemark_grader::submission::rhai::code_parts;
 use kinemark_grader::task::files::Files;
-use kinemark_report::brief_page::brief_page;
+use kinemark_grader::task::model::Function;
+use kinemark_report::brief_page::{Brief, brief_page};
+use kinemark_report::replay::{ArmShows, LiveArm};
 use serde::{Deserialize, Serialize};
 
 use crate::editor_files::EDITOR_FILES;
@@ -108,7 +111,16 @@ pub fn working_folder(
     let brief = with_numbers(&with_grading(&brief, lab), lab)
         .map_err(|why| WorkingFolderError::Brief { why })?;
     let brief = without_marks(&brief);
-    let page = brief_page(&lab.title, &brief);
+    let parts = |program: &str| {
+        let parts = code_parts(program).into_iter();
+        parts.map(|(part, at)| (part.name(), at)).collect()
+    };
+    let page = brief_page(&Brief {
+        title: &lab.title,
+        text: &brief,
+        parts: &parts,
+        arm: LiveArm::of(&lab.robot, &lab.frame, arm_shows(lab)),
+    });
     let mut written = vec![
         (
             SUBMISSION_FILE.to_owned(),
@@ -130,6 +142,20 @@ pub fn working_folder(
     }
     written.extend(EDITOR_FILES.map(|(path, text)| (path.to_owned(), text.to_owned())));
     Ok(written)
+}
+
+/// What the arm of a brief shows from the start: what the lab asks for.
+fn arm_shows(lab: &Lab) -> ArmShows {
+    let functions = lab.tasks.iter().filter_map(|task| match &task.work {
+        TaskWork::Function(task, _) => Some(&task.function),
+        TaskWork::Motion(..) => None,
+    });
+    let functions: Vec<&Function> = functions.collect();
+    let asks_for = |is: fn(&Function) -> bool| functions.iter().any(|function| is(function));
+    ArmShows {
+        branches: asks_for(|function| matches!(function, Function::InverseKinematics)),
+        jacobian: asks_for(|function| matches!(function, Function::Jacobian(_))),
+    }
 }
 
 /// Whether a file of a lab's folder is a picture of its brief.

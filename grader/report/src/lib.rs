@@ -9,6 +9,7 @@
 )]
 
 pub mod brief_page;
+pub mod code_block;
 pub mod compare_text;
 pub mod explain_text;
 pub mod formula;

@@ -1,8 +1,8 @@
 // Links without a shape, as sticks from joint to joint: so an arm that is given by its lengths alone is visible.
 
-import type { Replay, SceneNode } from "./data";
+import type { SceneNode, Scenery } from "./data";
 import { place } from "./pose";
-import type { World } from "./world";
+import type { Placed } from "./world";
 
 export interface Bone {
   /** Node at whose origin it begins. */
@@ -17,7 +17,7 @@ const ORIGIN = [0, 0, 0];
 const bare = (node: SceneNode): boolean => node.shapes.length === 0 && (node.kind === "link" || node.kind === "ghost");
 
 /** The sticks of a run: from each link without a shape to the links that hang on it, or where none does to the frames on it. */
-export function bones(replay: Replay): Bone[] {
+export function bones(replay: Scenery): Bone[] {
   const { nodes, frames } = replay;
   const out: Bone[] = [];
   const hung = new Set<number>();
@@ -33,6 +33,6 @@ export function bones(replay: Replay): Bone[] {
 }
 
 /** Writes where a stick ends in the world; it begins at the origin of its node. */
-export function reach(out: Float64Array, world: World, bone: Bone): void {
+export function reach(out: Float64Array, world: Placed, bone: Bone): void {
   place(out, 0, world.poses, 7 * bone.to, bone.tip[0], bone.tip[1], bone.tip[2]);
 }

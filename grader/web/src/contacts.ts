@@ -1,6 +1,6 @@
 // Which contacts are marked, and how strongly: those of the arm are what a motion did, while a can also touches the shelf it stands on.
 
-import type { Replay, Vector } from "./data";
+import type { Scenery, Vector } from "./data";
 
 export interface ContactMark {
   readonly point: Vector;
@@ -15,7 +15,7 @@ export interface ContactMark {
 }
 
 /** The marks of a run, at most so many: those of the arm first, then by impulse. */
-export function contactMarks(replay: Replay, most: number): ContactMark[] {
+export function contactMarks(replay: Scenery, most: number): ContactMark[] {
   const links = replay.nodes.filter((node) => node.kind === "link").map((node) => node.name);
   // a second run's parties stand behind what that is called
   const arm = new Set([...links, ...links.map((name) => `${replay.ghostLabel}/${name}`)]);

@@ -107,15 +107,18 @@ export interface Replay {
   readonly ended: string | null;
 }
 
+/** What is drawn, without how it moved. */
+export type Scenery = Omit<Replay, "moves" | "task" | "title" | "joints">;
+
 const MOST_NODES = 1e6;
 
 /** Whether what is translucent is the reference's motion, and not another run's. */
-export function isReference(replay: Replay): boolean {
+export function isReference(replay: Scenery): boolean {
   return replay.ghostLabel === null || replay.ghostLabel === "reference";
 }
 
 /** A value of the JSON with the way to it, for what is said when it is not what it should be. */
-class Value {
+export class Value {
   constructor(
     private readonly value: unknown,
     private readonly where: string,
@@ -136,6 +139,11 @@ class Value {
 
   number(): number {
     if (typeof this.value !== "number" || !Number.isFinite(this.value)) throw this.wrong("a number");
+    return this.value;
+  }
+
+  yes(): boolean {
+    if (typeof this.value !== "boolean") throw this.wrong("yes or no");
     return this.value;
   }
 
@@ -216,7 +224,7 @@ class Value {
   }
 }
 
-function solid(value: Value, meshes: number): Solid {
+export function solid(value: Value, meshes: number): Solid {
   const box = value.of("box");
   if (!box.missing) return { kind: "box", size: box.numbers(3) };
   for (const kind of ["cylinder", "capsule"] as const) {
@@ -228,7 +236,7 @@ function solid(value: Value, meshes: number): Solid {
   return { kind: "mesh", mesh: value.of("mesh").index(meshes) };
 }
 
-function mesh(value: Value): Mesh {
+export function mesh(value: Value): Mesh {
   const raw = (key: string): ArrayBuffer => {
     const part = value.of(key);
     const data = part.decoded(() => bytes(part.text()));

@@ -3,8 +3,8 @@
 import { balls, farthest } from "./balls";
 import { bones, reach } from "./bones";
 import { place } from "./pose";
-import { World } from "./world";
-import type { Replay } from "./data";
+import type { Placed } from "./world";
+import type { Scenery } from "./data";
 
 /** Moments at which the run is looked at. */
 const MOMENTS = 32;
@@ -47,8 +47,7 @@ class Box {
   }
 }
 
-export function extent(replay: Replay): Extent {
-  const world = new World(replay);
+export function extent(replay: Scenery, world: Placed): Extent {
   const { ticks, stepS, nodes, meshes } = replay;
   const local = nodes.map((node) => node.shapes.map((shape) => balls(shape, meshes)));
   const core: number[] = [];

@@ -1,9 +1,9 @@
 // What of a ghost is worth drawing: not what stands where the run has the same, which would only tint it.
 
-import type { Replay, SceneNode } from "./data";
+import type { Scenery, SceneNode } from "./data";
 
 /** Whether a ghost's node never moves and a link of the run of the same shapes stands there as well. */
-export function hidden(replay: Replay, node: SceneNode): boolean {
+export function hidden(replay: Scenery, node: SceneNode): boolean {
   const { pose } = node;
   if (node.kind !== "ghost" || pose === null) return false;
   const shapes = JSON.stringify(node.shapes);

@@ -4,7 +4,7 @@ import { Vector3, type Camera } from "three";
 import type { Frame } from "./data";
 import { element } from "./dom";
 import { place } from "./pose";
-import type { World } from "./world";
+import type { Placed } from "./world";
 
 /** Frames whose axes have letters; of more one would see letters only. */
 const MOST_LETTERED = 6;
@@ -41,7 +41,7 @@ export class Labels {
     private readonly frames: readonly Frame[],
     /** How far from the origin the letters are \[m\]. */
     private readonly reach: number,
-    private readonly world: World,
+    private readonly world: Placed,
   ) {
     this.element.hidden = true;
     const lettered = frames.length <= MOST_LETTERED;

@@ -1,5 +1,7 @@
-// Where the page's replays begin: each is read for itself, so that a bad one does not stop the others.
+// Where the page's replays and arms begin: each is read for itself, so that a bad one does not stop the others.
 
+import { LiveArm } from "./arm";
+import { readArm } from "./arm_data";
 import { read } from "./data";
 import { element } from "./dom";
 import { Address, meant, parse, type Moment } from "./links";
@@ -21,6 +23,21 @@ function start(root: HTMLElement): void {
   } catch (error) {
     const why = error instanceof Error ? error.message : "its data cannot be read";
     root.replaceChildren(element("p", { class: "replay-note" }, `This replay cannot be shown: ${why}.`));
+    root.classList.add("off");
+  }
+}
+
+const arms: LiveArm[] = [];
+
+/** Where it fails, the page's own picture of the arm is still there. */
+function startArm(root: HTMLElement): void {
+  const text = document.getElementById(root.dataset.arm ?? "")?.textContent;
+  try {
+    if (!text) throw new Error("its data is missing from this page");
+    arms.push(new LiveArm(root, readArm(text)));
+  } catch (error) {
+    const why = error instanceof Error ? error.message : "its data cannot be read";
+    root.replaceChildren(element("p", { class: "replay-note" }, `The arm cannot be moved here: ${why}.`));
     root.classList.add("off");
   }
 }
@@ -49,6 +66,7 @@ function visit(moment: Moment | null, atOnce = false): void {
 }
 
 for (const root of document.querySelectorAll<HTMLElement>("[data-replay]")) start(root);
+for (const root of document.querySelectorAll<HTMLElement>("[data-arm]")) startArm(root);
 for (const replay of replays) {
   // one run is looked at at a time
   replay.cursor.on("changed", () => {
@@ -93,6 +111,7 @@ Object.assign(window, {
       seek: (t: number) => replay.cursor.seek(t),
       frameTimes: () => replay.cursor.frameTimes.list(),
     })),
+    arms: arms.map((arm) => ({ shown: () => arm.shown(), put: (q: number[]) => arm.put(q) })),
     /** How all replays stand, by task: for a page that loads itself anew. */
     state: (): Record<string, State> => {
       address.flush();

@@ -1,7 +1,8 @@
 // The frames that are shown by name: the robot's and, first, the lab's.
 
-import type { Frame, Replay } from "./data";
+import type { Frame, Scenery } from "./data";
 
-export function namedFrames(replay: Replay): readonly Frame[] {
-  return replay.frames.some((frame) => frame.name === replay.lab.name) ? replay.frames : [replay.lab, ...replay.frames];
+export function namedFrames(replay: Scenery): readonly Frame[] {
+  const named = replay.frames.filter(({ name }) => name !== "");
+  return named.some((frame) => frame.name === replay.lab.name) ? named : [replay.lab, ...named];
 }

@@ -40,9 +40,10 @@ export class Orbit implements Camera {
   constructor(
     private readonly extent: Extent,
     private readonly changed: () => void,
+    preset: Preset = "fit",
   ) {
     this.camera.matrixAutoUpdate = false;
-    this.put("fit", false);
+    this.put(preset, false);
   }
 
   /** Fits the picture to a shape \[px\]. */

@@ -16,6 +16,7 @@ import { bring } from "./sections";
 import { Side } from "./side";
 import { Stage } from "./stage";
 import type { Part, View } from "./view";
+import { webgl } from "./webgl";
 import { moment, seconds, eventWords } from "./words";
 import { World } from "./world";
 
@@ -59,7 +60,7 @@ export class Replay {
   ) {
     this.cursor = new Cursor(data);
     this.world = new World(data);
-    this.extent = extent(data);
+    this.extent = extent(data, new World(data));
     this.view = this.open();
     this.scrubber = new Scrubber(data, this.cursor, (event) => this.goTo(event));
     this.readout = new Readout(data, this.world);
@@ -256,20 +257,4 @@ export class Replay {
     });
     return { t: cursor.t, tick: cursor.tick, tcp: [...world.tcp], q: [...world.q], nodes };
   }
-}
-
-let able: boolean | null = null;
-
-/** Whether there is WebGL, asked once and given back at once, since contexts are few. */
-function webgl(): boolean {
-  if (able === null) {
-    try {
-      const context = document.createElement("canvas").getContext("webgl2");
-      able = context !== null;
-      context?.getExtension("WEBGL_lose_context")?.loseContext();
-    } catch {
-      able = false;
-    }
-  }
-  return able;
 }

@@ -20,7 +20,7 @@ import {
 } from "three";
 import { bones, reach, type Bone } from "./bones";
 import { contactMarks, coverAt, type ContactMark } from "./contacts";
-import type { Frame, Replay } from "./data";
+import type { Frame, Scenery } from "./data";
 import type { Extent } from "./extent";
 import { hidden } from "./ghosts";
 import { Grid } from "./ground";
@@ -30,7 +30,7 @@ import { Edges } from "./outline";
 import { geometry, tube } from "./shapes";
 import { colourOf, turn, turns, type Theme, type Turn } from "./theme";
 import type { Part } from "./view";
-import type { World } from "./world";
+import type { Placed } from "./world";
 
 /** Contacts that are marked. */
 const MOST_CONTACTS = 200;
@@ -66,8 +66,8 @@ export class RunScene {
   private readonly beside = new Vector3();
 
   constructor(
-    private readonly replay: Replay,
-    private readonly world: World,
+    private readonly replay: Scenery,
+    private readonly world: Placed,
     extent: Extent,
     theme: Theme,
   ) {
@@ -229,6 +229,7 @@ export class RunScene {
     const { world } = this;
     for (let i = 0; i < this.moving.length; i++) this.put(this.moving[i].object, this.moving[i].index);
     for (let i = 0; i < this.sticks.length; i++) this.stretch(this.sticks[i].bone, this.sticks[i].stick, this.sticks[i].ball);
+    if (world.there) this.leaveOut(world);
     this.write(this.lab, world.lab, 0);
     this.trail.now = world.progress;
     this.dot.matrix.setPosition(world.tcp[0], world.tcp[1], world.tcp[2]);
@@ -261,6 +262,12 @@ export class RunScene {
         this.write(this.axes[i].line, this.spot, 0);
       }
     }
+  }
+
+  /** Shows of what moves only what is there. */
+  private leaveOut(world: Placed): void {
+    for (const { object, index } of this.moving) object.visible = world.there?.(index) ?? true;
+    for (const { bone, stick, ball } of this.sticks) stick.visible = ball.visible = world.there?.(bone.to) ?? true;
   }
 
   /** Lays a stick from where it begins to where it ends. */

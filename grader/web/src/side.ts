@@ -4,7 +4,7 @@ import { balls, type Balls } from "./balls";
 import { bones, reach, type Bone } from "./bones";
 import { contactMarks, coverAt, type ContactMark } from "./contacts";
 import { drawing, element } from "./dom";
-import type { Frame, Replay } from "./data";
+import type { Frame, Scenery } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { hidden } from "./ghosts";
@@ -13,8 +13,8 @@ import { namedFrames } from "./named";
 import { pitchFor } from "./pitch";
 import { place } from "./pose";
 import { turns } from "./theme";
-import type { Part, View } from "./view";
-import type { World } from "./world";
+import type { Part, Project, View } from "./view";
+import type { Placed } from "./world";
 
 /** Points of a circle that stands for a ball. */
 const ROUND = 20;
@@ -48,10 +48,12 @@ export class Side implements View {
   private readonly unit: number;
   private first = true;
   private framesShown = false;
+  private readonly box: readonly number[];
+  drawnOver?: (project: Project) => void;
 
   constructor(
-    private readonly replay: Replay,
-    private readonly world: World,
+    private readonly replay: Scenery,
+    private readonly world: Placed,
     extent: Extent,
     label: string,
   ) {
@@ -63,6 +65,7 @@ export class Side implements View {
     const [low, high] = this.bounds(extent.hull);
     const margin = 0.06 * Math.max(high[0] - low[0], high[1] - low[1], 1e-3);
     const box = [low[0] - margin, low[1] - margin, high[0] - low[0] + 2 * margin, high[1] - low[1] + 2 * margin];
+    this.box = box;
     const g = (name: string): SVGGElement => drawing("g", { class: name });
     const grid = g("side-grid");
     const fixed = g("side-fixed");
@@ -117,6 +120,8 @@ export class Side implements View {
       this.frames.push({ frame, group, axes, name });
     }
     this.draw();
+    // what lies over the picture is in pixels
+    new ResizeObserver(() => this.drawnOver && this.invalidate()).observe(this.element);
   }
 
   private bounds(points: Float64Array): [number[], number[]] {
@@ -193,6 +198,10 @@ export class Side implements View {
     if (!this.labFixed && !this.first) this.drawLab();
     for (const outline of this.outlines) if (this.first || outline.moves) outline.path.setAttribute("d", this.outline(outline));
     this.first = false;
+    if (world.there) {
+      for (const { path, node } of this.outlines) path.style.display = world.there(node) ? "" : "none";
+      for (const { bone, line } of this.sticks) line.style.display = world.there(bone.to) ? "" : "none";
+    }
     for (const { bone, line } of this.sticks) {
       const [x1, y1] = this.flat(world.poses, 7 * bone.from);
       reach(this.spot, world, bone);
@@ -206,6 +215,18 @@ export class Side implements View {
     const tick = world.t / this.replay.stepS;
     for (const { dot, mark } of this.marks) dot.style.opacity = String(coverAt(mark, tick));
     if (this.framesShown) for (const one of this.frames) this.drawFrame(one);
+    this.drawnOver?.(this.project);
+  };
+
+  private readonly project: Project = (out, p) => {
+    const { clientWidth, clientHeight } = this.element;
+    const [left, top, width, height] = this.box;
+    // as preserveAspectRatio has it: whole, and in the middle
+    const scale = Math.min(clientWidth / width, clientHeight / height);
+    const [x, y] = this.flat(p);
+    out[0] = 0.5 * clientWidth + scale * (x - left - 0.5 * width);
+    out[1] = 0.5 * clientHeight + scale * (y - top - 0.5 * height);
+    return true;
   };
 
   /** A frame's axes as they are seen from the side, and its name where they are not. */

@@ -1,18 +1,18 @@
 // The run in 3D: a context while it is near the screen, and a picture only when something changed.
 
-import { PCFShadowMap, WebGLRenderer } from "three";
+import { PCFShadowMap, Vector3, WebGLRenderer } from "three";
 import { element } from "./dom";
-import type { Replay } from "./data";
+import type { Scenery } from "./data";
 import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { listen } from "./gestures";
 import { Labels } from "./labels";
-import { Orbit } from "./orbit";
+import { Orbit, type Preset } from "./orbit";
 import { onPixels } from "./pixels";
 import { RunScene } from "./scene";
 import { LIGHT, onTheme, theme } from "./theme";
-import type { Part, View } from "./view";
-import type { World } from "./world";
+import type { Part, Project, View } from "./view";
+import type { Placed } from "./world";
 
 /** Pixels of the picture in a pixel of the page, at most and at least. */
 const MOST_PIXELS = 2;
@@ -61,20 +61,23 @@ export class Stage implements View {
   private height = 0;
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
   private readonly undo: Array<() => void> = [];
+  private readonly point = new Vector3();
+  drawnOver?: (project: Project) => void;
 
   constructor(
-    replay: Replay,
-    world: World,
+    replay: Scenery,
+    world: Placed,
     extent: Extent,
     label: string,
     /** Called when the context is gone and cannot be restored. */
     private readonly lost: () => void,
+    preset: Preset = "fit",
   ) {
     this.element = element("div", { class: "replay-stage", tabindex: "0", role: "application", "aria-roledescription": "3D view", "aria-label": label });
     this.scene = new RunScene(replay, world, extent, theme());
     this.labels = new Labels(this.scene.frames, 1.1 * this.scene.axis, world);
     this.element.append(this.labels.element);
-    this.camera = new Orbit(extent, () => this.invalidate());
+    this.camera = new Orbit(extent, () => this.invalidate(), preset);
     listen(this.element, this.camera);
     const sizes = new ResizeObserver(() => this.resize());
     sizes.observe(this.element);
@@ -237,6 +240,15 @@ export class Stage implements View {
     this.scene.pose();
     this.drawn.renderer.render(this.scene.scene, this.camera.camera);
     if (this.parts.frames) this.labels.place(this.camera.camera);
+    this.drawnOver?.(this.project);
+  };
+
+  private readonly project: Project = (out, p) => {
+    const { point } = this;
+    point.set(p[0], p[1], p[2]).project(this.camera.camera);
+    out[0] = 0.5 * (1 + point.x) * this.width;
+    out[1] = 0.5 * (1 - point.y) * this.height;
+    return point.z <= 1;
   };
 
   /** The frame after a picture: how late it comes shows what the picture took. */

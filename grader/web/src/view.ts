@@ -17,12 +17,17 @@ export interface Camera {
   zoom(factor: number): void;
 }
 
+/** Writes where a point of the world lies in the picture \[px\]; false where it is behind the eye. */
+export type Project = (out: [number, number], p: ArrayLike<number>) => boolean;
+
 export interface View {
   readonly element: HTMLElement;
   /** Says that the moment or anything else changed; the picture is drawn at the next frame. */
   invalidate(): void;
   show(part: Part, on: boolean): void;
   readonly camera?: Camera;
+  /** Called after each picture, for what lies over it. */
+  drawnOver?: (project: Project) => void;
   /** A picture of the moment for paper, where the element does not print by itself. */
   picture?(): string | null;
 }

@@ -4,7 +4,23 @@ import { lastAt } from "./between";
 import type { Replay } from "./data";
 import { compose, normalize, place } from "./pose";
 
-export class World {
+/** Where everything is that is drawn. */
+export interface Placed {
+  /** Pose of every node in the world, seven numbers each. */
+  readonly poses: Float64Array;
+  readonly lab: Float64Array;
+  readonly tcp: Float64Array;
+  readonly tcpInWorld: Float64Array;
+  readonly t: number;
+  readonly progress: number;
+  frame(out: Float64Array, node: number | null, pose: readonly number[]): void;
+  /** Whether a node is there at all; without it all are. */
+  there?(node: number): boolean;
+  /** Goes to a moment. */
+  at(t: number): void;
+}
+
+export class World implements Placed {
   /** Pose of every node in the world, seven numbers each. */
   readonly poses: Float64Array;
   /** Pose of the lab frame in the world. */

@@ -44,6 +44,12 @@ pub(crate) fn policy(has_replays: bool, code: ViewerCode<'_>) -> String {
     )
 }
 
+/// What a browser may load for a page with the viewer in it whose pictures lie beside it.
+pub(crate) fn policy_with_pictures() -> String {
+    let inside = policy(true, ViewerCode::Inside);
+    inside.replace("img-src ", "img-src 'self' file: ")
+}
+
 /// The viewer's style sheet, where there are replays.
 pub(crate) fn style(has_replays: bool) -> Markup {
     PreEscaped(if has_replays { STYLE } else { "" }.to_owned())
@@ -61,6 +67,19 @@ pub(crate) fn place(index: usize, task: &str) -> Markup {
 /// The data of a replay.
 pub(crate) fn data(index: usize, json: &str) -> Markup {
     html! { script type="application/json" id=(id(index)) { (PreEscaped(json)) } }
+}
+
+/// The one arm of a page: its id, and the class by which it is drawn.
+const ARM: &str = "arm";
+
+/// Where the viewer puts an arm that its reader moves; empty, and without room, until then.
+pub(crate) fn arm_place() -> Markup {
+    html! { div class=(ARM) data-arm=(ARM) {} }
+}
+
+/// The data of that arm.
+pub(crate) fn arm_data(json: &str) -> Markup {
+    html! { script type="application/json" id=(ARM) { (PreEscaped(json)) } }
 }
 
 /// The viewer, once, after all data.

@@ -6,6 +6,7 @@
 
 mod arithmetic;
 mod budget;
+mod code_parts;
 mod convert;
 mod copies;
 mod engine;
@@ -34,4 +35,5 @@ mod words;
 /// Every function that a submission can call, with its arguments and what it does, as language servers of Rhai read it (`.d.rhai`).
 pub const DEFINITIONS: &str = include_str!("kinemark.d.rhai");
 
+pub use code_parts::{CodePart, code_parts};
 pub use script::{STACK_BYTES, ScriptController, refused_name};
