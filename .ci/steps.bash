@@ -18,7 +18,7 @@ install() { # PACKAGE...: of Debian
 }
 
 # --- what a machine may lack -------------------------------------------------------------------------------------------------
-# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, firefox, slurm, fuzz.
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, slurm, fuzz.
 
 not_run=()
 skip() { # WHAT, WHY: said at once and in the last line
@@ -88,6 +88,14 @@ target_is_there() { [ -d "$(rustc --print target-libdir --target "$1")" ]; }
 fetch_wasm() {
   command -v node >/dev/null || install nodejs || return 1
   target_is_there wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
+}
+# C for other systems
+what[zig]="what needs zig"
+why[zig]="ziglang and cargo-zigbuild of PyPI, which cannot be had here"
+fetch_zig() {
+  [ -x "$target/ci-zig/bin/cargo-zigbuild" ] && return
+  python3 -m venv "$target/ci-zig" >/dev/null 2>&1 || { install python3-venv && python3 -m venv "$target/ci-zig"; } || return 1
+  "$target/ci-zig/bin/pip" install --quiet --disable-pip-version-check ziglang==0.17.1 cargo-zigbuild==0.24.0
 }
 python=$target/ci-python/bin/python
 fetch_python() {

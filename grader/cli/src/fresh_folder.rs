@@ -1,7 +1,9 @@
 //! A folder that is written under another name beside its place and then put there, so that it is whole or not there; what was there
 //! before goes with it.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use kinemark_report::visible::visible;
 use tempfile::TempDir;
@@ -59,7 +61,7 @@ impl FreshFolder {
                 Some(folder) => std::fs::create_dir_all(folder),
                 None => Ok(()),
             };
-            if let Err(error) = moved.and_then(|()| std::fs::rename(old.join(path), &to)) {
+            if let Err(error) = moved.and_then(|()| rename(&old.join(path), &to)) {
                 // somebody's own: better an old folder too many than a lost file
                 let left = self.temporary.keep();
                 return Err(std::io::Error::other(format!(
@@ -75,20 +77,46 @@ impl FreshFolder {
     /// Puts it in its place and says where the earlier folder is, if there was one.
     fn swap(&self) -> std::io::Result<Option<PathBuf>> {
         if !self.out.exists() {
-            std::fs::rename(self.path(), &self.out)?;
+            rename(&self.path(), &self.out)?;
             return Ok(None);
         }
         if exchange(&self.path(), &self.out) {
             return Ok(Some(self.path()));
         }
         let old = self.temporary.path().join("old");
-        std::fs::rename(&self.out, &old)?;
-        std::fs::rename(self.path(), &self.out).inspect_err(|_| {
+        rename(&self.out, &old)?;
+        rename(&self.path(), &self.out).inspect_err(|_| {
             // put the earlier one back; the error is reported either way
-            let _ = std::fs::rename(&old, &self.out);
+            let _ = rename(&old, &self.out);
         })?;
         Ok(Some(old))
     }
+}
+
+/// Renames a folder. On Windows that fails while any file in it is open, and a scanner for viruses opens each file that was just written:
+/// there it is tried for a second.
+fn rename(from: &Path, to: &Path) -> std::io::Result<()> {
+    if cfg!(windows) {
+        patiently(|| std::fs::rename(from, to), std::thread::sleep)
+    } else {
+        std::fs::rename(from, to)
+    }
+}
+
+/// Tries again while access is denied, after 10, 20, 40 ... 640 ms.
+fn patiently(
+    mut attempt: impl FnMut() -> std::io::Result<()>,
+    mut sleep: impl FnMut(Duration),
+) -> std::io::Result<()> {
+    for doublings in 0..7 {
+        match attempt() {
+            Err(error) if error.kind() == ErrorKind::PermissionDenied => {
+                sleep(Duration::from_millis(10 << doublings));
+            }
+            done => return done,
+        }
+    }
+    attempt()
 }
 
 /// Exchanges two folders in one step, so that there is one at each place at any time; whether that worked.
@@ -187,4 +215,39 @@ pub(crate) fn refuse_foreign(
         }
     }
     Ok(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How often it is tried, how long it waits in all, and how it ends.
+    fn tried(denied: u32, then: ErrorKind) -> (u32, Duration, Option<ErrorKind>) {
+        let (mut attempts, mut waited) = (0, Duration::ZERO);
+        let ended = patiently(
+            || {
+                attempts += 1;
+                match attempts {
+                    now if now <= denied => Err(ErrorKind::PermissionDenied.into()),
+                    _ if then == ErrorKind::Other => Ok(()),
+                    _ => Err(then.into()),
+                }
+            },
+            |pause| waited += pause,
+        );
+        (attempts, waited, ended.err().map(|error| error.kind()))
+    }
+
+    #[test]
+    fn a_folder_that_is_open_elsewhere_is_waited_for_and_nothing_else_is() {
+        assert_eq!(tried(0, ErrorKind::Other), (1, Duration::ZERO, None));
+        let ended = tried(3, ErrorKind::Other);
+        assert_eq!(ended, (4, Duration::from_millis(70), None));
+        let ended = tried(0, ErrorKind::NotFound);
+        assert_eq!(ended, (1, Duration::ZERO, Some(ErrorKind::NotFound)));
+        // a second, and then it is said
+        let denied = Some(ErrorKind::PermissionDenied);
+        let ended = tried(u32::MAX, ErrorKind::Other);
+        assert_eq!(ended, (8, Duration::from_millis(1270), denied));
+    }
 }

@@ -1,6 +1,7 @@
 //! The output folder of `kinemark grade`: written beside its place under another name, then renamed, so that it is whole or not
 //! there; and read back by `kinemark verify`. What is in it is the table of outputs ([`kinemark_report::output`]).
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use kinemark_course::submission_source::SubmissionSource;
@@ -47,7 +48,14 @@ pub(crate) fn write(
                 out.display(),
                 plain(&error)
             ),
-            "free some space or choose another folder with --out; the grade above stands, and nothing half-written is left",
+            match error.kind() {
+                ErrorKind::PermissionDenied if cfg!(windows) => {
+                    "close what has a file of that folder open, or choose another with --out; the grade above stands"
+                }
+                _ => {
+                    "free some space or choose another folder with --out; the grade above stands, and nothing half-written is left"
+                }
+            },
         )
     };
     let fresh = FreshFolder::beside(out).map_err(failed)?;

@@ -39,6 +39,9 @@ const CPU_SECONDS: u64 = 50;
 /// Address space of a worker.
 #[cfg(unix)]
 const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
+/// How a process ends that Windows stops for Ctrl-C in its console (`STATUS_CONTROL_C_EXIT`).
+#[cfg(windows)]
+const ENDED_BY_CONTROL_C: i32 = 0xC000_013A_u32.cast_signed();
 /// A frame longer than this is no message of ours.
 const MOST_FRAME_BYTES: u32 = 64 << 20;
 
@@ -323,6 +326,11 @@ impl Worker {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
+        // a process without it cannot load some libraries of the system; it names the system's folder, and nothing of the user
+        #[cfg(windows)]
+        if let Some(root) = std::env::var_os("SystemRoot") {
+            command.env("SystemRoot", root);
+        }
         let mut child = command.spawn()?;
         let missing = || std::io::Error::other("no pipe to the worker");
         let input = BufWriter::new(child.stdin.take().ok_or_else(missing)?);
@@ -410,6 +418,11 @@ impl Worker {
                 Some(2) => return Stop::Interrupted,
                 _ => {}
             }
+        }
+        // as on Unix: Ctrl-C reaches every process of the console, and often the worker first
+        #[cfg(windows)]
+        if let Ok(Some(ENDED_BY_CONTROL_C)) = status.as_ref().map(std::process::ExitStatus::code) {
+            return Stop::Interrupted;
         }
         let ended = status.map_or_else(|error| error.to_string(), |status| status.to_string());
         let first = words.lines().next().unwrap_or_default().to_owned();
