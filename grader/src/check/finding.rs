@@ -116,6 +116,14 @@ impl Finding {
         self
     }
 
+    /// With a next step that comes before the lab's own question.
+    pub fn insisting(self) -> Self {
+        Self {
+            insists: true,
+            ..self
+        }
+    }
+
     /// With the value that the linear loop would have reached, if there is one to compare with.
     pub fn beside_prediction(mut self, predicted: Option<f64>) -> Self {
         if let Some(measure) = &mut self.measure {

@@ -12,10 +12,8 @@ pub(super) fn first_lost(finding: &Finding, periods: &Periods) -> Option<Instant
     let times = || finding.evidence.iter().filter_map(|fact| fact.time_s);
     let left = finding.curve.as_ref().zip(finding.statistic);
     let left = left.and_then(|(curve, statistic)| match statistic {
-        Statistic::Greatest => first_beyond(curve),
-        Statistic::RootMeanSquare => times()
-            .filter_map(|time_s| went_beyond(curve, time_s))
-            .min_by(f64::total_cmp),
+        // what is beyond the band first counts in the mean from then on
+        Statistic::Greatest | Statistic::RootMeanSquare => first_beyond(curve),
         Statistic::SoFar => went_beyond(curve, f64::INFINITY),
     });
     let time_s = left.or_else(|| times().min_by(f64::total_cmp))?;

@@ -1,9 +1,12 @@
 //! A motor at its limit while points are lost: the arm cannot do what the command asks.
 
 use kinemark_sim::control::Mode;
+use kinemark_sim::model::contact::Party;
 use kinemark_sim::text::number::{seconds, trimmed};
+use kinemark_sim::watch::ContactSpan;
 
 use super::{Cause, Lost};
+use crate::check::facts::MotionFacts;
 
 /// A motor at its limit gives this share of it.
 const AT_LIMIT: f64 = 0.999;
@@ -40,6 +43,9 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         }
     }
     let (joint, from, to) = longest?;
+    if let Some(cause) = blocked(facts, [from, to]) {
+        return Some(cause);
+    }
     let name = facts.joint_name(joint);
     let limit = facts.motion.servo.gains[joint].effort_limit;
     Some(Cause {
@@ -55,5 +61,30 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         question: Some(
             "Does your command jump there, or ask for more speed than the motors have?".to_owned(),
         ),
+    })
+}
+
+/// The arm presses on a body while a motor is at its limit: it cannot follow because something stands in its way.
+fn blocked(facts: &MotionFacts<'_>, [from, to]: [usize; 2]) -> Option<Cause> {
+    let mut contacts = facts.trace.contacts.iter().filter(|contact| {
+        let lasts = contact.last_tick - contact.first_tick;
+        let overlaps = contact.first_tick < to as u64 && contact.last_tick > from as u64;
+        overlaps && facts.motion.periods.time_s(lasts) >= LEAST_S
+    });
+    let link_first = |contact: &&ContactSpan| matches!(contact.parties[0], Party::Link(_));
+    let contact = contacts.find(link_first)?;
+    let [one, other] = contact.parties.map(|party| facts.names.party(party));
+    let tick = contact.first_tick as usize;
+    Some(Cause {
+        words: format!(
+            "`{one}` presses on `{other}` from {} to {}: the arm cannot follow the command there",
+            seconds(facts.motion.periods.time_s(contact.first_tick)),
+            seconds(facts.motion.periods.time_s(contact.last_tick)),
+        ),
+        signal: "contacts".to_owned(),
+        tick,
+        question: Some(format!(
+            "Where should the hand be when `{one}` meets `{other}`, and where is it?"
+        )),
     })
 }

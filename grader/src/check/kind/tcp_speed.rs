@@ -104,7 +104,10 @@ fn at_touch(facts: &MotionFacts<'_>, speeds: Vec<f64>, body: usize, band: Band) 
         let message = format!("the arm never touched `{name}`");
         return finding
             .with(facts.evidence(message, "contacts".to_owned(), facts.last_tick()))
-            .advise(format!("Lead the arm to `{name}`."));
+            .advise(format!(
+                "How near does the hand come to `{name}`, from which side, and where is it at the end of the run?"
+            ))
+            .insisting();
     };
     finding
         .shown_at(facts, || {

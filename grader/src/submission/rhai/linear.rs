@@ -204,7 +204,7 @@ fn square(meter: &Meter, name: &str, value: &Dynamic) -> Result<Matrix, Problem>
 fn singular() -> Problem {
     fault_with_help(
         "the matrix is singular: it has no inverse",
-        "a Jacobian is singular where the arm is straight or folded: stay away from there, or damp it",
+        "a Jacobian is singular where the arm is straight or folded; elsewhere `print` the matrix: which row or column is wrong?",
     )
 }
 

@@ -142,7 +142,7 @@ fn matrices_multiply_and_solve_as_in_linear_algebra() {
     ]);
     assert_eq!(
         words("inverse([[1, 2], [2, 4]])"),
-        "the matrix is singular: it has no inverse | a Jacobian is singular where the arm is straight or folded: stay away from there, or damp it"
+        "the matrix is singular: it has no inverse | a Jacobian is singular where the arm is straight or folded; elsewhere `print` the matrix: which row or column is wrong?"
     );
 }
 
