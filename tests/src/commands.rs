@@ -25,17 +25,21 @@ fn labs_are_listed_from_the_binary_alone() {
 #[test]
 fn a_student_starts_grades_and_sees_the_warm_up_pass() {
     let bed = TestBed::new();
-    let ran = bed.run(&["new", "01-kinematics"]);
+    let ran = bed.run(&["new", "00-step-response"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    let ran = bed.run(&["grade", "01-kinematics", "01-kinematics/submission.rhai"]);
+    let ran = bed.run(&[
+        "grade",
+        "00-step-response",
+        "00-step-response/submission.rhai",
+    ]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(
         ran.stdout.contains("practice: visible cases only"),
         "{ran:?}"
     );
-    assert!(ran.stdout.contains("\n1 of 24 points\n"), "{ran:?}");
+    assert!(ran.stdout.contains("\n1 of 30 points\n"), "{ran:?}");
     // nothing of a student's work is overwritten
-    let ran = bed.run(&["new", "01-kinematics"]);
+    let ran = bed.run(&["new", "00-step-response"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("already exists"), "{ran:?}");
 }

@@ -49,24 +49,17 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
     let cases = [
         (
             lab,
-            "duration_s = 3.0",
+            "duration_s = 8.0",
             "duraton_s = 3.0",
             "unknown key `duraton_s`",
             "did you mean `duration_s`?",
         ),
         (
             lab,
-            "duration_s = 3.0",
+            "duration_s = 8.0",
             "duration_s = \"3\"",
             "expected a number",
-            "lab.toml:23:14",
-        ),
-        (
-            lab,
-            "joint = \"shoulder\"",
-            "joint = \"sholder\"",
-            "no joint `sholder`",
-            "did you mean `shoulder`?",
+            "lab.toml:116:14",
         ),
         (
             lab,
@@ -87,7 +80,7 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
             "control_period_ms = 10.0",
             "control_period_ms = 10.5",
             "not an integer multiple",
-            "lab.toml:24",
+            "lab.toml:117",
         ),
         (
             lab,
@@ -126,14 +119,14 @@ fn typos_in_lab_and_robot_are_shown_at_their_place() {
         ),
         (
             lab,
-            "duration_s = 3.0",
+            "duration_s = 8.0",
             "duration_s = 1e9",
             "more than 900000 physics steps",
             "write 900 s at most",
         ),
         (
             lab,
-            "duration_s = 3.0",
+            "duration_s = 8.0",
             "duration_s = 3,5",
             "a comma in a number",
             "write 3.5: a decimal has a point",
@@ -343,11 +336,16 @@ fn an_empty_salt_is_reported_where_it_stands() {
 fn a_message_reads_like_this() {
     let bed = bed();
     bed.edit(
-        "labs/01-kinematics/lab.toml",
+        "labs/00-step-response/lab.toml",
         "joint = \"shoulder\"",
         "joint = \"sholder\"",
     );
-    reads("a_message_reads_like_this", &bed.run(&GRADE).stderr);
+    let ran = bed.run(&["grade", "00-step-response", "submission.rhai"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    for part in ["no joint `sholder`", "did you mean `shoulder`?"] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    reads("a_message_reads_like_this", &ran.stderr);
 }
 
 #[test]

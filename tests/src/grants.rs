@@ -163,7 +163,9 @@ fn what_is_not_granted_or_asked_wrongly_is_refused_with_help() {
         (
             "robot.gravity(q)",
             "`robot.gravity` is not granted in this task",
-            Some("write it yourself: the dimensions are in `robot`"),
+            Some(
+                "write it yourself: the dimensions are in `robot`; if this line is for another task, `observation.task` is compared with another name",
+            ),
         ),
         (
             "robot.jacobian(q)",

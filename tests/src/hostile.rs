@@ -19,7 +19,7 @@ const HOSTILE: [(&str, &str, &str); 8] = [
     ),
     (
         "recursion without end",
-        "forward_kinematics(robot, q)",
+        "position_loop(given)",
         "nested function calls",
     ),
     (

@@ -5,10 +5,10 @@ use crate::testbed::{Serving, TestBed};
 /// A bed with the starter of lab 1, graded into `folder`.
 fn graded(folder: &str) -> TestBed {
     let bed = TestBed::new();
-    assert_eq!(bed.run(&["new", "01-kinematics", "mine"]).code, Some(0));
+    assert_eq!(bed.run(&["new", "00-step-response", "mine"]).code, Some(0));
     let ran = bed.run(&[
         "grade",
-        "01-kinematics",
+        "00-step-response",
         "mine/submission.rhai",
         "--out",
         folder,
@@ -46,8 +46,8 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
     for (path, kind) in [
         ("/grade.json", "application/json"),
         ("/submission.rhai", "text/plain; charset=utf-8"),
-        ("/move/run.mcap", "application/octet-stream"),
-        ("/plots/move-path.svg", "image/svg+xml"),
+        ("/warm-up/run.mcap", "application/octet-stream"),
+        ("/plots/warm-up-joints.svg", "image/svg+xml"),
     ] {
         let answer = serving.get(path);
         assert_eq!(answer.code, 200, "{path}");
@@ -114,7 +114,7 @@ fn several_reports_are_listed_with_what_they_earned() {
     let list = serving.get("/");
     assert_eq!(list.code, 200, "{list:?}");
     assert!(!list.head.contains("script-src"), "a list runs nothing");
-    assert!(list.body.contains("1 of 24"), "{list:?}");
+    assert!(list.body.contains("1 of 30"), "{list:?}");
     assert!(
         list.body.contains("href=\"/s1%20%3Cb%3E/report.html\""),
         "{list:?}"
@@ -157,7 +157,7 @@ fn what_never_ends_is_not_waited_for() {
     pipe("out/grade.json");
     let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
     let list = serving.get("/");
-    assert!(list.body.contains("1 of 24"), "{list:?}");
+    assert!(list.body.contains("1 of 30"), "{list:?}");
     assert!(list.body.contains("/endless/report.html"), "{list:?}");
     assert!(!list.body.contains("/pipe/"), "{list:?}");
     assert_eq!(serving.get("/pipe/report.html").code, 404);

@@ -105,11 +105,11 @@ fn an_editor_reads_a_line_for_each_thing_that_went_wrong() {
     let short = || bed.run_in(&folder, &["grade", "--format", "short"]).stdout;
     bed.write(
         "01-kinematics/submission.rhai",
-        "fn control(observation) {\n    let a = [];\n    a[1]\n}\n",
+        "fn control(observation) {\n    let a = [];\n    a[1]\n}\nfn forward_kinematics(robot, q) { [0.0, 0.0, 0.0] }\nfn inverse_kinematics(robot, p) { [] }\n",
     );
     let said = short();
     assert!(
-        said.starts_with("submission.rhai:3:7: error: move: index 1 is past the end"),
+        said.contains("submission.rhai:3:7: error: move: index 1 is past the end"),
         "{said}"
     );
     assert!(
@@ -152,10 +152,11 @@ fn the_task_of_an_editor_reads_what_a_grade_prints() {
     let bed = begun();
     bed.write(
         "01-kinematics/submission.rhai",
-        "fn control(observation) {\n    let a = [];\n    a[1]\n}\n",
+        "fn control(observation) {\n    let a = [];\n    a[1]\n}\nfn forward_kinematics(robot, q) { [0.0, 0.0, 0.0] }\nfn inverse_kinematics(robot, p) { [] }\n",
     );
     let found = problems(&bed);
-    let first = found.first().expect("a problem");
+    let first = found.iter().find(|problem| problem[3] == "error");
+    let first = first.expect("an error");
     assert_eq!(
         first[..4],
         ["submission.rhai", "3", "7", "error"].map(str::to_owned),

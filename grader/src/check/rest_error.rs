@@ -158,12 +158,17 @@ impl<'a> Rest<'a> {
             .windows(2)
             .filter(|pair| above(pair[0]) != above(pair[1]));
         // what creeps passes its mean once, and what bounces once twice
-        if turns.count() < 3 {
+        let turns = turns.count();
+        if turns < 2 {
             return None;
         }
         let low = judged.iter().copied().fold(f64::INFINITY, f64::min);
         let high = judged.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let wide = high - low > STILL_NEARING * self.error.abs();
+        let least = match turns {
+            2 => 1.0,
+            _ => STILL_NEARING,
+        };
+        let wide = high - low > least * self.error.abs();
         if !wide {
             return None;
         }

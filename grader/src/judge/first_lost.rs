@@ -12,8 +12,12 @@ pub(super) fn first_lost(finding: &Finding, periods: &Periods) -> Option<Instant
     let times = || finding.evidence.iter().filter_map(|fact| fact.time_s);
     let left = finding.curve.as_ref().zip(finding.statistic);
     let left = left.and_then(|(curve, statistic)| match statistic {
-        // what is beyond the band first counts in the mean from then on
-        Statistic::Greatest | Statistic::RootMeanSquare => first_beyond(curve),
+        Statistic::Greatest => first_beyond(curve),
+        Statistic::RootMeanSquare => mean_left(curve).or_else(|| {
+            times()
+                .filter_map(|time_s| went_beyond(curve, time_s))
+                .min_by(f64::total_cmp)
+        }),
         Statistic::SoFar => went_beyond(curve, f64::INFINITY),
     });
     let time_s = left.or_else(|| times().min_by(f64::total_cmp))?;
@@ -31,6 +35,25 @@ fn first_beyond(curve: &Curve) -> Option<f64> {
     let mut samples = curve.t_s.iter().zip(&curve.values);
     let first = samples.find(|(_, value)| **value > full);
     first.map(|(t_s, _)| *t_s)
+}
+
+/// The start \[s\] of the stretch beyond the band of full points with which the root mean square so far left it for good. A start that
+/// is a little off and is made up for does not count.
+fn mean_left(curve: &Curve) -> Option<f64> {
+    let full = curve.full?;
+    let numbers = curve.t_s.iter().zip(&curve.values);
+    let numbers = numbers.filter(|(_, value)| !value.is_nan());
+    let (mut sum, mut count, mut since) = (0.0, 0.0, None);
+    for (t_s, value) in numbers {
+        sum += value * value;
+        count += 1.0;
+        if (sum / count).sqrt() <= full {
+            since = None;
+        } else {
+            since.get_or_insert(*t_s);
+        }
+    }
+    went_beyond(curve, since?)
 }
 
 /// The start \[s\] of the stretch beyond the band of full points that contains the last sample up to `until_s`; `None` if that sample is
@@ -68,6 +91,16 @@ mod tests {
     fn the_first_sample_beyond_counts_where_the_greatest_does() {
         assert_eq!(first_beyond(&curve(&[0.0, 1.0, 1.5, 0.5, 9.0])), Some(0.2));
         assert_eq!(first_beyond(&curve(&[0.0, 1.0, f64::NAN])), None);
+    }
+
+    #[test]
+    fn a_mean_is_left_where_it_does_not_come_back() {
+        // 1.5 at 0.1 s is made up for by 0.3 s; what begins at 0.4 s is not
+        let left = mean_left(&curve(&[0.0, 1.5, 0.5, 0.0, 1.2, 3.0, 0.9]));
+        assert_eq!(left, Some(curve(&[0.0; 5]).t_s[4]));
+        // from the first sample on, although the band is entered later
+        assert_eq!(mean_left(&curve(&[9.0, 3.0, 0.5, 0.5])), Some(0.0));
+        assert_eq!(mean_left(&curve(&[0.5, 1.2, f64::NAN, 0.5])), None);
     }
 
     #[test]

@@ -31,7 +31,7 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         signal: "tcp".to_owned(),
         tick,
         question: Some(
-            "In which order does the task have its goals, and in which do you visit them?"
+            "In which order does the task have its goals? If that is yours, too: which way does each of your angles turn its joint?"
                 .to_owned(),
         ),
     })

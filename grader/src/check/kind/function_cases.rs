@@ -107,7 +107,10 @@ impl FunctionCases {
                         name => name,
                     };
                     // of 0 there is no part
-                    let off = match as_slice(&expected[index].1).iter().all(|value| *value == 0.0) {
+                    let off = match as_slice(&expected[index].1)
+                        .iter()
+                        .all(|value| *value == 0.0)
+                    {
                         true => trimmed(relative, 4),
                         false => with_unit(relative, ""),
                     };

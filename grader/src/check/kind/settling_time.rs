@@ -126,7 +126,7 @@ mod tests {
             message,
             "joint `elbow` never settles: in the last 0.2 s it still goes from 1.8 rad to 2 rad"
         );
-        assert!(finding.next_step.starts_with("Come to rest sooner"));
+        assert!(finding.next_step.starts_with("What still drives it"));
         let swings = |t_s: f64| HandRow {
             q: [0.0, t_s.min(1.0) + 0.2 * libm::sin(50.0 * t_s)],
             ..HandRow::default()

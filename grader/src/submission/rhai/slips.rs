@@ -115,7 +115,7 @@ impl Stopped<'_> {
                 "`let` declares one variable at a time",
                 "write let a = p[0]; let b = p[1];",
             )
-        } else if is_missing(&[";", ")", ","]) && self.is_product() {
+        } else if is_missing(&[";", ")"]) && self.is_product() {
             (
                 "an operator is missing before this",
                 "for a product write *: 2 * x, a * (b + c)",

@@ -113,7 +113,7 @@ fn mistakes_are_reported_with_names_values_and_a_way_out() {
         ),
         (
             "observation.fk([1, 2])",
-            "`robot.fk` is not granted in this task | write it yourself: the dimensions are in `robot`",
+            "`robot.fk` is not granted in this task | write it yourself: the dimensions are in `robot`; if this line is for another task, `observation.task` is compared with another name",
         ),
     ]);
 }
@@ -234,7 +234,7 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
         ),
         (
             "if 1 > 2 { }\nelif\n1",
-            "a `;` is missing before this | write else if",
+            "this is written differently here | write else if",
         ),
         ("elif(1)", "`elif` is not a function | write else if"),
         (
@@ -265,7 +265,7 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
         ("let x = 1 + ;", "a value is missing before this `;`"),
         (
             "sin(1) = 2;",
-            "this cannot be set | on the left of `=` is a variable, an element or a key; == compares",
+            "this cannot be set | on the left of `=` is a variable, an element v[0] or m[0][1], or a key; list.push(x) appends; == compares",
         ),
         (
             "let = 3;",
