@@ -222,7 +222,7 @@ impl<'a> Response<'a> {
         let length_s = self.time_s((part.len() - 1) as f64);
         let last_s = seconds(length_s);
         let [begins, ends] = [part[0], part[part.len() - 1]];
-        let goes_one_way = low.min(high) == begins.min(ends) && low.max(high) == begins.max(ends);
+        let goes_one_way = low >= begins.min(ends) && high <= begins.max(ends);
         let mut message = format!(
             "{} never settles: in the last {last_s} it still goes from {} to {}",
             self.what(),
