@@ -44,7 +44,7 @@ const inData = (change) => (page) =>
     return open + JSON.stringify(data).replaceAll("<", "\\u003c") + close;
   }));
 
-const moves = 1;
+const moves = 0;
 const log = logsOf(join(folder, lab)).find(({ task }) => task === "move").path;
 const pose = (page) => check.poseOfTheTrace(page, moves, log);
 // broken on purpose it takes more than 5 ms, however fast the machine
