@@ -170,7 +170,7 @@ fn what_is_not_granted_or_asked_wrongly_is_refused_with_help() {
         (
             "robot.jacobian(q)",
             "`robot.jacobian` is not granted in this task",
-            Some("call your own: jacobian(robot, q)"),
+            Some("call your own: jacobian(robot, q), and do not ask `robot` inside it"),
         ),
         (
             "robot.fk([1, 2, 3])",

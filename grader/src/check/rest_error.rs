@@ -6,7 +6,7 @@ use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::dynamics::gravity_effort;
 use kinemark_sim::text::number::trimmed;
 
-use super::cause::{Law, gravity_term, wrong_setpoint};
+use super::cause::{Law, creeping_law, gravity_term, wrong_setpoint};
 use super::shape;
 use super::step_response::Response;
 
@@ -16,6 +16,10 @@ const LEAST_EFFORT: f64 = 1e-6;
 const SAME_EFFORT: f64 = 0.1;
 /// An error that shrinks by more than this share while it is judged is not at rest.
 const STILL_NEARING: f64 = 0.1;
+/// Another joint with this share of a joint's speed turns, too.
+const TURNS_TOO: f64 = 0.3;
+/// Nor is a joint that goes this share of the whole way in that time.
+const CREEPS_ON: f64 = 0.01;
 
 /// Why the joint of `response` rests beside `target`, where that can be said.
 pub(super) fn reason(response: &Response<'_>, target: f64) -> Option<Reason> {
@@ -106,12 +110,16 @@ impl<'a> Rest<'a> {
         self.command_is_beside()
             .or_else(|| self.is_of_another())
             .or_else(|| self.is_steered_elsewhere())
+            .or_else(|| self.creeps())
             .or_else(|| self.still_swings())
             .map(Reason::insists)
             .or_else(|| self.is_still_nearing())
             .or_else(|| match self.response.asked.of {
                 Fed::Position => self.gravity(),
-                Fed::Velocity => self.drag(),
+                Fed::Velocity => self
+                    .other_turns()
+                    .map(Reason::insists)
+                    .or_else(|| self.drag()),
             })
     }
 
@@ -147,6 +155,15 @@ impl<'a> Rest<'a> {
     fn is_steered_elsewhere(&self) -> Option<Reason> {
         let seen = wrong_setpoint(self.response)?;
         Reason::new(seen.words, seen.next_step)
+    }
+
+    /// What is returned brakes it so much that it is still on its way.
+    fn creeps(&self) -> Option<Reason> {
+        let seen = creeping_law(self.response)?;
+        Some(Reason {
+            moves: true,
+            ..Reason::new(seen.words, seen.next_step)?
+        })
     }
 
     /// It swings where it is judged: then its distance at two moments says nothing.
@@ -191,7 +208,9 @@ impl<'a> Rest<'a> {
         let response = self.response;
         let ends = [response.final_tick, self.last].map(|tick| response.values[tick]);
         let [then, now] = ends.map(|value| (value - self.target).abs());
-        let nears = then - now > STILL_NEARING * self.error.abs();
+        let way = (self.target - self.response.start).abs();
+        // far from its target a joint creeps by less than a share of what is left
+        let nears = then - now > (STILL_NEARING * self.error.abs()).min(CREEPS_ON * way);
         if !nears {
             return None;
         }
@@ -234,6 +253,25 @@ impl<'a> Rest<'a> {
             return Reason::new(format!("{reason}, and {seen}"), question).map(Reason::insists);
         }
         self.proportional(gravity, reason)
+    }
+
+    /// Another joint that turns at much of this one's speed: what it carries along takes effort of both.
+    fn other_turns(&self) -> Option<Reason> {
+        let (response, facts) = (self.response, self.response.facts);
+        let mut others = (0..facts.robot.n()).filter(|joint| *joint != response.asked.joint);
+        let (other, speed) = others.find_map(|joint| {
+            let speed = self.mean(|tick| facts.trace.qd.at(tick)[joint]);
+            let is_same = facts.units(joint).speed() == response.asked.unit();
+            (is_same && speed.abs() > TURNS_TOO * response.end.abs()).then_some((joint, speed))
+        })?;
+        let name = facts.joint_name(other);
+        Reason::new(
+            format!(
+                "joint `{name}` turns, too, at {}, and what it moves pushes on this one",
+                response.with_unit(speed)
+            ),
+            format!("What do you return for joint `{name}`, and should it turn?"),
+        )
     }
 
     /// A velocity that has to be kept up.

@@ -5,7 +5,7 @@ use kinemark_sim::control::Mode;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::text::number::{list, seconds, trimmed};
 
-use super::cause::{speed_term, wrong_setpoint};
+use super::cause::{creeping_law, speed_term, wrong_setpoint};
 use super::step_response::Response;
 use crate::task::value::Value;
 
@@ -45,6 +45,7 @@ pub(super) fn seen(response: &Response<'_>) -> Option<Seen> {
         .or_else(|| other_joint_spins(response))
         .or_else(|| wrong_setpoint(response))
         .or_else(|| speed_term(response))
+        .or_else(|| creeping_law(response))
         .or_else(|| lasting_swing(response))
 }
 
@@ -284,7 +285,7 @@ fn lasting_swing(response: &Response<'_>) -> Option<Seen> {
                 "Damp the swing: is a derivative term subtracted, `- kd * qd`? If it is, raise kd or lower kp and ki."
             }
             Fed::Velocity => {
-                "Lower the gains, and leave out a derivative of the speed: the feedback overcorrects."
+                "Which term of your law follows the swing? Feedback of the speed that is too strong overcorrects, and so does its derivative."
             }
         }
         .to_owned(),

@@ -251,7 +251,9 @@ impl<'a> Response<'a> {
                 Fed::Position => {
                     "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
                 }
-                Fed::Velocity => "Lower the gains: the feedback of the speed overcorrects.",
+                Fed::Velocity => {
+                    "Which term of your law follows the swing? Feedback of the speed that is too strong overcorrects."
+                }
             }
             .to_owned();
         }

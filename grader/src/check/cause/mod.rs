@@ -7,6 +7,7 @@
 mod angle_slip;
 mod answers_in_angles;
 mod answers_in_axes;
+mod clamped;
 mod compensation;
 mod degrees;
 mod elbow_alone;
@@ -28,7 +29,7 @@ mod wrong_term;
 
 pub(super) use self::law::Law;
 pub(super) use self::setpoint::wrong_setpoint;
-pub(super) use self::wrong_term::{gravity_term, speed_term};
+pub(super) use self::wrong_term::{creeping_law, gravity_term, speed_term};
 use super::facts::MotionFacts;
 use super::finding::Finding;
 use crate::attempt::answers::CaseFacts;
@@ -57,7 +58,7 @@ struct Lost<'a> {
 
 /// In the order in which they are looked for: what is wrong from the first call on, then what goes wrong on the way, then what is
 /// missing in the end.
-const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 11] = [
+const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 12] = [
     idle::seen,
     degrees::seen,
     goal_order::seen,
@@ -69,6 +70,7 @@ const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 11] = [
     no_stop::seen,
     late::seen,
     saturated::seen,
+    clamped::seen,
 ];
 
 /// The cause of a run that lost points, `first_lost` at the earliest.

@@ -1,16 +1,19 @@
-//! A term of a feedback law that works against the others: a brake that pushes, a compensation of gravity with the wrong sign or twice.
-//! It is read from what `control` returned.
+//! A term of a feedback law that works against the others: a brake that pushes, a brake beside which the error hardly pulls, a
+//! compensation of gravity with the wrong sign or twice. It is read from what `control` returned.
 
-use kinemark_sim::text::number::trimmed;
+use kinemark_sim::text::number::{seconds, trimmed};
 
 use super::Law;
 use crate::check::shape::Seen;
 use crate::check::step_response::Response;
+use crate::task::value::Value;
 
 /// How near a whole number of compensations is.
 const NEAR: f64 = 0.1;
 /// Time in which a brake that pushes shows \[s\].
 const SHOWS_S: f64 = 0.05;
+/// A joint with such a time constant, as a share of the run, is not there at its end: `exp(-1 / 0.5)` is an eighth of the way.
+const CREEPS: f64 = 0.5;
 
 /// A law whose effort grows with the speed of its own joint.
 pub(in crate::check) fn speed_term(response: &Response<'_>) -> Option<Seen> {
@@ -32,6 +35,58 @@ pub(in crate::check) fn speed_term(response: &Response<'_>) -> Option<Seen> {
         tick: tick.min(response.facts.last_tick()),
         next_step: "Which sign has the term with the speed? It should act against the motion."
             .to_owned(),
+    })
+}
+
+/// A law whose brake is so strong beside its pull that the joint creeps for as long as the run lasts.
+pub(in crate::check) fn creeping_law(response: &Response<'_>) -> Option<Seen> {
+    let law = Law::of(response)?;
+    let brake = -law.speed;
+    if law.error <= 0.0 || brake <= 0.0 {
+        return None;
+    }
+    // where the brake outweighs the inertia, the error shrinks by e in this time
+    let constant_s = brake / law.error;
+    let last = response.facts.last_tick();
+    let run_s = response.facts.time_s(last);
+    if constant_s < CREEPS * run_s {
+        return None;
+    }
+    let units = response.asked.units;
+    let mut words = format!(
+        "what `control` returns for joint `{}` pulls with {} {} for each {} of error and brakes with {} {} for each {} of speed, so an \
+         error shrinks with a time constant of {}",
+        response.name(),
+        trimmed(law.error, 1),
+        units.effort(),
+        units.position(),
+        trimmed(brake, 1),
+        units.effort(),
+        units.speed(),
+        seconds(constant_s),
+    );
+    let is = |value: f64, name: &str| {
+        number_of_target(response, name).is_some_and(|it| (value - it).abs() <= 0.01 * it.abs())
+    };
+    if is(law.error, "kd") && is(brake, "kp") {
+        words += "; these are the `kd` and the `kp` of the target, the other way round";
+    }
+    Some(Seen {
+        words,
+        tick: last,
+        next_step: "Which of your gains stands before the error, and which before the speed?"
+            .to_owned(),
+    })
+}
+
+/// A number of the task's target.
+fn number_of_target(response: &Response<'_>, wanted: &str) -> Option<f64> {
+    let Value::Map(entries) = &response.facts.motion.target else {
+        return None;
+    };
+    entries.iter().find_map(|(name, value)| match value {
+        Value::Number(value) if name == wanted => Some(*value),
+        _ => None,
     })
 }
 

@@ -61,7 +61,10 @@ impl Names {
             {
                 return (
                     format!("`robot.{name}` is not granted in this task"),
-                    Some(format!("call your own: {name}({})", parameters.join(", "))),
+                    Some(format!(
+                        "call your own: {name}({}), and do not ask `robot` inside it",
+                        parameters.join(", ")
+                    )),
                 );
             }
             return (
