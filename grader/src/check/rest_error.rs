@@ -16,10 +16,10 @@ const LEAST_EFFORT: f64 = 1e-6;
 const SAME_EFFORT: f64 = 0.1;
 /// An error that shrinks by more than this share while it is judged is not at rest.
 const STILL_NEARING: f64 = 0.1;
-/// Another joint with this share of a joint's speed turns, too.
-const TURNS_TOO: f64 = 0.3;
 /// Nor is a joint that goes this share of the whole way in that time.
 const CREEPS_ON: f64 = 0.01;
+/// Another joint with this share of a joint's speed turns, too.
+const TURNS_TOO: f64 = 0.3;
 
 /// Why the joint of `response` rests beside `target`, where that can be said.
 pub(super) fn reason(response: &Response<'_>, target: f64) -> Option<Reason> {

@@ -9,6 +9,8 @@ use super::{Cause, Lost};
 const LEAST_SHARE: f64 = 0.1;
 /// Other values than the limit that a law returns, at least: a constant, or a switch between two, limits nothing.
 const LEAST_OTHERS: usize = 20;
+/// A joint at rest gets the same effort from any law; one this fast does not \[rad/s or m/s\].
+const MOVES: f64 = 1e-3;
 /// A limit above this share of the motor's leaves it nearly all it has.
 const FAR_BELOW: f64 = 0.7;
 
@@ -26,7 +28,9 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         let motor = facts.motion.servo.gains[joint].effort_limit;
         let (at_limit, others): (Vec<usize>, Vec<usize>) =
             calls.iter().partition(|tick| returned(tick).abs() >= limit);
-        let often = at_limit.len() as f64 >= LEAST_SHARE * calls.len() as f64;
+        let moves = |tick: &&usize| facts.trace.qd.at(**tick)[joint].abs() > MOVES;
+        let often =
+            at_limit.iter().filter(moves).count() as f64 >= LEAST_SHARE * calls.len() as f64;
         let is_law = others.len() >= LEAST_OTHERS;
         (limit > 0.0 && limit < FAR_BELOW * motor && often && is_law)
             .then_some((joint, limit, at_limit))

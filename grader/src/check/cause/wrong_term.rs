@@ -12,7 +12,7 @@ use crate::task::value::Value;
 const NEAR: f64 = 0.1;
 /// Time in which a brake that pushes shows \[s\].
 const SHOWS_S: f64 = 0.05;
-/// A joint with such a time constant, as a share of the run, is not there at its end: `exp(-1 / 0.5)` is an eighth of the way.
+/// A joint with such a time constant, as a share of the run, still has `exp(-1 / 0.5)`, an eighth of its way, before it at the end.
 const CREEPS: f64 = 0.5;
 
 /// A law whose effort grows with the speed of its own joint.
