@@ -1,11 +1,13 @@
-//! tcp-speed: how fast the TCP is when the arm first touches a body, or at its fastest \[m/s\].
+//! tcp-speed: how fast the TCP is when the arm touches a body, or at its fastest \[m/s\].
 //!
 //! The speed at tick `k` is `|p[k] - p[k-1]| / h`, the mean over the physics step that ends there; at tick 0 the arm is at rest. At
-//! a touch it is that of the last step before the one in which the two first pressed, so the blow itself does not count. An arm that
-//! never touches has no such speed and earns nothing.
+//! a touch it is that of the last step before the one in which the two began to press, so the blow itself does not count. Of several
+//! touches the fastest counts, up to the body's first fall: a gentle touch does not pay for a blow after it. An arm that never touches
+//! has no such speed and earns nothing.
 
 use kinemark_sim::trace::Trace;
 
+use super::time_limit::fell;
 use crate::check::prelude::*;
 use crate::task::watched::TouchingParty;
 
@@ -31,7 +33,8 @@ problems! {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
-    /// The moment: `touch` (the first touch of `body` by any link) or `run` (whenever the speed is greatest).
+    /// The moment: `touch` (any link touches `body`, before `body` falls: the fastest of these touches) or `run` (whenever the speed is
+    /// greatest).
     at: Moment,
     /// A body of the scene, at a `touch`.
     body: Option<At<String>>,
@@ -63,7 +66,7 @@ impl MotionTable for Table {
 pub(crate) enum TcpSpeed {
     /// Whenever it is greatest.
     Greatest,
-    /// When the arm first touches the body of this index in the scene.
+    /// When the arm touches the body of this index in the scene, before it falls.
     AtTouch(usize),
 }
 
@@ -90,13 +93,23 @@ impl RunMeasure for TcpSpeed {
 
 fn at_touch(facts: &MotionFacts<'_>, speeds: Vec<f64>, body: usize, band: Band) -> Finding {
     let name = facts.names.body(body);
-    let touch = first_touch(facts, body);
+    let touches = touches(facts, body);
+    let at = |touch: &usize| speeds[touch.saturating_sub(1)];
+    // of touches at one speed the first
+    let fastest = touches.iter().rev().max_by(|a, b| at(a).total_cmp(&at(b)));
+    let touch = fastest.copied();
+    let nth = touch.map_or(0, |touch| touches.partition_point(|tick| *tick < touch));
     // the step that ends at the touch has the blow in it
     let before = touch.map(|tick| tick.saturating_sub(1));
     let value = before.map_or(f64::INFINITY, |tick| speeds[tick]);
-    let what = format!("when the arm first touches `{name}`");
+    let when = if nth == 0 { "first touches" } else { "touches" };
+    let what = format!("when the arm {when} `{name}`");
     let mut curve = facts.curve("speed of the TCP", "m/s", speeds, band);
-    let mark = touch.map(|tick| (facts.time_s(tick), "first touch".to_owned()));
+    let label = match nth {
+        0 => "first touch".to_owned(),
+        nth => format!("touch {}", nth + 1),
+    };
+    let mark = touch.map(|tick| (facts.time_s(tick), label));
     curve.marks = mark.into_iter().collect();
     let quantity = format!("speed of the TCP {what}");
     let finding = Finding::against(band, value, "m/s", quantity).drawn(curve);
@@ -135,12 +148,17 @@ fn speeds_m_s(trace: &Trace) -> Vec<f64> {
     (0..trace.len()).map(speed).collect()
 }
 
-/// The first touch of a body by any link.
-fn first_touch(facts: &MotionFacts<'_>, body: usize) -> Option<usize> {
+/// The first ticks of the touches of a body by any link, in order, up to its first fall.
+fn touches(facts: &MotionFacts<'_>, body: usize) -> Vec<usize> {
+    let until = fell(&facts.trace.events, body).unwrap_or(usize::MAX);
     let (arm, body) = (TouchingParty::Arm, TouchingParty::Body(body));
     let contacts = facts.trace.contacts.iter();
     let touches = contacts.filter(|contact| arm.meets(body, contact.parties));
-    touches.map(|contact| contact.first_tick as usize).min()
+    let ticks = touches.map(|contact| contact.first_tick as usize);
+    let mut ticks: Vec<usize> = ticks.filter(|tick| *tick <= until).collect();
+    ticks.sort_unstable();
+    ticks.dedup();
+    ticks
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ pub(crate) enum TimeLimit {
 }
 
 /// The tick of the first fall of a body.
-fn fell(events: &[Event], body: usize) -> Option<usize> {
+pub(super) fn fell(events: &[Event], body: usize) -> Option<usize> {
     let falls = events.iter().filter(|event| {
         matches!(event.kind, EventKind::BodyFell { .. }) && event.kind.body() == Some(body)
     });
