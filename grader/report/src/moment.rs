@@ -56,13 +56,15 @@ impl FirstLoss<'_> {
     }
 }
 
-/// Where the first task of the lab's order that lost points lost the first of them.
-pub fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
-    grade.tasks.iter().find_map(first_loss_of)
+/// Where the task that lost the most points lost the first of them; of tasks that lost as much the first in the lab's order.
+fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
+    let lost = |loss: &FirstLoss<'_>| loss.task.max_points - loss.task.points;
+    let losses = grade.tasks.iter().filter_map(first_loss_of);
+    losses.reduce(|a, b| if lost(&b) > lost(&a) { b } else { a })
 }
 
-/// Where to look first: in the first task of the lab's order that lost points what stopped it, else the cause that its whole run or all its
-/// answers show, else where it lost the first of them.
+/// Where to look first: in the task that lost the most points (see [`first_loss`]) what stopped it, else the cause that its whole run or all
+/// its answers show, else where it lost the first of them.
 pub fn look_first(grade: &Grade) -> Option<FirstLoss<'_>> {
     let first = first_loss(grade)?;
     let cause = cause_of(first.task).filter(|_| first.task.stopped.is_none());
@@ -133,6 +135,8 @@ mod tests {
     #[test]
     fn a_cause_is_looked_at_before_the_earliest_moment() {
         let mut grade = sample::graded().grade;
+        // the motion task, some of whose checks lost points
+        grade.tasks.drain(..3);
         let first = |grade: &Grade| {
             let loss = look_first(grade).expect("a loss");
             (
@@ -158,6 +162,26 @@ mod tests {
         assert_eq!(first(&grade), (before.0.clone(), Some(name)));
         let fragment = look_first(&grade).map(|loss| loss.fragment());
         assert_eq!(fragment, Some(format!("#task={}&t=7", before.0)));
+    }
+
+    #[test]
+    fn the_task_that_lost_most_is_looked_at_first() {
+        let mut grade = sample::graded().grade;
+        for task in &mut grade.tasks {
+            task.max_points = 6.0;
+            task.points = 4.0;
+        }
+        let lost = |grade: &Grade| first_loss(grade).expect("a loss").task.name.clone();
+        let losing: Vec<usize> = (0..grade.tasks.len())
+            .filter(|i| first_loss_of(&grade.tasks[*i]).is_some())
+            .collect();
+        let &[first, .., last] = &losing[..] else {
+            panic!("{losing:?}");
+        };
+        // of equal losses the first
+        assert_eq!(lost(&grade), grade.tasks[first].name);
+        grade.tasks[last].points = 3.9;
+        assert_eq!(lost(&grade), grade.tasks[last].name);
     }
 
     #[test]
