@@ -63,7 +63,7 @@ fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
     losses.reduce(|a, b| if lost(&b) > lost(&a) { b } else { a })
 }
 
-/// Where to look first: in the task that lost the most points (see [`first_loss`]) what stopped it, else the cause that its whole run or all
+/// Where to look first: in the task that lost the most points, of equal ones the first, what stopped it, else the cause that its whole run or all
 /// its answers show, else where it lost the first of them.
 pub fn look_first(grade: &Grade) -> Option<FirstLoss<'_>> {
     let first = first_loss(grade)?;
