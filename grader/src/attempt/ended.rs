@@ -207,7 +207,7 @@ impl Ended {
 }
 
 /// How a command is returned.
-const COMMAND_SHAPE: &str = "return a list with one number for each joint; of several solutions return one, such as `branches[0]`";
+const COMMAND_SHAPE: &str = "return one list with one number for each joint, [a, b], and no list in a list; of several solutions return one, such as `branches[0]`";
 
 /// A record of a hidden run or case. It has neither the submission's words nor the line that fails, because a chain of comparisons
 /// could reveal a hidden number through them.

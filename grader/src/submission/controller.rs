@@ -279,7 +279,7 @@ impl Budget {
             Self::OperationsPerTask => "operations in one task",
             Self::CallDepth => "nested function calls",
             Self::ExpressionDepth => "expressions inside each other",
-            Self::ListSize => "elements in one list",
+            Self::ListSize => "elements in one list, or in all of `this`",
             Self::TextSize => "characters in one string",
             Self::MapSize => "entries in one map",
             Self::SourceBytes => "bytes of source",

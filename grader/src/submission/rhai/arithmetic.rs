@@ -315,7 +315,7 @@ fn refuse(operator: Operator, left: &Dynamic, right: &Dynamic) -> Problem {
         "`()` means that nothing was set or returned: set what is in `this` in init, and end a function with `return`"
     } else {
         match (&a, &b) {
-            (Operand::Vector(_), Operand::Matrix(_)) => {
+            (Operand::Vector(_), Operand::Matrix(_)) if operator.symbol == "*" => {
                 "write the matrix first: m * v, or transpose(m) * v"
             }
             (Operand::Matrix(_), Operand::Matrix(_) | Operand::Vector(_))
@@ -325,6 +325,11 @@ fn refuse(operator: Operator, left: &Dynamic, right: &Dynamic) -> Problem {
             }
             (_, Operand::Matrix(_)) if operator.symbol == "/" => {
                 "solve(m, v) gives the x for which m * x is v"
+            }
+            (Operand::Vector(_), Operand::Matrix(_)) | (Operand::Matrix(_), Operand::Vector(_))
+                if matches!(operator.symbol, "+" | "-") =>
+            {
+                "a column of a matrix is no vector: write [a, b] or zeros(2) for a vector; col(m, 0) is the first column of m as one"
             }
             (Operand::Vector(_), Operand::Vector(_)) => {
                 "element by element needs as many on the left as on the right"

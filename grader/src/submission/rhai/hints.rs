@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::foreign;
 use super::places::Places;
+use super::unknown::Unknown;
 use crate::submission::controller::{Grant, SourcePosition};
 
 /// All names of one submission.
@@ -33,6 +34,8 @@ pub(super) struct Names {
     pub(super) given: BTreeSet<String>,
     /// Where functions, loops and declarations are.
     pub(super) places: Places,
+    /// Names that the file uses and nobody declares.
+    pub(super) unknown: Vec<Unknown>,
     /// Names of the parameters that hold this input.
     pub(super) given_parameters: BTreeSet<String>,
 }
@@ -178,7 +181,7 @@ impl Names {
         }
         if place.is_some_and(|place| self.places.is_declared_before(name, place)) {
             let help = format!(
-                "`{name}` ends with the block in which it is declared: write let {name} = 0; before it"
+                "`{name}` ends with the block in which it is declared: write let {name} = 0; before that block, and {name} = ...; without `let` inside it"
             );
             return (message, Some(help));
         }
@@ -199,6 +202,7 @@ impl Names {
         if is_set {
             let around = place.and_then(|place| self.places.around(place));
             let help = match around.map(|(function, _)| function) {
+                None => format!("outside of functions write const {name} = ...;"),
                 Some("init") => {
                     format!("write this.{name} = ...; what `let` declares is gone when `init` ends")
                 }
@@ -229,7 +233,24 @@ impl Names {
         }
     }
 
-    pub(super) fn unknown_key(&self, owner: Option<&str>, key: &str) -> Words {
+    /// The message for a key that the map `owner` at a place does not have.
+    pub(super) fn unknown_key(
+        &self,
+        owner: Option<&str>,
+        key: &str,
+        place: Option<SourcePosition>,
+    ) -> Words {
+        let function = place.and_then(|place| self.places.around(place));
+        let has_this = function.is_none_or(|(name, _)| matches!(name, "init" | "control"));
+        if owner == Some("this") && !has_this {
+            return (
+                format!("`this.{key}` is not known in this function"),
+                Some(
+                    "only `init` and `control` have `this`: take what is given as an argument, such as `robot`"
+                        .to_owned(),
+                ),
+            );
+        }
         if owner == Some("this") {
             return (
                 format!("`this.{key}` is not set yet"),
@@ -242,20 +263,29 @@ impl Names {
                 Some(owner) => format!("`{owner}` has no `{key}`"),
                 None => format!("the map has no `{key}`"),
             };
+            let both = both.chain(&self.target);
             return match nearest(key, both.map(String::as_str)) {
                 Some(near) => (format!("{message}: did you mean `{near}`?"), None),
-                None => (
+                None if self.target.is_empty() => (
                     message,
                     Some("get(map, key, otherwise) asks without failing".to_owned()),
                 ),
+                None => {
+                    let keys: Vec<&str> = self.target.iter().map(String::as_str).collect();
+                    let help = format!("`observation.target` has {} in this task", keys.join(", "));
+                    (message, Some(help))
+                }
             };
         };
         let owner = owner.unwrap_or("it");
         let message = format!("`{owner}` has no `{key}`");
-        let help = format!(
+        let mut help = format!(
             "it has {}",
             keys.iter().cloned().collect::<Vec<_>>().join(", ")
         );
+        if owner == "target" || self.target == *keys {
+            help += " in this task; if this line is for another one, `observation.task` is compared with another name";
+        }
         match nearest(key, keys.iter().map(String::as_str)) {
             Some(near) => (format!("{message}: did you mean `{near}`?"), Some(help)),
             None => (message, Some(help)),

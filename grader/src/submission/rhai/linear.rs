@@ -346,7 +346,15 @@ fn get_row(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Probl
 }
 
 fn set_row(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem> {
-    let row = vector("a row of a matrix", arguments[2])?;
+    let Operand::Vector(row) = Operand::of(arguments[2]) else {
+        return Err(fault_with_help(
+            format!(
+                "a row of a matrix is a list, got {}",
+                describe(arguments[2])
+            ),
+            "an element is m[0][1]; zeros(2) is a vector of 2, and zeros(2, 1) a matrix",
+        ));
+    };
     let place = std::mem::take(arguments[1]);
     let constant = arguments[0].is_read_only();
     let Some(mut matrix) = arguments[0].write_lock::<Matrix>() else {
@@ -391,7 +399,13 @@ pub(super) fn index(
             let text: &ImmutableString = &text;
             return Err(Problem::Fault(Fault {
                 message: format!("a {container} has no `{text}`"),
-                help: foreign::function(text),
+                help: match text.as_str() {
+                    "T" => Some(
+                        "leave it out: a vector is neither a row nor a column; dot(a, b) is the product of two"
+                            .to_owned(),
+                    ),
+                    text => foreign::function(text),
+                },
                 past_the_end: None,
             }));
         }

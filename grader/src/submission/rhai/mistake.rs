@@ -1,11 +1,12 @@
 //! Turns the engine's errors into messages for students: plain words, the position, what to do.
 
-use rhai::{Dynamic, EvalAltResult, ParseError, ParseErrorType, Position};
+use rhai::{Dynamic, Engine, EvalAltResult, ParseError, ParseErrorType, Position};
 
 use super::budget::{Meter, place};
 use super::foreign;
 use super::hints::{self, Names};
 use super::signs::Signs;
+use super::unknown::listed;
 use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
 /// The help for a fraction as an index.
@@ -56,6 +57,7 @@ pub(super) fn raise(problem: Problem, position: Position) -> Box<EvalAltResult> 
 }
 
 /// The context for the message of an error.
+#[derive(Clone, Copy)]
 pub(super) struct Context<'a> {
     pub(super) source: &'a str,
     pub(super) meter: &'a Meter,
@@ -72,6 +74,25 @@ impl Context<'_> {
         let rest: String = rest.collect();
         let rest = rest.strip_prefix(name).unwrap_or_default().trim_start();
         rest.starts_with('=') && !rest.starts_with("==")
+    }
+
+    /// Explains why the file does not compile, and what else is wrong further down.
+    pub(super) fn not_compiled(&self, engine: &Engine, error: &ParseError) -> Stop {
+        match self.parsing(error) {
+            Stop::DidNotBuild(mistake) => {
+                let further = self.further(engine, &mistake);
+                Stop::DidNotBuild(mistake.with_more("Further down, ", further))
+            }
+            other => other,
+        }
+    }
+
+    /// The mistake at which the parser stops, if it is one and no budget.
+    pub(super) fn parse_mistake(&self, error: &ParseError) -> Option<Mistake> {
+        match self.parsing(error) {
+            Stop::DidNotBuild(mistake) => Some(mistake),
+            _ => None,
+        }
     }
 
     /// Explains why the file does not compile.
@@ -101,6 +122,7 @@ impl Context<'_> {
         if let Some(budget) = self.meter.exhausted() {
             return self.over(budget, place);
         }
+        let mut unknown = None;
         let (message, help) = match inner {
             EvalAltResult::ErrorParsing(kind, position) => {
                 return self.parsing(&ParseError(Box::new(kind.clone()), *position));
@@ -112,14 +134,17 @@ impl Context<'_> {
             EvalAltResult::ErrorRuntime(thrown, _) => self.thrown(thrown, place),
             EvalAltResult::ErrorFunctionNotFound(signature, _) => {
                 let (name, arguments) = hints::signature(signature);
+                unknown = Some(name);
                 self.names.unknown_function(name, &arguments)
             }
             EvalAltResult::ErrorVariableNotFound(name, _) => {
                 let is_set = place.is_some_and(|place| self.is_set(name, place));
+                unknown = Some(name.as_str());
                 self.names.unknown_variable(name, place, is_set)
             }
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
-                self.names.unknown_key(self.owner_of(place).as_deref(), key)
+                self.names
+                    .unknown_key(self.owner_of(place).as_deref(), key, place)
             }
             EvalAltResult::ErrorDotExpr(text, _) => property_words(text),
             EvalAltResult::ErrorIndexingType(text, _) => (
@@ -127,7 +152,7 @@ impl Context<'_> {
                     "this cannot be indexed or set like that: {}",
                     type_words(text)
                 ),
-                None,
+                Some("v[0] is an element of a vector or list, m[0][1] one of a matrix; zeros(4) is a vector and zeros(4, 4) a matrix".to_owned()),
             ),
             EvalAltResult::ErrorUnboundThis(_) => (
                 "`this` is not known in this function".to_owned(),
@@ -180,11 +205,14 @@ impl Context<'_> {
             ),
             other => (plain(&other.to_string()), None),
         };
-        Stop::Crashed(Mistake {
+        let others = unknown
+            .and_then(|name| listed(&self.names.unknown, name, place.map(|place| place.line)));
+        let mistake = Mistake {
             message: shortened(message),
             place,
             help: help.map(shortened),
-        })
+        };
+        Stop::Crashed(mistake.with_more("Not known either: ", others))
     }
 
     /// Where a limit was reached, of which the engine knows only where the grader's call stands.
@@ -259,6 +287,23 @@ impl Context<'_> {
             line,
             column: self.line(line).map_or(1, |text| text.chars().count() + 1),
         })
+    }
+}
+
+impl Mistake {
+    /// This with `more` behind its help.
+    fn with_more(self, begins: &str, more: Option<String>) -> Self {
+        let Some(more) = more else {
+            return self;
+        };
+        let help = match self.help {
+            Some(help) => format!("{help}. {begins}{more}"),
+            None => format!("{begins}{more}"),
+        };
+        Self {
+            help: Some(help),
+            ..self
+        }
     }
 }
 

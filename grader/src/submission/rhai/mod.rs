@@ -29,6 +29,7 @@ mod signs;
 mod slips;
 #[cfg(test)]
 mod tests;
+mod unknown;
 mod vector;
 mod words;
 

@@ -3,7 +3,6 @@
 use rhai::{LexError, ParseErrorType};
 
 use super::foreign;
-use super::further::further;
 use super::hints::ENTRY_POINTS;
 use super::mistake::{Context, WHOLE_INDEX, plain, shortened};
 use super::signs::Signs;
@@ -17,20 +16,14 @@ impl Context<'_> {
     pub(super) fn unparsed(&self, kind: &ParseErrorType, place: Option<SourcePosition>) -> Mistake {
         let signs = Signs::of(self.source);
         let slip = place.and_then(|place| self.slip(kind, place, &signs));
-        let mistake = slip.unwrap_or_else(|| {
+        slip.unwrap_or_else(|| {
             let (message, help) = self.parse_words(kind, place, &signs);
             Mistake {
                 message: shortened(message),
                 place,
                 help: help.map(shortened),
             }
-        });
-        let further = place.and_then(|place| further(&signs, place));
-        let help = match (mistake.help, further) {
-            (Some(help), Some(further)) => Some(format!("{help}. Further down, {further}")),
-            (help, further) => help.or(further),
-        };
-        Mistake { help, ..mistake }
+        })
     }
 
     fn sign_at(&self, place: SourcePosition) -> Option<char> {

@@ -17,6 +17,7 @@ use super::list;
 use super::mistake::{Context, Problem, raise};
 use super::places::Places;
 use super::slips;
+use super::unknown::unknown;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
     SensorFacts, Stop, Value,
@@ -133,7 +134,7 @@ impl ScriptController {
         }
         let ast = engine
             .compile(source)
-            .map_err(|error| context.parsing(&error))?;
+            .map_err(|error| context.not_compiled(&engine, &error))?;
         refuse_known_slips(&ast)?;
         collect_names(&ast, &mut names, opening.function.as_deref());
 
@@ -488,4 +489,5 @@ fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
     names.local.extend(local);
     names.places = Places::of(ast);
     names.top_level = top_level;
+    names.unknown = unknown(ast, names, &[]);
 }

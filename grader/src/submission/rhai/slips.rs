@@ -94,6 +94,27 @@ impl Stopped<'_> {
                 "`\"\"\"` is not available here",
                 "a comment begins with //, or goes between /* and */",
             )
+        } else if after.starts_with("@(") {
+            (
+                "functions without a name are not available",
+                "write a function with a name: fn name(x) { ... }",
+            )
+        } else if after.starts_with("...") {
+            (
+                "`...` is not available here",
+                "leave it out: a statement goes on until its ;",
+            )
+        } else if let Some(found) = self.element_or_column(kind) {
+            found
+        } else if let Some(found) = self.of_rust(kind) {
+            found
+        } else if let Some(found) = self.of_javascript(kind) {
+            found
+        } else if self.word == "case" && self.before.trim().is_empty() {
+            (
+                "`case` is not available here",
+                "write if x == \"a\" { ... } else { ... }",
+            )
         } else if after.starts_with("::") || (self.sign == Some(':') && last == Some(':')) {
             (
                 "`::` is not available here",
@@ -157,6 +178,122 @@ impl Stopped<'_> {
         Some(self.slip(found.0, found.1))
     }
 
+    /// What of another language picks elements: `v(1:2)`, `J(:, k)`, `q[:2]`.
+    fn element_or_column(&self, kind: &ParseErrorType) -> Option<(&'static str, &'static str)> {
+        if self.sign != Some(':') {
+            return None;
+        }
+        let before = self.before.trim_end();
+        if matches!(kind, ParseErrorType::BadInput(_)) && before.ends_with(['(', '[', ',']) {
+            return Some((
+                "`:` is no index here",
+                "v[0..2] is the first two elements; col(m, k) reads a column, m[0][k] = x; sets one element of it",
+            ));
+        }
+        let is_parenthesis = matches!(kind, ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), ")" | ","));
+        let is_number = before.ends_with(|c: char| c.is_ascii_digit());
+        (is_parenthesis && is_number).then_some((
+            "elements are in square brackets",
+            "v[0..2] is the first two elements: counting starts at 0, and the end is not included",
+        ))
+    }
+
+    /// What Rust writes.
+    fn of_rust(&self, kind: &ParseErrorType) -> Option<(&'static str, &'static str)> {
+        let after = &self.line[self.before.len()..];
+        let before = self.before.trim_end();
+        let is_definition = self.line.trim_start().starts_with("fn ");
+        let word_before = before
+            .rsplit(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .next()
+            .unwrap_or_default();
+        if is_definition && (after.starts_with("->") || before.ends_with("->")) {
+            Some((
+                "functions have no return type",
+                "leave it out: fn name(x) { ... }",
+            ))
+        } else if is_definition && before.ends_with(['(', ',']) && self.sign == Some('&') {
+            Some((
+                "parameters are names alone",
+                "leave `&` and `mut` out, and `&mut self` too: what is kept between calls is in `this`",
+            ))
+        } else if self.word == "as" {
+            Some(("numbers need no conversion", "leave `as` and the type out"))
+        } else if self.sign == Some('!')
+            && self.line[self.before.len()..].starts_with(['!'])
+            && !word_before.is_empty()
+            && matches!(
+                kind,
+                ParseErrorType::MissingToken(..) | ParseErrorType::BadInput(_)
+            )
+            || (before.ends_with('!')
+                && before
+                    .trim_end_matches('!')
+                    .ends_with(char::is_alphanumeric))
+        {
+            Some((
+                "there are no macros",
+                "write [0.0, 0.0] or zeros(2) for vec![0.0; 2], print(x) for println!",
+            ))
+        } else if after.starts_with("f64") || after.starts_with("_f64") {
+            Some(("numbers have no types", "leave it out: write 1.0"))
+        } else {
+            None
+        }
+    }
+
+    /// What JavaScript and Python write.
+    fn of_javascript(&self, kind: &ParseErrorType) -> Option<(&'static str, &'static str)> {
+        let after = &self.line[self.before.len()..];
+        let line = self.line.trim_start();
+        let is_missing = |wanted: &[&str]| matches!(kind, ParseErrorType::MissingToken(token, _) if wanted.contains(&token.as_str()));
+        if self.line.contains("=>")
+            && is_missing(&[";", ")", ",", "}"])
+            && (after.starts_with("=>")
+                || self.line[self.before.len()..].contains("=>")
+                || self.before.contains("=>"))
+        {
+            Some((
+                "functions without a name are not available",
+                "write a function with a name: fn name(x) { ... }; go over a list with for x in list { ... }",
+            ))
+        } else if line.contains("lambda") && is_missing(&[")", ",", ";"]) {
+            Some((
+                "functions without a name are not available",
+                "write a function with a name: fn name(x) { ... }",
+            ))
+        } else if matches!(kind, ParseErrorType::VariableExpected)
+            && self.before.trim_end().ends_with("const")
+        {
+            Some((
+                "`const` declares one name at a time",
+                "write let a = p[0]; let b = p[1];",
+            ))
+        } else if is_missing(&[";"]) && self.sign == Some(',') && self.is_declaration_or_names() {
+            Some((
+                "one variable is set at a time",
+                "write let a = p[0]; let b = p[1];",
+            ))
+        } else if is_missing(&["{"]) && self.word == "is" {
+            Some((
+                "`is` is not available here",
+                "write x == () to ask whether x is nothing",
+            ))
+        } else {
+            None
+        }
+    }
+
+    /// Whether a `,` stands between values of one `let`, or between names that are set together: `let a = 1, b = 2`, `a, b = p`.
+    fn is_declaration_or_names(&self) -> bool {
+        let before = self.before.trim();
+        let is_declared = ["let ", "const "]
+            .iter()
+            .any(|word| before.starts_with(word));
+        let is_name = !before.is_empty() && before.chars().all(|c| c.is_alphanumeric() || c == '_');
+        (is_declared && before.contains('=')) || (is_name && self.line.contains('='))
+    }
+
     /// Whether two factors stand side by side, as on paper: `2 cos(x)`, `l1 cos(q)`, `2(a + b)`.
     fn is_product(&self) -> bool {
         let mut words = self
@@ -192,14 +329,14 @@ impl Stopped<'_> {
                 "write v[0..2]; v[1..len(v)] goes to the end",
             )),
             _ if in_list && self.sign == Some(';') => Some(self.slip(
-                "each row of a matrix is a list",
-                "write matrix([[1, 2], [3, 4]])",
+                "`;` does not separate elements here",
+                "write [a, b] for a vector, zeros(2) for two zeros, matrix([[1, 2], [3, 4]]) for a matrix",
             )),
             _ if in_list && self.word == "for" => Some(self.slip(
                 "a list is filled in a loop",
                 "write let x = []; for i in 0..3 { x.push(i); }",
             )),
-            (",", Some('"')) if self.before.ends_with('f') => Some(self.slip(
+            ("," | ";", Some('"')) if self.before.ends_with('f') => Some(self.slip(
                 "a string with values in it is written in backticks",
                 "write `x = ${x}`",
             )),
@@ -270,12 +407,23 @@ impl Stopped<'_> {
         opened.is_some_and(|(at, sign)| {
             let first = self.signs.first_after(at).map(|(_, sign)| sign);
             let returned = self.before.trim_start().starts_with("return");
-            sign == '{' && (first == Some('"') || self.before.contains('=') || returned)
+            let inside = self.before.rsplit('{').next().unwrap_or_default().trim();
+            let is_key = !inside.is_empty()
+                && self.before.contains('{')
+                && inside.chars().all(|c| c.is_alphanumeric() || c == '_');
+            sign == '{' && (first == Some('"') || self.before.contains('=') || returned || is_key)
         })
     }
 
     /// A `;` that is missing at the end of a line above.
     fn missing_semicolon(&self) -> Option<Mistake> {
+        // a function begins where a block should have ended
+        if self.word == "fn"
+            && let Some(opened) = self.signs.never_closed()
+        {
+            let message = format!("the `{{` of line {} is never closed", opened.line);
+            return Some(slip_at(opened, message, "write a } where its block ends"));
+        }
         let (last, _) = self.signs.last_before(self.place)?;
         let another_language = foreign::syntax(self.line, self.place.column).is_some()
             || self
@@ -288,10 +436,20 @@ impl Stopped<'_> {
     /// A `{` that is missing at the end of a line above.
     fn block_without_brace(&self) -> Option<Mistake> {
         let (last, _) = self.signs.last_before(self.place)?;
-        (last.line < self.place.line).then(|| {
-            let message = format!("a `{{` is missing at the end of line {}", last.line);
-            slip_at(behind(last), message, "a block is written { ... }")
-        })
+        if last.line == self.place.line {
+            return matches!(self.sign, Some(','))
+                .then(|| self.slip("a `{` is missing before this", "write if condition { ... }"));
+        }
+        let of_switch = self
+            .signs
+            .lines()
+            .any(|(line, text)| line == last.line && text.trim_start().starts_with("switch"));
+        let message = format!("a `{{` is missing at the end of line {}", last.line);
+        let help = match of_switch {
+            true => "write if x == \"a\" { ... } else if x == \"b\" { ... } else { ... }",
+            false => "a block is written { ... }",
+        };
+        Some(slip_at(behind(last), message, help))
     }
 
     /// The statement or element that ends with `last` needs a `sign` after it.

@@ -123,11 +123,11 @@ fn names_and_signs_of_other_languages_get_a_hint() {
     assert_words([
         (
             "np.sin(1)",
-            "variable `np` is not known here | functions are built in: write sin(x) and pi, without a prefix",
+            "variable `np` is not known here | functions are built in: write sin(x), pi and [1, 2], without a prefix",
         ),
         (
             "math.pi",
-            "variable `math` is not known here | functions are built in: write sin(x) and pi, without a prefix",
+            "variable `math` is not known here | functions are built in: write sin(x), pi and [1, 2], without a prefix",
         ),
         (
             "arctan2(1, 2)",
@@ -291,7 +291,7 @@ fn values_of_the_wrong_shape_and_names_out_of_sight_are_reported() {
         ),
         (
             "for i in 0..2 { let x = i; } x",
-            "variable `x` is not known here | `x` ends with the block in which it is declared: write let x = 0; before it",
+            "variable `x` is not known here | `x` ends with the block in which it is declared: write let x = 0; before that block, and x = ...; without `let` inside it",
         ),
         (
             "x; let x = 2;",
