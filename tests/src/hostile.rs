@@ -166,10 +166,13 @@ fn hidden_cases_are_not_counted_out_by_operations() {
 fn hidden_cases_cannot_be_read_out_of_a_report() {
     let bed = TestBed::new();
     bed.copy_labs();
-    // base_height is drawn anew in hidden cases: 2 in all visible ones
+    // base_height is drawn anew in hidden cases: 2 and 1.6 in visible ones
     bed.write(
         "submission.rhai",
         "fn forward_kinematics(robot, q) {
+    if robot.base_height == 1.6 {
+        return [q[0], q[1], 0.0];
+    }
     print(\"height\", robot.base_height);
     if robot.base_height != 2 {
         throw \"secret \" + robot.base_height;
@@ -177,6 +180,9 @@ fn hidden_cases_cannot_be_read_out_of_a_report() {
     [q[0], q[1], 0.0]
 }
 fn inverse_kinematics(robot, position) {
+    if robot.base_height == 1.6 {
+        return [0.0, 0.0];
+    }
     print(\"height\", robot.base_height);
     if robot.base_height != 2 { [robot.base_height] } else { [0.0, 0.0] }
 }

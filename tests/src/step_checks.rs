@@ -132,7 +132,7 @@ fn an_arm_that_stays_earns_nothing() {
         [&evidence[0]["message"], &evidence[1]["message"]],
         [
             "`control` returns [0, 0] at every call, which is the angles at which the arm starts",
-            "joint `elbow` hardly moved: it ends at 0 rad; 0.5 rad was asked for",
+            "joint `elbow` ends where it began, at 0 rad; 0.5 rad was asked for",
         ]
     );
     for name in ["peak", "rms", "work", "smooth", "calm"] {

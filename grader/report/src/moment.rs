@@ -4,7 +4,9 @@ use kinemark_sim::text::number::trimmed;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::visible::visible;
-use kinemark_grader::record::grade::{CheckGrade, Grade, Instant, Outcome, Stopped, TaskGrade};
+use kinemark_grader::record::grade::{
+    CheckGrade, Grade, Instant, Outcome, Stopped, TaskGrade, repair_first,
+};
 
 /// What does not stand for itself in a part of an address (RFC 3986, section 2.3).
 pub const ADDRESS_PART: &AsciiSet = &NON_ALPHANUMERIC
@@ -60,10 +62,17 @@ impl FirstLoss<'_> {
 fn first_loss(grade: &Grade) -> Option<FirstLoss<'_>> {
     let lost = |loss: &FirstLoss<'_>| loss.task.max_points - loss.task.points;
     let losses = grade.tasks.iter().filter_map(first_loss_of);
-    losses.reduce(|a, b| if lost(&b) > lost(&a) { b } else { a })
+    let most = losses.reduce(|a, b| if lost(&b) > lost(&a) { b } else { a })?;
+    // the function from which it makes its motion
+    let mut before = grade.tasks.iter().filter(|task| {
+        let wanted = repair_first(&task.name);
+        let mut checks = most.task.checks.iter();
+        checks.any(|check| check.next_step.as_deref() == Some(&wanted))
+    });
+    Some(before.find_map(first_loss_of).unwrap_or(most))
 }
 
-/// Where to look first: in the task that lost the most points, of equal ones the first, what stopped it, else the cause that its whole run or all
+/// Where to look first: in the task that lost the most points, of equal ones the first, or in the earlier one that this one says to repair first; there, what stopped it, else the cause that its whole run or all
 /// its answers show, else where it lost the first of them.
 pub fn look_first(grade: &Grade) -> Option<FirstLoss<'_>> {
     let first = first_loss(grade)?;
@@ -182,6 +191,12 @@ mod tests {
         assert_eq!(lost(&grade), grade.tasks[first].name);
         grade.tasks[last].points = 3.9;
         assert_eq!(lost(&grade), grade.tasks[last].name);
+        // but for the function from which it makes its motion
+        let name = grade.tasks[first].name.clone();
+        let mut checks = grade.tasks[last].checks.iter_mut();
+        let check = checks.find(|check| has_lost(check)).expect("a lost check");
+        check.next_step = Some(repair_first(&name));
+        assert_eq!(lost(&grade), name);
     }
 
     #[test]

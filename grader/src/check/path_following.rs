@@ -35,7 +35,7 @@ pub(super) struct FollowedSegment {
 pub(super) struct Sample {
     /// The tick.
     pub(super) tick: usize,
-    /// Progress within the length that counts \[m\].
+    /// Progress within the length that counts, from 0 to it \[m\].
     pub(super) progress_m: f64,
     /// Distance from the point at its progress \[m\].
     pub(super) deviation_m: f64,
@@ -183,7 +183,7 @@ fn segment(
         }
         samples.push(Sample {
             tick: first_tick + k,
-            progress_m: progress_m.clamp(low, high),
+            progress_m: progress_m.clamp(low, high) - low,
             deviation_m,
             back_m: progress_m - u,
             counts,
@@ -193,8 +193,8 @@ fn segment(
     let mut left_out_m = 0.0;
     if let ([begun, ..], [.., left]) = (&samples[..], &samples[..]) {
         for (p, a, b) in [
-            (p_tcp_m[0], low, begun.progress_m),
-            (p_tcp_m[p_tcp_m.len() - 1], left.progress_m, high),
+            (p_tcp_m[0], low, low + begun.progress_m),
+            (p_tcp_m[p_tcp_m.len() - 1], low + left.progress_m, high),
         ] {
             left_out_m += b - a;
             sum += squares(&(p - from), &along, a, b);
@@ -238,6 +238,31 @@ mod tests {
                 })
                 .collect(),
         }
+    }
+
+    #[test]
+    fn a_hand_that_stops_early_has_its_gap_at_the_end_of_what_counts() {
+        // along 1 m with 50 mm cut off each end, to 120 mm before the end
+        let p: Vec<Vector3<f64>> = (0..=88)
+            .map(|step| Vector3::new(0.01 * f64::from(step), 0.0, 0.0))
+            .collect();
+        let ends = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)];
+        let followed = segment(&p, 0, ends, 0.05);
+        let (gap, tick) = followed.longest_gap(0.02).expect("a gap");
+        assert!(
+            (gap[0] - 0.83).abs() < 1e-12 && (gap[1] - 0.9).abs() < 1e-12,
+            "{gap:?}"
+        );
+        assert_eq!(tick, 88);
+        assert!((followed.left_out_m - 0.07).abs() < 1e-12);
+        assert!((followed.passed_m(0.02) - 0.83).abs() < 1e-12);
+        // what is begun late has it at the beginning
+        let followed = segment(&p[20..], 20, ends, 0.05);
+        let (gap, _) = followed.longest_gap(0.02).expect("a gap");
+        assert!(
+            (gap[0]).abs() < 1e-12 && (gap[1] - 0.15).abs() < 1e-12,
+            "{gap:?}"
+        );
     }
 
     #[test]

@@ -313,8 +313,10 @@ impl<'a> Rest<'a> {
         } else if given * error < 0.0 && error.abs() > 1e-9 {
             // no feedback of the error alone gives that
             Reason::new(
-                format!("{reason}, and the motor gives it on the far side of the target"),
-                "Check sign and size of what you add to the feedback: it holds the joint beside its target.",
+                format!(
+                    "{reason}, and the motor gives it although feedback of this error alone would push the other way"
+                ),
+                "Look at what you add to the feedback, and at the setpoint that its error is measured from: together they hold the joint beside its target.",
             )
         } else if error.abs() > 1e-9 {
             Reason::new(

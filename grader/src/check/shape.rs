@@ -130,7 +130,7 @@ fn away(response: &Response<'_>) -> Option<Seen> {
         ),
         tick,
         next_step:
-            "Which sign has your error? It is the target minus what is measured, and what acts against it is added."
+            "Which sign has the error in your law, the target minus what is measured? It should pull the joint to its target."
                 .to_owned(),
     })
 }
@@ -285,7 +285,7 @@ fn lasting_swing(response: &Response<'_>) -> Option<Seen> {
                 "Damp the swing: is a derivative term subtracted, `- kd * qd`? If it is, raise kd or lower kp and ki."
             }
             Fed::Velocity => {
-                "Which term of your law follows the swing? Feedback of the speed that is too strong overcorrects, and so does its derivative."
+                "Which term of your law follows the swing? Feedback that is too strong overcorrects, and so does its derivative."
             }
         }
         .to_owned(),
@@ -320,7 +320,7 @@ mod tests {
             "{message}"
         );
         assert!(
-            next_step.starts_with("Which sign has your error?"),
+            next_step.starts_with("Which sign has the error in your law"),
             "{next_step}"
         );
         // one that turns back is no such

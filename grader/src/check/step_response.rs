@@ -182,13 +182,13 @@ impl<'a> Response<'a> {
         });
         let message = if self.step().abs() < LEAST_STEP {
             format!(
-                "{} hardly moved: it ends at {}{asked}",
+                "{} ends where it began, at {}{asked}",
                 self.what(),
                 self.with_unit(self.end)
             )
         } else {
             format!(
-                "{} did not go to its target: it starts at {} and ends at {}{asked}",
+                "{} is not at its target at the end: it starts at {} and ends at {}{asked}",
                 self.what(),
                 self.with_unit(self.start),
                 self.with_unit(self.end)

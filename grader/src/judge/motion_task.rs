@@ -21,7 +21,9 @@ use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck, cause};
 use crate::lab::staff::Mutant;
 use crate::lab::{Task, TaskWork};
-use crate::record::grade::{CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome};
+use crate::record::grade::{
+    CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome, repair_first,
+};
 use crate::record::graded::Curve;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
@@ -306,9 +308,7 @@ fn name_cause(
         }
         if let Some(task) = unsolved {
             finding.insists = true;
-            finding.next_step = format!(
-                "Task `{task}` has lost points. If this run uses the same function, repair that first."
-            );
+            finding.next_step = repair_first(task);
         }
     }
     let title = &judge.checks[first].title;

@@ -125,6 +125,11 @@ pub enum TaskKind {
     Motion,
 }
 
+/// What is asked where a task makes its motion from the function of an earlier one that lost most of its points.
+pub fn repair_first(task: &str) -> String {
+    format!("Task `{task}` has lost points. If this run uses the same function, repair that first.")
+}
+
 /// One task, graded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -154,6 +154,19 @@ pub struct MotionTask {
     pub paths: Vec<PathToFollow>,
 }
 
+impl MotionTask {
+    /// The number that the task's target has under this name.
+    pub fn target_number(&self, wanted: &str) -> Option<f64> {
+        let Value::Map(entries) = &self.target else {
+            return None;
+        };
+        entries.iter().find_map(|(name, value)| match value {
+            Value::Number(number) if name == wanted => Some(*number),
+            _ => None,
+        })
+    }
+}
+
 /// A place the TCP is to reach and to stay at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionGoal {

@@ -75,6 +75,19 @@ impl AngleSlip {
         }
     }
 
+    /// What to ask where angles are given, and taken for others.
+    pub(super) fn question_of_given(self, robot: &Robot) -> String {
+        match self {
+            Self::Degrees => "In which unit are the angles that you are given, and in which does `sin` take them?".to_owned(),
+            Self::Exchanged(_) | Self::AllSigns | Self::Sign(_) => format!(
+                "Which of the angles that you are given is that of joint `{}`, and with which sign does each stand in your formula?",
+                joint_name(robot, 0)
+            ),
+            Self::FromAxis(_) => self.question(robot),
+        }
+    }
+
+    /// What to ask where angles are returned.
     pub(super) fn question(self, robot: &Robot) -> String {
         let name = |joint| joint_name(robot, joint);
         match self {

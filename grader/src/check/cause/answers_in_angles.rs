@@ -88,6 +88,6 @@ fn of_forward(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             "all {count} wrong positions are where the arm would be if {}",
             slip.in_words(robot)
         ),
-        question: slip.question(robot),
+        question: slip.question_of_given(robot),
     })
 }

@@ -84,24 +84,53 @@ fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             });
         }
     }
-    let step = wrong[0].0 - wrong[0].1;
-    let moved = |p: Vector3<f64>| p - step;
     // a step that a right answer does not have is no step of all
-    (answers.right.is_empty() && step.norm() > LEAST_STEP_M && all(&moved)).then(|| {
-        CauseOfAnswers {
-            words: format!(
-                "all {count} positions are off by the same step, {} m along x, y, z",
-                list(step.as_slice())
+    answers
+        .right
+        .is_empty()
+        .then(|| step(answers, &wrong))
+        .flatten()
+}
+
+/// All positions are off by the same step; with arms of other sizes along the same axis, by what belongs to these.
+fn step(answers: &Answers<'_>, wrong: &[(Vector3<f64>, Vector3<f64>)]) -> Option<CauseOfAnswers> {
+    let steps = wrong.iter().map(|(answered, truth)| answered - truth);
+    let is_own = |facts: &CaseFacts<'_>| facts.case.dimensions.is_empty();
+    let (own, others): (Vec<_>, Vec<_>) = steps
+        .zip(&answers.wrong)
+        .partition(|(_, facts)| is_own(facts));
+    let (step, _) = *own.first()?;
+    let axes = |v: &Vector3<f64>| -> Vec<usize> {
+        (0..3).filter(|axis| v[*axis].abs() > SAME_M).collect()
+    };
+    let are_same = own.iter().all(|(other, _)| (other - step).norm() <= SAME_M);
+    let others_too = others
+        .iter()
+        .all(|(other, _)| (other - step).norm() <= SAME_M);
+    let along = axes(&step);
+    let along_too = along.len() == 1 && others.iter().all(|(other, _)| axes(other) == along);
+    if step.norm() <= LEAST_STEP_M || !are_same || !(others_too || along_too) {
+        return None;
+    }
+    let count = wrong.len();
+    let step_m = list(step.as_slice());
+    Some(CauseOfAnswers {
+        words: if others_too {
+            format!("all {count} positions are off by the same step, {step_m} m along x, y, z")
+        } else {
+            let axis = AXES[along[0]];
+            format!(
+                "all {count} positions are off along {axis} alone, with the arm of this lab by the same step, {step_m} m along x, y, z"
+            )
+        },
+        question: match along[..] {
+            [axis] => format!(
+                "Only {} is off: what adds to it, and how often?",
+                AXES[axis]
             ),
-            question: match (0..3).filter(|axis| step[*axis].abs() > SAME_M).collect::<Vec<_>>()[..] {
-                [axis] => format!(
-                    "Only {} is off, everywhere by the same amount: what adds to it, and how often?",
-                    ["x", "y", "z"][axis]
-                ),
-                _ => "From which point do you measure, and where is the origin of the lab's frame?"
-                    .to_owned(),
-            },
-        }
+            _ => "From which point do you measure, and where is the origin of the lab's frame?"
+                .to_owned(),
+        },
     })
 }
 

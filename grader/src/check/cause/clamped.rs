@@ -46,7 +46,7 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let first = *at_limit.first()?;
     Some(Cause {
         words: format!(
-            "at {} of {} calls `control` returns exactly {} {force}, forwards or backwards, for joint `{name}`, and never more: {motor_gives}",
+            "at {} of {} calls `control` returns {} {force}, forwards or backwards, for joint `{name}`, and never more: {motor_gives}",
             at_limit.len(),
             calls.len(),
             trimmed(limit, 3),

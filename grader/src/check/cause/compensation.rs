@@ -41,11 +41,11 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         }
         let (what, question) = match times {
             -1 => (
-                "its joints hang twice as far below the angles that this goal needs as gravity alone would pull them: the commands are that much below, too",
+                "its joints hang about twice as far below the angles that this goal needs as gravity alone would pull them: the commands are that much below, too",
                 "Which way does gravity pull the joint, and which way does your command move away from the angle that you want?",
             ),
             2 => (
-                "its commands are above the angles that this goal needs by twice what gravity takes",
+                "its commands are above the angles that this goal needs by about twice what gravity takes",
                 "How often is gravity allowed for on the way from the angles that you want to the command?",
             ),
             _ => return None,

@@ -6,10 +6,9 @@ use kinemark_sim::text::number::trimmed;
 use super::tcp_command::TcpCommand;
 use super::{Cause, Lost};
 use crate::check::facts::MotionFacts;
-use crate::task::value::Value;
 
 /// A speed is the one that the task asks for, but for this share.
-const NEAR: f64 = 0.25;
+const NEAR: f64 = 0.05;
 /// No arm is asked for such a speed of its hand from the first call on \[m/s\].
 const TOO_FAST_M_S: f64 = 5.0;
 /// Speeds that are asked for \[m/s\].
@@ -54,12 +53,6 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
 /// Whether a speed of the hand is the one that the task's target names, if it names one: what is too fast by another factor is not in
 /// degrees.
 fn is_asked_for(facts: &MotionFacts<'_>, speed_m_s: f64) -> bool {
-    let Value::Map(entries) = &facts.motion.target else {
-        return true;
-    };
-    let asked = entries.iter().find_map(|(name, value)| match value {
-        Value::Number(speed) if name == "speed" => Some(*speed),
-        _ => None,
-    });
+    let asked = facts.motion.target_number("speed");
     asked.is_none_or(|asked| (speed_m_s - asked).abs() <= NEAR * asked.abs())
 }

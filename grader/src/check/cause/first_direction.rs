@@ -70,11 +70,11 @@ fn turns(motion: &TcpCommand<'_>, v: &Vector3<f64>, tick: usize) -> bool {
 /// What was done to the command, if one slip alone explains the first direction, and those of the calls after it lead back to the path
 /// where they leave it.
 fn reading(motion: &TcpCommand<'_>, calls: &[usize]) -> Option<(&'static str, &'static str)> {
-    let readings: [(Meant, &str, &str); 5] = [
+    let readings: [(Meant, &str, &str); 6] = [
         (
             against,
             "that is straight back",
-            "Which sign has your velocity? It points from where the hand is to where it should be.",
+            "Which sign has your velocity, and which the determinant, if your inverse divides by one? The velocity points from where the hand is to where it should be.",
         ),
         (
             joints_exchanged,
@@ -92,16 +92,27 @@ fn reading(motion: &TcpCommand<'_>, calls: &[usize]) -> Option<(&'static str, &'
             "Which velocity of the hand does your command give, if you multiply it by the Jacobian?",
         ),
         (
+            of_jacobian,
+            "it is what the Jacobian itself gives where its inverse belongs",
+            "Which velocity of the hand does your command give, if you multiply it by the Jacobian?",
+        ),
+        (
             of_wrong_inverse,
             "it is what the inverse of the Jacobian gives with a wrong sign in one entry",
             "Multiply your inverse by your Jacobian: is the product 1 on the diagonal and 0 elsewhere?",
         ),
     ];
     let ways = motion.ways_on(calls[0]);
+    let asked_m_s = motion.facts.motion.target_number("speed");
+    // one that is not as fast as was asked for has another slip, or two
+    let is_fast = |v: &Vector3<f64>| {
+        let times = asked_m_s.map_or(1.0, |asked| v.norm() / asked);
+        (0.5..=2.0).contains(&times)
+    };
     let mut found = readings.iter().filter(|(meant, ..)| {
         ways.iter().any(|way| {
             let first = meant(motion, calls[0], way);
-            first.is_some_and(|v| angle(&v, way) <= SAME)
+            first.is_some_and(|v| angle(&v, way) <= SAME && is_fast(&v))
                 && calls[1..]
                     .iter()
                     .all(|&tick| leads_back(motion, calls[0], tick, meant(motion, tick, way), way))
@@ -161,6 +172,29 @@ fn of_transpose(motion: &TcpCommand<'_>, tick: usize, _: &Vector3<f64>) -> Optio
     Some(inverse * combined(&jacobian, trace.command.at(tick)))
 }
 
+/// The velocity whose multiple with the Jacobian of a planar arm of two joints is the command.
+fn of_jacobian(motion: &TcpCommand<'_>, tick: usize, _: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let trace = motion.facts.trace;
+    let (planar, [first, second]) = planar_jacobian(motion, tick)?;
+    let command = Vector2::from_column_slice(trace.command.at(tick));
+    let meant = planar.try_inverse()? * command;
+    let mut v = Vector3::zeros();
+    (v[first], v[second]) = (meant.x, meant.y);
+    Some(v)
+}
+
+/// The Jacobian of a planar arm of two joints, and its two rows of three.
+fn planar_jacobian(motion: &TcpCommand<'_>, tick: usize) -> Option<(Matrix2<f64>, [usize; 2])> {
+    let jacobian = motion.jacobian(motion.facts.trace.q.at(tick))?;
+    let moves = |row: &usize| jacobian.iter().any(|column| column[*row].abs() > 1e-9);
+    let rows: Vec<usize> = (0..3).filter(moves).collect();
+    let (&[first, second], 2) = (&rows[..], jacobian.len()) else {
+        return None;
+    };
+    let planar = Matrix2::from_fn(|row, column| jacobian[column][rows[row]]);
+    Some((planar, [first, second]))
+}
+
 /// The velocity from which the inverse of the Jacobian, with the other sign in one entry, makes the command; of the four, the one
 /// nearest to `way`. For a planar arm of two joints.
 fn of_wrong_inverse(
@@ -169,13 +203,7 @@ fn of_wrong_inverse(
     way: &Vector3<f64>,
 ) -> Option<Vector3<f64>> {
     let trace = motion.facts.trace;
-    let jacobian = motion.jacobian(trace.q.at(tick))?;
-    let moves = |row: &usize| jacobian.iter().any(|column| column[*row].abs() > 1e-9);
-    let rows: Vec<usize> = (0..3).filter(moves).collect();
-    let (&[first, second], 2) = (&rows[..], jacobian.len()) else {
-        return None;
-    };
-    let planar = Matrix2::from_fn(|row, column| jacobian[column][rows[row]]);
+    let (planar, [first, second]) = planar_jacobian(motion, tick)?;
     let inverse = planar.try_inverse()?;
     let command = Vector2::from_column_slice(trace.command.at(tick));
     let right = planar * command;

@@ -20,6 +20,9 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     }
     let near_m = facts.pose_band.zero.max(1e-3);
     let held = held_commands(facts);
+    if held.is_empty() {
+        return None;
+    }
     let at = |q: &[f64]| tcp_in(facts.robot, facts.names.seen_from, q);
     let reaches =
         |q: &[f64], goal: &Vector3<f64>| at(q).is_some_and(|p| (p - goal).norm() <= near_m);
@@ -27,7 +30,9 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let in_order = |meant: &dyn Fn(&[f64]) -> Vec<f64>| {
         let mut commands = held.iter();
         let mut first = None;
-        for goal in &facts.motion.goals {
+        // one command that is held to the end may wait for its goal to be reached
+        let count = facts.motion.goals.len().min(held.len());
+        for goal in &facts.motion.goals[..count] {
             let (tick, _) = commands.find(|(_, command)| {
                 let meant = meant(command);
                 reaches(&meant, &goal.position_m)
@@ -44,7 +49,11 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let slip = only_one(facts.robot, |slip| in_order(&undone(slip)).is_some())?;
     Some(Cause {
         words: format!(
-            "the arm would get to all goals if {} in the command",
+            "the arm would get to {} if {} in the command",
+            match held.len() < facts.motion.goals.len() {
+                true => "goal 1",
+                false => "all goals",
+            },
             slip.in_words(facts.robot)
         ),
         signal: "command".to_owned(),

@@ -5,6 +5,7 @@
 //! causes of a graded run.
 
 mod angle_slip;
+mod angles_for_velocities;
 mod answers_in_angles;
 mod answers_in_axes;
 mod clamped;
@@ -16,15 +17,20 @@ mod frozen_angles;
 mod goal_angles;
 mod goal_order;
 mod idle;
+mod integral_away;
 mod late;
 mod law;
+mod left_out;
+mod lets_go;
 mod no_stop;
 mod refused;
 mod runs_away;
 mod saturated;
 mod setpoint;
+mod stops_short;
 mod tcp_command;
 mod typed_size;
+mod wrong_speed;
 mod wrong_term;
 
 pub(super) use self::law::Law;
@@ -58,16 +64,22 @@ struct Lost<'a> {
 
 /// In the order in which they are looked for: what is wrong from the first call on, then what goes wrong on the way, then what is
 /// missing in the end.
-const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 12] = [
+const OF_RUNS: [fn(&Lost<'_>) -> Option<Cause>; 18] = [
     idle::seen,
+    angles_for_velocities::seen,
     degrees::seen,
     goal_order::seen,
     goal_angles::seen,
+    left_out::seen,
     first_direction::seen,
     frozen_angles::seen,
     runs_away::seen,
+    wrong_speed::seen,
+    integral_away::seen,
     compensation::seen,
     no_stop::seen,
+    stops_short::seen,
+    lets_go::seen,
     late::seen,
     saturated::seen,
     clamped::seen,

@@ -30,13 +30,14 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         let along = (to - from).normalize();
         let across = |v: Vector3<f64>| v - along * v.dot(&along);
         let mut seen: Vec<Beside> = Vec::new();
-        let (mut began, mut furthest_m) = (None, 0.0);
+        let (mut began, mut furthest_m, mut is_near) = (None, 0.0, true);
         for tick in (first..=last).step_by(motion.stride()) {
             let beside = across(facts.trace.tcp_position(tick) - from);
             let beside_m = beside.norm();
             furthest_m = f64::max(furthest_m, beside_m);
-            if beside_m > BESIDE_M[1] {
-                break;
+            is_near &= beside_m <= BESIDE_M[1];
+            if !is_near {
+                continue;
             }
             if beside_m < BESIDE_M[0] {
                 continue;

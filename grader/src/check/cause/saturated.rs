@@ -2,14 +2,17 @@
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::model::contact::Party;
-use kinemark_sim::text::number::{seconds, trimmed};
+use kinemark_sim::text::number::{list, seconds, trimmed};
 use kinemark_sim::watch::ContactSpan;
 
 use super::{Cause, Lost};
+use crate::check::dwell::Dwell;
 use crate::check::facts::MotionFacts;
 
 /// A motor at its limit gives this share of it.
 const AT_LIMIT: f64 = 0.999;
+/// A position command so far from where the joint is is no lag of it \[rad or m\].
+const FAR_AHEAD: f64 = 0.7;
 /// For so long at once \[s\].
 const LEAST_S: f64 = 0.15;
 
@@ -46,6 +49,11 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     if let Some(cause) = blocked(facts, [from, to]) {
         return Some(cause);
     }
+    // a motor that is at its limit on the way, and not where the arm should stand, costs time and no place
+    let in_dwell = |dwell: &Dwell| from <= dwell.last && to >= dwell.first;
+    if !facts.motion.goals.is_empty() && !facts.dwells.iter().any(in_dwell) {
+        return None;
+    }
     let name = facts.joint_name(joint);
     let limit = facts.motion.servo.gains[joint].effort_limit;
     Some(Cause {
@@ -58,10 +66,23 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         ),
         signal: format!("effort[{joint}]"),
         tick: from,
-        question: Some(
-            "Does your command jump there, or ask for more speed than the motors have?".to_owned(),
-        ),
+        question: Some(question(facts, joint, usize::midpoint(from, to))),
     })
+}
+
+/// What to ask of a joint whose motor is at its limit at a tick.
+fn question(facts: &MotionFacts<'_>, joint: usize, tick: usize) -> String {
+    let ahead = facts.trace.command.at(tick)[joint] - facts.trace.q.at(tick)[joint];
+    if facts.motion.servo.mode == Mode::Position && ahead.abs() > FAR_AHEAD {
+        return format!(
+            "At {} the command for joint `{}` is {} {} away from where the joint is: where should it be, and in which unit is your command?",
+            seconds(facts.time_s(tick)),
+            facts.joint_name(joint),
+            trimmed(ahead.abs(), 2),
+            facts.units(joint).position(),
+        );
+    }
+    "Does your command jump there, or ask for more speed than the motors have?".to_owned()
 }
 
 /// The arm presses on a body while a motor is at its limit: it cannot follow because something stands in its way.
@@ -77,9 +98,15 @@ fn blocked(facts: &MotionFacts<'_>, [from, to]: [usize; 2]) -> Option<Cause> {
     let tick = contact.first_tick as usize;
     Some(Cause {
         words: format!(
-            "`{one}` presses on `{other}` from {} to {}: the arm cannot follow the command there",
+            "`{one}` presses on `{other}` from {} to {}, with the hand at {} at first: the arm cannot follow the command there",
             seconds(facts.motion.periods.time_s(contact.first_tick)),
             seconds(facts.motion.periods.time_s(contact.last_tick)),
+            list(
+                facts
+                    .trace
+                    .tcp_position(tick.min(facts.last_tick()))
+                    .as_slice()
+            ),
         ),
         signal: "contacts".to_owned(),
         tick,

@@ -39,12 +39,12 @@ pub(in crate::check) fn wrong_setpoint(response: &Response<'_>) -> Option<Seen> 
         }
         (
             format!("; {} was asked for", response.with_unit(target)),
-            "Where does the setpoint in your error come from?",
+            "Which terms of your law depend on what is measured, and what do you subtract it from? Together they are 0 there.",
         )
     };
     Some(Seen {
         words: format!(
-            "what `control` returns steers {} to {}{what}",
+            "what `control` returns is 0 where {} is {}{what}",
             response.what(),
             response.with_unit(setpoint)
         ),

@@ -12,7 +12,7 @@ use crate::task::watched::PathToFollow;
 type FollowedBetween = ([Vector3<f64>; 2], [usize; 2]);
 
 /// Commands below this ask for nothing \[rad/s or m/s\].
-const LEAST_RATE: f64 = 1e-6;
+pub(super) const LEAST_RATE: f64 = 1e-6;
 
 /// The velocity commands of a run, seen at the TCP.
 pub(super) struct TcpCommand<'a> {
@@ -100,6 +100,16 @@ impl<'a> TcpCommand<'a> {
             ends.map(|(ends, passages)| ([ends[0], ends[1]], [passages[0].tick, passages[1].tick]));
         Some(segments.collect())
     }
+}
+
+/// The distance of a point from the path \[m\].
+pub(super) fn beside_m(path: &PathToFollow, p: &Vector3<f64>) -> f64 {
+    let segments = path.points_m.windows(2).map(|ends| {
+        let along = ends[1] - ends[0];
+        let share = (p - ends[0]).dot(&along) / along.norm_squared();
+        (p - ends[0] - along * share.clamp(0.0, 1.0)).norm()
+    });
+    segments.fold(f64::INFINITY, f64::min)
 }
 
 /// The sum of `columns`, each times its factor.

@@ -22,7 +22,7 @@ pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             "right in every case with the arm of this lab, and wrong in every case with another arm"
                 .to_owned(),
         question:
-            "Which sizes of the arm does your function take from `robot`, and each from the right place? `robot` has those of the case."
+            "Which sizes of the arm does your function take from `robot`, each from the right place, and does each of its terms hold for any of them? `robot` has those of the case."
                 .to_owned(),
     })
 }

@@ -6,7 +6,6 @@ use kinemark_sim::text::number::{seconds, trimmed};
 use super::Law;
 use crate::check::shape::Seen;
 use crate::check::step_response::Response;
-use crate::task::value::Value;
 
 /// How near a whole number of compensations is.
 const NEAR: f64 = 0.1;
@@ -66,7 +65,8 @@ pub(in crate::check) fn creeping_law(response: &Response<'_>) -> Option<Seen> {
         seconds(constant_s),
     );
     let is = |value: f64, name: &str| {
-        number_of_target(response, name).is_some_and(|it| (value - it).abs() <= 0.01 * it.abs())
+        let asked = response.facts.motion.target_number(name);
+        asked.is_some_and(|it| (value - it).abs() <= 0.01 * it.abs())
     };
     if is(law.error, "kd") && is(brake, "kp") {
         words += "; these are the `kd` and the `kp` of the target, the other way round";
@@ -76,17 +76,6 @@ pub(in crate::check) fn creeping_law(response: &Response<'_>) -> Option<Seen> {
         tick: last,
         next_step: "Which of your gains stands before the error, and which before the speed?"
             .to_owned(),
-    })
-}
-
-/// A number of the task's target.
-fn number_of_target(response: &Response<'_>, wanted: &str) -> Option<f64> {
-    let Value::Map(entries) = &response.facts.motion.target else {
-        return None;
-    };
-    entries.iter().find_map(|(name, value)| match value {
-        Value::Number(value) if name == wanted => Some(*value),
-        _ => None,
     })
 }
 

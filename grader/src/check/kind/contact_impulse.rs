@@ -191,9 +191,11 @@ fn message(facts: &MotionFacts<'_>, touches: &Touches<'_>) -> String {
         1 => "in this contact".to_owned(),
         count => format!("in {count} contacts"),
     };
+    let first = (touches.first.first_tick as usize).min(facts.last_tick());
     format!(
-        "`{a}` first touched `{b}` at {}; {contacts} the impulse is {} N s, and the force {} N at its peak, at {}",
+        "`{a}` first touched `{b}` at {}, with the hand at {}; {contacts} the impulse is {} N s, and the force {} N at its peak, at {}",
         seconds(facts.motion.periods.time_s(touches.first.first_tick)),
+        list(facts.trace.tcp_position(first).as_slice()),
         trimmed(touches.impulse_n_s, 3),
         trimmed(touches.hardest.peak_force_n, 1),
         seconds(facts.motion.periods.time_s(touches.hardest.peak_tick)),

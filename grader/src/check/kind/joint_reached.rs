@@ -100,7 +100,7 @@ impl JointReached {
         let is_to_move = (self.position - started).abs() > 1e-3;
         if is_to_move && (at_end - started).abs() < 1e-3 {
             format!(
-                "joint `{name}` did not move: it stands at {} {unit}, {position} {unit} was asked for",
+                "joint `{name}` is where it began at the end, at {} {unit}: {position} {unit} was asked for",
                 trimmed(at_end, 4),
             )
         } else {

@@ -165,9 +165,9 @@ mod tests {
         let with_target =
             "rise-time = { joint = \"elbow\", target_rad = 1.0, full_s = 0.2, zero_s = 1.0 }";
         for (kind, row, words) in [
-            (KIND, 0.0, "hardly moved"),
-            (KIND, 5e-4, "hardly moved"),
-            (with_target, 9e-3, "did not go to its target"),
+            (KIND, 0.0, "ends where it began"),
+            (KIND, 5e-4, "ends where it began"),
+            (with_target, 9e-3, "is not at its target at the end"),
             (with_target, -1.0, "moves away from its target at once"),
             (KIND, f64::NAN, ""),
         ] {

@@ -206,10 +206,10 @@ mod tests {
         let finding = judged(EFFORT, KIND, at(LEVEL - 0.025, -2.452, -2.452));
         let message = &finding.evidence[0].message;
         assert!(
-            message.ends_with("gravity takes 2.452 N m there, and the motor gives it on the far side of the target"),
+            message.ends_with("gravity takes 2.452 N m there, and the motor gives it although feedback of this error alone would push the other way"),
             "{message}"
         );
-        assert!(finding.next_step.starts_with("Check sign and size"));
+        assert!(finding.next_step.starts_with("Look at what you add"));
     }
 
     #[test]

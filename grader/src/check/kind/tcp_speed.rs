@@ -5,6 +5,7 @@
 //! touches the fastest counts, up to the body's first fall: a gentle touch does not pay for a blow after it. An arm that never touches
 //! has no such speed and earns nothing.
 
+use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::trace::Trace;
 
 use super::time_limit::fell;
@@ -114,7 +115,16 @@ fn at_touch(facts: &MotionFacts<'_>, speeds: Vec<f64>, body: usize, band: Band) 
     let quantity = format!("speed of the TCP {what}");
     let finding = Finding::against(band, value, "m/s", quantity).drawn(curve);
     let Some(tick) = before else {
-        let message = format!("the arm never touched `{name}`");
+        let mut message = format!("the arm never touched `{name}`");
+        if let Some((tick, away_m)) = nearest(facts, body) {
+            message += &format!(
+                ": the hand comes no nearer to its middle than {}, at {}, where it is at {}; at the end it is at {}",
+                metres(away_m),
+                seconds(facts.time_s(tick)),
+                list(facts.trace.tcp_position(tick).as_slice()),
+                list(facts.trace.tcp_position(facts.last_tick()).as_slice()),
+            );
+        }
         return finding
             .with(facts.evidence(message, "contacts".to_owned(), facts.last_tick()))
             .advise(format!(
@@ -127,6 +137,27 @@ fn at_touch(facts: &MotionFacts<'_>, speeds: Vec<f64>, body: usize, band: Band) 
             (message(facts, tick, value, &what), "tcp".to_owned(), tick)
         })
         .advise(format!("Come to `{name}` more slowly: a push is enough."))
+}
+
+/// When the hand is nearest to the middle of a body, and how near \[m\].
+fn nearest(facts: &MotionFacts<'_>, body: usize) -> Option<(usize, f64)> {
+    let q = facts.robot.positions(facts.trace.q.at(0)).ok()?;
+    let poses = forward_kinematics(facts.robot, &q);
+    // the lab's frame is fixed to the base
+    let world_from_lab = poses.world_from(facts.robot.frame(facts.names.seen_from)?);
+    let away_m = |tick: usize| {
+        let body = facts.trace.world_from_body(body, tick)?;
+        let p_body_in_lab = world_from_lab.inv_mul(&body).translation.vector;
+        Some((facts.trace.tcp_position(tick) - p_body_in_lab).norm())
+    };
+    let distances = (0..facts.trace.len()).map(away_m).collect::<Option<Vec<f64>>>()?;
+    let mut least = (0, *distances.first()?);
+    for (tick, away_m) in distances.into_iter().enumerate() {
+        if away_m < least.1 {
+            least = (tick, away_m);
+        }
+    }
+    Some(least)
 }
 
 fn message(facts: &MotionFacts<'_>, tick: usize, speed_m_s: f64, what: &str) -> String {

@@ -89,32 +89,13 @@ impl Stopped<'_> {
         let is_operand = |c: char| c.is_alphanumeric() || matches!(c, '_' | ')' | ']');
         let is_missing = |wanted: &[&str]| matches!(kind, ParseErrorType::MissingToken(token, _) if wanted.contains(&token.as_str()));
         let opened = || self.signs.open_at(self.place);
-        let found = if self.line.contains("\"\"\"") {
-            (
-                "`\"\"\"` is not available here",
-                "a comment begins with //, or goes between /* and */",
-            )
-        } else if after.starts_with("@(") {
-            (
-                "functions without a name are not available",
-                "write a function with a name: fn name(x) { ... }",
-            )
-        } else if after.starts_with("...") {
-            (
-                "`...` is not available here",
-                "leave it out: a statement goes on until its ;",
-            )
-        } else if let Some(found) = self.element_or_column(kind) {
+        let of_one = self
+            .of_matlab_or_python()
+            .or_else(|| self.element_or_column(kind))
+            .or_else(|| self.of_rust(kind))
+            .or_else(|| self.of_javascript(kind));
+        let found = if let Some(found) = of_one {
             found
-        } else if let Some(found) = self.of_rust(kind) {
-            found
-        } else if let Some(found) = self.of_javascript(kind) {
-            found
-        } else if self.word == "case" && self.before.trim().is_empty() {
-            (
-                "`case` is not available here",
-                "write if x == \"a\" { ... } else { ... }",
-            )
         } else if after.starts_with("::") || (self.sign == Some(':') && last == Some(':')) {
             (
                 "`::` is not available here",
@@ -176,6 +157,34 @@ impl Stopped<'_> {
             return None;
         };
         Some(self.slip(found.0, found.1))
+    }
+
+    /// What MATLAB and Python write.
+    fn of_matlab_or_python(&self) -> Option<(&'static str, &'static str)> {
+        let after = &self.line[self.before.len()..];
+        if self.line.contains("\"\"\"") {
+            Some((
+                "`\"\"\"` is not available here",
+                "a comment begins with //, or goes between /* and */",
+            ))
+        } else if after.starts_with("@(") {
+            Some((
+                "functions without a name are not available",
+                "write a function with a name: fn name(x) { ... }",
+            ))
+        } else if after.starts_with("...") {
+            Some((
+                "`...` is not available here",
+                "leave it out: a statement goes on until its ;",
+            ))
+        } else if self.word == "case" && self.before.trim().is_empty() {
+            Some((
+                "`case` is not available here",
+                "write if x == \"a\" { ... } else { ... }",
+            ))
+        } else {
+            None
+        }
     }
 
     /// What of another language picks elements: `v(1:2)`, `J(:, k)`, `q[:2]`.
