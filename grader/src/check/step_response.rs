@@ -252,7 +252,7 @@ impl<'a> Response<'a> {
                     "Damp the swing: a stronger derivative, a smaller integral, or lower gains."
                 }
                 Fed::Velocity => {
-                    "Which term of your law follows the swing? Feedback of the speed that is too strong overcorrects."
+                    "Which term of your law follows the swing? Feedback that is too strong overcorrects."
                 }
             }
             .to_owned();

@@ -50,8 +50,11 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         return Some(cause);
     }
     // a motor that is at its limit on the way, and not where the arm should stand, costs time and no place
-    let in_dwell = |dwell: &Dwell| from <= dwell.last && to >= dwell.first;
-    if !facts.motion.goals.is_empty() && !facts.dwells.iter().any(in_dwell) {
+    let all_dwell = |dwell: &Dwell| {
+        let command = |tick: usize| facts.trace.command.at(tick);
+        from <= dwell.first && to >= dwell.last && command(dwell.first) == command(dwell.last)
+    };
+    if !facts.motion.goals.is_empty() && !facts.dwells.iter().any(all_dwell) {
         return None;
     }
     let name = facts.joint_name(joint);

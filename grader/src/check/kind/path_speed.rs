@@ -16,6 +16,11 @@ use crate::check::segments::{Segments, segment_name};
 use crate::record::graded::StepBackdrop;
 use crate::task::watched::PathToFollow;
 
+/// Share of the wanted speed below which the TCP stands still.
+const RESTS: f64 = 0.05;
+/// A shorter rest is a turn \[s\].
+const SHORT_REST_S: f64 = 0.2;
+
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -104,11 +109,26 @@ impl Pace {
         Some(self.speeds[index])
     }
 
+    /// The first and last tick of the longest stretch in which it hardly goes on.
+    fn longest_rest(&self, speed_m_s: f64) -> Option<[usize; 2]> {
+        let rests = self
+            .speeds
+            .chunk_by(|a, b| a.0 + 1 == b.0 && rests(a.1, speed_m_s) == rests(b.1, speed_m_s))
+            .filter(|stretch| rests(stretch[0].1, speed_m_s));
+        let longest = rests.max_by_key(|stretch| stretch.len())?;
+        Some([longest[0].0, longest[longest.len() - 1].0])
+    }
+
     /// The mean over the time spent \[m/s\].
     fn mean_m_s(&self) -> Option<f64> {
         let sum: f64 = self.speeds.iter().map(|(_, speed)| speed).sum();
         (!self.speeds.is_empty()).then(|| sum / self.speeds.len() as f64)
     }
+}
+
+/// Whether a speed is hardly one, compared with what was asked for.
+fn rests(speed: f64, speed_m_s: f64) -> bool {
+    speed.abs() < RESTS * speed_m_s
 }
 
 fn paces(p_tcp_m: &[Vector3<f64>], path: &PathToFollow, speed_m_s: f64, step_s: f64) -> Vec<Pace> {
@@ -167,6 +187,12 @@ impl PathSpeed {
                 seconds(facts.time_s(at)),
                 trimmed(furthest, 4),
             );
+        }
+        if let Some([from, to]) = pace.longest_rest(self.speed_m_s) {
+            let [from, to] = [from, to].map(|tick| facts.time_s(tick));
+            if to - from > SHORT_REST_S {
+                message += &format!("; it stands still from {} to {}", seconds(from), seconds(to));
+            }
         }
         if pace.left_out_m > 1e-3 {
             message += &format!("; {} are never covered", metres(pace.left_out_m));
@@ -256,6 +282,18 @@ mod tests {
             (value - expected).abs() <= tolerance,
             "{value} for {expected}"
         );
+    }
+
+    #[test]
+    fn a_rest_on_the_way_is_found() {
+        let mut track = drive(&[(0.5, 0.25)]);
+        let here = *track.last().expect("a place");
+        track.extend(std::iter::repeat_n(here, 600));
+        track.extend(drive(&[(0.5, 0.25)]).iter().skip(1).map(|p| p + here));
+        let paces = paces(&track, &path(&LINE), 0.25, STEP_S);
+        // 2000 steps to the middle
+        assert_eq!(paces[0].longest_rest(0.25), Some([2001, 2600]));
+        assert_eq!(paces[0].longest_rest(0.25).map(|[a, b]| b - a + 1), Some(600));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 //! Measured at each goal is the greatest distance during the best dwell \[m\]; the score is the mean of the goals' scores. Reported
 //! is how near the arm settles before it leaves.
 
+use kinemark_sim::control::Mode;
+
 use crate::check::prelude::*;
 
 /// The keys.
@@ -123,6 +125,13 @@ fn evidence(facts: &MotionFacts<'_>, index: usize, band: Band) -> Evidence {
         list(p.as_slice()),
         list(away.as_slice()),
     );
+    if facts.motion.servo.mode == Mode::Position {
+        message += &format!(
+            ", with the joints at {} under the command {}",
+            list(facts.trace.q.at(worst)),
+            list(facts.trace.command.at(worst)),
+        );
+    }
     match settled(facts, index, band) {
         Some([_, to]) if to == last => {
             let end = metres(distance_m(facts, index, last));
