@@ -191,7 +191,11 @@ impl PathSpeed {
         if let Some([from, to]) = pace.longest_rest(self.speed_m_s) {
             let [from, to] = [from, to].map(|tick| facts.time_s(tick));
             if to - from > SHORT_REST_S {
-                message += &format!("; it stands still from {} to {}", seconds(from), seconds(to));
+                message += &format!(
+                    "; it stands still from {} to {}",
+                    seconds(from),
+                    seconds(to)
+                );
             }
         }
         if pace.left_out_m > 1e-3 {
@@ -293,7 +297,10 @@ mod tests {
         let paces = paces(&track, &path(&LINE), 0.25, STEP_S);
         // 2000 steps to the middle
         assert_eq!(paces[0].longest_rest(0.25), Some([2001, 2600]));
-        assert_eq!(paces[0].longest_rest(0.25).map(|[a, b]| b - a + 1), Some(600));
+        assert_eq!(
+            paces[0].longest_rest(0.25).map(|[a, b]| b - a + 1),
+            Some(600)
+        );
     }
 
     #[test]

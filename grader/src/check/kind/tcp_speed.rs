@@ -150,7 +150,9 @@ fn nearest(facts: &MotionFacts<'_>, body: usize) -> Option<(usize, f64)> {
         let p_body_in_lab = world_from_lab.inv_mul(&body).translation.vector;
         Some((facts.trace.tcp_position(tick) - p_body_in_lab).norm())
     };
-    let distances = (0..facts.trace.len()).map(away_m).collect::<Option<Vec<f64>>>()?;
+    let distances = (0..facts.trace.len())
+        .map(away_m)
+        .collect::<Option<Vec<f64>>>()?;
     let mut least = (0, *distances.first()?);
     for (tick, away_m) in distances.into_iter().enumerate() {
         if away_m < least.1 {
