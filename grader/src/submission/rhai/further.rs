@@ -12,7 +12,7 @@ use super::unknown::{Unknown, unknown};
 use crate::submission::controller::{Mistake, SourcePosition};
 
 /// Places that are listed.
-const MOST: usize = 9;
+const MOST: usize = 14;
 /// Times that a file is parsed again.
 const MOST_REPAIRS: usize = 40;
 /// Lines that one statement may have.
@@ -37,19 +37,19 @@ impl Context<'_> {
         self.parse_on(engine, first.clone(), &mut found);
         // what the parser did not come to, because it stood in a line with something else
         for (line, text) in Signs::of(self.source).lines() {
-            if line > after.line
-                && let Some(help) = of_line(&text)
-            {
+            // in its own line a power stands for itself, and other signs belong to what was found there
+            let counts = line > after.line || (line == after.line && text.contains('^'));
+            if counts && let Some(help) = of_line(&text) {
                 found.entry(line).or_insert(help);
             }
         }
         let first_help = first.help.as_deref().unwrap_or_default();
+        let is_first = |help: &str| !first_help.is_empty() && help.ends_with(first_help);
         let mut words: Vec<String> = Vec::new();
         let mut said: Vec<&str> = vec![first_help];
         for (line, help) in &found {
             // the same advice once, with all lines it is for
-            let is_first = !first_help.is_empty() && help.ends_with(first_help);
-            if said.contains(&help.as_str()) || is_first {
+            if said.contains(&help.as_str()) || is_first(help) {
                 continue;
             }
             said.push(help);

@@ -131,7 +131,8 @@ impl Stopped<'_> {
             && self.sign == Some(',')
             && opened().is_some_and(|(at, sign)| {
                 let before = self.signs.last_before(at).map(|(_, sign)| sign);
-                sign == '(' && matches!(before, Some('=' | ',' | '(' | '['))
+                let is_returned = self.signs.word_before(at).as_deref() == Some("return");
+                sign == '(' && (is_returned || matches!(before, Some('=' | ',' | '(' | '[')))
             })
         {
             ("a list is written with `[`", "write [1, 2]")

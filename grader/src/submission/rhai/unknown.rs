@@ -6,6 +6,7 @@ use rhai::{AST, ASTNode, Expr, Position, Stmt};
 
 use super::budget::place;
 use super::engine::ARGUMENTS;
+use super::foreign;
 use super::hints::Names;
 use crate::submission::controller::Grant;
 
@@ -22,67 +23,27 @@ pub(super) struct Unknown {
 /// The unknown names of a script, each where it stands first, in the order of the file. Those among `but` may be declared in what was
 /// taken out.
 pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> {
-    let functions: BTreeSet<&str> = ast.iter_functions().map(|known| known.name).collect();
-    let mut constants: BTreeSet<&str> = names.constants.iter().map(String::as_str).collect();
-    for statement in ast.statements() {
-        if let Stmt::Var(declared, ..) = statement {
-            constants.insert(declared.0.as_str());
-        }
-    }
-    let is_declared = |name: &str| {
-        constants.contains(name) || ARGUMENTS.contains(&name) || but.iter().any(|it| it == name)
-    };
-    let is_defined = |name: &str| {
-        let is_word = name.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        let is_granted_elsewhere = Grant::ALL.iter().any(|grant| grant.name() == name);
-        !is_word
-            || names.built_in.contains_key(name)
-            || functions.contains(name)
-            || is_granted_elsewhere
-            || but.iter().any(|it| it == name)
-    };
-    // name, place, whether it is a function, whether it is set
-    let mut seen: Vec<(String, Position, bool, bool)> = Vec::new();
-    ast.walk(&mut |path| {
-        match path.last() {
-            Some(ASTNode::Expr(Expr::Variable(variable, short, position)))
-                if short.is_none() && variable.0.is_none() && !is_declared(&variable.1) =>
-            {
-                let is_set = matches!(
-                    path.iter().rev().nth(1),
-                    Some(ASTNode::Stmt(Stmt::Assignment(assigned)))
-                        if assigned.1.lhs.position() == *position
-                );
-                seen.push((variable.1.to_string(), *position, false, is_set));
-            }
-            Some(
-                ASTNode::Expr(Expr::FnCall(call, position) | Expr::MethodCall(call, position))
-                | ASTNode::Stmt(Stmt::FnCall(call, position)),
-            ) if !is_defined(&call.name) => {
-                seen.push((call.name.to_string(), *position, true, false));
-            }
-            _ => {}
-        }
-        true
-    });
-    // the engine has its own order of functions
-    let at = |position: &Position| (position.line(), position.position());
-    seen.sort_by_key(|(_, position, ..)| at(position));
+    let variables = variables(ast);
     let mut found: Vec<Unknown> = Vec::new();
-    for (name, position, is_function, is_set) in seen {
-        let Some(place) = place(position) else {
+    for used in used(ast, names, but) {
+        let Some(place) = place(used.position) else {
             continue;
         };
+        let name = used.name;
         if found.iter().any(|known| known.name == name) {
             continue;
         }
-        let (message, help) = if is_function {
-            names.unknown_function(&name, &[])
-        } else if is_set && super::foreign::variable(&name).is_none() {
-            let help = format!("write let {name} = ...; where it is set first");
-            (String::new(), Some(help))
-        } else {
-            names.unknown_variable(&name, Some(place), is_set)
+        let (message, help) = match used.of {
+            Of::Call if variables.contains(&name) => {
+                let help = format!("elements are in square brackets: {name}[0] is the first");
+                (String::new(), Some(help))
+            }
+            Of::Call => names.unknown_function(&name, &[]),
+            Of::Assignment if foreign::variable(&name).is_none() => {
+                let help = format!("write let {name} = ...; where it is set first");
+                (String::new(), Some(help))
+            }
+            Of::Assignment | Of::Value => names.unknown_variable(&name, Some(place), false),
         };
         found.push(Unknown {
             line: place.line,
@@ -94,6 +55,102 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
         });
     }
     found
+}
+
+/// What a name is used for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Of {
+    Call,
+    Assignment,
+    Value,
+}
+
+/// A name that is not declared where it is used.
+struct Used {
+    name: String,
+    position: Position,
+    of: Of,
+}
+
+/// The uses of names that are not declared, in the order of the file.
+fn used(ast: &AST, names: &Names, but: &[String]) -> Vec<Used> {
+    let functions: BTreeSet<&str> = ast.iter_functions().map(|known| known.name).collect();
+    let top_level = ast
+        .statements()
+        .iter()
+        .filter_map(|statement| match statement {
+            Stmt::Var(declared, ..) => Some(declared.0.as_str()),
+            _ => None,
+        });
+    let top_level: BTreeSet<&str> = top_level.collect();
+    let is_among_others = |name: &str| but.iter().any(|other| other == name);
+    let is_declared = |name: &str| {
+        top_level.contains(name)
+            || names.constants.contains(name)
+            || ARGUMENTS.contains(&name)
+            || is_among_others(name)
+    };
+    let is_defined = |name: &str| {
+        let is_operator = !name.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        // what another task grants is called in a part that this one does not come to
+        let may_be_granted = Grant::ALL.iter().any(|grant| grant.name() == name);
+        is_operator
+            || may_be_granted
+            || names.built_in.contains_key(name)
+            || functions.contains(name)
+            || is_among_others(name)
+    };
+    let mut used = Vec::new();
+    ast.walk(&mut |path| {
+        let found = match path.last() {
+            Some(ASTNode::Expr(Expr::Variable(variable, short, position)))
+                if short.is_none() && variable.0.is_none() && !is_declared(&variable.1) =>
+            {
+                let is_set = matches!(
+                    path.iter().rev().nth(1),
+                    Some(ASTNode::Stmt(Stmt::Assignment(assigned)))
+                        if assigned.1.lhs.position() == *position
+                );
+                let of = if is_set { Of::Assignment } else { Of::Value };
+                Some((&variable.1, *position, of))
+            }
+            Some(
+                ASTNode::Expr(Expr::FnCall(call, position) | Expr::MethodCall(call, position))
+                | ASTNode::Stmt(Stmt::FnCall(call, position)),
+            ) if !is_defined(&call.name) => Some((&call.name, *position, Of::Call)),
+            _ => None,
+        };
+        used.extend(found.map(|(name, position, of)| Used {
+            name: name.to_string(),
+            position,
+            of,
+        }));
+        true
+    });
+    // the engine has its own order of functions
+    used.sort_by_key(|used| (used.position.line(), used.position.position()));
+    used
+}
+
+/// The names of variables, wherever they are declared or set.
+fn variables(ast: &AST) -> BTreeSet<String> {
+    let parameters = ast.iter_functions().flat_map(|function| function.params);
+    let mut variables: BTreeSet<String> = parameters.map(ToString::to_string).collect();
+    ast.walk(&mut |path| {
+        match path.last() {
+            Some(ASTNode::Stmt(Stmt::Var(declared, ..))) => {
+                variables.insert(declared.0.as_str().to_owned());
+            }
+            Some(ASTNode::Stmt(Stmt::Assignment(assigned))) => {
+                if let Expr::Variable(variable, ..) = &assigned.1.lhs {
+                    variables.insert(variable.1.to_string());
+                }
+            }
+            _ => {}
+        }
+        true
+    });
+    variables
 }
 
 /// Names that are listed beside another one.
