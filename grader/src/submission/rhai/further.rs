@@ -7,6 +7,7 @@ use rhai::Engine;
 
 use super::foreign;
 use super::mistake::Context;
+use super::parsing::END_BEFORE;
 use super::signs::Signs;
 use super::unknown::{Unknown, unknown};
 use crate::submission::controller::{Mistake, SourcePosition};
@@ -30,6 +31,41 @@ const FOREIGN_SIGNS: [&str; 10] = [".*", "./", ".^", "++", "===", "!==", "~=", "
 const PREFIXES: [&str; 4] = ["np", "numpy", "math", "Math"];
 
 impl Context<'_> {
+    /// What is wrong with the code that stands between two lines of a chat, of which `fence` is the first.
+    pub(super) fn between_fences(&self, engine: &Engine, fence: Mistake) -> Mistake {
+        let mut is_code = false;
+        let lines: Vec<&str> = self
+            .source
+            .lines()
+            .map(|line| {
+                let is_fence = line.trim_start().starts_with("```");
+                is_code ^= is_fence;
+                if is_code && !is_fence { line } else { "" }
+            })
+            .collect();
+        let source = lines.join("\n");
+        let context = Context {
+            source: &source,
+            ..*self
+        };
+        let Err(error) = engine.compile(&source) else {
+            return fence;
+        };
+        let Some(mistake) = context.parse_mistake(&error) else {
+            return fence;
+        };
+        let further = context.further(engine, &mistake);
+        let Mistake {
+            message,
+            place,
+            help,
+        } = mistake;
+        let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line));
+        let first = format!("{line}{}", help.unwrap_or(message));
+        let all = further.map_or_else(|| first.clone(), |further| format!("{first}; {further}"));
+        fence.with_more("Further down, ", Some(all))
+    }
+
     /// The lines below that of `first`, where the parser stopped at first, each with what to write there.
     pub(super) fn further(&self, engine: &Engine, first: &Mistake) -> Option<String> {
         let after = first.place?;
@@ -101,7 +137,12 @@ impl Context<'_> {
                     let Some(at) = next.place.filter(|at| at.line >= place.line) else {
                         return;
                     };
-                    if at.line > place.line && !rest.is_changed(at.line) {
+                    // what says no more than that something is wrong may come from what was taken out
+                    let says_more = next.help.as_deref().map_or_else(
+                        || !next.message.starts_with("unexpected "),
+                        |help| help != END_BEFORE,
+                    );
+                    if at.line > place.line && !rest.is_changed(at.line) && says_more {
                         let help = next.help.clone().unwrap_or_else(|| next.message.clone());
                         found.entry(at.line).or_insert(help);
                     }

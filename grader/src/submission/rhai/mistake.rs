@@ -292,7 +292,7 @@ impl Context<'_> {
 
 impl Mistake {
     /// This with `more` behind its help.
-    fn with_more(self, begins: &str, more: Option<String>) -> Self {
+    pub(super) fn with_more(self, begins: &str, more: Option<String>) -> Self {
         let Some(more) = more else {
             return self;
         };

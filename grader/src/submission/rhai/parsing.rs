@@ -8,6 +8,9 @@ use super::mistake::{Context, WHOLE_INDEX, plain, shortened};
 use super::signs::Signs;
 use crate::submission::controller::{Mistake, SourcePosition};
 
+/// The help where nothing is known but that a statement ends.
+pub(super) const END_BEFORE: &str = "end the statement before it with `;`";
+
 /// A message and its help.
 type Words = (String, Option<String>);
 
@@ -55,7 +58,7 @@ impl Context<'_> {
                 if let Some(help) = foreign.or(above) {
                     return ("this is written differently here".to_owned(), Some(help));
                 }
-                let help = "end the statement before it with `;`".to_owned();
+                let help = END_BEFORE.to_owned();
                 return (
                     "a `;` is missing before this".to_owned(),
                     near.or(Some(help)),

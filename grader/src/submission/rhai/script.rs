@@ -129,7 +129,8 @@ impl ScriptController {
             names: &names,
             beginning: None,
         };
-        if let Some(mistake) = slips::chat_fence(source) {
+        if let Some(fence) = slips::chat_fence(source) {
+            let mistake = context.between_fences(&engine, fence);
             return Err(Stop::DidNotBuild(mistake));
         }
         let ast = engine
