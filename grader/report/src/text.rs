@@ -224,7 +224,7 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
 /// What is kept of a run in which the submission failed.
 pub(crate) fn kept_words(stopped: &Stopped, kept: f64) -> String {
     let went_on = match stopped.tick {
-        Some(0) => "No command was ever returned, so the motors did nothing",
+        Some(0) => "No command was ever returned, so the arm was asked to rest",
         _ => "The run went on with the last command",
     };
     let kept = with_unit(kept, "");

@@ -61,6 +61,7 @@ kinds! {
     motion tcp_speed
     motion path_deviation
     motion path_coverage
+    motion path_end
     motion path_speed
     motion time_limit
     motion robustness

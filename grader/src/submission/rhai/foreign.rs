@@ -185,8 +185,8 @@ const SYNTAX: &[(&str, &str)] = &[
     ("and", "write && for \"and\""),
     ("or", "write || for \"or\""),
     ("not", "write ! for \"not\""),
-    ("elif", "write else if"),
-    ("elseif", "write else if"),
+    ("elif", "write } else if condition { ... }"),
+    ("elseif", "write } else if condition { ... }"),
     ("def", "a function is written fn name(parameters) { ... }"),
     (
         "function",
@@ -194,7 +194,7 @@ const SYNTAX: &[(&str, &str)] = &[
     ),
     ("func", "a function is written fn name(parameters) { ... }"),
     ("lambda", "write a function with a name: fn name(x) { ... }"),
-    ("end", "blocks are written { ... }"),
+    ("end", "a block ends with }"),
     ("then", "write if condition { ... }"),
     (
         "struct",
@@ -246,7 +246,7 @@ const SIGNS: &[(&str, &str)] = &[
     ("~", "write ! for \"not\", and != for \"not equal\""),
     (
         "'",
-        "a string goes in double quotes; the transpose is transpose(m)",
+        "a string goes in double quotes; the transpose of a matrix is m.T, and a vector needs none",
     ),
 ];
 
@@ -255,7 +255,8 @@ const CHARACTERS: &[(&str, &str)] = &[
     ("“”„«»", "write \" (a straight quote)"),
     ("‘’‚", "write \" (a straight quote)"),
     ("π", "write pi"),
-    ("×·∙", "write *"),
+    ("×", "write *"),
+    ("·∙", "write dot(a, b) for vectors, and * for numbers"),
     ("÷", "write /"),
     ("−–—", "write - (a minus sign)"),
     ("²³", "use ** for powers: x ** 2"),

@@ -209,6 +209,15 @@ fn singular() -> Problem {
 }
 
 fn transpose(meter: &Meter, value: &Dynamic) -> Result<Dynamic, Problem> {
+    if let Operand::Vector(vector) = Operand::of(value) {
+        return Err(fault_with_help(
+            format!(
+                "`transpose` takes a matrix, got a vector of {}",
+                vector.len()
+            ),
+            "leave it out: a vector is neither a row nor a column; dot(a, b) is the product of two",
+        ));
+    }
     let matrix = matrix("transpose", value)?;
     meter.charge(matrix.rows() * matrix.columns())?;
     Ok(Dynamic::from(matrix.transpose()))

@@ -138,9 +138,8 @@ impl Context<'_> {
                 self.names.unknown_function(name, &arguments)
             }
             EvalAltResult::ErrorVariableNotFound(name, _) => {
-                let is_set = place.is_some_and(|place| self.is_set(name, place));
                 unknown = Some(name.as_str());
-                self.names.unknown_variable(name, place, is_set)
+                self.unknown_variable(name, place)
             }
             EvalAltResult::ErrorPropertyNotFound(key, _) => {
                 self.names
@@ -213,6 +212,24 @@ impl Context<'_> {
             help: help.map(shortened),
         };
         Stop::Crashed(mistake.with_more("Not known either: ", others))
+    }
+
+    /// The words for a variable that is not known at a place.
+    fn unknown_variable(
+        &self,
+        name: &str,
+        place: Option<SourcePosition>,
+    ) -> (String, Option<String>) {
+        let is_set = place.is_some_and(|place| self.is_set(name, place));
+        let (message, help) = self.names.unknown_variable(name, place, is_set);
+        // what is used behind the block that sets it
+        let mut unknown = self.names.unknown.iter();
+        let known = unknown.find(|known| known.name == name && known.is_used_outside);
+        let before = known.map(|known| {
+            let own = format!("`{name}`: ");
+            known.help.trim_start_matches(&own).to_owned()
+        });
+        (message, before.or(help))
     }
 
     /// Where a limit was reached, of which the engine knows only where the grader's call stands.

@@ -153,6 +153,14 @@ impl Signs {
         self.open_at(place).is_none_or(|(_, sign)| sign != opening)
     }
 
+    /// The word that ends before a place, and where it begins.
+    pub(super) fn word_at_end(&self, place: SourcePosition) -> Option<(SourcePosition, String)> {
+        let word = self.word_before(place)?;
+        let (last, _) = self.last_before(place)?;
+        let column = (last.column + 1).saturating_sub(word.chars().count());
+        Some((at(last.line, column), word))
+    }
+
     /// The word that ends before a place, on its line or one above.
     pub(super) fn word_before(&self, place: SourcePosition) -> Option<String> {
         let (last, sign) = self.last_before(place)?;

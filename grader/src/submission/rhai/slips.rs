@@ -3,6 +3,7 @@
 use rhai::{LexError, ParseErrorType};
 
 use super::foreign;
+use super::habits::percent_comment;
 use super::mistake::Context;
 use super::signs::{Signs, is_before};
 use crate::submission::controller::{Mistake, SourcePosition};
@@ -68,7 +69,10 @@ impl Context<'_> {
                 if stopped.sign == Some('\'') =>
             {
                 let message = "a string goes in double quotes";
-                Some(stopped.slip(message, "write \"text\"; the transpose of m is m.T"))
+                Some(stopped.slip(
+                    message,
+                    "write \"text\"; the transpose of a matrix m is m.T",
+                ))
             }
             ParseErrorType::BadInput(LexError::UnexpectedInput(_)) => stopped.closes_nothing(),
             ParseErrorType::UnexpectedEOF => stopped.never_closed(),
@@ -152,7 +156,7 @@ impl Stopped<'_> {
         {
             (
                 "`'` is no transpose here",
-                "write transpose(m) or m.T; of two vectors dot(a, b) is the product",
+                "of a matrix write m.T; a vector is neither row nor column, so leave it out; dot(a, b) is the product of two",
             )
         } else {
             return None;
@@ -163,7 +167,13 @@ impl Stopped<'_> {
     /// What MATLAB and Python write.
     fn of_matlab_or_python(&self) -> Option<(&'static str, &'static str)> {
         let after = &self.line[self.before.len()..];
-        if self.line.contains("\"\"\"") {
+        let comment = percent_comment(self.line);
+        if comment.is_some_and(|at| at < self.before.len()) {
+            Some((
+                "`%` begins no comment here",
+                "a comment begins with //; the remainder of a division is a % b",
+            ))
+        } else if self.line.contains("\"\"\"") {
             Some((
                 "`\"\"\"` is not available here",
                 "a comment begins with //, or goes between /* and */",
@@ -190,7 +200,9 @@ impl Stopped<'_> {
 
     /// What of another language picks elements: `v(1:2)`, `J(:, k)`, `q[:2]`.
     fn element_or_column(&self, kind: &ParseErrorType) -> Option<(&'static str, &'static str)> {
-        if self.sign != Some(':') {
+        let is_path =
+            self.line[self.before.len()..].starts_with("::") || self.before.ends_with(':');
+        if self.sign != Some(':') || is_path {
             return None;
         }
         let before = self.before.trim_end();
@@ -356,6 +368,10 @@ impl Stopped<'_> {
                     .any(|word| matches!(word, "if" | "while"))
                     .then(|| self.assignment_in_condition())
             }
+            ("=>", _) if self.word == "case" || self.before.contains("case") => Some(self.slip(
+                "`case` is not available here",
+                "write if x == \"a\" { ... } else if x == \"b\" { ... } else { ... }",
+            )),
             ("{", _) => self.block_without_brace(),
             ("}", None) => self.never_closed(),
             (";", None) => self.never_closed().or_else(|| self.missing_semicolon()),
@@ -440,6 +456,17 @@ impl Stopped<'_> {
                 .signs
                 .word_before(self.place)
                 .is_some_and(|word| foreign::word(&word).is_some());
+        // a word of another language on a line above
+        if let Some((at, word)) = self.signs.word_at_end(self.place)
+            && at.line < self.place.line
+            && let Some(help) = foreign::word(&word)
+        {
+            return Some(slip_at(
+                at,
+                format!("`{word}` is not available here"),
+                &help,
+            ));
+        }
         (last.line < self.place.line && !another_language).then(|| self.ended(last, ';'))
     }
 

@@ -18,6 +18,8 @@ pub(super) struct Unknown {
     pub(super) line: usize,
     /// It, and what to write instead.
     pub(super) help: String,
+    /// Whether it is set in a block, and used outside of it.
+    pub(super) is_used_outside: bool,
 }
 
 /// The unknown names of a script, each where it stands first, in the order of the file. Those among `but` may be declared in what was
@@ -25,14 +27,16 @@ pub(super) struct Unknown {
 pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> {
     let variables = variables(ast);
     let mut found: Vec<Unknown> = Vec::new();
-    for used in used(ast, names, but) {
+    let all = used(ast, names, but);
+    for used in &all {
         let Some(place) = place(used.position) else {
             continue;
         };
-        let name = used.name;
+        let name = used.name.clone();
         if found.iter().any(|known| known.name == name) {
             continue;
         }
+        let mut is_used_outside = false;
         let (message, help) = match used.of {
             Of::Call if variables.contains(&name) => {
                 let help = format!("elements are in square brackets: {name}[0] is the first");
@@ -40,7 +44,14 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
             }
             Of::Call => names.unknown_function(&name, &[]),
             Of::Assignment if foreign::variable(&name).is_none() => {
-                let help = format!("write let {name} = ...; where it is set first");
+                let outside = block_to_leave(used, &all);
+                is_used_outside = outside.is_some();
+                let help = match outside {
+                    Some(line) => {
+                        format!("write let {name} = 0; before the block that begins in line {line}")
+                    }
+                    None => format!("write let {name} = ...; where it is set first"),
+                };
                 (String::new(), Some(help))
             }
             Of::Assignment | Of::Value => names.unknown_variable(&name, Some(place), false),
@@ -51,10 +62,24 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
                 Some(help) => format!("`{name}`: {help}"),
                 None => message,
             },
+            is_used_outside,
             name,
         });
     }
     found
+}
+
+/// The line of the outermost block in which a name is set and outside of which it is used, too.
+fn block_to_leave(set: &Used, all: &[Used]) -> Option<usize> {
+    let of_name = all.iter().filter(|used| used.name == set.name);
+    let is_around = |block: &&Position| of_name.clone().all(|used| used.blocks.contains(*block));
+    // from the innermost outwards
+    let outside = set
+        .blocks
+        .iter()
+        .rev()
+        .take_while(|block| !is_around(block));
+    Some(place(*outside.last()?)?.line)
 }
 
 /// What a name is used for.
@@ -70,6 +95,8 @@ struct Used {
     name: String,
     position: Position,
     of: Of,
+    /// Where the blocks around it begin, from the outermost.
+    blocks: Vec<Position>,
 }
 
 /// The uses of names that are not declared, in the order of the file.
@@ -124,12 +151,28 @@ fn used(ast: &AST, names: &Names, but: &[String]) -> Vec<Used> {
             name: name.to_string(),
             position,
             of,
+            blocks: blocks(path),
         }));
         true
     });
     // the engine has its own order of functions
     used.sort_by_key(|used| (used.position.line(), used.position.position()));
     used
+}
+
+/// Where the blocks around the last of these nodes begin, from the outermost.
+fn blocks(path: &[ASTNode<'_>]) -> Vec<Position> {
+    let of_node = |node: &ASTNode<'_>| match node {
+        ASTNode::Stmt(
+            Stmt::If(_, position)
+            | Stmt::While(_, position)
+            | Stmt::Do(_, _, position)
+            | Stmt::For(_, position)
+            | Stmt::Switch(_, position),
+        ) => Some(*position),
+        _ => None,
+    };
+    path.iter().filter_map(of_node).collect()
 }
 
 /// The names of variables, wherever they are declared or set.

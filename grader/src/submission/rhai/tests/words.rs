@@ -234,9 +234,12 @@ fn a_file_that_does_not_compile_gets_a_way_out() {
         ),
         (
             "if 1 > 2 { }\nelif\n1",
-            "this is written differently here | write else if",
+            "`elif` is not available here | write } else if condition { ... }",
         ),
-        ("elif(1)", "`elif` is not a function | write else if"),
+        (
+            "elif(1)",
+            "`elif` is not a function | write } else if condition { ... }",
+        ),
         (
             "null",
             "`null` is a reserved word of the language | write () for nothing; for a name, choose another name, such as `my_null`",
