@@ -12,7 +12,7 @@ use super::unknown::{Unknown, unknown};
 use crate::submission::controller::Mistake;
 
 /// Places that are listed.
-const MOST: usize = 16;
+const MOST: usize = 24;
 /// Times that a file is parsed again.
 const MOST_REPAIRS: usize = 60;
 const COMMENT: &str = "a comment begins with //; the remainder of a division is a % b";
@@ -176,6 +176,10 @@ fn listed(found: &Found, first: &Mistake) -> Option<String> {
             lines => format!("line {line} and {} more: {help}", lines.len() - 1),
         });
     }
-    words.truncate(MOST);
+    if words.len() > MOST {
+        let more = words.len() - MOST;
+        words.truncate(MOST);
+        words.push(format!("and {more} more"));
+    }
     (!words.is_empty()).then(|| words.join("; "))
 }

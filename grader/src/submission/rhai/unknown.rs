@@ -20,6 +20,7 @@ pub(super) struct Unknown {
     pub(super) help: String,
     /// Whether it is set in a block, and used outside of it.
     pub(super) is_used_outside: bool,
+    is_call: bool,
 }
 
 /// The unknown names of a script, each where it stands first, in the order of the file. Those among `but` may be declared in what was
@@ -33,7 +34,12 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
             continue;
         };
         let name = used.name.clone();
-        if found.iter().any(|known| known.name == name) {
+        // once as a variable, and once as what is called
+        let is_call = used.of == Of::Call;
+        if found
+            .iter()
+            .any(|known| known.name == name && known.is_call == is_call)
+        {
             continue;
         }
         let mut is_used_outside = false;
@@ -50,6 +56,9 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
                     Some(line) => {
                         format!("write let {name} = 0; before the block that begins in line {line}")
                     }
+                    None if is_outside_of_functions(ast, used.position) => {
+                        format!("outside of functions write const {name} = ...;")
+                    }
                     None => format!("write let {name} = ...; where it is set first"),
                 };
                 (String::new(), Some(help))
@@ -63,10 +72,18 @@ pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> 
                 None => message,
             },
             is_used_outside,
+            is_call,
             name,
         });
     }
     found
+}
+
+/// Whether a name at a position is set by a statement outside of all functions.
+fn is_outside_of_functions(ast: &AST, position: Position) -> bool {
+    ast.statements().iter().any(|statement| {
+        matches!(statement, Stmt::Assignment(assigned) if assigned.1.lhs.position() == position)
+    })
 }
 
 /// The line of the outermost block in which a name is set and outside of which it is used, too.
