@@ -125,6 +125,25 @@ fn an_editor_reads_a_line_for_each_thing_that_went_wrong() {
     let said = short();
     assert!(said.starts_with("submission.rhai:2:"), "{said}");
     assert_eq!(said.lines().count(), 2, "{said}");
+    // and what else is wrong in it, each in its line
+    bed.write(
+        "01-kinematics/submission.rhai",
+        "fn control(o) {\n    let = 1;\n    let x = 2^3;\n    n = 1;\n}\n",
+    );
+    let said = short();
+    let places: Vec<&str> = said
+        .lines()
+        .map(|line| line.split(": ").next().unwrap_or_default())
+        .collect();
+    assert_eq!(
+        places[..3],
+        [
+            "submission.rhai:2:9",
+            "submission.rhai:3:1",
+            "submission.rhai:4:1"
+        ],
+        "{said}"
+    );
 }
 
 /// What VS Code lists under Problems: file, line, column, severity and message, as the task in `.vscode/tasks.json` reads them.

@@ -1,6 +1,6 @@
 //! A grade for editors: a line for each thing that went wrong, as compilers write them, `FILE:LINE:COLUMN: KIND: WORDS`.
 
-use kinemark_grader::record::grade::{Grade, TaskGrade};
+use kinemark_grader::record::grade::{Grade, Stopped, TaskGrade};
 use kinemark_grader::record::quantity::points;
 
 use crate::moment::has_lost;
@@ -15,12 +15,11 @@ pub fn short_text(grade: &Grade, file: &str) -> String {
     let mut lines = Vec::new();
     match stop_of_whole_file(grade) {
         // it is the same in all tasks
-        Some(stop) => lines.push(line(
-            file,
-            stop.line.zip(stop.column),
-            "error",
-            &stop.message,
-        )),
+        Some(stop) => {
+            let place = stop.line.zip(stop.column);
+            lines.push(line(file, place, "error", &stop.message));
+            of_further(file, stop, &mut lines);
+        }
         None => {
             for task in &grade.tasks {
                 of_task(file, task, &mut lines);
@@ -40,6 +39,7 @@ fn of_task(file: &str, task: &TaskGrade, lines: &mut Vec<String>) {
     if let Some(stop) = &task.stopped {
         let words = format!("{}: {}", task.name, stop.message);
         lines.push(line(file, stop.line.zip(stop.column), "error", &words));
+        of_further(file, stop, lines);
     }
     for check in task.checks.iter().filter(|check| has_lost(check)) {
         let why = check.evidence.first();
@@ -52,6 +52,14 @@ fn of_task(file: &str, task: &TaskGrade, lines: &mut Vec<String>) {
             points(check.max_points)
         );
         lines.push(line(file, None, "warning", &words));
+    }
+}
+
+/// What else is wrong in the file, each at the beginning of its lines.
+fn of_further(file: &str, stop: &Stopped, lines: &mut Vec<String>) {
+    for further in &stop.further {
+        let places = further.lines.iter().map(|number| Some((*number, 1)));
+        lines.extend(places.map(|place| line(file, place, "error", &further.help)));
     }
 }
 

@@ -219,6 +219,13 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
     if let Some(help) = &stopped.help {
         line(out, &format!("  {} {}", "next:".cyan(), visible(help)));
     }
+    for (i, further) in stopped.further.iter().enumerate() {
+        let label = if i == 0 { "also:" } else { "     " };
+        line(
+            out,
+            &format!("  {} {}", label.cyan(), visible(&further.words())),
+        );
+    }
 }
 
 /// What is kept of a run in which the submission failed.

@@ -289,9 +289,14 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
         ),
         Stop::Interrupted => ("interrupted".to_owned(), None, None),
     };
+    let further = match stop {
+        Stop::DidNotBuild(mistake) | Stop::Crashed(mistake) => mistake.further.clone(),
+        _ => Vec::new(),
+    };
     Stopped {
         message,
         help,
+        further,
         line: place.map(|place| place.line),
         column: place.map(|place| place.column),
         source_line: place

@@ -244,6 +244,9 @@ pub struct Stopped {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// What else is wrong in the file, in the order of its lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<FurtherMistake>,
     /// Line in the submission, from one.
     pub line: Option<usize>,
     /// Column in that line, in characters, from one.
@@ -259,6 +262,25 @@ pub struct Stopped {
     /// The share of its points that a run keeps, which went on with the last command; absent where nothing was left to judge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept: Option<f64>,
+}
+
+/// What else is wrong in a submission, besides the mistake that stopped it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FurtherMistake {
+    /// The lines, from one; at least one.
+    pub lines: Vec<usize>,
+    /// What to do about it.
+    pub help: String,
+}
+
+impl FurtherMistake {
+    /// Its lines and what to do, such as `lines 3, 5: write x ** 2`.
+    pub fn words(&self) -> String {
+        let lines: Vec<String> = self.lines.iter().map(ToString::to_string).collect();
+        let noun = if lines.len() == 1 { "line" } else { "lines" };
+        format!("{noun} {}: {}", lines.join(", "), self.help)
+    }
 }
 
 /// How many of a check's points were earned.

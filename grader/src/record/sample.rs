@@ -501,6 +501,7 @@ fn ik() -> TaskGrade {
         ],
     );
     ik.stopped = Some(Stopped {
+        further: Vec::new(),
         kept: None,
         message: "function not found: `atan` with 2 arguments".to_owned(),
         help: Some("the angle of a point is `atan2(y, x)`".to_owned()),

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::record::grade::FurtherMistake;
 pub use crate::task::grant::Grant;
 pub use crate::task::value::Value;
 
@@ -204,6 +205,8 @@ pub struct Mistake {
     pub place: Option<SourcePosition>,
     /// What to do about it.
     pub help: Option<String>,
+    /// What else is wrong in the file, as far as that is known, in the order of its lines.
+    pub further: Vec<FurtherMistake>,
 }
 
 /// A function of the right name with another number of parameters.

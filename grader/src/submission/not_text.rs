@@ -43,6 +43,7 @@ impl NotText {
                     message: what.to_owned(),
                     place: None,
                     help: Some(help.to_owned()),
+                    further: Vec::new(),
                 },
             });
         }
@@ -58,6 +59,7 @@ impl NotText {
                 message: format!("the file is {what}, not a script"),
                 place: None,
                 help: Some("hand in the script itself, saved as UTF-8 text".to_owned()),
+                further: Vec::new(),
             },
             None => {
                 let before = String::from_utf8_lossy(&bytes[..valid]);
@@ -76,6 +78,7 @@ impl NotText {
                         "save it as UTF-8: an editor on Windows may have saved it as Windows-1252"
                             .to_owned(),
                     ),
+                    further: Vec::new(),
                 }
             }
         };

@@ -177,6 +177,9 @@ fn cut_stop(stop: &Stopped) -> Stopped {
     let mut stop = stop.clone();
     stop.message = shortened(&stop.message, MOST_CHARACTERS);
     stop.help = stop.help.map(|help| shortened(&help, MOST_CHARACTERS));
+    for further in &mut stop.further {
+        further.help = shortened(&further.help, MOST_CHARACTERS);
+    }
     stop
 }
 

@@ -140,6 +140,7 @@ mod tests {
     fn what_stopped_a_task_is_shown_before_its_checks() {
         let mut grade = moving();
         grade.tasks[0].stopped = Some(Stopped {
+            further: Vec::new(),
             kept: None,
             message: "`q` has no `x`".to_owned(),
             help: None,

@@ -197,6 +197,10 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
             @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
             @if let Some(kept) = stop.kept { p { (kept_words(stop, kept)) } }
             @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
+            @if !stop.further.is_empty() {
+                p { "Also:" }
+                ul { @for further in &stop.further { li { (prose(&further.words())) } } }
+            }
         }
     }
 }

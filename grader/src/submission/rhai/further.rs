@@ -9,10 +9,11 @@ use super::parsing::END_BEFORE;
 use super::recovery::Rest;
 use super::signs::Signs;
 use super::unknown::{Unknown, unknown};
-use crate::submission::controller::Mistake;
+use crate::record::grade::FurtherMistake;
+use crate::submission::controller::{Mistake, SourcePosition};
 
 /// Places that are listed.
-const MOST: usize = 24;
+const MOST: usize = 40;
 /// Times that a file is parsed again.
 const MOST_REPAIRS: usize = 60;
 const COMMENT: &str = "a comment begins with //; the remainder of a division is a % b";
@@ -44,21 +45,23 @@ impl Context<'_> {
         let Some(mistake) = context.parse_mistake(&error) else {
             return fence;
         };
-        let further = context.further(engine, &mistake);
-        let Mistake {
-            message,
-            place,
-            help,
-        } = mistake;
-        let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line));
-        let first = format!("{line}{}", help.unwrap_or(message));
-        let all = further.map_or_else(|| first.clone(), |further| format!("{first}; {further}"));
-        fence.with_more("Further down, ", Some(all))
+        let mut further = context.further(engine, &mistake);
+        let first = mistake.place.map(|place| FurtherMistake {
+            lines: vec![place.line],
+            help: mistake.help.unwrap_or(mistake.message),
+        });
+        further.splice(0..0, first);
+        Mistake { further, ..fence }
     }
 
     /// What is wrong besides `first`, where the parser stopped at first: lines, each with what to write there.
-    pub(super) fn further(&self, engine: &Engine, first: &Mistake) -> Option<String> {
-        let first_line = first.place?.line;
+    pub(super) fn further(&self, engine: &Engine, first: &Mistake) -> Vec<FurtherMistake> {
+        let Some(SourcePosition {
+            line: first_line, ..
+        }) = first.place
+        else {
+            return Vec::new();
+        };
         let mut found = Found::new();
         let taken_out = self.parse_on(engine, first, &mut found);
         let signs = Signs::of(self.source);
@@ -138,48 +141,38 @@ impl Context<'_> {
     }
 }
 
-/// What was found in words, the same advice once with all lines it is for, without that of `first`.
-fn listed(found: &Found, first: &Mistake) -> Option<String> {
+/// What was found, the same advice once with all lines it is for; that of `first`, which has a line already, before all others.
+fn listed(found: &Found, first: &Mistake) -> Vec<FurtherMistake> {
+    let first_line = first.place.map(|place| place.line);
     let first_help = first.help.as_deref().unwrap_or_default();
     let is_first = |help: &str| !first_help.is_empty() && help.ends_with(first_help);
-    let first_line = first.place.map(|place| place.line);
-    let mut words: Vec<String> = Vec::new();
-    let mut again: Vec<String> = Vec::new();
-    for (line, help) in found {
-        let line = Some(*line).filter(|line| is_first(help) && Some(*line) != first_line);
-        let line = line.map(|line| line.to_string());
-        again.extend(line.filter(|line| again.last() != Some(line)));
-    }
-    match &again[..] {
-        [] => {}
-        [line] => words.push(format!("the same in line {line}")),
-        lines => words.push(format!("the same in lines {}", lines.join(", "))),
-    }
-    let mut said: Vec<&str> = Vec::new();
-    for (line, help) in found {
-        if said.iter().any(|said| said.ends_with(help)) || is_first(help) {
-            continue;
-        }
-        said.push(help);
+    let lines_of = |is_it: &dyn Fn(&str) -> bool| {
         let mut lines: Vec<usize> = Vec::new();
-        for (other, _) in found.iter().filter(|(_, other)| other == help) {
-            if lines.last() != Some(other) {
-                lines.push(*other);
+        for (line, _) in found.iter().filter(|(_, help)| is_it(help)) {
+            if lines.last() != Some(line) {
+                lines.push(*line);
             }
         }
-        words.push(match &lines[..] {
-            [_] => format!("line {line}: {help}"),
-            [_, _] | [_, _, _] => {
-                let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
-                format!("lines {}: {help}", lines.join(", "))
-            }
-            lines => format!("line {line} and {} more: {help}", lines.len() - 1),
+        lines
+    };
+    let mut again = lines_of(&is_first);
+    again.retain(|line| Some(*line) != first_line);
+    let mut listed: Vec<FurtherMistake> = Vec::new();
+    if !again.is_empty() {
+        listed.push(FurtherMistake {
+            lines: again,
+            help: first_help.to_owned(),
         });
     }
-    if words.len() > MOST {
-        let more = words.len() - MOST;
-        words.truncate(MOST);
-        words.push(format!("and {more} more"));
+    for (_, help) in found {
+        let is_said = listed.iter().any(|known| known.help.ends_with(help));
+        if is_said || is_first(help) || listed.len() == MOST {
+            continue;
+        }
+        listed.push(FurtherMistake {
+            lines: lines_of(&|other: &str| other == help),
+            help: help.clone(),
+        });
     }
-    (!words.is_empty()).then(|| words.join("; "))
+    listed
 }

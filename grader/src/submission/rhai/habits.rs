@@ -159,7 +159,8 @@ fn set_in(code: &str) -> Option<&str> {
     let name = name.trim();
     let is_name = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_alphanumeric() || c == '_');
-    (is_name && !value.starts_with('=')).then_some(name)
+    let is_word = ["let", "const", "return", "if", "while", "for", "this"].contains(&name);
+    (is_name && !is_word && !value.starts_with('=')).then_some(name)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::budget::{Meter, place};
 use super::foreign;
 use super::hints::{self, Names};
 use super::signs::Signs;
-use super::unknown::listed;
+use super::unknown::others;
 use crate::submission::controller::{Budget, Mistake, SourcePosition, Stop};
 
 /// The help for a fraction as an index.
@@ -81,7 +81,7 @@ impl Context<'_> {
         match self.parsing(error) {
             Stop::DidNotBuild(mistake) => {
                 let further = self.further(engine, &mistake);
-                Stop::DidNotBuild(mistake.with_more("Further down, ", further))
+                Stop::DidNotBuild(Mistake { further, ..mistake })
             }
             other => other,
         }
@@ -204,14 +204,14 @@ impl Context<'_> {
             ),
             other => (plain(&other.to_string()), None),
         };
-        let others = unknown
-            .and_then(|name| listed(&self.names.unknown, name, place.map(|place| place.line)));
-        let mistake = Mistake {
+        let line = place.map(|place| place.line);
+        let further = unknown.map(|name| others(&self.names.unknown, name, line));
+        Stop::Crashed(Mistake {
             message: shortened(message),
             place,
             help: help.map(shortened),
-        };
-        Stop::Crashed(mistake.with_more("Not known either: ", others))
+            further: further.unwrap_or_default(),
+        })
     }
 
     /// The words for a variable that is not known at a place.
@@ -304,23 +304,6 @@ impl Context<'_> {
             line,
             column: self.line(line).map_or(1, |text| text.chars().count() + 1),
         })
-    }
-}
-
-impl Mistake {
-    /// This with `more` behind its help.
-    pub(super) fn with_more(self, begins: &str, more: Option<String>) -> Self {
-        let Some(more) = more else {
-            return self;
-        };
-        let help = match self.help {
-            Some(help) => format!("{help}. {begins}{more}"),
-            None => format!("{begins}{more}"),
-        };
-        Self {
-            help: Some(help),
-            ..self
-        }
     }
 }
 

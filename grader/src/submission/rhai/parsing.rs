@@ -25,6 +25,7 @@ impl Context<'_> {
                 message: shortened(message),
                 place,
                 help: help.map(shortened),
+                further: Vec::new(),
             }
         })
     }

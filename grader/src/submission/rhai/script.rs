@@ -262,6 +262,7 @@ impl ScriptController {
                 message: "`this` is not a map any more".to_owned(),
                 place: None,
                 help: Some("keep values under names: this.count = 0".to_owned()),
+                further: Vec::new(),
             }));
         }
         list::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
@@ -449,6 +450,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
             message: message.to_owned(),
             place,
             help: Some(help.to_owned()),
+            further: Vec::new(),
         })),
     }
 }

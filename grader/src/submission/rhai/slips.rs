@@ -583,6 +583,7 @@ fn slip_at(place: SourcePosition, message: String, help: &str) -> Mistake {
         message,
         place: Some(place),
         help: Some(help.to_owned()),
+        further: Vec::new(),
     }
 }
 

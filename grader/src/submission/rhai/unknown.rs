@@ -8,6 +8,7 @@ use super::budget::place;
 use super::engine::ARGUMENTS;
 use super::foreign;
 use super::hints::Names;
+use crate::record::grade::FurtherMistake;
 use crate::submission::controller::Grant;
 
 /// A name that is not known where it stands.
@@ -214,14 +215,16 @@ fn variables(ast: &AST) -> BTreeSet<String> {
 }
 
 /// Names that are listed beside another one.
-const MOST: usize = 6;
+const MOST: usize = 12;
 
-/// The unknown names but `name`, which stands in `line`, with their lines and what to write. What belongs to it stands in its line.
-pub(super) fn listed(all: &[Unknown], name: &str, line: Option<usize>) -> Option<String> {
+/// The unknown names but `name`, which stands in `line`. What belongs to it stands in its line.
+pub(super) fn others(all: &[Unknown], name: &str, line: Option<usize>) -> Vec<FurtherMistake> {
     let is_other = |other: &&Unknown| other.name != name && Some(other.line) != line;
     let others = all.iter().filter(is_other).take(MOST);
-    let words: Vec<String> = others
-        .map(|Unknown { line, help, .. }| format!("line {line}: {help}"))
-        .collect();
-    (!words.is_empty()).then(|| words.join("; "))
+    others
+        .map(|Unknown { line, help, .. }| FurtherMistake {
+            lines: vec![*line],
+            help: help.clone(),
+        })
+        .collect()
 }

@@ -93,6 +93,7 @@ fn constants_are_seen_in_functions_and_variables_are_not() {
     assert_eq!(
         mistake,
         Mistake {
+            further: Vec::new(),
             message: "variable `kp` is not known here".into(),
             place: Some(SourcePosition { line: 3, column: 3 }),
             help: Some("a `let` outside of a function is not seen inside: write const kp = ..., or keep it in `this`".into()),

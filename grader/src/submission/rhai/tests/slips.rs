@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::{numbers, observation, opening};
+use crate::record::grade::FurtherMistake;
 use crate::submission::controller::{Call, Controller as _, Mistake, Stop, Value};
 use crate::submission::rhai::ScriptController;
 
@@ -51,6 +52,7 @@ fn says(slip: &Slip) -> String {
             message: budget.name().to_owned(),
             place,
             help: None,
+            further: Vec::new(),
         },
         Err(other) => return format!("{other:?}"),
     };
@@ -58,8 +60,13 @@ fn says(slip: &Slip) -> String {
         .place
         .map(|place| format!("{}:{} ", place.line, place.column));
     let help = mistake.help.map(|help| format!(" | {help}"));
+    let further: Vec<String> = mistake.further.iter().map(FurtherMistake::words).collect();
+    let further = match &further[..] {
+        [] => String::new(),
+        further => format!(" || {}", further.join("; ")),
+    };
     format!(
-        "{}{}{}",
+        "{}{}{}{further}",
         place.unwrap_or_default(),
         mistake.message,
         help.unwrap_or_default()
