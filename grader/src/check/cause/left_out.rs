@@ -11,7 +11,7 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         return None;
     }
     let motion = TcpCommand::new(facts);
-    // a line along which one joint alone can move the hand has no such path
+    // only where there is a path to follow; one that a joint alone can follow is not recognised
     motion.path()?;
     let first = motion.first_call()?;
     let asks = |joint: usize| {
