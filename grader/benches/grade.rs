@@ -3,6 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::judge::grade;
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::submission::handed_in::Submission;
 use kinemark_grader::submission::host::InProcess;
 use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
@@ -33,7 +34,7 @@ fn lab_1(c: &mut Criterion) {
         "/../tests/submissions/01-kinematics/good/submission.rhai"
     );
     let text = std::fs::read_to_string(path).expect("submission");
-    let submission = Source::new("submission.rhai", text);
+    let submission = Submission::from(Source::new("submission.rhai", text));
     let mut group = c.benchmark_group("grade");
     group.sample_size(20);
     group.bench_function("lab 1", |b| {

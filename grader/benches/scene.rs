@@ -3,6 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::judge::grade;
 use kinemark_grader::lab::Lab;
+use kinemark_grader::submission::handed_in::Submission;
 use kinemark_grader::submission::host::InProcess;
 use kinemark_grader::task::files::Files;
 use kinemark_sim::text::Source;
@@ -96,7 +97,7 @@ fn control(observation) {
 
 fn run(c: &mut Criterion) {
     let lab = Lab::load(&Labs, "90-sweep").expect("lab");
-    let submission = Source::new("submission.rhai", SWEEP);
+    let submission = Submission::from(Source::new("submission.rhai", SWEEP));
     let graded = grade(&lab, None, &submission, &mut InProcess).expect("graded");
     // a run in which nothing fell would be measured for nothing
     let events = &graded.runs[0].trace.events;

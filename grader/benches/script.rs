@@ -6,6 +6,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::submission::controller::{
     Budgets, Call, Controller, Observation, Opening, RobotFacts, Value,
 };
+use kinemark_grader::submission::handed_in::Program;
 use kinemark_grader::submission::rhai::ScriptController;
 
 /// PD control along a quintic, written as a student would.
@@ -60,7 +61,7 @@ const NOTHING: &str = "fn control(observation) { observation.q }";
 fn opening(source: &str) -> Opening {
     Opening {
         file: "submission.rhai".into(),
-        source: source.into(),
+        program: Program::Script(source.into()),
         task: "move".into(),
         robot: RobotFacts {
             name: "rrbot".into(),

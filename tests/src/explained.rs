@@ -62,7 +62,7 @@ fn exposed_draws_make_the_grade() {
 
 fn explained(lab: &Lab, staff: &Staff, text: &str) -> Explanation {
     let submission = Source::new("submission.rhai", text);
-    explain(lab, staff, &submission, &mut InProcess).expect("not interrupted")
+    explain(lab, staff, &submission.into(), &mut InProcess).expect("not interrupted")
 }
 
 /// The exposed draws give the counts of the classes, and with the visible run the points of every check.

@@ -91,7 +91,7 @@ impl Course {
         let lab = self.lab(step);
         let staff = is_graded.then(|| self.staff(&lab));
         let source = Source::new("mine.rhai", submission);
-        grade(&lab, staff.as_ref(), &source, &mut InProcess).expect("not interrupted")
+        grade(&lab, staff.as_ref(), &source.into(), &mut InProcess).expect("not interrupted")
     }
 }
 

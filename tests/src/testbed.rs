@@ -391,5 +391,6 @@ pub(crate) fn staff(lab: &Lab, salt: Option<&str>) -> Staff {
 
 /// Grades a text in this process.
 pub(crate) fn grade(lab: &Lab, staff: Option<&Staff>, name: &str, text: &str) -> GradedRun {
-    judge::grade(lab, staff, &Source::new(name, text), &mut InProcess).expect("not interrupted")
+    judge::grade(lab, staff, &Source::new(name, text).into(), &mut InProcess)
+        .expect("not interrupted")
 }

@@ -115,10 +115,10 @@ pub(crate) fn try_variants(
     let typed_in = match least(&variants) {
         Some((index, least)) if !least.lost.is_empty() => {
             let (_, other) = practice_variant(lab, files, index as u32 + 1)?;
-            let text = submission.source.text();
+            let text = submission.submission.text();
             let candidates = candidates(text, lab, &least.parameters);
             typed_in(text, candidates, least.points, &mut |changed| {
-                let source = Source::new(submission.source.name(), changed);
+                let source = Source::new(submission.submission.name(), changed);
                 on_other(&SubmissionSource::of_text(source), &other).map(|grade| grade.points)
             })?
         }

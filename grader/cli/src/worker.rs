@@ -17,8 +17,8 @@ use std::time::Duration;
 use kinemark_grader::submission::controller::{
     Answer, Call, Controller, HostLimit, Opening, Said, Stop,
 };
-use kinemark_grader::submission::host::Host;
-use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
+use kinemark_grader::submission::host::{Host, open_here};
+use kinemark_grader::submission::rhai::STACK_BYTES;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::interrupt;
@@ -100,13 +100,13 @@ pub(crate) fn serve() -> ExitCode {
 }
 
 fn answer_calls(input: &mut impl Read, output: &mut impl Write) -> std::io::Result<()> {
-    let mut controller: Option<ScriptController> = None;
+    let mut controller: Option<Box<dyn Controller>> = None;
     loop {
         match receive(input)? {
             Received::Open(opening) => {
                 // before the next one: both together are never in memory
                 drop(controller.take());
-                let opened = ScriptController::open(&opening);
+                let opened = open_here(&opening);
                 send(output, &opened.as_ref().err())?;
                 controller = opened.ok();
             }
@@ -276,7 +276,7 @@ fn digest_of(opening: &Opening) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&(opening.file.len() as u64).to_le_bytes());
     hasher.update(opening.file.as_bytes());
-    hasher.update(opening.source.as_bytes());
+    hasher.update(opening.program.bytes());
     hasher.finalize()
 }
 

@@ -67,7 +67,7 @@ pub fn grade(
 ) -> Result<Outcome, GradingError> {
     let bytes = book.submission(&hand_in.submission)?;
     let submission = SubmissionSource::new(&hand_in.file, &bytes);
-    let source = &submission.source;
+    let source = &submission.submission;
     let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
     let student_lab = lab.for_student(whose)?;
     let inputs = lab.inputs(&student_lab, source, &hand_in.submission);
@@ -105,7 +105,7 @@ pub fn key(lab: &StaffedLab, book: &Book, hand_in: &HandIn) -> Result<String, Gr
     let submission = SubmissionSource::new(&hand_in.file, &bytes);
     let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
     let student_lab = lab.for_student(whose)?;
-    let inputs = lab.inputs(&student_lab, &submission.source, &hand_in.submission);
+    let inputs = lab.inputs(&student_lab, &submission.submission, &hand_in.submission);
     Ok(inputs.key())
 }
 

@@ -5,9 +5,9 @@ use kinemark_grader::audit;
 use kinemark_grader::judge::{engine, engine_digest, parts};
 use kinemark_grader::lab::copies::Copies;
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::submission::handed_in::Submission;
 use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
-use kinemark_sim::text::Source;
 
 use crate::book::{Inputs, version_of};
 use crate::student::StudentId;
@@ -164,7 +164,7 @@ impl StaffedLab {
     pub fn inputs(
         &self,
         student_lab: &StudentLab<'_>,
-        submission: &Source,
+        submission: &Submission,
         digest: &str,
     ) -> Inputs {
         let (lab, staff) = (student_lab.lab(), student_lab.staff());

@@ -1,9 +1,10 @@
-//! A submission as it was handed in: a script, or bytes that are no text, which do not build.
+//! A submission as it was handed in: a script, a compiled module, or bytes that are neither, which do not build.
 
 use kinemark_grader::judge::{self, Interrupted};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::explanation::Explanation;
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::submission::handed_in::Submission;
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::not_text::NotText;
 use kinemark_sim::text::Source;
@@ -11,8 +12,8 @@ use kinemark_sim::text::Source;
 /// A submission to grade.
 #[derive(Debug, Clone)]
 pub struct SubmissionSource {
-    /// Its text, with the name of its file alone; bytes that are no text are U+FFFD.
-    pub source: Source,
+    /// What is graded, with the name of its file alone; bytes that are no text are U+FFFD.
+    pub submission: Submission,
     /// Its bytes as they are.
     pub bytes: Vec<u8>,
     not_text: Option<NotText>,
@@ -21,13 +22,16 @@ pub struct SubmissionSource {
 impl SubmissionSource {
     /// The submission of these bytes; folders before the name of its file do not count, however they were written.
     pub fn new(file: &str, bytes: &[u8]) -> Self {
-        let not_text = NotText::of(bytes);
-        let text = match &not_text {
-            Some(not_text) => not_text.shown.clone(),
-            None => String::from_utf8_lossy(bytes).into_owned(),
+        let file = file_name(file);
+        let is_module = bytes.starts_with(Submission::MODULE_MAGIC);
+        let not_text = NotText::of(bytes).filter(|_| !is_module);
+        let submission = match &not_text {
+            _ if is_module => Submission::module(file, bytes),
+            Some(not_text) => Source::new(file, not_text.shown.as_str()).into(),
+            None => Source::new(file, String::from_utf8_lossy(bytes).into_owned()).into(),
         };
         Self {
-            source: Source::new(file_name(file), text),
+            submission,
             bytes: bytes.to_owned(),
             not_text,
         }
@@ -37,12 +41,12 @@ impl SubmissionSource {
     pub fn of_text(source: Source) -> Self {
         Self {
             bytes: source.text().as_bytes().to_owned(),
-            source,
+            submission: source.into(),
             not_text: None,
         }
     }
 
-    /// Grades it; `host` runs it where it is text.
+    /// Grades it; `host` runs it where it is a program.
     ///
     /// # Errors
     /// [`Interrupted`] if the host says so.
@@ -53,12 +57,12 @@ impl SubmissionSource {
         host: &mut dyn Host,
     ) -> Result<GradedRun, Interrupted> {
         match &self.not_text {
-            Some(not_text) => judge::grade(lab, staff, &self.source, &mut not_text.clone()),
-            None => judge::grade(lab, staff, &self.source, host),
+            Some(not_text) => judge::grade(lab, staff, &self.submission, &mut not_text.clone()),
+            None => judge::grade(lab, staff, &self.submission, host),
         }
     }
 
-    /// Explains its grade; `host` runs it where it is text.
+    /// Explains its grade; `host` runs it where it is a program.
     ///
     /// # Errors
     /// [`Interrupted`] if the host says so.
@@ -69,8 +73,8 @@ impl SubmissionSource {
         host: &mut dyn Host,
     ) -> Result<Explanation, Interrupted> {
         match &self.not_text {
-            Some(not_text) => judge::explain(lab, staff, &self.source, &mut not_text.clone()),
-            None => judge::explain(lab, staff, &self.source, host),
+            Some(not_text) => judge::explain(lab, staff, &self.submission, &mut not_text.clone()),
+            None => judge::explain(lab, staff, &self.submission, host),
         }
     }
 }
@@ -95,7 +99,7 @@ mod tests {
             ("x/", "submission.rhai"),
             ("..", "submission.rhai"),
         ] {
-            assert_eq!(SubmissionSource::new(path, b"").source.name(), name);
+            assert_eq!(SubmissionSource::new(path, b"").submission.name(), name);
         }
     }
 }

@@ -179,7 +179,10 @@ impl Ended {
         };
         let is_of_operations = matches!(
             budget,
-            Budget::OperationsPerCall | Budget::OperationsPerTask
+            Budget::OperationsPerCall
+                | Budget::OperationsPerTask
+                | Budget::InstructionsPerCall
+                | Budget::InstructionsPerTask
         );
         is_of_operations.then_some(
             "look for a loop that does not end: `init` may take as many operations as a call of `control`",
@@ -236,9 +239,10 @@ fn verdict_of(stop: &Stop) -> Option<Verdict> {
 fn is_of_one_call(stop: &Stop) -> bool {
     match stop {
         Stop::Crashed(_) => true,
-        Stop::OverBudget { budget, .. } => {
-            !matches!(budget, Budget::SourceBytes | Budget::ExpressionDepth)
-        }
+        Stop::OverBudget { budget, .. } => !matches!(
+            budget,
+            Budget::SourceBytes | Budget::ExpressionDepth | Budget::ModuleBytes
+        ),
         Stop::DidNotBuild(_)
         | Stop::Missing { .. }
         | Stop::HostLimit(_)
@@ -266,10 +270,18 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
             budget,
             limit,
             place,
+            function,
         } => (
-            match budget {
-                Budget::TextSize => format!("a string of more than {limit} characters"),
-                budget => format!("more than {limit} {}", budget.name()),
+            {
+                let within = function
+                    .as_ref()
+                    .map_or_else(String::new, |name| format!(", in the function `{name}`"));
+                match budget {
+                    Budget::TextSize => {
+                        format!("a string of more than {limit} characters{within}")
+                    }
+                    budget => format!("more than {limit} {}{within}", budget.name()),
+                }
             },
             Some(budget_help(*budget).to_owned()),
             *place,
@@ -325,7 +337,10 @@ fn missing_words(function: &str, namesake: Option<Namesake>) -> String {
 
 fn budget_help(budget: Budget) -> &'static str {
     match budget {
-        Budget::OperationsPerCall | Budget::OperationsPerTask => {
+        Budget::OperationsPerCall
+        | Budget::OperationsPerTask
+        | Budget::InstructionsPerCall
+        | Budget::InstructionsPerTask => {
             "look for a loop that does not end, or for work that can be done once in `init`"
         }
         Budget::CallDepth => "look for a function that calls itself endlessly",
@@ -335,6 +350,9 @@ fn budget_help(budget: Budget) -> &'static str {
             "keep less: what is not needed at the next call need not be kept"
         }
         Budget::SourceBytes => "a submission is one short file: leave out what is not used",
+        Budget::ModuleBytes => {
+            "build it optimised and without debug information: -O2 and -Wl,--strip-debug in C, `--release` in Rust"
+        }
     }
 }
 
@@ -394,6 +412,7 @@ mod tests {
             budget: Budget::TextSize,
             limit: 4000,
             place: None,
+            function: None,
         };
         let record = record_of(&stop, "");
         assert_eq!(record.message, "a string of more than 4000 characters");

@@ -128,7 +128,7 @@ impl Calls<'_> {
             // a failure in one case costs only that case
             Stop::Crashed(_) => self.exhausted,
             Stop::OverBudget {
-                budget: Budget::OperationsPerCall,
+                budget: Budget::OperationsPerCall | Budget::InstructionsPerCall,
                 ..
             } => self.exhausted + 1,
             // a problem of the whole file or of this machine concerns every case

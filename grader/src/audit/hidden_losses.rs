@@ -8,6 +8,7 @@ use crate::judge::explain;
 use crate::lab::{Lab, Staff};
 use crate::record::explanation::{DrawCheck, ExplainedDraw, HiddenDraw};
 use crate::record::grade::Measure;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 
 /// The losses that a row shows in words.
@@ -39,7 +40,8 @@ pub(super) fn hidden_losses(
     let mut part = lab.clone();
     part.tasks.retain(|known| known.name == task);
     // nobody can interrupt this host
-    let Ok(explanation) = explain(&part, staff, submission, &mut InProcess) else {
+    let Ok(explanation) = explain(&part, staff, &Submission::from(submission), &mut InProcess)
+    else {
         return Vec::new();
     };
     let draws = explanation.draws();

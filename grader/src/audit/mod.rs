@@ -22,6 +22,7 @@ use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped, TaskGrade};
 use crate::record::graded::GradedRun;
 use crate::record::quantity::points;
 use crate::record::verdict::Verdict;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 
 pub use self::hidden_losses::LostDraw;
@@ -279,7 +280,13 @@ impl Audit {
 /// The grade of a submission of the course staff, which runs in this process.
 fn graded(lab: &Lab, staff: &Staff, submission: &Source) -> Option<GradedRun> {
     // nobody can interrupt this host
-    grade(lab, Some(staff), submission, &mut InProcess).ok()
+    grade(
+        lab,
+        Some(staff),
+        &Submission::from(submission),
+        &mut InProcess,
+    )
+    .ok()
 }
 
 /// What is wrong where the reference solution does not pass `task`.

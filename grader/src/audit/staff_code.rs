@@ -8,6 +8,7 @@ use crate::judge::{opening, with_expected};
 use crate::lab::Lab;
 use crate::lab::staff::Staff;
 use crate::record::staff_fault::StaffSubmission;
+use crate::submission::handed_in::Submission;
 use crate::submission::rhai::ScriptController;
 use crate::task::problem::{LabError, LoadError, problems};
 use crate::task::reporter::Reporter;
@@ -47,7 +48,7 @@ fn builds(
     let Some(task) = tasks.find(|known| task.is_none_or(|name| known.name == name)) else {
         return Ok(());
     };
-    match ScriptController::open(&opening(lab, task, source)) {
+    match ScriptController::open(&opening(lab, task, &Submission::from(source))) {
         Ok(_) => Ok(()),
         Err(stop) => match staff_fault(whose, None, source, &stop) {
             Some(fault) => Err(fault.map(|fault| Box::new(fault) as Box<dyn Problem>)),

@@ -8,6 +8,7 @@ use crate::attempt::function;
 use crate::lab::TaskWork;
 use crate::lab::{Lab, Task};
 use crate::submission::answer::named_entries;
+use crate::submission::handed_in::Submission;
 use crate::task::model::{Case, Function, FunctionTask, Given};
 
 /// `cases` of `task` with their expected entries, in the form of the visible cases.
@@ -38,7 +39,7 @@ pub fn with_expected(
     else {
         return Ok(cases);
     };
-    let opening = opening(lab, task, solution);
+    let opening = opening(lab, task, &Submission::from(solution));
     let answers = function::answers(function, &cases, &opening)
         .map_err(|stop| record_of(&stop, solution.text()).message)?;
     for (case, answer) in cases.iter_mut().zip(answers) {

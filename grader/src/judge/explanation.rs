@@ -1,7 +1,5 @@
 //! A grade explained to the course staff: the submission graded once more on every hidden case and run with nothing withheld.
 
-use kinemark_sim::text::Source;
-
 use super::Interrupted;
 use super::exposed::{ExposedLab, expose};
 use super::grader::{Grader, TaskScores, grade};
@@ -15,6 +13,7 @@ use crate::record::explanation::{
 use crate::record::grade::{CheckGrade, Outcome, TaskKind};
 use crate::record::graded::GradedRun;
 use crate::record::verdict::Verdict;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::{Host, InProcess};
 
 /// Grades `submission` as [`grade`] does, and once more on everything hidden. Hidden numbers are the same, and so are the calls of a
@@ -25,7 +24,7 @@ use crate::submission::host::{Host, InProcess};
 pub fn explain(
     lab: &Lab,
     staff: &Staff,
-    submission: &Source,
+    submission: &Submission,
     host: &mut dyn Host,
 ) -> Result<Explanation, Interrupted> {
     let (graded, scores) = Grader::new(lab, Some(staff), submission).graded(host)?;
@@ -71,7 +70,7 @@ struct Exposition<'a> {
     staff: &'a Staff,
     /// The course staff's part with nothing hidden.
     open: Staff,
-    submission: &'a Source,
+    submission: &'a Submission,
     /// Function tasks that passed in the grade.
     passed: Vec<String>,
 }
@@ -86,8 +85,8 @@ impl Exposition<'_> {
         grader.passed.clone_from(&self.passed);
         grader.judges_each_case = true;
         let (mut graded, mut scores) = grader.graded(host)?;
-        let solution = &self.staff.solution;
-        let mut reference = grade(&exposed.lab, Some(&self.open), solution, &mut InProcess)?;
+        let solution = Submission::from(&self.staff.solution);
+        let mut reference = grade(&exposed.lab, Some(&self.open), &solution, &mut InProcess)?;
         for (run, of_solution) in graded.runs.iter_mut().zip(reference.runs.drain(..)) {
             let task = reference.grade.tasks.first();
             // a solution that stops early is nothing to compare with

@@ -12,6 +12,7 @@ use crate::lab::staff::HiddenRun;
 use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::record::explanation::HiddenDraw;
 use crate::record::grade::TaskKind;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 use crate::task::model::{Case, FunctionTask, Given};
 
@@ -150,7 +151,7 @@ fn expected(exposed: &ExposedLab, staff: &Staff) -> Vec<Option<String>> {
     let TaskWork::Function(work, checks) = &task.work else {
         return Vec::new();
     };
-    let opening = opening(lab, task, &staff.solution);
+    let opening = opening(lab, task, &Submission::from(&staff.solution));
     let cell = lab.workcell();
     let attempt = function::run(cell, &work.function, &work.cases, &opening, &mut InProcess);
     let band = check::answer_band(checks);

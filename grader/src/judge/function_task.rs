@@ -19,6 +19,7 @@ use crate::record::quantity::sum_of_points;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Stop;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::{Host, InProcess};
 use crate::task::model::{Band, Case, Function, FunctionTask};
 
@@ -185,7 +186,7 @@ impl Grader<'_> {
         student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
-            let opening = self.opening(task, &mutant.source);
+            let opening = self.opening(task, &Submission::from(&mutant.source));
             let cell = self.lab.workcell();
             let run = function::run(cell, function, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());

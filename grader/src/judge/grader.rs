@@ -23,6 +23,7 @@ use crate::record::quantity::sum_of_points;
 use crate::record::staff_fault::{StaffFault, StaffSubmission};
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::Host;
 use crate::task::robot::LabRobot;
 
@@ -41,7 +42,7 @@ pub struct Interrupted;
 pub fn grade(
     lab: &Lab,
     staff: Option<&Staff>,
-    submission: &Source,
+    submission: &Submission,
     host: &mut dyn Host,
 ) -> Result<GradedRun, Interrupted> {
     let (graded, _) = Grader::new(lab, staff, submission).graded(host)?;
@@ -49,7 +50,12 @@ pub fn grade(
 }
 
 /// The grade of all tasks together, with the digests of lab, robot, submission and reference.
-fn record(lab: &Lab, staff: Option<&Staff>, submission: &Source, tasks: Vec<TaskGrade>) -> Grade {
+fn record(
+    lab: &Lab,
+    staff: Option<&Staff>,
+    submission: &Submission,
+    tasks: Vec<TaskGrade>,
+) -> Grade {
     let verdicts = tasks.iter().map(|task| task.verdict);
     let parts = parts(lab, staff, submission);
     Grade {
@@ -90,7 +96,7 @@ pub struct Parts {
 }
 
 /// What the grade of `submission` would follow from; nothing is run.
-pub fn parts(lab: &Lab, staff: Option<&Staff>, submission: &Source) -> Parts {
+pub fn parts(lab: &Lab, staff: Option<&Staff>, submission: &Submission) -> Parts {
     Parts {
         lab: part(&lab.name, digest_of_lab(lab)),
         robot: part(
@@ -98,10 +104,7 @@ pub fn parts(lab: &Lab, staff: Option<&Staff>, submission: &Source) -> Parts {
             LabRobot::digest(&lab.robot_file, &lab.robot_meshes),
         ),
         scenes: scene_parts(lab),
-        submission: part(
-            submission.name(),
-            blake3::hash(submission.text().as_bytes()),
-        ),
+        submission: part(submission.name(), submission.digest()),
         reference: staff.map(|staff| part(&lab.name, staff.digest)),
     }
 }
@@ -165,7 +168,7 @@ pub fn engine_digest() -> &'static str {
 pub(super) struct Grader<'a> {
     pub(super) lab: &'a Lab,
     pub(super) staff: Option<&'a Staff>,
-    pub(super) submission: &'a Source,
+    pub(super) submission: &'a Submission,
     /// Function tasks so far that passed.
     pub(super) passed: Vec<String>,
     /// Function tasks so far that earned less than half of their points.
@@ -196,7 +199,7 @@ pub(super) struct TaskScores {
 }
 
 impl<'a> Grader<'a> {
-    pub(super) fn new(lab: &'a Lab, staff: Option<&'a Staff>, submission: &'a Source) -> Self {
+    pub(super) fn new(lab: &'a Lab, staff: Option<&'a Staff>, submission: &'a Submission) -> Self {
         Self {
             lab,
             staff,
@@ -245,7 +248,7 @@ impl<'a> Grader<'a> {
         Ok((graded, scores))
     }
 
-    pub(super) fn opening(&self, task: &Task, submission: &Source) -> Opening {
+    pub(super) fn opening(&self, task: &Task, submission: &Submission) -> Opening {
         opening(self.lab, task, submission)
     }
 

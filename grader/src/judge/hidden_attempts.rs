@@ -11,6 +11,7 @@ use crate::lab::TaskWork;
 use crate::lab::staff::HiddenRun;
 use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped};
 use crate::record::verdict::Verdict;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::Host;
 
 /// The hidden runs of one task, judged. There are none in practice mode, or if the visible run did not reach its end.
@@ -52,7 +53,7 @@ impl HiddenAttempts {
     pub(super) fn run(
         runs: &[&HiddenRun],
         task: &str,
-        (submission, solution): (&Source, &Source),
+        (submission, solution): (&Submission, &Source),
         host: &mut dyn Host,
     ) -> Result<Self, Interrupted> {
         let mut attempts = Vec::new();
@@ -179,7 +180,7 @@ pub(super) fn counted_score(score: f64) -> f64 {
 fn attempt(
     run: &HiddenRun,
     name: &str,
-    (submission, solution): (&Source, &Source),
+    (submission, solution): (&Submission, &Source),
     host: &mut dyn Host,
 ) -> Result<Option<HiddenAttempt>, Interrupted> {
     let lab = &run.lab;

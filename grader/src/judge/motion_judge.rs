@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
@@ -19,6 +18,7 @@ use crate::record::graded::TcpPath;
 use crate::record::names::Names;
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::Host;
 use crate::task::model::{Band, MotionTask};
 
@@ -57,7 +57,7 @@ impl<'a> MotionJudge<'a> {
         lab: &'a Lab,
         task: &'a Task,
         (work, checks): (&'a MotionTask, &'a [Check<dyn MotionCheck>]),
-        submission: &Source,
+        submission: &Submission,
         reference: Option<&'a TcpPath>,
     ) -> Self {
         Self {
@@ -146,7 +146,7 @@ impl<'a> MotionJudge<'a> {
         if !all_full(&checks) {
             verdict = verdict.min(Verdict::Missed);
         }
-        let source = &self.opening.source;
+        let source = self.opening.program.text();
         Ok(JudgedRun {
             checks,
             dwells: facts.dwells,

@@ -27,6 +27,7 @@ use crate::record::grade::{
 use crate::record::graded::Curve;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::{Host, InProcess};
 use crate::task::model::{Function, MotionTask};
 
@@ -217,7 +218,7 @@ impl Grader<'_> {
             self.note_stop(whose, task, &mutant.source, ended);
         };
         let mutants = self.mutants_of(task).filter_map(|mutant| {
-            let opening = self.opening(task, &mutant.source);
+            let opening = self.opening(task, &Submission::from(&mutant.source));
             match Session::open(self.lab.workcell(), judge.work, &opening, &mut InProcess) {
                 Ok(session) => Some((mutant, session)),
                 Err(attempt) => {
@@ -250,7 +251,7 @@ impl Grader<'_> {
             self.lab,
             judge.task,
             (judge.work, &judge.checks),
-            source,
+            &Submission::from(source),
             None,
         );
         let run = own.attempt(&mut InProcess);

@@ -1,19 +1,19 @@
 //! The opening of a submission: the task, the robot's numbers, and what the task grants.
 
 use kinemark_sim::dynamics::GRAVITY_M_S2;
-use kinemark_sim::text::Source;
 
 use crate::attempt::function;
 use crate::attempt::motion;
 use crate::lab::TaskWork;
 use crate::lab::{Lab, Task};
 use crate::submission::controller::{Granted, Opening};
+use crate::submission::handed_in::Submission;
 use crate::task::mesh_file::MeshFile;
 use crate::task::model::{Function, FunctionTask};
 use crate::task::value::Value;
 
 /// The opening of a submission for `task` of `lab`.
-pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
+pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Submission) -> Opening {
     let (robot, target, sensors) = match &task.work {
         TaskWork::Function(..) => (
             function::robot_facts(&lab.robot, None),
@@ -28,7 +28,7 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Source) -> Opening {
     };
     Opening {
         file: submission.name().to_owned(),
-        source: submission.text().to_owned(),
+        program: submission.program().clone(),
         task: task.name.clone(),
         robot,
         target,

@@ -8,6 +8,7 @@ use crate::check::{Check, FromReference, MotionCheck};
 use crate::lab::practice::PracticeTask;
 use crate::lab::{Lab, Practice, Staff, Task, TaskWork};
 use crate::record::graded::TcpPath;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 use crate::task::model::MotionTask;
 
@@ -55,7 +56,8 @@ fn of_task(lab: &Lab, staff: &Staff, task: &Task) -> Result<PracticeTask, NoPrac
         task: task.name.clone(),
         why,
     };
-    let judge = MotionJudge::new(lab, task, (work, checks), &staff.solution, None);
+    let solution = Submission::from(&staff.solution);
+    let judge = MotionJudge::new(lab, task, (work, checks), &solution, None);
     let attempt = judge.attempt(&mut InProcess);
     if attempt.ended.is_some() {
         return Err(no_practice(

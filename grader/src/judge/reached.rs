@@ -11,6 +11,7 @@ use super::motion_judge::MotionJudge;
 use crate::attempt::{Attempt, Ended};
 use crate::check::{Check, Finding, FromReference, MotionCheck, Reached};
 use crate::record::graded::Curve;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 use crate::task::joint_units::JointUnits;
 
@@ -51,7 +52,7 @@ impl MotionJudge<'_> {
             self.lab,
             self.task,
             (self.work, &self.checks),
-            solution,
+            &Submission::from(solution),
             None,
         );
         let run = own.attempt(&mut InProcess);

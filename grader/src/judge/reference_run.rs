@@ -5,6 +5,7 @@ use crate::judge::opening;
 use crate::lab::TaskWork;
 use crate::lab::{Lab, Staff};
 use crate::record::graded::GradedRun;
+use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
 
 /// Adds the reference solution's motion to every run of `graded`, for its report and its logs; a solution that stops early is left out.
@@ -17,7 +18,7 @@ pub fn show_reference(lab: &Lab, staff: &Staff, graded: &mut GradedRun) {
         let TaskWork::Motion(work, _) = &task.work else {
             continue;
         };
-        let opening = opening(lab, task, &staff.solution);
+        let opening = opening(lab, task, &Submission::from(&staff.solution));
         let reference = motion::run(lab.workcell(), work, &opening, &mut InProcess);
         run.reference_overlay = reference.ended.is_none().then_some(reference.recorded);
     }

@@ -133,7 +133,7 @@ fn end_message(judge: &MotionJudge<'_>, ended: &Ended) -> Result<String, Undecid
         names: judge.names(),
         task: judge.work,
     };
-    let record = ended.record(&judge.opening.source, disclosure);
+    let record = ended.record(judge.opening.program.text(), disclosure);
     let Some(stop) = ended.stop() else {
         return Ok(record.message);
     };

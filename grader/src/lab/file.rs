@@ -43,6 +43,8 @@ pub(super) struct LabTable {
 pub(super) struct BudgetTable {
     pub(super) operations_per_call: Option<Spanned<u64>>,
     pub(super) operations_per_task: Option<Spanned<u64>>,
+    pub(super) instructions_per_call: Option<Spanned<u64>>,
+    pub(super) instructions_per_task: Option<Spanned<u64>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -86,7 +86,11 @@ fk-error = { full_m = 0.1, zero_m = 0.2 }
 
     #[test]
     fn a_grade_follows_from_the_questions_alone() {
-        let digest = |lab: &Lab| parts(lab, None, &Source::new("s.rhai", "")).lab.digest;
+        let digest = |lab: &Lab| {
+            parts(lab, None, &Source::new("s.rhai", "").into())
+                .lab
+                .digest
+        };
         let short = load("hints = [\"Why?\"]").unwrap();
         assert_eq!(short.graded_text, short.source.text());
         for hints in [

@@ -1,9 +1,11 @@
 //! The interface between the grader and a student's code: calls go in, answers come out, and a stop says why there is no answer.
 //!
-//! One trait with two transports: the script in this process, and a worker process. Both carry these types and give the same bits.
+//! One trait, whatever the submission is made of, with two transports: this process, and a worker process. Both carry these types and
+//! give the same bits.
 
 use serde::{Deserialize, Serialize};
 
+use super::handed_in::Program;
 use crate::record::grade::FurtherMistake;
 pub use crate::task::grant::Grant;
 pub use crate::task::value::Value;
@@ -34,8 +36,8 @@ pub struct Said {
 pub struct Opening {
     /// File name of the submission, for messages.
     pub file: String,
-    /// The submission's text.
-    pub source: String,
+    /// The submission's code.
+    pub program: Program,
     /// Name of the task.
     pub task: String,
     /// The robot of the task.
@@ -124,6 +126,18 @@ pub enum Call {
 }
 
 impl Call {
+    /// The name of the function in scripts.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::ForwardKinematics { .. } => "forward_kinematics",
+            Self::InverseKinematics { .. } => "inverse_kinematics",
+            Self::Jacobian { .. } => "jacobian",
+            Self::Free { function, .. } => function,
+            Self::Init => "init",
+            Self::Control(_) => "control",
+        }
+    }
+
     /// The robot of its case; `None` in a motion task, whose robot is that of the [`Opening`].
     pub fn robot(&self) -> Option<&RobotFacts> {
         match self {
@@ -183,7 +197,7 @@ pub struct Answer {
     pub value: Value,
     /// Its output.
     pub said: Said,
-    /// Operations it used.
+    /// Operations it used; instructions of a compiled module.
     pub operations: u64,
 }
 
@@ -244,6 +258,8 @@ pub enum Stop {
         limit: u64,
         /// The position where it ran out, if the host knows it.
         place: Option<SourcePosition>,
+        /// The function of a compiled module in which it ran out, if the host knows it.
+        function: Option<String>,
     },
     /// This machine's clock or memory ended it; it says nothing about the work.
     HostLimit(HostLimit),
@@ -270,8 +286,14 @@ pub enum Budget {
     TextSize,
     /// Entries of one map.
     MapSize,
-    /// Bytes of the submission.
+    /// Bytes of a script.
     SourceBytes,
+    /// Instructions of one call of a compiled module.
+    InstructionsPerCall,
+    /// Instructions of a compiled module in a whole task.
+    InstructionsPerTask,
+    /// Bytes of a compiled module.
+    ModuleBytes,
 }
 
 impl Budget {
@@ -286,6 +308,9 @@ impl Budget {
             Self::TextSize => "characters in one string",
             Self::MapSize => "entries in one map",
             Self::SourceBytes => "bytes of source",
+            Self::InstructionsPerCall => "instructions in one call",
+            Self::InstructionsPerTask => "instructions in one task",
+            Self::ModuleBytes => "bytes of module",
         }
     }
 }
@@ -320,8 +345,14 @@ pub struct Budgets {
     pub log_lines: u64,
     /// Values plotted in a task that are kept.
     pub plot_samples: u64,
-    /// Bytes of the submission.
+    /// Bytes of a script.
     pub source_bytes: u64,
+    /// Instructions of one call of a compiled module.
+    pub instructions_per_call: u64,
+    /// Instructions of a compiled module in a whole task.
+    pub instructions_per_task: u64,
+    /// Bytes of a compiled module.
+    pub module_bytes: u64,
 }
 
 impl Default for Budgets {
@@ -337,6 +368,9 @@ impl Default for Budgets {
             log_lines: 1_000,
             plot_samples: 50_000,
             source_bytes: 65_536,
+            instructions_per_call: 1_000_000,
+            instructions_per_task: 200_000_000,
+            module_bytes: 262_144,
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Hosts that open submissions: this process, or one that starts workers.
 
 use super::controller::{Controller, Opening, Stop};
+use super::handed_in::Program;
+use super::plugin::PluginController;
 use super::rhai::ScriptController;
 
 /// Opens a submission for a task: in this process, or in a worker.
@@ -21,6 +23,17 @@ pub struct InProcess;
 
 impl Host for InProcess {
     fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
-        Ok(Box::new(ScriptController::open(opening)?))
+        open_here(opening)
     }
+}
+
+/// Opens a submission in this process, whatever it is made of.
+///
+/// # Errors
+/// [`Stop`] if it cannot start.
+pub fn open_here(opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+    Ok(match opening.program {
+        Program::Script(_) => Box::new(ScriptController::open(opening)?),
+        Program::Module(_) => Box::new(PluginController::open(opening)?),
+    })
 }

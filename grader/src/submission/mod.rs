@@ -3,6 +3,10 @@
 
 pub mod answer;
 pub mod controller;
+pub mod handed_in;
 pub mod host;
 pub mod not_text;
+mod output;
+pub mod plugin;
 pub mod rhai;
+mod robot_model;

@@ -46,7 +46,7 @@ fn record(files: &Handed, lab: &str) -> Result<String, String> {
     let lab = Lab::load(&folder("labs"), lab).map_err(|error| error.to_string())?;
     let staff = Staff::load(&folder("reference"), &lab, None).map_err(|error| error.to_string())?;
     let submission = Source::new("submission.rhai", text(files, "submission.rhai")?);
-    let graded = judge::grade(&lab, staff.as_ref(), &submission, &mut InProcess)
+    let graded = judge::grade(&lab, staff.as_ref(), &submission.into(), &mut InProcess)
         .map_err(|error| error.to_string())?;
     let json = serde_json::to_string_pretty(&graded.grade).map_err(|error| error.to_string())?;
     Ok(json + "\n")

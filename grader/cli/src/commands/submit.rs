@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             lab: lab_version(&default),
         },
         student,
-        file: source.source.name(),
+        file: source.submission.name(),
         submission: &bytes,
         practice: &grade,
     };

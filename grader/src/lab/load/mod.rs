@@ -321,13 +321,31 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn budgets(&self, table: &BudgetTable) -> Result<Budgets, LabError> {
         let mut budgets = Budgets::default();
-        for (typed, slot) in [
-            (&table.operations_per_call, &mut budgets.operations_per_call),
-            (&table.operations_per_task, &mut budgets.operations_per_task),
+        // above these, one call could keep a class waiting
+        let (operations, instructions) = (1_000_000_000, 40_000_000_000);
+        for (typed, slot, highest) in [
+            (
+                &table.operations_per_call,
+                &mut budgets.operations_per_call,
+                operations,
+            ),
+            (
+                &table.operations_per_task,
+                &mut budgets.operations_per_task,
+                operations,
+            ),
+            (
+                &table.instructions_per_call,
+                &mut budgets.instructions_per_call,
+                instructions,
+            ),
+            (
+                &table.instructions_per_task,
+                &mut budgets.instructions_per_task,
+                instructions,
+            ),
         ] {
             if let Some(value) = typed {
-                // above this, one call could keep a class waiting
-                let highest = 1_000_000_000;
                 let typed = value;
                 let value = *typed.get_ref();
                 if !(1..=highest).contains(&value) {

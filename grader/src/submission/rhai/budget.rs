@@ -231,6 +231,9 @@ impl Meter {
             Budget::TextSize => budgets.text_size,
             Budget::MapSize => budgets.map_size,
             Budget::SourceBytes => budgets.source_bytes,
+            Budget::InstructionsPerCall => budgets.instructions_per_call,
+            Budget::InstructionsPerTask => budgets.instructions_per_task,
+            Budget::ModuleBytes => budgets.module_bytes,
         }
     }
 

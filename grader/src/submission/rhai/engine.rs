@@ -7,12 +7,13 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, EvalAltResult, Position};
 
 use super::budget::Meter;
-use super::granted::{self, Model};
+use super::granted;
 use super::hints::Names;
 use super::library::Library;
 use super::mistake::raise;
 use super::{arithmetic, linear, list, math, output};
 use crate::submission::controller::{Budgets, Grant};
+use crate::submission::robot_model::Model;
 
 /// Values of variables that no function declares.
 #[derive(Default)]

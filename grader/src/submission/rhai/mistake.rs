@@ -253,6 +253,7 @@ impl Context<'_> {
             budget,
             limit: self.meter.limit(budget),
             place,
+            function: None,
         }
     }
 

@@ -11,7 +11,6 @@ use rhai::{
 use super::budget::{Meter, place};
 use super::convert;
 use super::engine::{self, ARGUMENTS, Globals};
-use super::granted::Model;
 use super::hints::{ENTRY_POINTS, Names};
 use super::list;
 use super::mistake::{Context, Problem, raise};
@@ -22,6 +21,7 @@ use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
     SensorFacts, Stop, Value,
 };
+use crate::submission::robot_model::Model;
 
 /// The stack size of a thread that runs scripts.
 ///
@@ -92,12 +92,14 @@ impl ScriptController {
     /// [`Stop::DidNotBuild`] if it does not compile, [`Stop::OverBudget`] if it is too long or too deep, and any stop of its top-level
     /// statements.
     pub fn open(opening: &Opening) -> Result<Self, Stop> {
+        let source = opening.program.text();
         let budgets = &opening.budgets;
-        if opening.source.len() as u64 > budgets.source_bytes {
+        if source.len() as u64 > budgets.source_bytes {
             return Err(Stop::OverBudget {
                 budget: Budget::SourceBytes,
                 limit: budgets.source_bytes,
                 place: None,
+                function: None,
             });
         }
         let meter = Rc::new(Meter::new(budgets.clone()));
@@ -122,7 +124,7 @@ impl ScriptController {
             .unwrap_or_default();
 
         // a byte order mark, which editors do not show
-        let source = opening.source.trim_start_matches('\u{feff}');
+        let source = source.trim_start_matches('\u{feff}');
         let context = Context {
             source,
             meter: &meter,
@@ -293,14 +295,7 @@ impl ScriptController {
 
 impl Controller for ScriptController {
     fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
-        let name = match call {
-            Call::ForwardKinematics { .. } => "forward_kinematics",
-            Call::InverseKinematics { .. } => "inverse_kinematics",
-            Call::Jacobian { .. } => "jacobian",
-            Call::Free { function, .. } => function,
-            Call::Init => "init",
-            Call::Control(_) => "control",
-        };
+        let name = call.name();
         let defined = self.statements.contains_key(name);
         if !defined && let Some(missing) = self.missing(name) {
             return Err(missing);

@@ -169,6 +169,7 @@ fn hostile_scripts_end_at_a_budget() {
                     budget,
                     limit,
                     place,
+                    ..
                 } => {
                     assert_eq!(budget, wanted, "{start}");
                     assert!(limit > 0);

@@ -4,6 +4,7 @@ use super::ScriptController;
 use crate::submission::controller::{
     Answer, Budgets, Call, Controller, Observation, Opening, RobotFacts, Stop, Value,
 };
+use crate::submission::handed_in::Program;
 
 mod budgets;
 mod calls;
@@ -30,7 +31,7 @@ fn robot() -> RobotFacts {
 fn opening(source: &str) -> Opening {
     Opening {
         file: "submission.rhai".into(),
-        source: source.into(),
+        program: Program::Script(source.into()),
         task: "move".into(),
         robot: robot(),
         target: numbers([2.0, 1.4, 0.0]),

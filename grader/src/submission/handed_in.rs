@@ -1,0 +1,86 @@
+//! A submission as it is graded: the name of its file, and its program.
+
+use kinemark_sim::text::Source;
+use serde::{Deserialize, Serialize};
+
+/// The code of a submission, in one of the forms that run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Program {
+    /// The text of a script.
+    Script(String),
+    /// The bytes of a WebAssembly module.
+    Module(Vec<u8>),
+}
+
+impl Program {
+    /// The text in which positions count lines; empty for a module.
+    pub fn text(&self) -> &str {
+        match self {
+            Self::Script(text) => text,
+            Self::Module(_) => "",
+        }
+    }
+
+    /// Its bytes.
+    pub fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Script(text) => text.as_bytes(),
+            Self::Module(bytes) => bytes,
+        }
+    }
+}
+
+/// A submission to grade.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Submission {
+    name: String,
+    program: Program,
+}
+
+impl Submission {
+    /// The first bytes of every WebAssembly module.
+    pub const MODULE_MAGIC: &[u8] = b"\0asm";
+
+    /// A compiled module; `name` is that of its file.
+    pub fn module(name: &str, bytes: &[u8]) -> Self {
+        Self {
+            name: name.to_owned(),
+            program: Program::Module(bytes.to_owned()),
+        }
+    }
+
+    /// The name of its file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text of a script; empty for a module.
+    pub fn text(&self) -> &str {
+        self.program.text()
+    }
+
+    /// Its code.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// The identity of its code.
+    pub fn digest(&self) -> blake3::Hash {
+        blake3::hash(self.program.bytes())
+    }
+}
+
+impl From<Source> for Submission {
+    fn from(script: Source) -> Self {
+        Self::from(&script)
+    }
+}
+
+impl From<&Source> for Submission {
+    fn from(script: &Source) -> Self {
+        Self {
+            name: script.name().to_owned(),
+            program: Program::Script(script.text().to_owned()),
+        }
+    }
+}

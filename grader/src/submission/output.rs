@@ -1,0 +1,52 @@
+//! What a submission prints and plots in a task, up to its budgets.
+
+use super::controller::{Budgets, Said};
+
+/// The output of one task. Above the budgets it only adds a note, once: printing must not end the run.
+#[derive(Debug, Default)]
+pub(super) struct Output {
+    most_lines: u64,
+    most_samples: u64,
+    lines: u64,
+    samples: u64,
+    said: Said,
+}
+
+impl Output {
+    pub(super) fn new(budgets: &Budgets) -> Self {
+        Self {
+            most_lines: budgets.log_lines,
+            most_samples: budgets.plot_samples,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a line to the log.
+    pub(super) fn print(&mut self, line: String) {
+        self.lines = self.lines.saturating_add(1);
+        let most = self.most_lines;
+        if self.lines <= most {
+            self.said.log.push(line);
+        } else if self.lines == most + 1 {
+            let note = format!("more than {most} lines are printed: the rest is not kept");
+            self.said.log.push(note);
+        }
+    }
+
+    /// Adds a value to a signal.
+    pub(super) fn plot(&mut self, name: String, value: f64) {
+        self.samples = self.samples.saturating_add(1);
+        let most = self.most_samples;
+        if self.samples <= most {
+            self.said.plots.push((name, value));
+        } else if self.samples == most + 1 {
+            let note = format!("more than {most} values are plotted: the rest is not kept");
+            self.said.log.push(note);
+        }
+    }
+
+    /// Takes the output since the last time.
+    pub(super) fn take(&mut self) -> Said {
+        std::mem::take(&mut self.said)
+    }
+}

@@ -1,0 +1,310 @@
+//! From the bytes of a module to one that can run: its form, its size, its imports and its exports are checked here, so that what is
+//! wrong with them is `did-not-build` with the reason.
+
+use wasmi::{CompilationMode, Config, Engine, ExternType, FuncType, Linker, Module};
+use wasmi::{StoreLimits, StoreLimitsBuilder, ValType};
+
+use super::imports::{self, State};
+use super::marks::{MARK, marked};
+use super::names::FunctionNames;
+use crate::submission::controller::{Budget, Mistake, Stop};
+
+/// Version of the interface in `kinemark.h`.
+pub(super) const VERSION: i32 = 1;
+
+/// The export of the module's memory.
+pub(super) const MEMORY: &str = "memory";
+
+/// How large a module may be, and what it may take while it runs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Bytes of the module.
+    pub(super) module_bytes: u64,
+    /// Bytes of its memory.
+    pub(super) memory_bytes: usize,
+    /// Elements of each of its tables.
+    pub(super) table_elements: usize,
+}
+
+impl Limits {
+    /// Those of a student's module of at most `module_bytes`.
+    pub(super) fn of_submission(module_bytes: u64) -> Self {
+        Self {
+            module_bytes,
+            memory_bytes: 16 << 20,
+            table_elements: 10_000,
+        }
+    }
+
+    /// The same for an instance.
+    pub(super) fn of_instance(self) -> StoreLimits {
+        StoreLimitsBuilder::new()
+            .memory_size(self.memory_bytes)
+            .table_elements(self.table_elements)
+            .instances(1)
+            .memories(1)
+            .tables(16)
+            .build()
+    }
+}
+
+/// Calls inside each other, and bytes of their values.
+pub(super) const MOST_CALLS: usize = 1_000;
+const MOST_STACK_BYTES: usize = 8 << 20;
+
+/// A module that can run.
+pub(super) struct Compiled {
+    pub(super) engine: Engine,
+    pub(super) module: Module,
+    pub(super) linker: Linker<State>,
+    pub(super) limits: Limits,
+    pub(super) names: FunctionNames,
+    /// The names of its exported functions.
+    pub(super) functions: Vec<String>,
+}
+
+impl Compiled {
+    /// Compiles `bytes` and checks what it imports and exports; `own` is the name of the lab's own function, if the task has one.
+    ///
+    /// # Errors
+    /// [`Stop::DidNotBuild`] with the reason, and [`Stop::OverBudget`] for a module that is too large.
+    pub(super) fn new(bytes: &[u8], limits: Limits, own: Option<&str>) -> Result<Self, Stop> {
+        if bytes.len() as u64 > limits.module_bytes {
+            return Err(Stop::OverBudget {
+                budget: Budget::ModuleBytes,
+                limit: limits.module_bytes,
+                place: None,
+                function: None,
+            });
+        }
+        header(bytes)?;
+        let engine = Engine::new(&config());
+        Module::validate(&engine, bytes).map_err(|error| invalid(&error))?;
+        // what is valid can be marked, and is still valid then
+        let fault = |error: &dyn std::fmt::Display| Stop::GraderFault(format!("a module: {error}"));
+        let names = FunctionNames::of(bytes);
+        let marked = marked(bytes).map_err(|error| fault(&error))?;
+        let module = Module::new(&engine, &marked).map_err(|error| {
+            // two exports of one name
+            if bytes
+                .windows(MARK.len())
+                .any(|part| part == MARK.as_bytes())
+            {
+                let message = format!("the module has the name `{MARK}`, which Kinemark uses");
+                return refused(message, "call it something else");
+            }
+            invalid(&error)
+        })?;
+        let linker = imports::linker(&engine).map_err(|error| fault(&error))?;
+        let compiled = Self {
+            functions: exported_functions(&module),
+            engine,
+            module,
+            linker,
+            limits,
+            names,
+        };
+        compiled.imports()?;
+        compiled.exports(own)?;
+        Ok(compiled)
+    }
+
+    /// Refuses imports that are not there, or of another type.
+    fn imports(&self) -> Result<(), Stop> {
+        for import in self.module.imports() {
+            let (module, name) = (import.module(), import.name());
+            let shown = format!("`{module}.{name}`");
+            let ExternType::Func(wanted) = import.ty() else {
+                return Err(refused(
+                    format!("the module imports {shown}, which is no function"),
+                    "let it define its own memory, tables and globals: leave out options such as --import-memory",
+                ));
+            };
+            let Some(there) = imports::type_of(module, name) else {
+                return Err(refused(
+                    format!("the module imports {shown}, which is not there"),
+                    &missing_import(module, name),
+                ));
+            };
+            if there != *wanted {
+                return Err(refused(
+                    format!(
+                        "the module imports {shown} as {}, it is {}",
+                        shape(wanted),
+                        shape(&there)
+                    ),
+                    "declare it as kinemark.h does",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a module without what every module has, and functions of another type than they are called with.
+    fn exports(&self, own: Option<&str>) -> Result<(), Stop> {
+        let is_memory = matches!(self.module.get_export(MEMORY), Some(ExternType::Memory(_)));
+        if !is_memory {
+            return Err(refused(
+                format!("the module exports no memory named `{MEMORY}`"),
+                "it has no other name in C and Rust; in WebAssembly text write (memory (export \"memory\") 2)",
+            ));
+        }
+        for (name, [parameters, results]) in REQUIRED {
+            if !self.functions.iter().any(|known| known == name) {
+                return Err(refused(
+                    format!(
+                        "the module exports no function `{name}`, so it is not made for Kinemark"
+                    ),
+                    "in C include kinemark.h, in Rust use the crate kinemark-plugin: they define it",
+                ));
+            }
+            self.has_type(name, *parameters, *results)?;
+        }
+        let own = own.map(export_name);
+        let functions = FUNCTIONS.iter().map(|(name, shape, _)| (*name, *shape));
+        let own = own.as_deref().map(|name| (name, OWN_FUNCTION));
+        for (name, [parameters, results]) in functions.chain(own) {
+            if self.functions.iter().any(|known| known == name) {
+                self.has_type(name, parameters, results)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn has_type(&self, name: &str, parameters: usize, results: usize) -> Result<(), Stop> {
+        let words = |count| vec![ValType::I32; count];
+        let wanted = FuncType::new(words(parameters), words(results));
+        match self.module.get_export(name) {
+            Some(ExternType::Func(there)) if there != wanted => Err(refused(
+                format!(
+                    "the module exports `{name}` as {}, it is called as {}",
+                    shape(&there),
+                    shape(&wanted)
+                ),
+                "declare it as kinemark.h does",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What every module exports besides its memory, with how many pointers or counts it takes and returns.
+const REQUIRED: &[(&str, [usize; 2])] = &[("km_version", [0, 1]), ("km_buffer", [1, 1])];
+
+/// The functions that tasks name, with the same counts, and how C declares their parameters.
+pub(super) const FUNCTIONS: &[(&str, [usize; 2], &str)] = &[
+    ("km_forward_kinematics", [3, 0], "robot, q, position"),
+    (
+        "km_inverse_kinematics",
+        [4, 1],
+        "robot, position, branches, most",
+    ),
+    ("km_jacobian", [3, 1], "robot, q, matrix"),
+    ("km_init", [2, 0], "robot, task"),
+    ("km_control", [2, 0], "observation, command"),
+];
+
+/// The counts of a function of the lab's own, and its parameters.
+const OWN_FUNCTION: [usize; 2] = [2, 0];
+pub(super) const OWN_PARAMETERS: &str = "given, answer";
+
+/// The export of the function that scripts call `name`.
+pub(super) fn export_name(name: &str) -> String {
+    format!("km_{name}")
+}
+
+fn config() -> Config {
+    let mut config = Config::default();
+    config
+        .consume_fuel(true)
+        .compilation_mode(CompilationMode::Eager)
+        .set_max_recursion_depth(MOST_CALLS)
+        .set_max_stack_height(MOST_STACK_BYTES)
+        .wasm_multi_memory(false)
+        .wasm_tail_call(false)
+        .ignore_custom_sections(true);
+    config
+}
+
+/// Refuses what is no core module of version 1, in words.
+fn header(bytes: &[u8]) -> Result<(), Stop> {
+    let help = "hand in the module that your compiler or linker wrote: clang with --target=wasm32, or cargo with --target wasm32-unknown-unknown";
+    match bytes.get(4..8) {
+        Some([1, 0, 0, 0]) => Ok(()),
+        Some([_, _, 1, 0]) => Err(refused(
+            "the file is a WebAssembly component, not a core module".to_owned(),
+            help,
+        )),
+        Some(_) => Err(refused(
+            "the file is WebAssembly of another version than 1".to_owned(),
+            help,
+        )),
+        None => Err(refused(
+            "the file ends within the header of a WebAssembly module".to_owned(),
+            help,
+        )),
+    }
+}
+
+fn exported_functions(module: &Module) -> Vec<String> {
+    let functions = module
+        .exports()
+        .filter(|export| matches!(export.ty(), ExternType::Func(_)));
+    functions.map(|export| export.name().to_owned()).collect()
+}
+
+/// What the validator says about a module.
+fn invalid(error: &wasmi::Error) -> Stop {
+    let message = error.to_string();
+    let help = if message.contains("SIMD") {
+        "build it without SIMD: leave out -msimd128 and target features such as +simd128"
+    } else if message.contains("threads") || message.contains("shared") {
+        "build it without threads and shared memory"
+    } else if message.contains("not enabled") {
+        "build it for plain wasm32: leave out the target features that it names"
+    } else {
+        "build it again: the file may be cut off or changed after it was built"
+    };
+    refused(format!("the module is not valid: {message}"), help)
+}
+
+/// What to do about an import that is not there.
+fn missing_import(module: &str, name: &str) -> String {
+    if module.starts_with("wasi") {
+        return "there is no WASI here: no files, clocks or standard output. In C leave out <stdio.h> and <stdlib.h>; in Rust build for wasm32-unknown-unknown".to_owned();
+    }
+    if module.contains("wbindgen") || name.contains("wbindgen") {
+        return "build it with cargo alone, not with wasm-bindgen or wasm-pack".to_owned();
+    }
+    let known: Vec<&str> = imports::names().map(|(_, name)| name).collect();
+    match kinemark_sim::text::nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? docs/plugin.md lists what can be imported"),
+        None => "define it in your own code; docs/plugin.md lists what can be imported".to_owned(),
+    }
+}
+
+/// A function's type in words: `(i32, i32) -> (f64)`.
+fn shape(function: &FuncType) -> String {
+    let list = |types: &[ValType]| {
+        let names: Vec<String> = types
+            .iter()
+            .map(|of| format!("{of:?}").to_lowercase())
+            .collect();
+        names.join(", ")
+    };
+    format!(
+        "({}) -> ({})",
+        list(function.params()),
+        list(function.results())
+    )
+}
+
+/// The stop of a module that cannot be used.
+pub(super) fn refused(message: String, help: &str) -> Stop {
+    Stop::DidNotBuild(Mistake {
+        message,
+        place: None,
+        help: Some(help.to_owned()),
+        further: Vec::new(),
+    })
+}
