@@ -9,9 +9,9 @@ use kinemark_course::staffed_lab::engine_id;
 
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
-    course_page, course_regrade, course_release, course_status, grade, hint, lab_check, lab_draws,
-    lab_fill, lab_list, lab_pack, lab_variant, log_export, new, robot_convert, robot_eval,
-    robot_response, robot_show, scene_check, submit, verify, view, watch,
+    course_page, course_regrade, course_release, course_status, doctor, grade, hint, lab_check,
+    lab_draws, lab_fill, lab_list, lab_pack, lab_variant, log_export, new, robot_convert,
+    robot_eval, robot_response, robot_show, scene_check, submit, verify, view, watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -67,10 +67,11 @@ pub(crate) enum Command {
     /// Grade a class: from what the LMS exported to what it takes back: for course staff
     #[command(subcommand)]
     Course(CourseCommand),
+    Doctor(doctor::Args),
     Completions(completions::Args),
     /// Runs a submission for another process; not for people
     #[command(hide = true)]
-    Worker,
+    Worker(worker::Args),
     /// Grades an upload for Gradescope; not for people
     #[command(hide = true)]
     Autograder(autograder::Args),
@@ -151,8 +152,10 @@ impl CommandLine {
             Command::Course(CourseCommand::Forget(args)) => course_forget::run(&args),
             Command::Course(CourseCommand::Regrade(args)) => course_regrade::run(&args),
             Command::Course(CourseCommand::Status(args)) => course_status::run(&args),
+            Command::Doctor(args) => doctor::run(&args),
             Command::Completions(args) => completions::run(&args),
-            Command::Worker => Ok(worker::serve()),
+            // it never comes here: `main` starts it before any thread
+            Command::Worker(args) => Ok(worker::serve(&args)),
             Command::Autograder(args) => autograder::run(&args),
         }
     }

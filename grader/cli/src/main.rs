@@ -31,6 +31,7 @@ mod practice_variants;
 mod report_folder;
 mod response_pictures;
 mod robot_source;
+mod sandbox;
 mod saves;
 mod scene_source;
 mod scenes_to_check;
@@ -67,6 +68,10 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
+    // in the first thread, with no other beside it: what it gives up, every later thread lacks
+    if let Some(command_line::Command::Worker(args)) = &args.command {
+        return worker::serve(args);
+    }
     let command = std::thread::Builder::new()
         // submissions that run in this process (mutants, --in-process) may nest as deep as their budgets allow
         .stack_size(2 * kinemark_grader::submission::rhai::STACK_BYTES)

@@ -16,6 +16,8 @@ pub(crate) struct Work<'w> {
     pub(crate) parts: &'w [Shard],
     /// Submissions graded at once in each part; as many as Slurm gives it processors where nobody says.
     pub(crate) jobs: Option<usize>,
+    /// Whether each part refuses a machine that does not seal workers.
+    pub(crate) require_sandbox: bool,
     pub(crate) reports: bool,
     /// More options of `sbatch`.
     pub(crate) options: &'w [String],
@@ -46,10 +48,15 @@ impl Scripts {
             None => "\"${SLURM_CPUS_ON_NODE:-1}\"".to_owned(),
         };
         let reports = if work.reports { "" } else { " --no-reports" };
+        let sandbox = if work.require_sandbox {
+            " --require-sandbox"
+        } else {
+            ""
+        };
         let script = |what: &str, shard: &str| {
             format!(
                 "#!/bin/sh\n# {what}; written by `kinemark course grade --slurm`\ncd {course} || exit 4\n\
-                 exec {program} course grade{shard} --jobs {jobs}{reports} -- {lab}\n"
+                 exec {program} course grade{shard} --jobs {jobs}{reports}{sandbox} -- {lab}\n"
             )
         };
         Self {
@@ -106,6 +113,7 @@ mod tests {
             lab: "01-kinematics",
             parts,
             jobs: None,
+            require_sandbox: false,
             reports: true,
             options: &[],
         }
@@ -134,11 +142,15 @@ mod tests {
         );
         let fixed = Work {
             jobs: Some(8),
+            require_sandbox: true,
             reports: false,
             ..work(&parts)
         };
         let script = Scripts::of("k", "c", &fixed).part;
-        assert!(script.contains(" --jobs 8 --no-reports -- "), "{script}");
+        assert!(
+            script.contains(" --jobs 8 --no-reports --require-sandbox -- "),
+            "{script}"
+        );
     }
 
     /// What a shell makes of a quoted word is the word.

@@ -22,6 +22,7 @@ use serde::Deserialize;
 
 use crate::disk::{self, Folder};
 use crate::failure::{BROKEN, Failure, LOST};
+use crate::sandbox::SandboxArgs;
 use crate::worker::WorkerHost;
 use crate::{interrupt, output};
 
@@ -48,6 +49,8 @@ pub(crate) struct Args {
     /// Show the points of hidden cases at once
     #[arg(long)]
     pub(crate) hidden_at_upload: bool,
+    #[command(flatten)]
+    pub(crate) sandbox: SandboxArgs,
 }
 
 /// What somebody reads who is not in the roster.
@@ -86,6 +89,7 @@ struct Uploaded {
 /// Grades an upload and writes the results, whatever happens; or checks that it could.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    args.sandbox.demand()?;
     let (Some(submission), Some(results)) = (&args.submission, &args.results) else {
         return check(args);
     };

@@ -20,6 +20,7 @@ use crate::course_intake::take_in;
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
 use crate::lab_counts::lab_counts;
+use crate::sandbox::SandboxArgs;
 use crate::shard::Shard;
 use crate::slurm_run::{SlurmArgs, SlurmRun};
 use crate::slurm_script::Work;
@@ -47,6 +48,8 @@ pub(crate) struct Args {
     /// Number of submissions graded at once [default: one a processor]
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
+    #[command(flatten)]
+    pub(crate) sandbox: SandboxArgs,
     /// Write no page of each submission: faster, and smaller
     #[arg(long)]
     pub(crate) no_reports: bool,
@@ -66,6 +69,7 @@ const MOST_NAMED: usize = 10;
 /// Reads, grades, prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    args.sandbox.demand()?;
     let (source, lab) = match args.what.as_slice() {
         [source, lab] => (Some(source), lab),
         [lab] => (None, lab),
@@ -209,6 +213,7 @@ fn on_slurm(
                 lab: &rules.name,
                 parts: &parts,
                 jobs: args.jobs,
+                require_sandbox: args.sandbox.require_sandbox,
                 reports: !args.no_reports,
                 options: &args.slurm.sbatch,
             };

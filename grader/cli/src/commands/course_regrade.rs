@@ -18,6 +18,7 @@ use super::course_check;
 use crate::course_folder::{Course, CourseArgs, book_failure, index_failure};
 use crate::course_log::CourseLog;
 use crate::failure::{FAULT, Failure, LOST};
+use crate::sandbox::SandboxArgs;
 use crate::worker::WorkerHost;
 use crate::{interrupt, output, pool};
 
@@ -46,6 +47,8 @@ pub(crate) struct Args {
     /// Number of submissions graded at once [default: one a processor]
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<usize>,
+    #[command(flatten)]
+    pub(crate) sandbox: SandboxArgs,
     /// Print the changes as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -107,6 +110,7 @@ struct CheckChange {
 /// Grades what is out of date, prints the table, and writes it if that is wanted.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    args.sandbox.demand()?;
     let course = Course::open(&args.course)?;
     let rules = course.rules(&args.lab)?;
     if args.why.as_ref().is_some_and(|why| why.trim().is_empty()) {

@@ -20,6 +20,7 @@ use crate::chosen_variant::{self, LabArgs};
 use crate::failure::{self, FAULT, Failure, LOST};
 use crate::history::History;
 use crate::practice_variants::{PracticeVariants, try_variants};
+use crate::sandbox::SandboxArgs;
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{
@@ -63,8 +64,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
     pub(crate) variants: Option<u32>,
     /// Run the submission in this process: for profiling trusted code
-    #[arg(long)]
+    #[arg(long, conflicts_with = "require_sandbox")]
     pub(crate) in_process: bool,
+    #[command(flatten)]
+    pub(crate) sandbox: SandboxArgs,
     /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
     /// answer; do not give such a report to students
     #[arg(long, conflicts_with = "practice")]
@@ -221,6 +224,7 @@ pub(crate) fn write(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
 /// Reads what was named, and grades.
 pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
     let args = request.args;
+    args.sandbox.demand()?;
     refuse_pixels_without_png(args)?;
     let chosen = chosen_variant::choose(&request.lab, &args.from, Some(&request.submission))?;
     let (lab, mut note) = (chosen.lab, chosen.note);

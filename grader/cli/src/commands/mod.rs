@@ -11,6 +11,7 @@ pub(crate) mod course_page;
 pub(crate) mod course_regrade;
 pub(crate) mod course_release;
 pub(crate) mod course_status;
+pub(crate) mod doctor;
 pub(crate) mod grade;
 pub(crate) mod hint;
 pub(crate) mod lab_check;

@@ -22,8 +22,11 @@ const BYTES_PER_INSTRUCTION: u64 = 8;
 const OWN: &str = "kinemark";
 const MATH: &str = "env";
 
+type OfOne = fn(f64) -> f64;
+type OfTwo = fn(f64, f64) -> f64;
+
 /// Functions of one number, by their names in `math.h`.
-const OF_ONE: &[(&str, fn(f64) -> f64)] = &[
+const OF_ONE: &[(&str, OfOne)] = &[
     ("acos", libm::acos),
     ("acosh", libm::acosh),
     ("asin", libm::asin),
@@ -53,7 +56,7 @@ const OF_ONE: &[(&str, fn(f64) -> f64)] = &[
 ];
 
 /// Functions of two numbers, by their names in `math.h`.
-const OF_TWO: &[(&str, fn(f64, f64) -> f64)] = &[
+const OF_TWO: &[(&str, OfTwo)] = &[
     ("atan2", libm::atan2),
     ("copysign", libm::copysign),
     ("fmax", libm::fmax),

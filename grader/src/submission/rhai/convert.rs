@@ -13,10 +13,23 @@ use crate::submission::controller::{
 /// The return value of a function, with at most a list's budget of values in all.
 pub(super) fn to_value(meter: &Meter, value: &Dynamic) -> Result<Value, Problem> {
     let mut taken = 0;
-    convert(meter, value, &mut taken)
+    convert(meter, value, &mut taken, 0)
 }
 
-fn convert(meter: &Meter, value: &Dynamic, taken: &mut usize) -> Result<Value, Problem> {
+/// Lists inside each other that are taken apart: no answer that a check reads is as deep.
+const DEEPEST: usize = 32;
+/// Characters of a text in an answer: none of them counts for a check.
+const LONGEST_TEXT: usize = 256;
+
+fn convert(
+    meter: &Meter,
+    value: &Dynamic,
+    taken: &mut usize,
+    depth: usize,
+) -> Result<Value, Problem> {
+    if depth > DEEPEST {
+        return Ok(Value::Other(format!("{} in {DEEPEST} others", kind(value))));
+    }
     *taken += 1;
     meter.within(Budget::ListSize, taken.saturating_sub(1))?;
     Ok(if let Ok(number) = value.as_float() {
@@ -39,18 +52,20 @@ fn convert(meter: &Meter, value: &Dynamic, taken: &mut usize) -> Result<Value, P
         let list: &Array = &list;
         Value::List(
             list.iter()
-                .map(|element| convert(meter, element, taken))
+                .map(|element| convert(meter, element, taken, depth + 1))
                 .collect::<Result<_, _>>()?,
         )
     } else if let Ok(map) = value.as_map_ref() {
         let map: &Map = &map;
         Value::Map(
             map.iter()
-                .map(|(key, element)| Ok((key.to_string(), convert(meter, element, taken)?)))
+                .map(|(key, element)| {
+                    Ok((key.to_string(), convert(meter, element, taken, depth + 1)?))
+                })
                 .collect::<Result<_, _>>()?,
         )
     } else if let Ok(text) = value.as_immutable_string_ref() {
-        Value::Text(text.to_string())
+        Value::Text(text.chars().take(LONGEST_TEXT).collect())
     } else if let Ok(boolean) = value.as_bool() {
         Value::Boolean(boolean)
     } else if let Ok(character) = value.as_char() {

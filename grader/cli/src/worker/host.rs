@@ -1,0 +1,253 @@
+//! Starts workers for the tasks of a submission, and keeps one that may serve on.
+//!
+//! A worker serves one submission: starting a process costs as much as some hundred calls, so one that is still fresh is kept for the
+//! next task or hidden run of the same file, where the code is opened anew. Never is it kept for another file, nor after a stop.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use kinemark_grader::submission::controller::{
+    Answer, Budgets, Call, Controller, Opening, Said, Stop,
+};
+use kinemark_grader::submission::handed_in::Program;
+use kinemark_grader::submission::host::Host;
+
+use super::process::{Spent, Worker};
+use super::wire::{Reply, Request};
+use crate::interrupt;
+use crate::one_processor::OneProcessor;
+
+/// The parent's side: starts workers, and keeps one that may serve on.
+pub(crate) struct WorkerHost {
+    progress: Option<indicatif::ProgressBar>,
+    processor: OneProcessor,
+    kept: Kept,
+    /// The submission at work, and the time that its workers have taken.
+    spent: Option<(blake3::Hash, Spent)>,
+}
+
+/// Where a worker waits for the next task of its submission.
+type Kept = Arc<Mutex<Option<Worker>>>;
+
+impl WorkerHost {
+    pub(crate) fn new(progress: Option<indicatif::ProgressBar>) -> Self {
+        Self {
+            progress,
+            processor: OneProcessor::default(),
+            kept: Kept::default(),
+            spent: None,
+        }
+    }
+
+    /// One without progress, whose workers run on `processor`.
+    pub(crate) fn on(processor: Option<usize>) -> Self {
+        Self {
+            processor: OneProcessor::fixed(processor),
+            ..Self::new(None)
+        }
+    }
+
+    /// Takes the progress bar off the terminal.
+    pub(crate) fn finish(&self) {
+        if let Some(progress) = &self.progress {
+            progress.finish_and_clear();
+        }
+    }
+
+    /// The time that the workers of a submission have taken so far.
+    fn spent(&mut self, submission: blake3::Hash) -> Spent {
+        match &self.spent {
+            Some((known, spent)) if *known == submission => spent.clone(),
+            _ => {
+                let spent = Spent::default();
+                self.spent = Some((submission, spent.clone()));
+                spent
+            }
+        }
+    }
+}
+
+impl Host for WorkerHost {
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+        if interrupt::asked() {
+            return Err(Stop::Interrupted);
+        }
+        let submission = digest_of(opening);
+        let kept = self
+            .kept
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        let mut worker = match kept.filter(|kept| kept.may_serve(submission)) {
+            Some(kept) => kept,
+            None => {
+                // before the worker is started: it inherits the choice
+                self.processor.choose();
+                Worker::start(submission, self.spent(submission)).map_err(|error| {
+                    Stop::GraderFault(format!("a worker process could not be started: {error}"))
+                })?
+            }
+        };
+        match worker.exchange(&Request::Open(opening))? {
+            Reply::Opened => Ok(Box::new(Lease {
+                held: Held::to(opening),
+                worker: Some(worker),
+                is_sound: true,
+                unanswered: Said::default(),
+                home: Arc::clone(&self.kept),
+            })),
+            Reply::Stopped(stop, _) => Err(stop.stop()),
+            Reply::Ready(_) | Reply::Answered(_) | Reply::Tried(_) => {
+                Err(broken("another reply than it was asked for"))
+            }
+        }
+    }
+
+    fn begins(&mut self, task: &str) {
+        if let Some(progress) = &self.progress {
+            progress.set_message(task.to_owned());
+            progress.inc(1);
+        }
+    }
+}
+
+/// The digest of a submission, with the name of its file.
+fn digest_of(opening: &Opening) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&(opening.file.len() as u64).to_le_bytes());
+    hasher.update(opening.file.as_bytes());
+    hasher.update(opening.program.bytes());
+    hasher.finalize()
+}
+
+/// The stop for a worker that does not keep to the rules of the exchange: nothing is decided, and staff look at it.
+fn broken(what: &str) -> Stop {
+    Stop::GraderFault(format!(
+        "the worker process sent {what}: look at the submission before you grade it again"
+    ))
+}
+
+/// The budgets that a worker counts, held again: what it says it used or said is believed only within them.
+struct Held {
+    budgets: Budgets,
+    operations_per_call: u64,
+    operations: u64,
+    lines: u64,
+    samples: u64,
+}
+
+/// Bytes that a line can have more than a text of the language: it may be a note about one.
+const NOTE_BYTES: u64 = 1_000;
+
+impl Held {
+    fn to(opening: &Opening) -> Self {
+        let budgets = opening.budgets.clone();
+        let (operations_per_call, operations) = match opening.program {
+            Program::Script(_) => (budgets.operations_per_call, budgets.operations_per_task),
+            Program::Module(_) => (budgets.instructions_per_call, budgets.instructions_per_task),
+        };
+        Self {
+            operations_per_call,
+            operations,
+            // a note says once that there are more
+            lines: budgets.log_lines + NOTES,
+            samples: budgets.plot_samples,
+            budgets,
+        }
+    }
+
+    /// Takes what a call used and said from what is left; false if that is more.
+    fn take(&mut self, operations: u64, said: &Said) -> bool {
+        let longest = 4 * self.budgets.text_size + NOTE_BYTES;
+        let texts = said
+            .log
+            .iter()
+            .chain(said.plots.iter().map(|(name, _)| name));
+        let mut lengths = texts.map(|text| text.len() as u64);
+        let left = |left: u64, taken: usize| left.checked_sub(taken as u64);
+        let (Some(lines), Some(samples), Some(operations_left)) = (
+            left(self.lines, said.log.len()),
+            left(self.samples, said.plots.len()),
+            self.operations.checked_sub(operations),
+        ) else {
+            return false;
+        };
+        self.lines = lines;
+        self.samples = samples;
+        self.operations = operations_left;
+        operations <= self.operations_per_call && lengths.all(|length| length <= longest)
+    }
+}
+
+/// Lines that the hosts of submissions add: two about budgets, and where a call that is not finite began to be so, which ends the calls.
+const NOTES: u64 = 2_000;
+
+/// A worker at work for one task.
+struct Lease {
+    worker: Option<Worker>,
+    /// Whether no call was stopped.
+    is_sound: bool,
+    held: Held,
+    unanswered: Said,
+    home: Kept,
+}
+
+impl Lease {
+    fn answer(&mut self, call: &Call) -> Result<Answer, Stop> {
+        let Some(worker) = &mut self.worker else {
+            return Err(Stop::GraderFault("a worker that was given back".to_owned()));
+        };
+        let beyond = || broken("more than a submission can use, print or plot");
+        match worker.exchange(&Request::Call(call))? {
+            Reply::Answered(answer) => {
+                let answer = answer
+                    .answer()
+                    .ok_or_else(|| broken("an answer that is none"))?;
+                if self.held.take(answer.operations, &answer.said) {
+                    Ok(answer)
+                } else {
+                    Err(beyond())
+                }
+            }
+            Reply::Stopped(stop, said) => {
+                let said = said.said();
+                if self.held.take(0, &said) {
+                    self.unanswered = said;
+                    Err(stop.stop())
+                } else {
+                    Err(beyond())
+                }
+            }
+            Reply::Ready(_) | Reply::Opened | Reply::Tried(_) => {
+                Err(broken("another reply than it was asked for"))
+            }
+        }
+    }
+}
+
+impl Controller for Lease {
+    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
+        if interrupt::asked() {
+            return Err(Stop::Interrupted);
+        }
+        let answer = self.answer(call);
+        self.is_sound &= answer.is_ok();
+        answer
+    }
+
+    fn unanswered(&mut self) -> Said {
+        std::mem::take(&mut self.unanswered)
+    }
+}
+
+impl Drop for Lease {
+    fn drop(&mut self) {
+        if let Some(worker) = self.worker.take().filter(|_| self.is_sound) {
+            let before = self
+                .home
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .replace(worker);
+            drop(before);
+        }
+    }
+}
