@@ -88,18 +88,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 
 fn text(report: &Report) -> StyledText {
     let mut text = StyledText::default();
-    text.plain(&format!(
+    text.plain(format!(
         "{}\n{}, {} processors\n\nThe worker that runs submissions:\n",
         report.engine, report.system, report.processors
     ));
     for layer in &report.layers {
         let sign = if layer.on { "on " } else { "OFF" };
-        text.plain(&format!("  {sign}  {}\n", layer.name));
+        text.plain(format!("  {sign}  {}\n", layer.name));
     }
     text.plain("\nWhat a worker tried here:\n");
     for row in &report.tried {
         let sign = if row.refused { "refused " } else { "POSSIBLE" };
-        text.plain(&format!("  {sign}  {}\n", row.what));
+        text.plain(format!("  {sign}  {}\n", row.what));
     }
     if !report.sealed {
         text.plain(

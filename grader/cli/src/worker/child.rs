@@ -1,6 +1,6 @@
 //! The worker's side: seals itself, opens one submission after the other, and answers calls until its input ends.
 
-use std::io::{BufReader, BufWriter, Read, Write};
+use std::io::{BufReader, BufWriter, ErrorKind, Read, Write};
 use std::process::ExitCode;
 use std::sync::mpsc::channel;
 
@@ -23,7 +23,9 @@ pub(crate) struct Args {
 
 /// Serves until the input ends.
 pub(crate) fn serve(args: &Args) -> ExitCode {
-    let mut sealed = seal(args.parent);
+    let Some(mut sealed) = seal(args.parent) else {
+        return ExitCode::SUCCESS;
+    };
     let (started, has_started) = channel();
     let (ready, begin) = channel();
     let parent = args.parent;
@@ -33,11 +35,10 @@ pub(crate) fn serve(args: &Args) -> ExitCode {
             // a thread begins with system calls that it may not make later
             let _ = started.send(());
             // nothing is read before every layer is on
-            let Ok(sealed) = begin.recv() else { return };
+            let sealed = begin.recv().map_err(std::io::Error::other)?;
             let mut input = BufReader::new(std::io::stdin());
             let mut output = BufWriter::new(std::io::stdout());
-            // the parent going away is the normal end
-            let _ = answer_calls((sealed, parent), &mut input, &mut output);
+            answer_calls((sealed, parent), &mut input, &mut output)
         });
     let Ok(thread) = thread else {
         return ExitCode::FAILURE;
@@ -45,7 +46,8 @@ pub(crate) fn serve(args: &Args) -> ExitCode {
     let _ = has_started.recv();
     seal_threads(&mut sealed);
     match (ready.send(sealed.bits()), thread.join()) {
-        (Ok(()), Ok(())) => ExitCode::SUCCESS,
+        // the parent going away is the normal end
+        (Ok(()), Ok(Err(error))) if error.kind() == ErrorKind::UnexpectedEof => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     }
 }
@@ -141,7 +143,7 @@ fn stopped(stop: Stop, said: Said) -> std::io::Result<Reply> {
         Ok(stop) => Ok(Reply::Stopped(stop, WireSaid::of(said))),
         Err(words) => {
             eprintln!("{words}");
-            std::process::exit(3)
+            Err(std::io::Error::other(words))
         }
     }
 }

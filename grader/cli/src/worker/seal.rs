@@ -108,30 +108,30 @@ const CPU_GRACE_SECONDS: u64 = 5;
 const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 
 /// Puts on every layer that does not depend on the threads of the process. Call it before any other thread starts; `parent` is the
-/// process that this one must not outlive.
+/// process that this one must not outlive, and without which there is nothing to seal for.
 #[cfg(unix)]
 #[cfg_attr(
     not(target_os = "linux"),
     expect(unused_variables, reason = "only Linux says that a parent is gone")
 )]
-pub(crate) fn seal(parent: Option<i32>) -> Sealed {
+pub(crate) fn seal(parent: Option<i32>) -> Option<Sealed> {
     let mut sealed = Sealed::default();
     sealed.note(Layer::Descriptors, close_inherited());
     #[cfg(target_os = "linux")]
     {
-        sealed.note(Layer::Session, linux::leave_session(parent));
+        sealed.note(Layer::Session, linux::leave_session(parent)?);
         let (files, network) = linux::landlock();
         sealed.note(Layer::Files, files);
         sealed.note(Layer::Network, network);
     }
     sealed.note(Layer::Limits, limits());
-    sealed
+    Some(sealed)
 }
 
 /// This system has no layers: budgets and a process of its own are all there is.
 #[cfg(not(unix))]
-pub(crate) fn seal(_parent: Option<i32>) -> Sealed {
-    Sealed::default()
+pub(crate) fn seal(_parent: Option<i32>) -> Option<Sealed> {
+    Some(Sealed::default())
 }
 
 /// Puts on the layers of all threads, when all of them have started: from here on no thread and no process can.
@@ -197,8 +197,9 @@ mod linux {
         SeccompRule, TargetArch,
     };
 
-    /// Leaves the terminal and the group of the grader, ends with it, and closes itself to other processes of the same user.
-    pub(super) fn leave_session(parent: Option<i32>) -> bool {
+    /// Leaves the terminal and the group of the grader, ends with it, and closes itself to other processes of the same user. `None`
+    /// if the grader went away before this process could ask to go with it.
+    pub(super) fn leave_session(parent: Option<i32>) -> Option<bool> {
         // it leads no group yet, so that this cannot fail; a terminal's signals go to the grader alone
         let own = rustix::process::setsid().is_ok();
         let root = std::env::set_current_dir("/").is_ok();
@@ -206,10 +207,9 @@ mod linux {
         let closed = rustix::process::set_dumpable_behavior(DumpableBehavior::NotDumpable).is_ok();
         let now = getppid().map(Pid::as_raw_nonzero).map(i32::from);
         if parent.is_some() && now != parent {
-            // it went away before this one could ask to go with it
-            std::process::exit(0);
+            return None;
         }
-        own && root && dies && closed
+        Some(own && root && dies && closed)
     }
 
     /// Whether no file is left, and no network.
