@@ -1,7 +1,7 @@
 //! `kinemark grade` as a user sees it: text, files, exit codes.
 
 use crate::golden::reads;
-use crate::testbed::{TestBed, files_below, root};
+use crate::testbed::{OWN_LABS, TestBed, files_below, root};
 
 fn good(bed: &TestBed) {
     let submission = root().join("tests/submissions/01-kinematics/good/submission.rhai");
@@ -15,7 +15,7 @@ fn a_good_submission_has_full_marks_and_a_whole_folder() {
     good(&bed);
     let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    assert_eq!(ran.stderr, "");
+    assert_eq!(ran.stderr, OWN_LABS);
     assert!(
         ran.stdout
             .ends_with("24 of 24 points\nreport: out/report.html\n"),

@@ -36,6 +36,7 @@ mod grade;
 mod gradescope;
 mod grants;
 mod hidden_runs;
+mod handed_in;
 mod hints;
 mod hostile;
 mod jacobian_task;

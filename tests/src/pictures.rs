@@ -1,6 +1,6 @@
 //! `--png` and `--storyboard`: the files are there, the same again, whole, and known to `verify`.
 
-use crate::testbed::{TestBed, files_below, root};
+use crate::testbed::{OWN_LABS, TestBed, files_below, root};
 
 /// Grades the known submission `case` of a lab with `args`, into `out`.
 fn graded(bed: &TestBed, lab: &str, case: &str, args: &[&str], out: &str) -> String {
@@ -8,7 +8,7 @@ fn graded(bed: &TestBed, lab: &str, case: &str, args: &[&str], out: &str) -> Str
     std::fs::copy(submission, bed.path("mine.rhai")).expect("copied");
     let ran = bed.run(&[&["grade", lab, "mine.rhai", "--out", out], args].concat());
     assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
-    assert_eq!(ran.stderr, "");
+    assert_eq!(ran.stderr, OWN_LABS);
     ran.stdout
 }
 

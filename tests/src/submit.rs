@@ -25,9 +25,7 @@ fn put(bed: &TestBed, name: &str) {
 
 /// Runs in the student's folder.
 fn student(bed: &TestBed, args: &[&str]) -> CommandResult {
-    let mut command = bed.command(args);
-    command.current_dir(bed.path(LAB));
-    command.output().expect("the binary runs").into()
+    bed.run_in(&bed.path(LAB), args)
 }
 
 fn hand_in(bed: &TestBed, name: &str) -> HandInFile {

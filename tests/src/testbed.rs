@@ -72,6 +72,10 @@ pub(crate) fn binary() -> &'static Path {
     })
 }
 
+/// What `grade` says beside its output of labs and the course staff's part that lie where it runs.
+pub(crate) const OWN_LABS: &str =
+    "note: using the labs in `labs` and the course staff's part in `reference`\n";
+
 /// What a command did.
 #[derive(Debug)]
 pub(crate) struct CommandResult {
@@ -120,8 +124,18 @@ impl TestBed {
         std::fs::write(path, bytes).expect("file");
     }
 
-    /// A command that runs the binary in this folder, without colours and without what the environment says of Kinemark.
+    /// A command that runs the binary in this folder, without colours and without what the environment says of Kinemark. Where a
+    /// submission is graded, labs in this folder are named: found beside the submission they might have been handed in with it.
     pub(crate) fn command(&self, args: &[&str]) -> Command {
+        let mut command = self.plain_command(args);
+        let grades = matches!(args.first(), Some(&"grade" | &"watch"));
+        if grades && !args.contains(&"--labs") && self.path("labs/robots").is_dir() {
+            command.args(["--labs", "labs"]);
+        }
+        command
+    }
+
+    fn plain_command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(binary());
         command
             .current_dir(&self.folder)
@@ -135,9 +149,9 @@ impl TestBed {
         self.command(args).output().expect("the binary runs").into()
     }
 
-    /// The same in `folder`, a folder of this one.
+    /// Runs the binary in `folder`, a folder of this one, with these words alone.
     pub(crate) fn run_in(&self, folder: &Path, args: &[&str]) -> CommandResult {
-        let mut command = self.command(args);
+        let mut command = self.plain_command(args);
         let ran = command.current_dir(folder).output();
         ran.expect("the binary runs").into()
     }
@@ -299,7 +313,8 @@ impl Drop for Serving {
     }
 }
 
-fn copy(from: &Path, to: &Path) {
+/// Copies a folder with everything in it.
+pub(crate) fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("folder");
     for entry in std::fs::read_dir(from).expect("folder") {
         let entry = entry.expect("entry");

@@ -212,15 +212,18 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
         "{brief}"
     );
 
-    // what lies beside the submission is taken, and said so
+    // what lies beside the submission is taken in practice, and said so
     std::fs::copy(bed.path("solution.rhai"), bed.path("mine/submission.rhai")).expect("copied");
-    let ran = bed.run(&["grade", "93-touch", "mine/submission.rhai"]);
+    let mine = ["grade", "93-touch", "mine/submission.rhai"];
+    let ran = bed.run(&[&mine[..], &["--practice", "--out", "practice"]].concat());
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(
         ran.stdout
             .starts_with("using the variant in mine/variant.toml\n"),
         "{ran:?}"
     );
+    let ran = bed.run(&[&mine[..], &["--variant", "mine/variant.toml"]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(
         ran.stdout.contains("\nvariant of s7: lengths = ["),
         "{ran:?}"
@@ -303,15 +306,97 @@ fn numbers_of_somebody_else_are_refused_by_staff_alone() {
     assert!(ran.stderr.contains("grade with `--student s7`"), "{ran:?}");
     let ran = bed.run(&[&args[..], &["--practice"]].concat());
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    // nobody's numbers are anybody's
-    bed.write("easy.toml", easy.replace("student = \"s7\"\n", ""));
+    // nobody's numbers are anybody's, if anybody can have them
+    let nobodys = easy.replace("student = \"s7\"\n", "");
+    bed.write("easy.toml", &nobodys);
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("easy.toml:4:7"), "{ran:?}");
+    let words = "no student's variant of lab `93-touch` has out = 0.5";
+    assert!(ran.stderr.contains(words), "{ran:?}");
+    assert!(
+        ran.stderr.contains("`out` 0.85 to 0.95 in steps of 0.01"),
+        "{ran:?}"
+    );
+    bed.write("easy.toml", nobodys.replace("0.5", "0.86"));
     let ran = bed.run(&args);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(
         ran.stdout.contains("variant without a student's name: "),
         "{ran:?}"
     );
-    assert!(ran.stdout.contains("out = 0.5"), "{ran:?}");
+    assert!(ran.stdout.contains("out = 0.86"), "{ran:?}");
+}
+
+#[test]
+fn numbers_that_nobody_can_have_are_the_fault_of_their_file() {
+    let bed = bed();
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "lengths = [1.0, 1.0] ",
+        "wait = 0.2\nlengths = [1.0, 1.0] ",
+    );
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "dwell_s = 0.2",
+        "dwell_s = \"= wait\"",
+    );
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "[variants]\n",
+        "[variants]\nwait = { from = 0.2, to = 0.3, step = 0.1 }\n",
+    );
+    let args = ["grade", "93-touch", "solution.rhai", "--variant", "v.toml"];
+    let graded = |numbers: &str, more: &[&str]| {
+        let text = format!("format = 1\nlab = \"93-touch\"\n[parameters]\n{numbers}\n");
+        bed.write("v.toml", text);
+        bed.run(&[&args[..], more].concat())
+    };
+    for numbers in ["wait = 0.3", "lengths = [0.95, 1.05]", "out = 0.9"] {
+        let ran = graded(numbers, &[]);
+        assert!(matches!(ran.code, Some(0 | 1)), "{numbers}: {ran:?}");
+    }
+    for (numbers, at, words) in [
+        ("wait = 0.25", "v.toml:4:8", "has wait = 0.25"),
+        (
+            "lengths = [1.0, 1.06]",
+            "v.toml:4:11",
+            "has lengths = [1.0, 1.06]",
+        ),
+        (
+            "out = 0.9\nlengths = [1.0]",
+            "v.toml:5:11",
+            "is a list of 2, got a list of 1",
+        ),
+        ("wiat = 0.2", "v.toml:4:1", "has no parameter `wiat`"),
+    ] {
+        let ran = graded(numbers, &[]);
+        assert_eq!(ran.code, Some(2), "{numbers}: {ran:?}");
+        assert!(
+            ran.stderr.contains(at) && ran.stderr.contains(words),
+            "{numbers}: {ran:?}"
+        );
+    }
+    // a parameter that is the same for everybody
+    bed.edit(
+        "labs/93-touch/lab.toml",
+        "wait = { from = 0.2, to = 0.3, step = 0.1 }\n",
+        "",
+    );
+    let ran = graded("wait = 0.2", &[]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = graded("wait = 0.3", &[]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    let words = "parameter `wait` of lab `93-touch` is 0.2 for everybody";
+    assert!(ran.stderr.contains(words), "{ran:?}");
+    // in practice any numbers will do that make a lab; where they make none, the file is to blame and not the lab
+    assert_eq!(graded("wait = 0.3", &["--practice"]).code, Some(0));
+    let ran = graded("wait = -1.0", &["--practice"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(
+        ran.stderr.contains("v.toml:4:8") && ran.stderr.contains("lab `93-touch` is invalid"),
+        "{ran:?}"
+    );
 }
 
 #[test]
@@ -432,7 +517,7 @@ fn links_of_students_are_not_followed() {
     std::fs::create_dir(bed.path("alice")).expect("folder");
     symlink(&secret, bed.path("alice/link.rhai")).expect("link");
     let refused = |args: &[&str], name: &str| {
-        let ran = bed.run(args);
+        let ran = bed.run(&[args, &["--practice"]].concat());
         assert_eq!(ran.code, Some(2), "{ran:?}");
         let words = format!("`{name}` is a link to another file");
         assert!(ran.stderr.contains(&words), "{ran:?}");
@@ -462,7 +547,7 @@ fn links_of_students_are_not_followed() {
         std::fs::remove_file(&beside).expect("removed");
     }
     std::fs::create_dir(&beside).expect("folder");
-    let ran = bed.run(&mine);
+    let ran = bed.run(&[&mine[..], &["--practice"]].concat());
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("is a folder, not a variant"), "{ran:?}");
     std::fs::remove_dir(&beside).expect("removed");
@@ -496,7 +581,20 @@ fn a_grade_of_everybodys_numbers_says_so() {
     let ran = bed.run(&[&args[..], &["--practice"]].concat());
     assert!(!ran.stdout.contains(says), "{ran:?}");
     // a file of somebody else beside it is not taken, and not passed over in silence
-    bed.write("variant.toml", "format = 1\nlab = \"93-touch\"\n");
+    bed.write(
+        "variant.toml",
+        "format = 1\nlab = \"93-touch\"\n[parameters]\nout = 0.5\n",
+    );
+    let unused = "using the default parameters of lab.toml; variant.toml is not used, because it may be the student's own";
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.starts_with(unused), "{ran:?}");
+    assert_eq!(record(&bed, "out").get("variant"), None);
+    let ran = bed.run(&[&args[..], &["--json"]].concat());
+    assert!(
+        ran.stdout.starts_with('{') && ran.stderr.contains(&format!("note: {unused}")),
+        "{ran:?}"
+    );
     let ran = bed.run(&[&args[..], &["--student", "s7"]].concat());
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::lab::variant::{VARIANT_FILE, student_id};
 use kinemark_grader::lab::{Lab, Staff, Variant};
 use kinemark_grader::task::files::Files;
-use kinemark_grader::task::problem::LoadError;
+use kinemark_grader::task::problem::{LabError, LoadError};
 
 use crate::disk::{self, Folder};
-use crate::failure::Failure;
+use crate::failure::{Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs, StaffPart};
-use crate::{enclosing_course, failure};
+use crate::whose_labs::Found;
+use crate::{enclosing_course, failure, output};
 
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
@@ -48,39 +49,78 @@ pub(crate) struct Chosen {
     pub(crate) staff: StaffArgs,
     /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
+    /// Whose labs are used, in a line; nothing where it is clear: the labs built in, in practice.
+    pub(crate) labs: Option<String>,
 }
 
-/// Loads the lab `name` in the variant that is asked for; `beside` is the submission, next to which a file is taken unasked.
+/// Loads the lab `name` in the variant that is asked for. `beside` is the submission: in practice a file next to it is taken unasked,
+/// and nothing that may have been handed in with it says how it is graded.
 ///
 /// # Errors
-/// Exit code 2 for what cannot be asked for, and for a file that names a student and holds other numbers than the salt gives.
+/// Exit code 2 for what cannot be asked for, for labs that may be a student's, and for a variant of other numbers than the salt or
+/// the lab gives.
 pub(crate) fn choose(name: &str, args: &LabArgs, beside: Option<&Path>) -> Result<Chosen, Failure> {
     let mut args = args.clone();
     let (files, _) = labs_folder::open(&args.labs_folder)?;
     let name = &labs_folder::full_name(files.as_ref(), name)?;
+    let mut found = Found::default();
     if !args.staff.practice {
-        let note = enclosing_course::fill(name, &mut args.labs_folder, &mut args.staff.part)?;
-        if let Some(note) = note {
-            failure::note_in_words(&note);
+        let filled = enclosing_course::fill(name, &mut args.labs_folder, &mut args.staff.part)?;
+        if let Some(filled) = filled {
+            failure::note_in_words(&filled.note);
+            found.course = Some(filled.root);
         }
     }
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let reference = staff_folder::open(&args.staff, labs_folder.as_deref())?;
-    let (lab, note) = variant_of(name, files.as_ref(), reference.as_ref(), &args, beside)?;
+    let staffed = reference.as_ref();
+    let staffed = staffed.filter(|reference| staff_folder::has_solution(*reference, name));
+    if args.labs_folder.labs.is_none() {
+        found.labs.clone_from(&labs_folder);
+        let is_beside = args.staff.part.reference.is_none();
+        let beside = staffed.filter(|_| is_beside && labs_folder.is_some());
+        found.reference = beside.map(|reference| reference.path().to_owned());
+    }
+    found.used = labs_folder;
+    if let (Some(submission), Some(_)) = (beside, staffed) {
+        found.refuse_handed_in(submission)?;
+    }
+    let labs = labs_in_words(files.as_ref(), found.used.is_some(), staffed);
+    let part = (reference.as_ref(), staffed.is_some());
+    let (lab, note) = variant_of(name, files.as_ref(), part, &args, beside)?;
     Ok(Chosen {
         lab,
         files,
         reference,
         staff: args.staff,
         note,
+        labs,
     })
 }
 
-/// The lab in its variant, and which that is where the command named none.
+/// Whose labs are used; nothing where it is clear.
+fn labs_in_words(files: &dyn Files, is_folder: bool, staffed: Option<&Folder>) -> Option<String> {
+    let labs = match is_folder {
+        true => format!("the labs in `{}`", files.name()),
+        false => files.name(),
+    };
+    match staffed {
+        Some(reference) => {
+            let reference = reference.name();
+            Some(format!(
+                "using {labs} and the course staff's part in `{reference}`"
+            ))
+        }
+        None => is_folder.then(|| format!("using {labs}")),
+    }
+}
+
+/// The lab in its variant, and which that is where the command named none. With the course staff's folder comes whether it has a part
+/// of this lab: then the run is graded.
 fn variant_of(
     name: &str,
     files: &dyn Files,
-    reference: Option<&Folder>,
+    (reference, is_graded): (Option<&Folder>, bool),
     LabArgs { variant, staff, .. }: &LabArgs,
     beside: Option<&Path>,
 ) -> Result<(Lab, Option<String>), Failure> {
@@ -91,28 +131,45 @@ fn variant_of(
     if let Some(student) = &variant.student {
         let own = of_student(&lab, reference, &staff.part, student)?;
         let unused = found.map(|found| {
-            format!(
-                "using the variant of student {student}; {} is not used",
-                found.display()
-            )
+            let found = output::path(&found);
+            format!("using the variant of student {student}; {found} is not used")
         });
         return Ok((Lab::load_variant(files, name, Some(&own))?, unused));
     }
-    let (path, note) = match (&variant.variant, &found) {
-        (Some(given), _) => (given, None),
-        (None, Some(found)) => {
+    let (path, note) = match (&variant.variant, &found, is_graded) {
+        (Some(given), _, _) => (given, None),
+        // it is a student's file, and says which numbers are graded
+        (None, Some(found), true) => {
+            let found = output::path(found);
+            let unused = format!(
+                "using the default parameters of lab.toml; {found} is not used, because it may be the student's own: give \
+                 --student ID, or --variant FILE"
+            );
+            return Ok((lab, Some(unused)));
+        }
+        (None, Some(found), false) => {
             disk::refuse_link(found)?;
-            let note = format!("using the variant in {}", found.display());
+            let note = format!("using the variant in {}", output::path(found));
             (found, Some(note))
         }
-        (None, None) => return Ok((lab, None)),
+        (None, None, _) => return Ok((lab, None)),
     };
-    let variant = Variant::parse(disk::read(path, "a variant", MOST_BYTES)?)
-        .map_err(|error| Failure::from(LoadError::from(error)))?;
-    let chosen = Lab::load_variant(files, name, Some(&variant))?;
+    let text = disk::read(path, "a variant", MOST_BYTES)?;
+    let usage = |error: LabError| Failure::diagnostic(USAGE, error);
+    let variant = Variant::parse(text).map_err(usage)?;
+    variant.check_fits(&lab).map_err(usage)?;
+    let loaded = Lab::load_variant(files, name, Some(&variant));
+    let chosen = loaded.map_err(|error| match variant.blamed(&lab, &error) {
+        Some(error) => usage(error),
+        None => error.into(),
+    })?;
     if let Some(reference) = reference {
         let shown = path.display().to_string();
         refuse_forged(&chosen, files, reference, &staff.part, &shown)?;
+    }
+    // numbers of nobody in particular are those of anybody
+    if is_graded {
+        variant.check_drawn(&lab).map_err(usage)?;
     }
     Ok((chosen, note))
 }

@@ -168,7 +168,7 @@ impl Course {
                 "write `labs_folder = \"FOLDER\"` into course.toml, or leave it out for the labs inside kinemark",
             ));
         }
-        let (labs, labs_folder) = labs_folder::open(&from)?;
+        let (labs, labs_folder) = labs_folder::open_from(&from, &self.root)?;
         let reference = self.file.reference.as_ref();
         let part = StaffPart {
             reference: reference.map(|folder| self.root.join(folder)),

@@ -1,5 +1,7 @@
 //! The course in whose folder a command runs: its labs, its staff part and its salt, where the command names none of its own.
 
+use std::path::PathBuf;
+
 use kinemark_course::course_file::{COURSE_FILE, CourseFile};
 
 use crate::course_folder::{enclosing_root, salt, text};
@@ -8,9 +10,17 @@ use crate::labs_folder::LabsFolderArgs;
 use crate::output;
 use crate::staff_folder::StaffPart;
 
+/// What was filled in from a course.
+pub(crate) struct FilledIn {
+    /// What it was, in a line.
+    pub(crate) note: String,
+    /// The folder of the course.
+    pub(crate) root: PathBuf,
+}
+
 /// Fills in what a command of course staff left open about `lab` from the `course.toml` here or above that names it. Variants and hidden
-/// cases are drawn from the salt, so with any other one students would work with numbers that the course does not grade. Gives a line
-/// that says so.
+/// cases are drawn from the salt, so with any other one students would work with numbers that the course does not grade. Gives what it
+/// was.
 ///
 /// # Errors
 /// A `course.toml` or a salt that cannot be read.
@@ -18,7 +28,7 @@ pub(crate) fn fill(
     lab: &str,
     labs: &mut LabsFolderArgs,
     part: &mut StaffPart,
-) -> Result<Option<String>, Failure> {
+) -> Result<Option<FilledIn>, Failure> {
     let Some(root) = enclosing_root() else {
         return Ok(None);
     };
@@ -49,6 +59,7 @@ pub(crate) fn fill(
     Ok((!filled.is_empty()).then(|| {
         let path = root.join(COURSE_FILE);
         let path = output::path(path.strip_prefix(".").unwrap_or(&path));
-        format!("the {} are those of {path}", filled.join(", "))
+        let note = format!("the {} are those of {path}", filled.join(", "));
+        FilledIn { note, root }
     }))
 }

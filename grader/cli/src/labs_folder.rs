@@ -54,6 +54,14 @@ impl Files for BuiltIn {
 
 /// The labs: those of `--labs`, else of a `labs` folder here or above, else those built in.
 pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<PathBuf>), Failure> {
+    open_from(args, Path::new("."))
+}
+
+/// The same with `from` as here: a course has its labs wherever a command runs.
+pub(crate) fn open_from(
+    args: &LabsFolderArgs,
+    from: &Path,
+) -> Result<(Box<dyn Files>, Option<PathBuf>), Failure> {
     if let Some(given) = &args.labs {
         if !given.is_dir() {
             return Err(Failure::usage(
@@ -63,7 +71,7 @@ pub(crate) fn open(args: &LabsFolderArgs) -> Result<(Box<dyn Files>, Option<Path
         }
         return Ok((Box::new(Folder::new(given.clone())), Some(given.clone())));
     }
-    match found_upwards() {
+    match found_upwards(from) {
         Some(found) => Ok((Box::new(Folder::new(found.clone())), Some(found))),
         None => Ok((Box::new(BuiltIn), None)),
     }
@@ -116,24 +124,31 @@ pub(crate) fn full_name(files: &dyn Files, typed: &str) -> Result<String, Failur
     }
 }
 
-/// A `labs` folder with a robots folder in it, here or above: another project's `labs` is none.
-fn found_upwards() -> Option<PathBuf> {
+/// Whether a folder is one of labs, which has a robots folder in it: another project's `labs` is none.
+pub(crate) fn is_labs(folder: &Path) -> bool {
+    folder.join("robots").is_dir()
+}
+
+/// A `labs` folder in `from` or above.
+fn found_upwards(from: &Path) -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
-    here.ancestors()
+    let from = here.join(from).canonicalize().ok()?;
+    from.ancestors()
         .map(|folder| folder.join("labs"))
-        .find(|labs| labs.join("robots").is_dir())
+        .find(|labs| is_labs(labs))
         .map(|labs| relative(&labs, &here))
 }
 
 /// `path` as seen from `here` where it lies above: messages name `../labs`, not the machine's folders.
-fn relative(path: &Path, here: &Path) -> PathBuf {
+pub(crate) fn relative(path: &Path, here: &Path) -> PathBuf {
     for (up, above) in here.ancestors().enumerate() {
         if let Ok(inside) = path.strip_prefix(above) {
             let mut seen = PathBuf::new();
             for _ in 0..up {
                 seen.push("..");
             }
-            seen.push(inside);
+            // an empty path would leave a `/` behind
+            seen.extend(inside.components());
             return seen;
         }
     }

@@ -47,6 +47,7 @@ mod worker;
 mod working_lab;
 
 /// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).
+mod whose_labs;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -77,17 +77,22 @@ pub(crate) fn part(
         }
         return Ok(Some(Folder::new(given.clone())));
     }
-    let beside = labs.map(|labs| {
-        let parent = labs
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        parent.unwrap_or(Path::new(".")).join("reference")
+    let beside = labs.map(|labs| match (labs.file_name(), labs.parent()) {
+        (Some(_), Some(parent)) => parent.join("reference"),
+        // such as `..`, of which the path does not say where it lies
+        _ => labs.join("../reference"),
     });
     let beside = beside.filter(|folder| folder.is_dir());
     Ok(beside.map(|folder| {
         let plain = folder.strip_prefix(".").map(Path::to_owned);
         Folder::new(plain.unwrap_or(folder))
     }))
+}
+
+/// Whether a folder has the course staff's part of a lab: with it a submission is graded, and not in practice.
+pub(crate) fn has_solution(reference: &dyn Files, lab: &str) -> bool {
+    // what cannot be read is reported by whoever reads it
+    !matches!(reference.bytes(&format!("{lab}/solution.rhai")), Ok(None))
 }
 
 /// Which file is missing where a folder has no solution of a lab.

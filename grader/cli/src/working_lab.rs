@@ -95,7 +95,7 @@ pub(crate) fn submission(lab: Option<&str>) -> PathBuf {
 /// its folder, or of the last report.
 ///
 /// # Errors
-/// Exit code 2 where none of them says, with `help`; exit code 3 for a variant that cannot be read.
+/// Exit code 2 where none of them says, with `help`, and for a variant that cannot be read.
 pub(crate) fn lab_of(
     file: &Path,
     variant: Option<&Path>,
@@ -111,7 +111,7 @@ pub(crate) fn lab_of(
         disk::refuse_link(variant)?;
         let text = disk::read(variant, "a variant", MOST_SUBMISSION_BYTES)?;
         let variant =
-            Variant::parse(text).map_err(|error| Failure::diagnostic(failure::BROKEN, error))?;
+            Variant::parse(text).map_err(|error| Failure::diagnostic(failure::USAGE, error))?;
         return Ok(variant.lab().to_owned());
     }
     let (labs, _) = labs_folder::open(labs_folder)?;

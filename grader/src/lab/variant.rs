@@ -12,7 +12,7 @@ use super::file::{StepsOrEach, StepsTable};
 use super::load::tables;
 use super::model::Lab;
 use super::parameters::NumbersTable;
-use crate::task::problem::{LabError, near, problems};
+use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
 
 /// The name of the file beside a submission, and in the copy of a lab in a report.
@@ -54,6 +54,15 @@ problems! {
             near(name, "parameters", known);
         Shape { name: String, base: Dimension, value: Dimension }:
             "variant::shape", "parameter `{name}` is {base}, got {value}", "another shape", "write it as in lab.toml";
+        NotVaried { lab: String, name: String, base: String }:
+            "variant::not_drawn", "parameter `{name}` of lab `{lab}` is {base} for everybody", "another number",
+            "[variants] in lab.toml says which parameters differ from student to student: leave this one out";
+        NotDrawn { lab: String, name: String, value: String, steps: String }:
+            "variant::not_drawn", "no student's variant of lab `{lab}` has {name} = {value}", "outside of [variants]",
+            format!("[variants] in lab.toml gives `{name}` {steps}");
+        Invalid { lab: String, why: String }:
+            "variant::invalid", "with the numbers of this variant lab `{lab}` is invalid: {why}", "no student's variant has this",
+            "use the variant.toml that your course gave you";
     }
 }
 
@@ -121,6 +130,66 @@ impl Variant {
         lines
             .map(|(name, value)| format!("{name} = {}\n", toml_of(value)))
             .collect()
+    }
+
+    /// Checks that it is one of `lab`, which has the default numbers.
+    ///
+    /// # Errors
+    /// Another lab's variant, a parameter that the lab does not have, a number in place of a list.
+    pub fn check_fits(&self, lab: &Lab) -> Result<(), LabError> {
+        self.fits(&lab.name, &lab.parameters)
+    }
+
+    /// Checks that it has no other numbers than a student's variant of `lab` can have: those that `[variants]` gives, else those that
+    /// everybody has. `lab` has the default numbers, and it is a variant of that lab.
+    ///
+    /// # Errors
+    /// The first parameter that has another number.
+    pub fn check_drawn(&self, lab: &Lab) -> Result<(), LabError> {
+        let report = Reporter {
+            source: &self.source,
+        };
+        for (name, value) in &self.parameters {
+            let base = lab.parameters.get(name.get_ref());
+            let rule = lab
+                .variants
+                .iter()
+                .find(|rule| rule.name == *name.get_ref());
+            // what a file leaves out stands as in lab.toml, so it may say that, too
+            if base == Some(value.get_ref()) || rule.is_some_and(|rule| rule.gives(value.get_ref()))
+            {
+                continue;
+            }
+            let (lab_name, name) = (lab.name.clone(), name.get_ref().clone());
+            return report.refuse_at(
+                value,
+                match rule {
+                    Some(rule) => VariantProblem::NotDrawn {
+                        lab: lab_name,
+                        name,
+                        value: toml_of(value.get_ref()),
+                        steps: rule.words(),
+                    },
+                    None => VariantProblem::NotVaried {
+                        lab: lab_name,
+                        name,
+                        base: base.map(toml_of).unwrap_or_default(),
+                    },
+                },
+            );
+        }
+        Ok(())
+    }
+
+    /// Why `lab`, which has the default numbers, is invalid with those of this variant, where it is the variant that is to blame: it has
+    /// a number that no student's variant has.
+    pub fn blamed(&self, lab: &Lab, why: &LoadError) -> Option<LabError> {
+        let problem = VariantProblem::Invalid {
+            lab: lab.name.clone(),
+            why: why.to_string(),
+        };
+        let not_drawn = self.check_drawn(lab).err()?;
+        Some(not_drawn.map(|_| Box::new(problem) as Box<_>))
     }
 
     /// Checks that it is one of `lab`: the lab's name, and each number one of its parameters in the same shape.
@@ -238,6 +307,40 @@ impl Steps {
     fn value(&self, k: u64) -> f64 {
         let value = self.from + self.step * k as f64;
         format!("{value:.11e}").parse().unwrap_or(value)
+    }
+
+    /// Whether `number` is one of them, to the digits that a person types.
+    fn gives(&self, number: f64) -> bool {
+        let k = ((number - self.from) / self.step).round();
+        (0.0..self.count as f64).contains(&k)
+            && (self.value(k as u64) - number).abs() <= 1e-9 * self.step
+    }
+
+    /// All of them in words.
+    fn words(&self) -> String {
+        let to = self.value(self.count.saturating_sub(1));
+        format!("{} to {to} in steps of {}", self.from, self.step)
+    }
+}
+
+impl VariantRule {
+    /// Whether a student's variant can have this value.
+    fn gives(&self, value: &Dimension) -> bool {
+        let numbers = match value {
+            Dimension::Number(number) => std::slice::from_ref(number),
+            Dimension::List(numbers) => numbers,
+        };
+        numbers.len() == self.steps.len()
+            && numbers
+                .iter()
+                .zip(&self.steps)
+                .all(|(number, steps)| steps.gives(*number))
+    }
+
+    /// The values that it gives, in words.
+    fn words(&self) -> String {
+        let all: Vec<String> = self.steps.iter().map(Steps::words).collect();
+        all.join("; ")
     }
 }
 
@@ -444,6 +547,26 @@ mod tests {
             .map(|id| lab.variant_of("salt", id).unwrap().text());
         assert_eq!(composed, apart);
         assert_ne!(composed, other);
+    }
+
+    #[test]
+    fn every_number_that_is_drawn_is_known_and_no_other() {
+        let steps = Steps {
+            from: 2.9,
+            step: 0.01,
+            count: 21,
+        };
+        assert!((0..21).all(|k| steps.gives(steps.value(k))));
+        for other in [2.89, 2.905, 3.11, 0.0, 1e300, -1e300, f64::NAN] {
+            assert!(!steps.gives(other), "{other}");
+        }
+        assert_eq!(steps.words(), "2.9 to 3.1 in steps of 0.01");
+        let one = Steps {
+            from: 5.0,
+            step: 1e-12,
+            count: 1,
+        };
+        assert!(one.gives(5.0) && !one.gives(5.1));
     }
 
     #[test]

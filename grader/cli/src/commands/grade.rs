@@ -35,7 +35,8 @@ use crate::{
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
     kinemark grade 01-kinematics submission.rhai --variants 5\n  \
     kinemark grade --format short\n\n\
-    In a folder of `kinemark new`, kinemark.toml names the lab. A file variant.toml beside the submission is used unless --variant or --student is given.\n\
+    In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
+    With the course staff's part only --variant and --student give a variant, and labs that may have been handed in are refused: docs/ta-guide.md.\n\
     What is no script is graded as `did-not-build`, with what to do; a symbolic link is never followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
@@ -134,6 +135,8 @@ pub(crate) struct Work {
     pub(crate) graded: GradedRun,
     /// Which variant is used where the command named none.
     pub(crate) note: Option<String>,
+    /// Whose labs are used, in a line.
+    pub(crate) labs: Option<String>,
     /// The same submission on other variants, where that was asked for.
     variants: Option<PracticeVariants>,
 }
@@ -152,6 +155,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let request = args.filled()?;
     let work = work(&request)?;
     let grade = &work.graded.grade;
+    // beside the record, which is the same wherever the labs lie
+    if let Some(labs) = &work.labs {
+        failure::note_in_words(labs);
+    }
+    let is_read = args.format == Format::Full && !args.json;
+    if let Some(note) = work.note.as_ref().filter(|_| !is_read) {
+        failure::note_in_words(note);
+    }
     // printed before anything is written: a full disk must not lose the grade
     if args.format == Format::Short {
         let file = output::path(&request.submission);
@@ -245,7 +256,7 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
             "give the course staff's folder with --reference DIR, or leave --reference-overlay out",
         ));
     }
-    if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() {
+    if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() && note.is_none() {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
     let submission = named_submission::read(&request.submission, &lab.name)?;
@@ -287,6 +298,7 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
         submission,
         graded,
         note,
+        labs: chosen.labs,
         variants,
     })
 }

@@ -109,9 +109,9 @@ struct Written<'a> {
 /// Makes the archive, writes it, prints what it is for.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut args = args.clone();
-    let note = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
-    if let Some(note) = note {
-        failure::note_in_words(&note);
+    let filled = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
+    if let Some(filled) = filled {
+        failure::note_in_words(&filled.note);
     }
     let args = &args;
     refuse_others_options(args)?;

@@ -53,9 +53,9 @@ struct Printed<'a> {
 /// Computes, and writes or prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut args = args.clone();
-    let note = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
-    if let Some(note) = note {
-        failure::note_in_words(&note);
+    let filled = enclosing_course::fill(&args.lab, &mut args.labs_folder, &mut args.staff)?;
+    if let Some(filled) = filled {
+        failure::note_in_words(&filled.note);
     }
     let args = &args;
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;

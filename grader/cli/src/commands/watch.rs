@@ -13,7 +13,7 @@ use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
 use super::grade::{self, Request, Work};
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::saves::{Saves, WatchEvent};
 use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
@@ -59,6 +59,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Err(failure) => return Err(failure),
     };
     let (count, changes) = watch::channel(0_u64);
+    if let Some(labs) = &first.labs {
+        failure::note_in_words(labs);
+    }
     publish(&request, &first, &count)?;
     let server = Server::bind(&request.out, args.serve.port, Some(changes))?;
     let address = server.address();
