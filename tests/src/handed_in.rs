@@ -1,4 +1,6 @@
-//! What may have been handed in with a submission says nothing about how it is graded: labs, staff part and course.
+//! What may have been handed in with a submission says nothing about how it is graded: labs, staff part, course, and links.
+
+use std::path::Path;
 
 use crate::testbed::{CommandResult, TestBed, copy, root};
 
@@ -159,4 +161,50 @@ fn a_course_has_its_own_labs_wherever_a_command_runs() {
         "zero_m = 5e-1",
     );
     assert_eq!(check("hand-ins/s1"), check(""));
+}
+
+#[cfg(unix)]
+#[test]
+fn no_link_in_the_path_of_a_submission_is_followed() {
+    use std::os::unix::fs::symlink;
+    let bed = bed();
+    let link = |from: &Path, to: &str| symlink(from, bed.path(to)).expect("link");
+    link(Path::new("../reference/01-kinematics"), "hand-ins/s9");
+    link(&bed.path("reference"), "hand-ins/s2/up");
+    for (path, words) in [
+        (
+            "hand-ins/s9/solution.rhai",
+            "`hand-ins/s9`, in the path `hand-ins/s9/solution.rhai`, is a link to another folder",
+        ),
+        ("hand-ins/s9", "`hand-ins/s9` is a link to another folder"),
+        (
+            "hand-ins/s2/up/01-kinematics/solution.rhai",
+            "`hand-ins/s2/up`, in the path",
+        ),
+        (
+            "./hand-ins/s2/../s9/solution.rhai",
+            "`hand-ins/s9`, in the path",
+        ),
+    ] {
+        let ran = bed.run(&["grade", LAB, path]);
+        assert_eq!(ran.code, Some(2), "{path}: {ran:?}");
+        let stderr = ran.stderr.replace("\n  │ ", " ");
+        assert!(stderr.contains(words), "{path}: {ran:?}");
+        let absolute = bed.path(path).display().to_string();
+        let ran = bed.run(&["grade", LAB, &absolute]);
+        assert_eq!(ran.code, Some(2), "{absolute}: {ran:?}");
+    }
+    let ran = bed.run(&["submit", LAB, "hand-ins/s9/solution.rhai"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(!bed.path("out").exists());
+    // a folder that was chosen may be reached by a link
+    link(Path::new("."), "course");
+    let ran = bed.run_in(
+        &bed.path("course"),
+        &["grade", LAB, "hand-ins/s2/submission.rhai"],
+    );
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let above = "../../hand-ins/s2/submission.rhai";
+    let ran = bed.run_in(&bed.path("labs/robots"), &["grade", LAB, above]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
 }

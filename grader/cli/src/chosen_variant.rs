@@ -12,7 +12,7 @@ use crate::failure::{Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffArgs, StaffPart};
 use crate::whose_labs::Found;
-use crate::{enclosing_course, failure, output};
+use crate::{enclosing_course, failure, output, typed_path};
 
 /// Which variant of the lab: the numbers of one student.
 #[derive(Debug, Clone, clap::Args)]
@@ -148,13 +148,16 @@ fn variant_of(
             return Ok((lab, Some(unused)));
         }
         (None, Some(found), false) => {
-            disk::refuse_link(found)?;
             let note = format!("using the variant in {}", output::path(found));
             (found, Some(note))
         }
         (None, None, _) => return Ok((lab, None)),
     };
-    let text = disk::read(path, "a variant", MOST_BYTES)?;
+    // a file that a person names may be a link of theirs
+    let text = match note {
+        Some(_) => typed_path::read(path, "a variant", MOST_BYTES)?,
+        None => disk::read(path, "a variant", MOST_BYTES)?,
+    };
     let usage = |error: LabError| Failure::diagnostic(USAGE, error);
     let variant = Variant::parse(text).map_err(usage)?;
     variant.check_fits(&lab).map_err(usage)?;

@@ -75,7 +75,11 @@ impl Files for Folder {
 /// What a plain file of at most `most` bytes holds; why not, in words. A pipe, which would have to be waited for, and a device, which
 /// may never end, are none.
 pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
-    let file = open(path).map_err(|error| plain(&error))?;
+    contents(open(path).map_err(|error| plain(&error))?, most)
+}
+
+/// What an opened file of at most `most` bytes holds, if it is a plain file; why not, in words.
+pub(crate) fn contents(file: File, most: u64) -> Result<Vec<u8>, String> {
     // asked of what was opened: what lies at the path may be another by now
     let there = file.metadata().map_err(|error| plain(&error))?;
     if !there.is_file() {
@@ -139,22 +143,14 @@ pub(crate) fn plain(error: &std::io::Error) -> String {
     }
 }
 
-/// Refuses a symbolic link in place of a file that may be a student's: what it points to could be a secret of whoever grades.
-pub(crate) fn refuse_link(path: &Path) -> Result<(), Failure> {
-    match path.symlink_metadata() {
-        Ok(there) if there.is_symlink() => Err(Failure::usage(
-            format!("`{}` is a link to another file", path.display()),
-            "copy the file itself",
-        )),
-        // a missing file is reported by whoever reads it
-        Ok(_) | Err(_) => Ok(()),
-    }
-}
-
 /// Reads the text that a person named `path`, which should be `what`, of at most `most` bytes.
 pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure> {
-    let text = text(read_bytes(path, what, most)?)
-        .map_err(|why| unread(path, what, &why, "save it as UTF-8 text"))?;
+    source(path, what, read_bytes(path, what, most)?)
+}
+
+/// The text that the bytes of the file at `path` are.
+pub(crate) fn source(path: &Path, what: &str, bytes: Vec<u8>) -> Result<Source, Failure> {
+    let text = text(bytes).map_err(|why| unread(path, what, &why, "save it as UTF-8 text"))?;
     Ok(Source::new(path.display().to_string(), text))
 }
 
@@ -165,6 +161,12 @@ fn unread(path: &Path, what: &str, why: &str, help: &str) -> Failure {
 
 /// Reads the file that a person named `path`, which should be `what`, of at most `most` bytes.
 pub(crate) fn read_bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, Failure> {
+    refuse_unlike(path, what)?;
+    read_of(path, what, most, bytes_of(path, most))
+}
+
+/// Refuses what is no plain file, before it is opened.
+pub(crate) fn refuse_unlike(path: &Path, what: &str) -> Result<(), Failure> {
     let shown = path.display();
     if path.is_dir() {
         return Err(Failure::usage(
@@ -184,7 +186,17 @@ pub(crate) fn read_bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, 
             "save it to a file first",
         ));
     }
-    bytes_of(path, most).map_err(|why| {
+    Ok(())
+}
+
+/// What was read of the file at `path`, or why not, for people.
+pub(crate) fn read_of(
+    path: &Path,
+    what: &str,
+    most: u64,
+    bytes: Result<Vec<u8>, String>,
+) -> Result<Vec<u8>, Failure> {
+    bytes.map_err(|why| {
         if why == too_large(most) {
             let help = format!("{what} has at most {most} bytes: is it the right file?");
             return unread(path, what, &why, &help);
@@ -193,14 +205,8 @@ pub(crate) fn read_bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, 
     })
 }
 
-/// Reads the bytes of a submission of at most `most`, whether they are text or not.
-pub(crate) fn read_submission_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
-    refuse_toml(path)?;
-    read_bytes(path, "a submission", most)
-}
-
 /// Refuses a variant, a lab or a robot in place of a submission.
-fn refuse_toml(path: &Path) -> Result<(), Failure> {
+pub(crate) fn refuse_toml(path: &Path) -> Result<(), Failure> {
     let is_toml = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));

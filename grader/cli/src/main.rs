@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 mod chosen_variant;
+mod beneath;
 mod command_line;
 mod commands;
 mod course_folder;
@@ -44,6 +45,7 @@ mod staff_folder;
 mod typed_numbers;
 mod unfolded_hints;
 mod worker;
+mod typed_path;
 mod working_lab;
 
 /// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).

@@ -11,21 +11,19 @@ use kinemark_course::submission_source::SubmissionSource;
 use kinemark_course::tree::{Limits, Tree};
 use kinemark_grader::submission::not_text::absent;
 
-use crate::disk;
 use crate::failure::Failure;
+use crate::{disk, typed_path};
 
 /// Reads what lies at `path` as a submission for `lab`.
 ///
 /// # Errors
-/// Exit code 2 for a path at which nothing is, or what can be no submission: a pipe, a TOML file, a file of more than a megabyte.
+/// Exit code 2 for a path at which nothing is or in which a folder is a link, or for what can be no submission: a pipe, a TOML file, a
+/// file of more than a megabyte.
 pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> {
     let name = path.file_name().unwrap_or(path.as_os_str());
     let name = name.to_string_lossy();
     let missing = |what: &str, help: &str| SubmissionSource::new(&name, &absent(what, help));
-    if path
-        .symlink_metadata()
-        .is_ok_and(|there| there.is_symlink())
-    {
+    if typed_path::link_in(path).is_some_and(|link| is_last(&link, path)) && !path.is_dir() {
         // what it points to could be a secret of whoever grades
         let what = format!("`{name}` is a link to another file");
         return Ok(missing(
@@ -33,8 +31,16 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
             "hand in the file itself: copy it to this place",
         ));
     }
-    if path.is_dir() || has_ending(path, &["zip", "tar", "gz", "tgz"]) {
-        let opened = Tree::open(path, &Limits::default());
+    typed_path::refuse_links(path)?;
+    let opened = if path.is_dir() {
+        Some(Tree::open(path, &Limits::default()))
+    } else if has_ending(path, &["zip", "tar", "gz", "tgz"]) {
+        let file = typed_path::open(path, "a submission")?;
+        Some(Tree::of_file(file, path, &Limits::default()))
+    } else {
+        None
+    };
+    if let Some(opened) = opened {
         let found = match &opened {
             Ok(tree) => submission_of(tree, &PersonFiles::of_all(tree), lab),
             Err(error) => {
@@ -53,7 +59,7 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
         });
     }
     if has_ending(path, &["kinemark"]) {
-        let bytes = disk::read_bytes(path, "a hand-in file", MOST_HAND_IN_BYTES)?;
+        let bytes = typed_path::bytes(path, "a hand-in file", MOST_HAND_IN_BYTES)?;
         return Ok(match HandInFile::read(&bytes) {
             Ok(file) => SubmissionSource::new(&file.statement.file, &file.submission),
             Err(error) => missing(
@@ -62,8 +68,14 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
             ),
         });
     }
-    let bytes = disk::read_submission_bytes(path, MOST_SUBMISSION_BYTES)?;
+    disk::refuse_toml(path)?;
+    let bytes = typed_path::bytes(path, "a submission", MOST_SUBMISSION_BYTES)?;
     Ok(SubmissionSource::new(&name, &bytes))
+}
+
+/// Whether a part of a path is all of it.
+fn is_last(part: &Path, path: &Path) -> bool {
+    part.components().count() >= path.components().count()
 }
 
 /// Whether a file's name ends in one of `endings`.

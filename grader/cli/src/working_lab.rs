@@ -10,7 +10,7 @@ use kinemark_grader::task::files::Files;
 
 use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::{disk, last_report, output};
+use crate::{disk, last_report, output, typed_path};
 
 /// Where reports go unless another folder is named.
 pub(crate) const REPORT_FOLDER: &str = "out";
@@ -30,7 +30,7 @@ pub(crate) fn lab_and_submission(
         (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
         (lab, file) => (lab, file.map(Path::to_owned)),
     };
-    let file = file.unwrap_or_else(|| submission(lab));
+    let file = file.map_or_else(|| submission(lab), |file| typed_path::plain(&file));
     let lab = match lab {
         Some(lab) => lab.to_owned(),
         None => lab_of(&file, variant, labs_folder, help)?,
@@ -65,7 +65,7 @@ fn folder_file(submission: &Path) -> Result<Option<FolderFile>, Failure> {
         return Ok(None);
     }
     let help = "write `lab = \"NAME\"` into it, or remove it and name the lab";
-    let text = disk::read(&path, "a note of the lab", MOST_SUBMISSION_BYTES)?;
+    let text = typed_path::read(&path, "a note of the lab", MOST_SUBMISSION_BYTES)?;
     let folder = FolderFile::parse(text.text())
         .map_err(|why| Failure::usage(format!("{}: {why}", output::path(&path)), help))?;
     let variant = submission.with_file_name(VARIANT_FILE);
@@ -106,10 +106,15 @@ pub(crate) fn lab_of(
         return Ok(folder.lab);
     }
     let beside = file.with_file_name(VARIANT_FILE);
-    let variant = variant.unwrap_or(&beside);
-    if variant.is_file() {
-        disk::refuse_link(variant)?;
-        let text = disk::read(variant, "a variant", MOST_SUBMISSION_BYTES)?;
+    let text = match variant {
+        Some(named) => named
+            .is_file()
+            .then(|| disk::read(named, "a variant", MOST_SUBMISSION_BYTES)),
+        None => beside
+            .is_file()
+            .then(|| typed_path::read(&beside, "a variant", MOST_SUBMISSION_BYTES)),
+    };
+    if let Some(text) = text.transpose()? {
         let variant =
             Variant::parse(text).map_err(|error| Failure::diagnostic(failure::USAGE, error))?;
         return Ok(variant.lab().to_owned());

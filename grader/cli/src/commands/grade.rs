@@ -37,7 +37,7 @@ use crate::{
     kinemark grade --format short\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
     With the course staff's part only --variant and --student give a variant, and labs that may have been handed in are refused: docs/ta-guide.md.\n\
-    What is no script is graded as `did-not-build`, with what to do; a symbolic link is never followed.\n\
+    What is no script is graded as `did-not-build`, with what to do; no link in the path of a submission is followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
     Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
 )]

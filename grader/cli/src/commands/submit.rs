@@ -23,7 +23,7 @@ use crate::handed_out_lab::Warning;
 use crate::labs_folder::LabsFolderArgs;
 use crate::staff_folder::{StaffArgs, StaffPart};
 use crate::worker::WorkerHost;
-use crate::{disk, interrupt, output, working_lab};
+use crate::{disk, interrupt, output, typed_path, working_lab};
 
 /// Write the one file to upload
 #[derive(Debug, clap::Args)]
@@ -127,8 +127,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 
 /// The bytes of the submission, text or not.
 fn submission(path: &Path) -> Result<Vec<u8>, Failure> {
-    disk::refuse_link(path)?;
-    let bytes = disk::read_submission_bytes(path, MOST_SUBMISSION_BYTES)?;
+    disk::refuse_toml(path)?;
+    let bytes = typed_path::bytes(path, "a submission", MOST_SUBMISSION_BYTES)?;
     if is_hand_in(&bytes) {
         return Err(Failure::usage(
             format!("`{}` is a hand-in file already", path.display()),

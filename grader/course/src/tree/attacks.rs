@@ -110,8 +110,40 @@ fn links_are_never_followed() {
     writer
         .add_symlink("submission.rhai", "/etc/passwd", options)
         .unwrap();
+    // a link to a folder, and a file that would come to lie in it
+    writer.add_symlink("s9", "/etc", options).unwrap();
+    writer.start_file("s9/passwd", options).unwrap();
+    writer.write_all(b"own").unwrap();
     let tree = opened(writer.finish().unwrap().into_inner());
     assert_eq!(problem(&tree, "submission.rhai"), EntryProblem::Link);
+    assert_eq!(problem(&tree, "s9"), EntryProblem::Link);
+    assert_eq!(tree.bytes(entry(&tree, "s9/passwd"), MOST).unwrap(), b"own");
+}
+
+/// What is put in the place of a file after it was listed.
+#[cfg(unix)]
+#[test]
+fn a_link_or_a_pipe_that_takes_the_place_of_a_file_is_not_read() {
+    let bed = folder(&[("a.rhai", "a"), ("b.rhai", "b")]);
+    let secret = folder(&[("secret", "c")]);
+    let tree = Tree::open(bed.path(), &Limits::default()).unwrap();
+    let place = |name: &str| bed.path().join(name);
+    for name in ["a.rhai", "b.rhai"] {
+        std::fs::remove_file(place(name)).unwrap();
+    }
+    std::os::unix::fs::symlink(secret.path().join("secret"), place("a.rhai")).unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(place("b.rhai"))
+        .status();
+    assert!(made.unwrap().success());
+    for name in ["a.rhai", "b.rhai"] {
+        let read = tree.bytes(entry(&tree, name), MOST);
+        assert!(
+            matches!(read, Err(EntryProblem::Unreadable { .. })),
+            "{name}: {read:?}"
+        );
+    }
+    assert!(Tree::open(&place("b.rhai"), &Limits::default()).is_err());
 }
 
 #[cfg(unix)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::{BufReader, Cursor, Read as _, Seek as _};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,39 +31,40 @@ impl Tree {
     /// # Errors
     /// What is neither, what cannot be read, more entries than the limit.
     pub fn open(path: &Path, limits: &Limits) -> Result<Self, TreeError> {
-        let refuse = |problem: &EntryProblem| TreeError {
-            path: path.display().to_string(),
-            what: problem.to_string(),
-            help: match problem {
-                EntryProblem::Unreadable { .. } => {
-                    "give the ZIP archive that the LMS exported, or the folder it was unpacked to"
-                }
-                EntryProblem::Damaged { .. } => "download it again",
-                EntryProblem::TooManyEntries { .. } => "give one assignment at a time",
-                _ => "export a ZIP archive, or unpack it and give the folder",
-            }
-            .to_owned(),
-        };
-        let unreadable = |error: std::io::Error| EntryProblem::Unreadable {
-            why: match error.kind() {
-                std::io::ErrorKind::NotFound => "it does not exist".to_owned(),
-                _ => error.to_string(),
-            },
-        };
         // a link that a person typed is followed: the links inside are not theirs
-        let there = path.metadata().map_err(|why| refuse(&unreadable(why)))?;
-        let opened = if there.is_dir() {
-            folder::list(path, limits).map(|listing| Self::new(listing, None, limits))
-        } else {
-            let mut start = Vec::new();
-            let read = folder::read(path, ENOUGH_BYTES as u64, &mut start);
-            read.and_then(|()| {
-                zip_or_problem(&start)?;
-                let file = File::open(path).map_err(unreadable)?;
-                Self::of_archive(Box::new(BufReader::new(file)), limits)
-            })
-        };
-        opened.map_err(|problem| refuse(&problem))
+        let there = path.metadata();
+        let there = there.map_err(|why| refuse(path, &unreadable(&why)))?;
+        if there.is_dir() {
+            let listing = folder::list(path, limits);
+            return listing
+                .map(|listing| Self::new(listing, None, limits))
+                .map_err(|problem| refuse(path, &problem));
+        }
+        // a pipe would have to be waited for
+        if !there.is_file() {
+            return Err(refuse(path, &EntryProblem::Special));
+        }
+        let file = File::open(path);
+        let file = file.map_err(|why| refuse(path, &unreadable(&why)))?;
+        Self::of_file(file, path, limits)
+    }
+
+    /// The tree of a ZIP archive that is open; `path` is for people.
+    ///
+    /// # Errors
+    /// As [`Tree::open`].
+    pub fn of_file(mut file: File, path: &Path, limits: &Limits) -> Result<Self, TreeError> {
+        let mut start = Vec::new();
+        let read = (&mut file)
+            .take(ENOUGH_BYTES as u64)
+            .read_to_end(&mut start);
+        let read = read.and_then(|_| file.rewind());
+        let read = read.map_err(|error| unreadable(&error));
+        read.and_then(|()| {
+            zip_or_problem(&start)?;
+            Self::of_archive(Box::new(BufReader::new(file)), limits)
+        })
+        .map_err(|problem| refuse(path, &problem))
     }
 
     /// The tree of a ZIP archive in memory.
@@ -195,6 +196,32 @@ impl Tree {
             return Err(spent);
         }
         Ok(bytes)
+    }
+}
+
+/// Why a source is no tree.
+fn refuse(path: &Path, problem: &EntryProblem) -> TreeError {
+    TreeError {
+        path: path.display().to_string(),
+        what: problem.to_string(),
+        help: match problem {
+            EntryProblem::Unreadable { .. } => {
+                "give the ZIP archive that the LMS exported, or the folder it was unpacked to"
+            }
+            EntryProblem::Damaged { .. } => "download it again",
+            EntryProblem::TooManyEntries { .. } => "give one assignment at a time",
+            _ => "export a ZIP archive, or unpack it and give the folder",
+        }
+        .to_owned(),
+    }
+}
+
+fn unreadable(error: &std::io::Error) -> EntryProblem {
+    EntryProblem::Unreadable {
+        why: match error.kind() {
+            std::io::ErrorKind::NotFound => "it does not exist".to_owned(),
+            _ => error.to_string(),
+        },
     }
 }
 

@@ -82,14 +82,30 @@ fn children(folder: &Path) -> io::Result<Vec<(PathBuf, String)>> {
 /// # Errors
 /// A file that is no longer there or may not be read.
 pub(super) fn read(path: &Path, most: u64, bytes: &mut Vec<u8>) -> Result<(), EntryProblem> {
-    // a pipe in place of the file would block
-    let read = path.symlink_metadata().and_then(|there| {
-        if !there.is_file() {
+    let read = open(path).and_then(|file| {
+        // asked of what was opened: what lies at the path may be another by now
+        if !file.metadata()?.is_file() {
             return Err(io::Error::other("it is no longer a file"));
         }
-        File::open(path)?.take(most).read_to_end(bytes)
+        file.take(most).read_to_end(bytes)
     });
     read.map(drop).map_err(|error| unreadable(&error))
+}
+
+/// Opens a file that was listed. A link that was put in its place is not followed, and a pipe not waited for.
+#[cfg(unix)]
+fn open(path: &Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags};
+    let flags = OFlags::RDONLY | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC;
+    Ok(File::from(rustix::fs::open(path, flags, Mode::empty())?))
+}
+
+#[cfg(not(unix))]
+fn open(path: &Path) -> io::Result<File> {
+    if path.symlink_metadata()?.is_symlink() {
+        return Err(io::Error::other("it is no longer a file"));
+    }
+    File::open(path)
 }
 
 fn unreadable(error: &io::Error) -> EntryProblem {

@@ -1,0 +1,93 @@
+//! Files beneath a folder, reached without following a link: what somebody handed in could lead to a secret of whoever reads it. How the
+//! folder itself is reached is the choice of the person who named it.
+
+use std::fs::File;
+use std::path::{Component, Path};
+
+use crate::disk;
+
+/// Why a file beneath a folder is not read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Unread {
+    /// There is none.
+    #[error("there is no such file")]
+    Absent,
+    /// A part of its path is a link.
+    #[error("`{0}` is a link, and links are not followed here")]
+    Link(String),
+    /// Another reason, in words.
+    #[error("{0}")]
+    Other(String),
+}
+
+/// Opens the file at `path` beneath `folder`, whatever it is; a pipe is not waited for. Neither the file nor a folder on the way to it
+/// is a link: each part is opened in the folder that was opened before it, so nobody can exchange one in between.
+///
+/// # Errors
+/// [`Unread`]; a path that leads out of the folder names no file in it.
+pub(crate) fn open(folder: &Path, path: impl AsRef<Path>) -> Result<File, Unread> {
+    let parts: Vec<Component<'_>> = path.as_ref().components().collect();
+    let is_plain = |part: &Component<'_>| matches!(part, Component::Normal(_));
+    if parts.is_empty() || !parts.iter().all(is_plain) {
+        return Err(Unread::Absent);
+    }
+    let folder = match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
+    };
+    let parts: Vec<&Path> = parts.iter().map(AsRef::as_ref).collect();
+    opened(folder, &parts)
+}
+
+#[cfg(unix)]
+fn opened(folder: &Path, parts: &[&Path]) -> Result<File, Unread> {
+    use rustix::fs::{AtFlags, CWD, FileType, Mode, OFlags, openat, statat};
+    let plain = |errno: rustix::io::Errno| Unread::Other(disk::plain(&errno.into()));
+    // a folder is only passed through, for which it need not be readable
+    #[cfg(any(target_os = "linux", target_os = "android"))]
+    let passed = OFlags::PATH | OFlags::DIRECTORY | OFlags::CLOEXEC;
+    #[cfg(not(any(target_os = "linux", target_os = "android")))]
+    let passed = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
+    let read = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::CLOEXEC;
+    let mut at = openat(CWD, folder, passed, Mode::empty()).map_err(|errno| match errno {
+        rustix::io::Errno::NOENT => Unread::Absent,
+        other => plain(other),
+    })?;
+    for (i, part) in parts.iter().enumerate() {
+        let flags = if i + 1 == parts.len() { read } else { passed };
+        let found = openat(&at, *part, flags | OFlags::NOFOLLOW, Mode::empty());
+        at = found.map_err(|errno| {
+            // systems differ in what they call a link that is not followed
+            let there = statat(&at, *part, AtFlags::SYMLINK_NOFOLLOW);
+            let kind = there.map(|there| FileType::from_raw_mode(there.st_mode));
+            match (kind, errno) {
+                (Ok(FileType::Symlink), _) => Unread::Link(shown(part)),
+                (_, rustix::io::Errno::NOENT | rustix::io::Errno::NOTDIR) => Unread::Absent,
+                (_, other) => plain(other),
+            }
+        })?;
+    }
+    Ok(File::from(at))
+}
+
+#[cfg(not(unix))]
+fn opened(folder: &Path, parts: &[&Path]) -> Result<File, Unread> {
+    let mut path = folder.to_owned();
+    let unread = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => Unread::Absent,
+        _ => Unread::Other(disk::plain(&error)),
+    };
+    for part in parts {
+        path.push(part);
+        // a junction of Windows is a link, too
+        if path.symlink_metadata().map_err(unread)?.is_symlink() {
+            return Err(Unread::Link(shown(part)));
+        }
+    }
+    File::open(path).map_err(unread)
+}
+
+/// A part of a path for people.
+fn shown(part: &Path) -> String {
+    kinemark_report::visible::visible(&part.to_string_lossy()).into_owned()
+}
