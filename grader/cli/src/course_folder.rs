@@ -16,7 +16,7 @@ use kinemark_course::staffed_lab::StaffedLab;
 use kinemark_course::standing::{Standing, standings};
 use kinemark_course::student::StudentId;
 use kinemark_course::working_folder::{BRIEF_FILE, STARTER_FILE};
-use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::problem::LoadError;
 use kinemark_sim::text::{Source, suggest};
 
@@ -353,7 +353,7 @@ pub(crate) fn text(path: &Path) -> Result<Source, Failure> {
         Ok(text) => Ok(Source::new(shown, text)),
         Err(why) => Err(Failure::broken(
             format!("`{shown}` cannot be read: {why}"),
-            "save it as UTF-8 text",
+            UNREAD_HELP,
         )),
     }
 }

@@ -6,6 +6,8 @@ use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use textwrap::{WordSeparator, WordSplitter};
 
+use crate::shown_diagnostic::{ShownDiagnostic, words};
+
 /// Points lost, or a comparison that differs.
 pub(crate) const LOST: u8 = 1;
 /// The command line.
@@ -100,29 +102,40 @@ impl Failure {
 
 /// Prints what ends nothing, but should be mended.
 pub(crate) fn warn(what: &str, diagnostic: &dyn Diagnostic) {
-    use std::io::Write as _;
-    // without standard error there is no one to warn
-    let _ = anstream::stderr().write_all(format!("warning: {what}\n").as_bytes());
+    warn_alone(what);
     show(diagnostic);
 }
 
 /// Prints, in words, what ends nothing but should be looked at.
 pub(crate) fn warn_in_words(message: &str, help: &str) {
     use std::io::Write as _;
-    let text = format!("warning: {message}\n  help: {help}\n");
+    let text = format!("warning: {}\n  help: {}\n", words(message), words(help));
     // without standard error there is no one to warn
     let _ = anstream::stderr().write_all(text.as_bytes());
+}
+
+/// Prints, in words, what ends nothing and says by itself what to do.
+pub(crate) fn warn_alone(message: &str) {
+    use std::io::Write as _;
+    // without standard error there is no one to warn
+    let _ = anstream::stderr().write_all(format!("warning: {}\n", words(message)).as_bytes());
 }
 
 /// Prints, in words, what a person should know while nothing is wrong.
 pub(crate) fn note_in_words(message: &str) {
     use std::io::Write as _;
     // without standard error there is no one to say it to
-    let _ = anstream::stderr().write_all(format!("note: {message}\n").as_bytes());
+    let _ = anstream::stderr().write_all(format!("note: {}\n", words(message)).as_bytes());
 }
 
 fn show(diagnostic: &dyn Diagnostic) {
     use std::io::Write as _;
+    // anstream strips the colours where they do not belong
+    let _ = anstream::stderr().write_all(rendered(diagnostic).as_bytes());
+}
+
+/// A diagnostic in lines for a terminal, with colours.
+pub(crate) fn rendered(diagnostic: &dyn Diagnostic) -> String {
     let mut text = String::new();
     let theme = GraphicalTheme::unicode();
     let handler = GraphicalReportHandler::new_themed(theme)
@@ -132,10 +145,8 @@ fn show(diagnostic: &dyn Diagnostic) {
         .with_word_separator(WordSeparator::AsciiSpace)
         .with_word_splitter(WordSplitter::NoHyphenation);
     // the handler writes to a string, which cannot fail
-    let _ = handler.render_report(&mut text, diagnostic);
-    // anstream strips the colours where they do not belong
-    let _ = anstream::stderr().write_all(text.trim_end().as_bytes());
-    let _ = anstream::stderr().write_all(b"\n");
+    let _ = handler.render_report(&mut text, &ShownDiagnostic::of(diagnostic));
+    text.trim_end().to_owned() + "\n"
 }
 
 impl From<LoadError> for Failure {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use rust_embed::Embed;
 
 use crate::disk::Folder;
@@ -90,10 +90,7 @@ pub(crate) fn text(files: &dyn Files, lab: &str, name: &str) -> Result<String, F
             format!("lab `{lab}` has no {name}"),
             "a lab needs a starter.rhai and a brief.md beside its lab.toml",
         )),
-        Err(why) => Err(Failure::broken(
-            format!("{lab}/{name}: {why}"),
-            "save it as UTF-8 text",
-        )),
+        Err(why) => Err(Failure::broken(format!("{lab}/{name}: {why}"), UNREAD_HELP)),
     }
 }
 

@@ -3,9 +3,10 @@
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use kinemark_report::visible::visible;
 
-mod chosen_variant;
 mod beneath;
+mod chosen_variant;
 mod command_line;
 mod commands;
 mod course_folder;
@@ -38,18 +39,19 @@ mod scene_source;
 mod scenes_to_check;
 mod serve;
 mod shard;
+mod shown_diagnostic;
 mod slurm_queue;
 mod slurm_run;
 mod slurm_script;
 mod staff_folder;
 mod typed_numbers;
-mod unfolded_hints;
-mod worker;
 mod typed_path;
+mod unfolded_hints;
+mod whose_labs;
+mod worker;
 mod working_lab;
 
 /// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).
-mod whose_labs;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
@@ -67,7 +69,7 @@ fn main() -> ExitCode {
                 0
             };
             // a closed pipe is no reason to fail
-            let _ = error.print();
+            let _ = as_shown(error).print();
             return ExitCode::from(code);
         }
     };
@@ -87,4 +89,12 @@ fn main() -> ExitCode {
     ended.map_or(ExitCode::from(failure::FAULT), |code| {
         code.unwrap_or(ExitCode::from(failure::FAULT))
     })
+}
+
+/// The same error about what was typed as a terminal may show it: a shell types the names of files, which may be a student's.
+fn as_shown(error: clap::Error) -> clap::Error {
+    let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
+    command_line::CommandLine::try_parse_from(shown)
+        .err()
+        .unwrap_or(error)
 }

@@ -4,7 +4,7 @@ use kinemark_grader::lab::brief::{with_grading, with_numbers, without_marks};
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Lab, TaskWork};
 use kinemark_grader::submission::rhai::code_parts;
-use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::model::Function;
 use kinemark_report::brief_page::{Brief, brief_page};
 use kinemark_report::replay::{ArmShows, LiveArm};
@@ -80,7 +80,7 @@ pub enum WorkingFolderError {
     },
     /// A file that is not text.
     #[error("{path}: {why}")]
-    #[diagnostic(code(lab::unreadable), help("save it as UTF-8 text"))]
+    #[diagnostic(code(lab::unreadable), help("{UNREAD_HELP}"))]
     Unreadable {
         /// The file.
         path: String,

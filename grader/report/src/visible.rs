@@ -8,12 +8,16 @@ use std::fmt::Write as _;
 fn is_unseen(c: char) -> bool {
     c.is_control()
         || matches!(c,
-            '\u{00AD}' | '\u{034F}' | '\u{061C}' | '\u{115F}' | '\u{1160}' | '\u{180E}' | '\u{3164}' | '\u{FEFF}' | '\u{FFA0}'
+            '\u{00AD}' | '\u{034F}' | '\u{061C}' | '\u{115F}' | '\u{1160}' | '\u{17B4}' | '\u{17B5}' | '\u{3164}' | '\u{FEFF}' | '\u{FFA0}'
+            | '\u{180B}'..='\u{180F}'
             | '\u{200B}'..='\u{200F}'
             | '\u{2028}'..='\u{202E}'
             | '\u{2060}'..='\u{206F}'
             | '\u{FDD0}'..='\u{FDEF}'
+            | '\u{FE00}'..='\u{FE0F}'
             | '\u{FFF0}'..='\u{FFFB}'
+            | '\u{1BCA0}'..='\u{1BCA3}'
+            | '\u{1D173}'..='\u{1D17A}'
             | '\u{E0000}'..='\u{E0FFF}')
         || (c as u32) & 0xFFFE == 0xFFFE
 }
@@ -22,6 +26,11 @@ fn is_unseen(c: char) -> bool {
 fn is_combining(c: char) -> bool {
     matches!(c, '\u{0300}'..='\u{036F}' | '\u{0483}'..='\u{0489}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}'
         | '\u{20D0}'..='\u{20FF}' | '\u{FE20}'..='\u{FE2F}')
+}
+
+/// Whether a character may be a picture, which the next one may ask for in colour.
+fn is_sign(c: char) -> bool {
+    !c.is_ascii() && !c.is_alphanumeric() && !is_unseen(c)
 }
 
 /// Accents on one letter that are shown.
@@ -34,11 +43,13 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     }
     let mut shown = String::with_capacity(text.len() + 16);
     let mut accents = 0;
+    let mut before = ' ';
     for c in text.chars() {
         accents = if is_combining(c) { accents + 1 } else { 0 };
         match c {
             '\t' => shown.push_str("    "),
             '\n' => shown.push('⏎'),
+            '\u{FE0E}' | '\u{FE0F}' if is_sign(before) => shown.push(c),
             _ if is_unseen(c) => {
                 // writing into a string cannot fail
                 let _ = write!(shown, "⟨U+{:04X}⟩", c as u32);
@@ -46,6 +57,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
             _ if accents > MAX_COMBINING => {}
             _ => shown.push(c),
         }
+        before = c;
     }
     Cow::Owned(shown)
 }
@@ -92,6 +104,18 @@ mod tests {
         assert_eq!(visible("a\u{202E}b"), "a⟨U+202E⟩b");
         assert_eq!(visible("x\u{0}\u{85}\u{FFFF}"), "x⟨U+0000⟩⟨U+0085⟩⟨U+FFFF⟩");
         assert_eq!(visible("größe ∂q/∂t 日本"), "größe ∂q/∂t 日本");
+        // what Unicode calls default ignorable: a name with it looks like one without
+        assert_eq!(visible("⚠\u{FE0F}"), "⚠\u{FE0F}");
+        for c in [
+            '\u{17B4}',
+            '\u{180B}',
+            '\u{FE0F}',
+            '\u{1BCA0}',
+            '\u{1D173}',
+            '\u{E0100}',
+        ] {
+            assert_eq!(visible(&format!("a{c}")), format!("a⟨U+{:04X}⟩", c as u32));
+        }
     }
 
     #[test]

@@ -27,6 +27,10 @@ pub trait Files {
     fn list(&self, folder: &str) -> Vec<String>;
 }
 
+/// What to do about a file that cannot be read as text: it is too large, nobody may read it, or it is no text.
+pub const UNREAD_HELP: &str =
+    "check that it is the right file, that it is UTF-8 text, and that you may read it";
+
 /// A file's bytes as text.
 ///
 /// # Errors

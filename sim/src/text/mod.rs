@@ -1,6 +1,7 @@
 //! Text from outside: sources with positions, expressions over named numbers, and errors that point into the text; and numbers in
 //! text for people.
 
+mod cut_line;
 mod dimensions;
 pub mod expression;
 mod linear;
@@ -11,6 +12,7 @@ mod suggest;
 mod toml_refusal;
 mod typed_table;
 
+pub use cut_line::CutLine;
 pub use dimensions::{Dimension, Dimensions};
 pub use linear::Linear;
 pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};

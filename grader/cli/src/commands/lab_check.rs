@@ -14,7 +14,7 @@ use kinemark_grader::lab::practice::{PRACTICE_SALT, practice_student};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::submission::rhai::STACK_BYTES;
-use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::problem::LoadError;
 use kinemark_report::formula::formula_problems;
 use kinemark_sim::text::Source;
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let path = format!("{}/brief.md", lab.name);
     let brief = files
         .read(&path)
-        .map_err(|why| Failure::broken(format!("{path}: {why}"), "save it as UTF-8 text"))?;
+        .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
 
     let mut audit = Audit::new(&lab);
     let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();

@@ -9,7 +9,7 @@ use kinemark_grader::audit::{PracticeError, practice_forms};
 use kinemark_grader::lab::brief::{with_grading, with_numbers};
 use kinemark_grader::lab::practice::{PRACTICE_FILE, PRACTICE_VARIANTS, file_text};
 use kinemark_grader::lab::{Lab, Staff};
-use kinemark_grader::task::files::Files;
+use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let path = format!("{}/brief.md", lab.name);
     let brief = files
         .read(&path)
-        .map_err(|why| Failure::broken(format!("{path}: {why}"), "save it as UTF-8 text"))?;
+        .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
     if let Some(brief) = brief {
         let brief = with_numbers(&with_grading(&brief, &lab), &lab)
             .map_err(|why| Failure::broken(format!("{path}: {why}"), "correct the brief"))?;
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let lines = all.into_iter().flat_map(|(word, paths)| {
             paths
                 .iter()
-                .map(move |path| format!("{word} {}\n", path.display()))
+                .map(move |path| format!("{word} {}\n", output::path(path)))
         });
         output::print(&lines.collect::<String>())?;
     }

@@ -312,7 +312,7 @@ fn text(export: &Export, out: &Path) -> String {
     for exported in &export.files {
         text += &format!(
             "{}: {} rows, {} columns of `{}`\n",
-            out.join(&exported.file).display(),
+            output::path(&out.join(&exported.file)),
             exported.rows,
             exported.columns,
             visible(&exported.topic)

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_course::working_folder::working_folder;
+use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, Chosen, LabArgs};
@@ -59,10 +60,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     } else {
         output::print(&format!(
             "{}\nRead {}, then edit {} and run in that folder:\n  cd {}\n  kinemark grade\n",
-            lab.title,
-            paths[1].display(),
-            paths[0].display(),
-            dir.display()
+            visible(&lab.title),
+            output::path(&paths[1]),
+            output::path(&paths[0]),
+            output::path(&dir)
         ))?;
     }
     Ok(ExitCode::SUCCESS)

@@ -1,6 +1,5 @@
 //! `kinemark robot convert`: any robot as a robot file, on standard output or in a file that is whole or not there.
 
-use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 
@@ -8,7 +7,7 @@ use kinemark_sim::format::detect;
 use kinemark_sim::text::Source;
 use kinemark_toolbox::robot_convert::{Converted, converted};
 
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::output;
 use crate::robot_source::{self, RobotArgs};
 
@@ -62,8 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Some(seen_from(folder, path))
     });
     for warning in &warnings {
-        // a reader that has gone away is no failure
-        let _ = writeln!(anstream::stderr(), "warning: {warning}");
+        failure::warn_alone(warning);
     }
     match &args.out {
         None => output::print(&text)?,

@@ -112,7 +112,7 @@ fn follow(
         }
         if !request.submission.exists() {
             if !is_gone {
-                let name = request.submission.display();
+                let name = output::path(&request.submission);
                 print_beside(&format!(
                     "{name} is gone; it is graded again when it is back\n"
                 ));
