@@ -187,3 +187,38 @@ fn a_folder_that_is_not_unicode_is_graded_and_named_plainly() {
     reads_well(&ran);
     assert!(ran.stderr.contains("⟨U+001B⟩[2J"), "{ran:?}");
 }
+
+#[test]
+fn a_line_without_end_of_a_submission_is_quoted_around_its_mistake() {
+    let bed = TestBed::new();
+    let line = format!(
+        "fn control(o) {{ {}let 日本 = nosuch(1); {} }}",
+        "let a = 1; ".repeat(2_000),
+        "let b = 2; ".repeat(2_000)
+    );
+    bed.write("submission.rhai", line);
+    let ran = bed.run(&["grade", "01-kinematics", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    reads_well(&ran);
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    let at = lines.iter().position(|line| line.starts_with("    1 | …"));
+    let at = at.unwrap_or_else(|| panic!("{ran:?}"));
+    let caret = lines[at + 1]
+        .chars()
+        .position(|c| c == '^')
+        .expect("a caret");
+    assert_eq!(lines[at].chars().nth(caret), Some('日'), "{ran:?}");
+    let record = std::fs::read_to_string(bed.path("out/grade.json")).expect("record");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    let stopped = &record["tasks"][0]["stopped"];
+    assert_eq!(stopped["column"], 22_021, "{stopped}");
+    let column = stopped["source_column"].as_u64().expect("a column");
+    let text = stopped["source_line"].as_str().expect("a line");
+    assert_eq!(
+        text.chars().nth(column as usize - 1),
+        Some('日'),
+        "{stopped}"
+    );
+    let page = std::fs::read_to_string(bed.path("out/report.html")).expect("page");
+    assert!(page.contains("<code>…") && !page.contains(&"let a = 1; ".repeat(40)));
+}

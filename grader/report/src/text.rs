@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use kinemark_sim::text::number::seconds;
 use owo_colors::OwoColorize as _;
+use unicode_width::UnicodeWidthStr as _;
 
 use super::measured::Measured;
 use super::moment::{fragment, last_before, of_task};
@@ -202,10 +203,10 @@ fn push_stopped(out: &mut String, stopped: &Stopped, file: &str, task: &str) {
             out,
             &format!("    {} {}", format!("{gutter} |").dimmed(), visible(source)),
         );
-        if let Some(column) = stopped.column {
+        if let Some(column) = stopped.column_in_source_line() {
             // as wide as what is shown before the caret
             let head: String = source.chars().take(column.saturating_sub(1)).collect();
-            let before: String = visible(&head).chars().map(|_| ' ').collect();
+            let before = " ".repeat(visible(&head).width());
             let bar = format!("{:gutter$} |", "", gutter = gutter.len());
             line(
                 out,

@@ -2,6 +2,7 @@
 
 use kinemark_sim::diagnosis::Cause;
 use kinemark_sim::run::DivergenceKind;
+use kinemark_sim::text::CutLine;
 
 use super::diverged::DivergedWords as _;
 use crate::record::grade::Stopped;
@@ -305,15 +306,22 @@ pub fn record_of(stop: &Stop, source: &str) -> Stopped {
         Stop::DidNotBuild(mistake) | Stop::Crashed(mistake) => mistake.further.clone(),
         _ => Vec::new(),
     };
+    let line = place.and_then(|place| source.lines().nth(place.line.checked_sub(1)?));
+    let quoted = line
+        .zip(place)
+        .map(|(line, place)| quoted(line, place.column));
+    let column = place.map(|place| place.column);
     Stopped {
         message,
         help,
         further,
         line: place.map(|place| place.line),
-        column: place.map(|place| place.column),
-        source_line: place
-            .and_then(|place| source.lines().nth(place.line.checked_sub(1)?))
-            .map(shortened),
+        column,
+        source_column: quoted
+            .as_ref()
+            .map(|(_, at)| *at)
+            .filter(|at| Some(*at) != column),
+        source_line: quoted.map(|(text, _)| text),
         ..Stopped::default()
     }
 }
@@ -356,15 +364,17 @@ fn budget_help(budget: Budget) -> &'static str {
     }
 }
 
-/// A line of the submission, shortened if it is very long.
-fn shortened(line: &str) -> String {
-    const LONGEST: usize = 200;
-    if line.chars().count() > LONGEST {
-        let start: String = line.chars().take(LONGEST).collect();
-        format!("{start}…")
-    } else {
-        line.to_owned()
-    }
+/// What is quoted of a line of the submission, and where `column` is in that, both from one.
+fn quoted(line: &str, column: usize) -> (String, usize) {
+    let before = column.saturating_sub(1);
+    let at = line.char_indices().nth(before);
+    let at = at.map_or(line.len(), |(at, _)| at);
+    let cut = CutLine::around(line, &[at]);
+    let text = cut.text(str::to_owned);
+    // a column behind the end of the line stays there
+    let beyond = before.saturating_sub(line[..at].chars().count());
+    let before = cut.before(at, str::to_owned).chars().count();
+    (text, before + beyond + 1)
 }
 
 /// A hint on the origin of numbers that are not finite.
@@ -378,7 +388,7 @@ fn not_finite_help(message: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::submission::controller::SourcePosition;
+    use crate::submission::controller::{Mistake, SourcePosition};
 
     #[test]
     fn a_function_with_other_parameters_is_shown_where_it_is() {
@@ -404,6 +414,46 @@ mod tests {
             missing_words("init(robot, task)", None),
             "the submission has no function `init(robot, task)`"
         );
+    }
+
+    #[test]
+    fn a_long_line_is_quoted_around_its_column() {
+        let place = |column| {
+            let place = Some(SourcePosition { line: 1, column });
+            let mistake = Mistake {
+                message: "no".to_owned(),
+                place,
+                help: None,
+                further: Vec::new(),
+            };
+            let line = format!("{}x{}", "ä".repeat(5_000), "b".repeat(5_000));
+            record_of(&Stop::Crashed(mistake), &line)
+        };
+        let stopped = place(5_001);
+        assert_eq!((stopped.line, stopped.column), (Some(1), Some(5_001)));
+        let quoted = stopped.source_line.clone().unwrap();
+        let at = stopped.column_in_source_line().unwrap();
+        assert_eq!(quoted.chars().nth(at - 1), Some('x'));
+        assert!(quoted.chars().count() <= 162, "{quoted}");
+        // at the beginning of a line nothing is left out before it
+        let stopped = place(3);
+        assert_eq!((stopped.source_column, stopped.column), (None, Some(3)));
+        assert!(stopped.source_line.unwrap().ends_with("ä…"));
+        let short = record_of(&missing_at(9), "fn control() {}");
+        assert_eq!(short.source_line.as_deref(), Some("fn control() {}"));
+        assert_eq!(short.column_in_source_line(), Some(9));
+    }
+
+    fn missing_at(column: usize) -> Stop {
+        Stop::Missing {
+            function: "control(observation)".into(),
+            help: None,
+            namesake: Some(Namesake {
+                parameters: 0,
+                wanted: 1,
+                place: Some(SourcePosition { line: 1, column }),
+            }),
+        }
     }
 
     #[test]

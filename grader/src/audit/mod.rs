@@ -386,7 +386,8 @@ fn place_of(stopped: &Stopped, source: &Source) -> String {
         return String::new();
     };
     let column = stopped.column.unwrap_or(1);
-    let indent = " ".repeat(column.saturating_sub(1));
+    let before = stopped.column_in_source_line().unwrap_or(1);
+    let indent = " ".repeat(before.saturating_sub(1));
     format!(
         "\n    {}:{line}:{column}\n    {text}\n    {indent}^",
         source.name()

@@ -251,8 +251,11 @@ pub struct Stopped {
     pub line: Option<usize>,
     /// Column in that line, in characters, from one.
     pub column: Option<usize>,
-    /// The line itself.
+    /// The line itself; of a line of more than 160 characters what is around the column, with `…` for what is left out.
     pub source_line: Option<String>,
+    /// The column in `source_line`, where that begins in the middle of the line; absent where it is `column`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source_column: Option<usize>,
     /// The tick of a motion task at which it happened.
     pub tick: Option<u64>,
     /// The time of that tick \[s\].
@@ -262,6 +265,13 @@ pub struct Stopped {
     /// The share of its points that a run keeps, which went on with the last command; absent where nothing was left to judge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept: Option<f64>,
+}
+
+impl Stopped {
+    /// The column in [`Self::source_line`], from one.
+    pub fn column_in_source_line(&self) -> Option<usize> {
+        self.source_column.or(self.column)
+    }
 }
 
 /// What else is wrong in a submission, besides the mistake that stopped it.

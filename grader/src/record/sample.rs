@@ -507,6 +507,7 @@ fn ik() -> TaskGrade {
         help: Some("the angle of a point is `atan2(y, x)`".to_owned()),
         line: Some(14),
         column: Some(14),
+        source_column: None,
         source_line: Some(
             "    let q1 = atan(p[1], p[0]) - atan2(s, c); // <script>alert('x')</script>"
                 .to_owned(),

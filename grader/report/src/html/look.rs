@@ -147,6 +147,7 @@ mod tests {
             line: Some(7),
             column: Some(3),
             source_line: Some("  q.x".to_owned()),
+            source_column: None,
             tick: Some(1200),
             time_s: Some(1.2),
             case: None,

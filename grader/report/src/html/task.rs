@@ -2,6 +2,7 @@
 
 use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
+use unicode_width::UnicodeWidthStr as _;
 
 use super::figure::figure;
 use super::head::{anchor, earned, meaning, verdict};
@@ -194,7 +195,7 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
                 @if let Some(tick) = stop.tick { span { "tick " (tick) } }
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
-            @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column)) }
+            @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column_in_source_line())) }
             @if let Some(kept) = stop.kept { p { (kept_words(stop, kept)) } }
             @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
             @if !stop.further.is_empty() {
@@ -211,22 +212,12 @@ fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
         .chars()
         .take(column.unwrap_or(1).saturating_sub(1))
         .collect();
-    // a long line is shown from shortly before the column
-    let skipped = before.chars().count().saturating_sub(60);
-    let shown: String = line.chars().skip(skipped).take(160).collect();
-    let indent: String = before.chars().skip(skipped).collect();
     let number = number.map(|number| number.to_string()).unwrap_or_default();
     let gutter = " ".repeat(number.len());
-    let lead = if skipped > 0 { "…" } else { "" };
-    let tail = if line.chars().count() > skipped + 160 {
-        "…"
-    } else {
-        ""
-    };
-    let spaces = " ".repeat(visible(&indent).chars().count() + lead.chars().count());
+    let spaces = " ".repeat(visible(&before).width());
     html! {
         pre class="code" tabindex="0" {
-            span class="gutter" { (number) " │ " } code { (lead) (visible(&shown)) (tail) }
+            span class="gutter" { (number) " │ " } code { (visible(line)) }
             @if column.is_some() { "\n" span class="gutter" aria-hidden="true" { (gutter) " │ " } span class="caret" aria-hidden="true" { (spaces) "^" } }
         }
     }
