@@ -192,6 +192,25 @@ fn a_folder_that_cannot_be_written_does_not_lose_the_grade() {
     assert!(ran.stderr.contains("cannot be written"), "{ran:?}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn an_output_that_cannot_be_written_does_not_lose_the_report() {
+    let bed = TestBed::new();
+    good(&bed);
+    for more in [&[][..], &["--json"], &["--format", "short"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full");
+        let mut command = bed.command(&["grade", "01-kinematics", "submission.rhai"]);
+        command.args(more).stdout(full.expect("/dev/full"));
+        let ran = command.output().expect("the binary runs");
+        let ran: crate::testbed::CommandResult = ran.into();
+        assert_eq!(ran.code, Some(4), "{more:?} {ran:?}");
+        let says = "standard output cannot be written";
+        assert!(ran.stderr.contains(says), "{ran:?}");
+        assert_eq!(bed.run(&["verify", "out"]).code, Some(0), "{more:?}");
+        std::fs::remove_dir_all(bed.path("out")).expect("a report");
+    }
+}
+
 /// Who grades a class loops over folders that students named.
 #[cfg(unix)]
 #[test]

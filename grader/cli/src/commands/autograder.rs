@@ -96,8 +96,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (content, ended) = match upload(args, submission) {
         Ok(content) => (content, Ok(ExitCode::SUCCESS)),
         Err(NotGraded::Upload(why)) => {
-            output::print(&format!("not graded: {why}\n"))?;
-            (GradescopeResults::none(&why), Ok(ExitCode::from(LOST)))
+            let printed = output::print(&format!("not graded: {why}\n"));
+            let ended = printed.map(|()| ExitCode::from(LOST));
+            (GradescopeResults::none(&why), ended)
         }
         Err(NotGraded::Setup(why, failure)) => (GradescopeResults::none(why), Err(failure)),
         Err(NotGraded::Failed(failure)) => (GradescopeResults::none(FAILED), Err(failure)),

@@ -85,13 +85,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     comparison.notes.extend(notes);
-    // print the comparison before anything is written: a full disk must not lose it
-    if args.json {
-        output::print_json(&comparison)?;
-    } else {
-        output::print(&kinemark_report::compare_text::text(&comparison))?;
+    // neither loses the other: a full disk what is printed, an output that cannot be written the page
+    let printed = match args.json {
+        true => output::print_json(&comparison),
+        false => output::print(&kinemark_report::compare_text::text(&comparison)),
+    };
+    if let Err(unwritten) = write(&args.out, &comparison, &a.graded, &b.graded) {
+        if let Err(unprinted) = printed {
+            unprinted.report();
+        }
+        return Err(unwritten);
     }
-    write(&args.out, &comparison, &a.graded, &b.graded)?;
+    printed?;
     if !args.json {
         let page = args.out.join(PAGE);
         output::print(&format!("comparison: {}\n", output::path(&page)))?;

@@ -39,7 +39,8 @@ use crate::{
     With the course staff's part only --variant and --student give a variant, and labs that may have been handed in are refused: docs/ta-guide.md.\n\
     What is no script is graded as `did-not-build`, with what to do; no link in the path of a submission is followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
-    Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed."
+    Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed, or the grade cannot be \
+    printed or written."
 )]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it, or the beginning of its name [default: that of the folder]
@@ -155,7 +156,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let request = args.filled()?;
     let work = work(&request)?;
     let grade = &work.graded.grade;
-    // beside the record, which is the same wherever the labs lie
+// beside the record, which is the same wherever the labs lie
     if let Some(labs) = &work.labs {
         failure::note_in_words(labs);
     }
@@ -163,44 +164,73 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(note) = work.note.as_ref().filter(|_| !is_read) {
         failure::note_in_words(note);
     }
-    // printed before anything is written: a full disk must not lose the grade
-    if args.format == Format::Short {
-        let file = output::path(&request.submission);
-        output::print(&short_text(grade, &file))?;
-    } else if let (true, Some(variants)) = (args.json, &work.variants) {
-        output::print_json(&WithVariants { grade, variants })?;
-    } else if args.json {
-        output::print_json(grade)?;
-    } else {
-        if let Some(note) = &work.note {
-            output::print(&format!("{note}\n"))?;
+    // neither loses the other: a full disk the grade on the terminal, an output that cannot be written the report
+    let printed = print(&request, &work);
+    if let Err(unwritten) = write(&request, &work) {
+        if let Err(unprinted) = printed {
+            unprinted.report();
         }
-        output::print_lines(&kinemark_report::text::text(grade))?;
-        if let Some(variants) = &work.variants {
-            output::print_lines(&variants.text(grade))?;
-        }
+        return Err(unwritten);
     }
-    write(&request, &work)?;
     let is_practice = grade.mode == GradeMode::Practice;
     let history = is_practice.then(|| History::beside(&request.submission));
     let history = history.flatten();
-    if !args.json && args.format == Format::Full {
-        let change = history.as_ref().and_then(|(known, _)| known.change(grade));
-        output::print_lines(&change.unwrap_or_default())?;
-        let beyond = history.as_ref().and_then(|(known, _)| known.beyond(grade));
-        output::print_lines(&beyond.unwrap_or_default())?;
-        let report = output::path(&request.out.join(PAGE_FILE));
-        output::print(&format!("report: {report}\n"))?;
-        if let Some(loss) = kinemark_report::moment::look_first(grade) {
-            let place = loss.fragment();
-            output::print(&format!("look here first: {report}{place}\n"))?;
-        }
-        if args.storyboard {
-            output::print(&storyboards(&request.out, &work.graded))?;
-        }
-    }
+    let printed = printed.and_then(|()| {
+        let known = history.as_ref().map(|(known, _)| known);
+        print_what_is_next(&request, &work, known)
+    });
     remember(history, grade)?;
+    printed?;
     Ok(exit_code(grade.verdict))
+}
+
+/// Prints the grade.
+fn print(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
+    let (args, grade) = (request.args, &work.graded.grade);
+    if args.format == Format::Short {
+        let file = output::path(&request.submission);
+        return output::print(&short_text(grade, &file));
+    }
+    if args.json {
+        return match &work.variants {
+            Some(variants) => output::print_json(&WithVariants { grade, variants }),
+            None => output::print_json(grade),
+        };
+    }
+    if let Some(note) = &work.note {
+        output::print(&format!("{note}\n"))?;
+    }
+    output::print_lines(&kinemark_report::text::text(grade))?;
+    match &work.variants {
+        Some(variants) => output::print_lines(&variants.text(grade)),
+        None => Ok(()),
+    }
+}
+
+/// Prints what is new since the last grade, and where the report is, for people.
+fn print_what_is_next(
+    request: &Request<'_>,
+    work: &Work,
+    history: Option<&History>,
+) -> Result<(), Failure> {
+    let (args, grade) = (request.args, &work.graded.grade);
+    if args.json || args.format == Format::Short {
+        return Ok(());
+    }
+    let change = history.and_then(|known| known.change(grade));
+    output::print_lines(&change.unwrap_or_default())?;
+    let beyond = history.and_then(|known| known.beyond(grade));
+    output::print_lines(&beyond.unwrap_or_default())?;
+    let report = output::path(&request.out.join(PAGE_FILE));
+    output::print(&format!("report: {report}\n"))?;
+    if let Some(loss) = kinemark_report::moment::look_first(grade) {
+        let place = loss.fragment();
+        output::print(&format!("look here first: {report}{place}\n"))?;
+    }
+    if args.storyboard {
+        output::print(&storyboards(&request.out, &work.graded))?;
+    }
+    Ok(())
 }
 
 /// Adds a grade to the history of its folder.

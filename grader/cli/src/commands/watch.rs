@@ -136,20 +136,21 @@ fn follow(
 /// Prints a grade in one line, writes the folder, and notifies open pages.
 fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
-    if request.args.json {
-        let text = serde_json::to_string(grade).map_err(|error| {
-            Failure::fault(
-                format!("a value could not be written as JSON: {error}"),
-                "please report this",
-            )
-        })?;
-        output::print(&(text + "\n"))?;
-    } else {
-        output::print(&line(grade, work.note.as_deref()))?;
-    }
+    let line = match request.args.json {
+        true => serde_json::to_string(grade).map(|text| text + "\n"),
+        false => Ok(line(grade, work.note.as_deref())),
+    };
+    let line = line.map_err(|error| {
+        Failure::fault(
+            format!("a value could not be written as JSON: {error}"),
+            "please report this",
+        )
+    })?;
+    // an output that cannot be written must not lose the report
+    let printed = output::print(&line);
     grade::write(request, work)?;
     count.send_modify(|count| *count += 1);
-    Ok(())
+    printed
 }
 
 /// What is for people alone stands beside the JSON.
