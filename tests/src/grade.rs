@@ -211,6 +211,93 @@ fn an_output_that_cannot_be_written_does_not_lose_the_report() {
     }
 }
 
+/// What is in a folder that this test made, without the submission.
+#[cfg(unix)]
+fn beside(bed: &TestBed) -> Vec<String> {
+    let entries = std::fs::read_dir(bed.path(".")).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let mut names: Vec<String> = names
+        .map(|name| name.into_string().expect("UTF-8"))
+        .filter(|name| name != "submission.rhai")
+        .collect();
+    names.sort();
+    names
+}
+
+/// Grades, and is killed in the midst of the report, every time at the same place: the system kills what writes more to a file than is
+/// allowed.
+#[cfg(unix)]
+fn killed(bed: &TestBed, blocks: u32) {
+    let script = format!(
+        "ulimit -f {blocks}; exec '{}' grade 01-kinematics submission.rhai",
+        crate::testbed::binary().display()
+    );
+    let mut limited = std::process::Command::new("sh");
+    limited.args(["-c", &script]).current_dir(bed.path("."));
+    let ran: crate::testbed::CommandResult = limited.output().expect("sh runs").into();
+    assert_eq!(ran.code, None, "it was not killed: {ran:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_killed_grade_leaves_is_gone_after_the_next() {
+    let bed = TestBed::new();
+    good(&bed);
+    killed(&bed, 8);
+    let left = beside(&bed);
+    assert!(
+        left.len() == 1 && left[0].starts_with(".kinemark-"),
+        "{left:?}"
+    );
+    let grade = ["grade", "01-kinematics", "submission.rhai"];
+    let ran = bed.run(&grade);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert_eq!(beside(&bed), ["out"]);
+    // an earlier report stays whole
+    let page = || std::fs::read(bed.path("out/report.html")).expect("a page");
+    let before = page();
+    killed(&bed, 64);
+    assert_eq!(beside(&bed).len(), 2);
+    assert_eq!(bed.run(&["verify", "out"]).code, Some(0));
+    // tables beside a log, as a grade that was killed behind the exchange would leave them
+    let left = beside(&bed).remove(0);
+    let table = format!("{left}/new/move/run-csv/a.csv");
+    bed.write(&table, "mine");
+    let place = r#"{ "name": "out", "kept": ["move/run-csv"] }"#;
+    bed.write(&format!("{left}/place.json"), place);
+    let log = ["log", "export", "out/move/run.mcap", "--csv"];
+    let out = ["--out", "tables"];
+    let ran = bed.run(&[&log[..], &out].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert_eq!(beside(&bed), ["out", "tables"]);
+    let table = std::fs::read_to_string(bed.path("out/move/run-csv/a.csv"));
+    assert_eq!(table.expect("a table"), "mine");
+    assert_eq!(page(), before);
+}
+
+/// Where folders cannot be exchanged a report is moved aside for a moment: whoever looks for it then finds it.
+#[cfg(unix)]
+#[test]
+fn a_report_that_a_killed_grade_had_moved_aside_is_found() {
+    let bed = TestBed::new();
+    good(&bed);
+    let grade = ["grade", "01-kinematics", "submission.rhai"];
+    for look in [&["verify", "out"][..], &grade] {
+        let ran = bed.run(&grade);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        killed(&bed, 64);
+        let left = beside(&bed).remove(0);
+        bed.write(
+            &format!("{left}/place.json"),
+            r#"{ "name": "out", "kept": [] }"#,
+        );
+        std::fs::rename(bed.path("out"), bed.path(&left).join("old")).expect("moved aside");
+        let ran = bed.run(look);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        assert_eq!(beside(&bed), ["out"]);
+    }
+}
+
 /// Who grades a class loops over folders that students named.
 #[cfg(unix)]
 #[test]

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use kinemark_course::journal::{Event, Writer};
 
-use crate::course_folder::Course;
+use crate::course_folder::{Course, book_failure};
 use crate::disk::plain;
 use crate::failure::Failure;
 use crate::operator::operator;
@@ -30,10 +30,8 @@ impl<'c> CourseLog<'c> {
         let writer = match &mut self.writer {
             Some(writer) => writer,
             None => {
-                let journal = self.course.book.journal();
-                let begun = journal
-                    .begin(at, &operator())
-                    .map_err(|error| self.failed(&error))?;
+                let begun = self.course.book.begin(at, &operator());
+                let begun = begun.map_err(|error| self.failed(&error))?;
                 self.writer.insert(begun)
             }
         };
@@ -41,8 +39,9 @@ impl<'c> CourseLog<'c> {
         appended.map_err(|error| self.failed(&error))
     }
 
-    /// Ends it: everything is on the disk.
+    /// Ends it: everything is on the disk, and what the lines are about before them.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        self.course.book.sync().map_err(book_failure)?;
         let finished = self.writer.take().map(Writer::finish);
         finished
             .unwrap_or(Ok(()))

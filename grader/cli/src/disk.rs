@@ -100,7 +100,7 @@ pub(crate) fn contents(file: File, most: u64) -> Result<Vec<u8>, String> {
 }
 
 /// Opens a file to read, and never waits for a pipe's other end.
-fn open(path: &Path) -> std::io::Result<File> {
+pub(crate) fn open(path: &Path) -> std::io::Result<File> {
     let mut options = File::options();
     options.read(true);
     #[cfg(unix)]

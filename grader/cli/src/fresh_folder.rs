@@ -5,17 +5,21 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use kinemark_course::durable::{self, Readers};
 use kinemark_report::visible::visible;
-use tempfile::TempDir;
 
 use crate::disk::{self, plain};
 use crate::failure::Failure;
+use crate::unfinished::{UnfinishedFolder, move_kept};
+
+/// Each time somebody else must have put a folder there, or taken it away, in the same moment.
+const MOST_TRIES: usize = 100;
 
 /// A folder being written.
 #[derive(Debug)]
 pub(crate) struct FreshFolder {
     /// Removed when dropped, whatever happens.
-    temporary: TempDir,
+    unfinished: UnfinishedFolder,
     out: PathBuf,
 }
 
@@ -23,22 +27,17 @@ impl FreshFolder {
     /// Starts a folder that is to be `out`; where that is a link to a folder, the folder that it leads to.
     pub(crate) fn beside(out: &Path) -> std::io::Result<Self> {
         let out = disk::real(out);
-        let parent = match out.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        std::fs::create_dir_all(parent)?;
-        let temporary = tempfile::Builder::new()
-            .prefix(".kinemark-")
-            .tempdir_in(parent)?;
-        let fresh = Self { temporary, out };
+        let parent = durable::parent(&out);
+        durable::make_folder(parent, Readers::Umask)?;
+        let unfinished = UnfinishedFolder::in_folder(parent)?;
+        let fresh = Self { unfinished, out };
         std::fs::create_dir(fresh.path())?;
         Ok(fresh)
     }
 
     /// Where to write.
     pub(crate) fn path(&self) -> PathBuf {
-        self.temporary.path().join("new")
+        self.unfinished.new_part()
     }
 
     /// Writes a file inside, with the folders above it. Nobody sees it before it is put in place.
@@ -50,46 +49,55 @@ impl FreshFolder {
         std::fs::write(path, bytes)
     }
 
-    /// Puts it in its place. Of what was there before, the entries at `kept`, paths inside the folder, stay where they were.
+    /// Puts it in its place, once all of it is on the disk. Of what was there before, the entries at `kept`, paths inside the folder,
+    /// stay where they were.
     pub(crate) fn put_in_place(self, kept: &[String]) -> std::io::Result<()> {
-        let Some(old) = self.swap()? else {
+        durable::sync_tree(&self.path())?;
+        let old = self.swap(kept)?;
+        durable::sync_folder(durable::parent(&self.out))?;
+        let Some(old) = old else {
             return Ok(());
         };
-        for path in kept {
-            let to = self.out.join(path);
-            let moved = match to.parent() {
-                Some(folder) => std::fs::create_dir_all(folder),
-                None => Ok(()),
-            };
-            if let Err(error) = moved.and_then(|()| rename(&old.join(path), &to)) {
-                // somebody's own: better an old folder too many than a lost file
-                let left = self.temporary.keep();
-                return Err(std::io::Error::other(format!(
-                    "`{path}` is left in `{}`: {}",
-                    left.display(),
-                    plain(&error)
-                )));
-            }
-        }
-        Ok(())
+        move_kept(&old, &self.out, kept).inspect_err(|_| {
+            // somebody's own: better an old folder too many than a lost file
+            self.unfinished.leave();
+        })
     }
 
     /// Puts it in its place and says where the earlier folder is, if there was one.
-    fn swap(&self) -> std::io::Result<Option<PathBuf>> {
-        if !self.out.exists() {
-            rename(&self.path(), &self.out)?;
-            return Ok(None);
+    fn swap(&self, kept: &[String]) -> std::io::Result<Option<PathBuf>> {
+        let new = self.path();
+        if !kept.is_empty() {
+            self.unfinished.note_place(&self.out, kept)?;
         }
-        if exchange(&self.path(), &self.out) {
-            return Ok(Some(self.path()));
+        for _ in 0..MOST_TRIES {
+            if exchange(&new, &self.out) {
+                return Ok(Some(new));
+            }
+            if self.out.symlink_metadata().is_ok() {
+                return self.move_aside(kept).map(Some);
+            }
+            match rename(&new, &self.out) {
+                // another process has put its own there
+                Err(_) if self.out.symlink_metadata().is_ok() => {}
+                other => return other.map(|()| None),
+            }
         }
-        let old = self.temporary.path().join("old");
+        Err(std::io::Error::other(
+            "it is put there and taken away by somebody else all the time",
+        ))
+    }
+
+    /// Puts it in its place where folders cannot be exchanged: for a moment there is none.
+    fn move_aside(&self, kept: &[String]) -> std::io::Result<PathBuf> {
+        self.unfinished.note_place(&self.out, kept)?;
+        let old = self.unfinished.old_part();
         rename(&self.out, &old)?;
         rename(&self.path(), &self.out).inspect_err(|_| {
             // put the earlier one back; the error is reported either way
             let _ = rename(&old, &self.out);
         })?;
-        Ok(Some(old))
+        Ok(old)
     }
 }
 
@@ -236,6 +244,67 @@ mod tests {
             |pause| waited += pause,
         );
         (attempts, waited, ended.err().map(|error| error.kind()))
+    }
+
+    /// What is in a folder, sorted.
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn an_earlier_folder_goes_and_what_is_kept_of_it_stays() {
+        let kept = ["move/run-csv".to_owned(), "never/there".to_owned()];
+        for can_exchange in [true, false] {
+            let bed = tempfile::tempdir().unwrap();
+            let out = bed.path().join("a/out");
+            for text in ["1", "2"] {
+                let fresh = FreshFolder::beside(&out).unwrap();
+                fresh.write("move/report.html", text.as_bytes()).unwrap();
+                if text == "1" {
+                    fresh.write("old", b"").unwrap();
+                    fresh.write("move/run-csv/a.csv", b"mine").unwrap();
+                }
+                if can_exchange || text == "1" {
+                    fresh.put_in_place(&kept).unwrap();
+                } else {
+                    let old = fresh.move_aside(&kept).unwrap();
+                    move_kept(&old, &out, &kept).unwrap();
+                }
+                let report = out.join("move/report.html");
+                assert_eq!(std::fs::read_to_string(report).unwrap(), text);
+            }
+            assert_eq!(names(&out), ["move"]);
+            assert_eq!(names(&out.join("move")), ["report.html", "run-csv"]);
+            assert_eq!(names(&bed.path().join("a")), ["out"], "nothing is left");
+        }
+    }
+
+    /// None of them finds its own folder removed, or sees half of another's.
+    #[test]
+    fn eight_write_to_one_place_at_once() {
+        let bed = tempfile::tempdir().unwrap();
+        let out = bed.path().join("out");
+        std::thread::scope(|threads| {
+            for writer in 0..8 {
+                let out = &out;
+                threads.spawn(move || {
+                    for _ in 0..20 {
+                        let fresh = FreshFolder::beside(out).unwrap();
+                        for name in ["a", "b/c"] {
+                            fresh.write(name, &[writer]).unwrap();
+                        }
+                        fresh.put_in_place(&["t".to_owned()]).unwrap();
+                    }
+                });
+            }
+        });
+        let [a, c] = ["a", "b/c"].map(|name| std::fs::read(out.join(name)).unwrap());
+        assert_eq!(a, c);
+        assert_eq!(names(bed.path()), ["out"]);
     }
 
     #[test]

@@ -46,6 +46,7 @@ mod slurm_script;
 mod staff_folder;
 mod typed_numbers;
 mod typed_path;
+mod unfinished;
 mod unfolded_hints;
 mod whose_labs;
 mod worker;

@@ -3,6 +3,7 @@
 use std::io::{ErrorKind, IsTerminal as _, Write as _};
 use std::path::Path;
 
+use kinemark_course::durable::{self, Readers};
 use kinemark_report::visible::visible;
 use kinemark_toolbox::styled_text::{Emphasis, StyledText};
 use owo_colors::OwoColorize as _;
@@ -11,6 +12,7 @@ use textwrap::{WordSeparator, WordSplitter};
 
 use crate::disk::plain;
 use crate::failure::Failure;
+use crate::unfinished::unfinished_file;
 
 /// A path in a line of output: folders may be called by what students chose, so characters that steer a terminal are written out.
 pub(crate) fn path(path: &Path) -> String {
@@ -99,13 +101,12 @@ pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
 
 /// Writes a file whole, or says why not and what helps.
 pub(crate) fn write_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
-    write_whole(path, bytes).map_err(|error| unwritten(path, &error, help))
+    put(Readers::Umask, path, bytes).map_err(|error| unwritten(path, &error, help))
 }
 
 /// Writes a file that its owner alone can read, whole, or says why not and what helps.
 pub(crate) fn write_private_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
-    let builder = tempfile::Builder::new();
-    put(builder, path, bytes).map_err(|error| unwritten(path, &error, help))
+    put(Readers::Owner, path, bytes).map_err(|error| unwritten(path, &error, help))
 }
 
 /// Why there is no file or folder at `path`.
@@ -114,33 +115,12 @@ pub(crate) fn unwritten(path: &Path, error: &std::io::Error, help: &str) -> Fail
     Failure::fault(message, help)
 }
 
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    readable(&mut builder);
-    put(builder, path, bytes)
-}
-
 /// Writes to a temporary file beside `path`, then renames it.
-fn put(builder: tempfile::Builder<'_, '_>, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut file = builder.tempfile_in(folder)?;
+fn put(readers: Readers, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = unfinished_file(durable::parent(path), readers)?;
     file.write_all(bytes)?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
+    durable::put_in_place(file, path)
 }
-
-/// Temporary files are private; what people asked for is theirs to share, as far as their umask says.
-#[cfg(unix)]
-fn readable(file: &mut tempfile::Builder<'_, '_>) {
-    use std::os::unix::fs::PermissionsExt as _;
-    file.permissions(std::fs::Permissions::from_mode(0o666));
-}
-
-#[cfg(not(unix))]
-fn readable(_: &mut tempfile::Builder<'_, '_>) {}
 
 #[cfg(test)]
 mod tests {

@@ -21,6 +21,7 @@ use kinemark_sim::text::Source;
 use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
+use crate::unfinished::is_there_or_restored;
 
 /// Where the tables of a run go unless a place is named, in the task's folder.
 pub(crate) const TABLES: &str = "run-csv";
@@ -142,7 +143,7 @@ pub(crate) struct Report {
 /// Reads the folder of an earlier report.
 pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     let shown = folder.display();
-    if !folder.is_dir() {
+    if !is_there_or_restored(folder) {
         return Err(Failure::usage(
             format!("there is no folder `{shown}`"),
             "name the folder that `kinemark grade` wrote",

@@ -1,16 +1,20 @@
 //! The book: the folder that the program writes. Records, submissions, and the versions of labs and staff parts that made them, each
 //! under a name that follows from its content, whole or absent; nothing in it is ever changed, so books join by copying.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
+use jiff::Timestamp;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::task::files::Files;
 use serde::{Deserialize, Serialize};
 
-use crate::journal::Journal;
-use crate::private_files::{UNFINISHED, fresh_folder, private_folder, put};
+use crate::durable;
+use crate::journal::{Journal, Writer};
+use crate::private_files::{UNFINISHED, fill, fresh_folder, private_folder, put, sweep};
 
 /// The format of records that this version writes.
 const FORMAT: &str = "kinemark-record/1";
@@ -114,6 +118,8 @@ pub struct BookError {
 #[derive(Debug, Clone)]
 pub struct Book {
     root: PathBuf,
+    /// Files that were written and may not be on the disk yet: a class has hundreds, and waiting for each alone takes long.
+    unsynced: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 impl Book {
@@ -121,6 +127,7 @@ impl Book {
     pub fn new(root: &Path) -> Self {
         Self {
             root: root.to_owned(),
+            unsynced: Arc::default(),
         }
     }
 
@@ -150,6 +157,56 @@ impl Book {
     /// What happened.
     pub fn journal(&self) -> Journal {
         Journal::new(self.root.join("journal"))
+    }
+
+    /// Begins a file of the journal for one command, and removes what commands that were killed a day ago or longer left unfinished.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn begin(&self, at: Timestamp, by: &str) -> io::Result<Writer> {
+        let writer = self.journal().begin(at, by)?;
+        // what cannot be removed is in nobody's way
+        let _ = sweep(&self.root, Some(at.into()));
+        Ok(writer)
+    }
+
+    /// Writes a file, whole or not at all; [`Book::sync`] waits until it is on the disk.
+    pub(crate) fn put(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if put(path, bytes)? {
+            let mut unsynced = self.unsynced.lock().unwrap_or_else(PoisonError::into_inner);
+            unsynced.insert(path.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Waits until everything that was kept is on the disk: before a command reports it as kept.
+    ///
+    /// # Errors
+    /// A disk that fails.
+    pub fn sync(&self) -> Result<(), BookError> {
+        let mut unsynced = self.unsynced.lock().unwrap_or_else(PoisonError::into_inner);
+        let files = std::mem::take(&mut *unsynced);
+        // with the folders above them, as far as the book goes
+        let folders = files.iter().flat_map(|file| {
+            let above = file.ancestors().skip(1);
+            above.take_while(|folder| folder.starts_with(&self.root))
+        });
+        let folders: BTreeSet<&Path> = folders.collect();
+        let wait = |path: &Path, waited: io::Result<()>| match waited {
+            // it was removed since
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            other => other.map_err(|error| BookError {
+                path: path.to_owned(),
+                why: error.to_string(),
+            }),
+        };
+        for file in &files {
+            wait(file, durable::sync_file(file))?;
+        }
+        for folder in folders {
+            wait(folder, durable::sync_folder(folder))?;
+        }
+        Ok(())
     }
 
     /// Where the record of a key is, or would be.
@@ -182,7 +239,7 @@ impl Book {
         let json = serde_json::to_vec(record);
         let written = json
             .map_err(io::Error::other)
-            .and_then(|json| put(&path, &json));
+            .and_then(|json| self.put(&path, &json));
         written.map_err(|error| BookError {
             path,
             why: error.to_string(),
@@ -261,7 +318,7 @@ impl Book {
     pub fn put_submission(&self, bytes: &[u8]) -> Result<String, BookError> {
         let digest = blake3::hash(bytes).to_hex().to_string();
         let path = self.submission_path(&digest);
-        put(&path, bytes).map_err(|error| BookError {
+        self.put(&path, bytes).map_err(|error| BookError {
             path,
             why: error.to_string(),
         })?;
@@ -329,14 +386,13 @@ impl Book {
             let kind = self.root.join(kind);
             private_folder(&kind)?;
             let fresh = fresh_folder(&kind, UNFINISHED)?;
-            for (name, bytes) in files {
-                put(&fresh.path().join(name), bytes)?;
-            }
+            fill(fresh.path(), files)?;
             match std::fs::rename(fresh.path(), &path) {
                 // somebody else was first with the same files
-                Err(_) if path.is_dir() => Ok(()),
-                renamed => renamed,
+                Err(_) if path.is_dir() => {}
+                renamed => renamed?,
             }
+            durable::sync_folder(&kind)
         };
         written().map_err(|error| BookError {
             path: path.clone(),
@@ -541,6 +597,26 @@ mod tests {
     }
 
     #[cfg(unix)]
+    #[test]
+    fn what_was_kept_is_waited_for_once_whoever_kept_it() {
+        let bed = tempfile::tempdir().unwrap();
+        let book = Book::new(&bed.path().join("book"));
+        let waiting = |book: &Book| book.unsynced.lock().unwrap().len();
+        let [kept, gone] = ["kept", "gone"].map(|text| {
+            let digest = book.clone().put_submission(text.as_bytes()).unwrap();
+            book.submission_path(&digest)
+        });
+        book.put_submission(b"kept").unwrap();
+        assert_eq!(waiting(&book), 2);
+        // another command removes a person
+        std::fs::remove_file(&gone).unwrap();
+        book.sync().unwrap();
+        assert_eq!(waiting(&book), 0);
+        book.put_submission(b"kept").unwrap();
+        assert_eq!(waiting(&book), 0, "it is there already");
+        assert!(kept.is_file() && !gone.exists());
+    }
+
     #[test]
     fn only_the_owner_reads_the_book() {
         use std::os::unix::fs::PermissionsExt as _;

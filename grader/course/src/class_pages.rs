@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::book::{Book, BookError};
-use crate::private_files::{private_folder, put};
+use crate::durable;
+use crate::private_files::{UNFINISHED, fill, fresh_folder, private_folder};
 
 /// The folder of these pages, in the book's.
 pub const PAGES: &str = "pages";
@@ -37,19 +38,18 @@ impl Book {
         let written = || -> io::Result<()> {
             let all = self.root().join(PAGES);
             private_folder(&all)?;
-            let fresh = tempfile::Builder::new().prefix(".new-").tempdir_in(&all)?;
+            let fresh = fresh_folder(&all, UNFINISHED)?;
             let (new, old) = (fresh.path().join("new"), fresh.path().join("old"));
             private_folder(&new)?;
-            for (name, bytes) in files {
-                put(&new.join(name), bytes)?;
-            }
+            fill(&new, files)?;
             if path.is_dir() {
                 std::fs::rename(&path, &old)?;
             }
             std::fs::rename(&new, &path).inspect_err(|_| {
                 // put the earlier one back; the error is reported either way
                 let _ = std::fs::rename(&old, &path);
-            })
+            })?;
+            durable::sync_folder(&all)
         };
         written().map_err(|error| failed(&path, &error))?;
         let now = names(&path);

@@ -1,7 +1,7 @@
 //! Removing a person from a book: what they handed in, their grades, and whatever nobody else needs.
 
 use std::collections::BTreeSet;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::book::{Book, BookError};
 use crate::index::INDEX_FILE;
 use crate::journal::{Entry, Event};
-use crate::private_files::{UNFINISHED, put};
+use crate::private_files::{replace, sweep};
 use crate::reports::page_path;
 use crate::student::StudentId;
 
@@ -37,7 +37,7 @@ impl Book {
     /// What the system says; the same call again goes on where it stopped.
     pub fn forget(&self, student: &StudentId) -> Result<Forgotten, BookError> {
         let mark = self.mark_of(student);
-        put(&mark, b"").map_err(|error| failed(&mark, &error))?;
+        replace(&mark, b"").map_err(|error| failed(&mark, &error))?;
         let mut forgotten = Forgotten::default();
         let all = self.lines()?;
         let theirs: BTreeSet<String> = all
@@ -100,7 +100,8 @@ impl Book {
         for digest in submissions.theirs.difference(&submissions.others) {
             forgotten.submissions += removed(&self.submission_path(digest))?;
         }
-        sweep(self.root()).map_err(|error| failed(self.root(), &error))?;
+        // what killed processes left unfinished may be the person's
+        sweep(self.root(), None).map_err(|error| failed(self.root(), &error))?;
         // deleted rows stay readable in a database until it is made anew
         removed(&self.root().join(INDEX_FILE))?;
         forgotten.lines = self.rewrite(&theirs, student)?;
@@ -172,7 +173,7 @@ impl Book {
                 }
             }
             if has_changed {
-                replace(&path, &kept).map_err(|error| failed(&path, &error))?;
+                rewritten(&path, &kept).map_err(|error| failed(&path, &error))?;
             }
         }
         Ok(gone)
@@ -231,35 +232,12 @@ fn removed(path: &Path) -> Result<usize, BookError> {
     }
 }
 
-/// Removes what killed processes left unfinished: it may be the person's.
-fn sweep(folder: &Path) -> io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
-        let path = entry.path();
-        let is_unfinished = entry.file_name().to_string_lossy().starts_with(UNFINISHED);
-        match (entry.file_type()?.is_dir(), is_unfinished) {
-            (true, true) => std::fs::remove_dir_all(path)?,
-            (true, false) => sweep(&path)?,
-            (false, true) => std::fs::remove_file(path)?,
-            (false, false) => {}
-        }
-    }
-    Ok(())
-}
-
 /// Writes a file again, whole; an empty one is removed.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn rewritten(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if bytes.is_empty() {
         return std::fs::remove_file(path);
     }
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new()
-        .prefix(UNFINISHED)
-        .tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
+    replace(path, bytes)
 }
 
 fn failed(path: &Path, error: &io::Error) -> BookError {

@@ -11,6 +11,7 @@ use kinemark_grader::record::verdict::Verdict;
 use rusqlite::{Connection, OpenFlags, Row, Transaction, params};
 
 use crate::book::{Book, BookError, Record};
+use crate::durable::{self, Readers};
 use crate::history::History;
 use crate::private_files::{UNFINISHED, private_folder};
 use crate::standing::{Standing, Summary};
@@ -160,9 +161,10 @@ impl Index {
             path: self.path.clone(),
             why,
         };
-        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let folder = durable::parent(&self.path);
         private_folder(folder).map_err(|error| failed(error.to_string()))?;
-        let file = tempfile::Builder::new()
+        let file = Readers::Owner
+            .temporary_file()
             .prefix(UNFINISHED)
             .tempfile_in(folder)
             .map_err(|error| failed(error.to_string()))?;
@@ -173,9 +175,7 @@ impl Index {
         .map_err(|error| failed(error.to_string()))?;
         copy(&self.connection, &mut disk).map_err(|error| failed(error.to_string()))?;
         drop(disk);
-        file.persist(&self.path)
-            .map_err(|error| failed(error.error.to_string()))?;
-        Ok(())
+        durable::put_in_place(file, &self.path).map_err(|error| failed(error.to_string()))
     }
 
     /// Writes how everybody stands, for whoever queries the file.

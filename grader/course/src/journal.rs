@@ -10,6 +10,7 @@ use jiff::Timestamp;
 use kinemark_grader::record::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
+use crate::durable;
 use crate::private_files::private_folder;
 use crate::student::StudentId;
 
@@ -325,7 +326,8 @@ impl Writer {
         if self.length == 0 {
             return std::fs::remove_file(self.path);
         }
-        self.file.sync_all()
+        self.file.sync_all()?;
+        durable::sync_folder(durable::parent(&self.path))
     }
 }
 

@@ -12,6 +12,7 @@
 //! | [`layout`] | how the files of a class are arranged: whose folder is which |
 //! | [`selection`] | which of a person's files is the submission |
 //! | [`matching`] | which student of the roster a folder belongs to |
+//! | [`durable`] | writing that a loss of power does not undo |
 //! | [`private_files`] | files that their owner alone can read |
 //! | [`journal`] | what happened: hand-ins and grades, one line each |
 //! | [`history`] | the journal read: attempts and their grades |
@@ -57,6 +58,7 @@ pub mod class_pages;
 pub mod clusters;
 pub mod course_file;
 pub mod course_text;
+pub mod durable;
 mod editor_files;
 pub mod fixed_zip;
 pub mod fixes;

@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 use crate::book::{Book, BookError, is_digest};
 use crate::fixes::place;
 use crate::journal::MadeWith;
-use crate::private_files::put;
 use crate::student::StudentId;
 
 /// A file or folder that a person has to decide on.
@@ -161,7 +160,7 @@ impl Book {
         let json = serde_json::to_vec(question);
         let written = json
             .map_err(io::Error::other)
-            .and_then(|json| put(&path, &json));
+            .and_then(|json| self.put(&path, &json));
         written.map_err(|error| BookError {
             path,
             why: error.to_string(),

@@ -7,7 +7,6 @@ use kinemark_report::html::{ViewerCode, html_with, whole};
 use kinemark_report::plot::plots;
 
 use crate::book::{Book, BookError};
-use crate::private_files::put;
 
 /// The folder of the pages, in the book's.
 pub const REPORTS: &str = "reports";
@@ -54,10 +53,11 @@ impl Book {
         let viewer = self.in_root(REPORTS).join(viewer_file());
         let path = self.in_root(&page_path(&graded.grade.lab.name, key));
         for (path, bytes) in [(viewer, ViewerCode::text()), (path, page.as_str())] {
-            put(&path, bytes.as_bytes()).map_err(|error| BookError {
-                path,
-                why: error.to_string(),
-            })?;
+            self.put(&path, bytes.as_bytes())
+                .map_err(|error| BookError {
+                    path,
+                    why: error.to_string(),
+                })?;
         }
         Ok(())
     }

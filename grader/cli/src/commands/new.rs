@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_course::durable::{self, Readers};
 use kinemark_course::working_folder::working_folder;
 use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, Chosen, LabArgs};
 use crate::failure::{BROKEN, Failure};
+use crate::unfinished::UnfinishedFolder;
 use crate::{interrupt, output};
 
 /// Start a lab: writes its starter and its brief into a folder
@@ -103,18 +105,18 @@ fn rename_in(
     dir: &Path,
     files: &[(PathBuf, String)],
 ) -> Result<(), (usize, PathBuf, std::io::Error)> {
-    let temporary = tempfile::Builder::new()
-        .prefix(".kinemark-")
-        .tempdir_in(dir)
-        .map_err(|error| (0, dir.to_owned(), error))?;
-    let beside = |at: usize| temporary.path().join(at.to_string());
+    let none = |error| (0, dir.to_owned(), error);
+    let unfinished = UnfinishedFolder::in_folder(dir).map_err(none)?;
+    let beside = |at: usize| unfinished.path().join(at.to_string());
     for (at, (path, text)) in files.iter().enumerate() {
         std::fs::write(beside(at), text).map_err(|error| (0, path.clone(), error))?;
     }
+    durable::sync_tree(unfinished.path()).map_err(none)?;
     for (at, (path, _)) in files.iter().enumerate() {
-        let folder = path.parent().unwrap_or(dir);
-        std::fs::create_dir_all(folder)
+        let folder = durable::parent(path);
+        durable::make_folder(folder, Readers::Umask)
             .and_then(|()| std::fs::rename(beside(at), path))
+            .and_then(|()| durable::sync_folder(folder))
             .map_err(|error| (at, path.clone(), error))?;
     }
     Ok(())

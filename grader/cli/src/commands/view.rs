@@ -7,6 +7,7 @@ use kinemark_course::course_file::COURSE_FILE;
 
 use crate::failure::Failure;
 use crate::serve::{self, ServeArgs, ServedBook, Server};
+use crate::unfinished::is_there_or_restored;
 use crate::{interrupt, output};
 
 /// Open a report, or the book of a course, in the browser
@@ -32,7 +33,7 @@ pub(crate) struct Args {
 /// Serves the folder.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let shown = output::path(&args.folder);
-    if !args.folder.is_dir() {
+    if !is_there_or_restored(&args.folder) {
         return Err(Failure::usage(
             format!("there is no folder `{shown}`"),
             "name the folder that `kinemark grade` wrote",
