@@ -206,7 +206,7 @@ fn a_book_is_listed_with_names_and_serves_its_pages_alone() {
         let found = links(&list.body);
         assert!(found.len() >= 3 + 7, "{found:?}");
         for link in found {
-            let answer = serving.get(link);
+            let answer = serving.get(&format!("/{link}"));
             assert_eq!(answer.code, 200, "{link}");
             assert!(!answer.body.contains("<script src="), "{link}");
             assert!(

@@ -205,6 +205,8 @@ pub(crate) struct Serving {
     lines: Receiver<String>,
     /// Such as `127.0.0.1:4711`.
     pub(crate) host: String,
+    /// What every address begins with: `/`, and what nobody can guess.
+    pub(crate) root: String,
 }
 
 /// What a server answered.
@@ -241,6 +243,7 @@ impl Serving {
             child,
             lines,
             host: String::new(),
+            root: String::new(),
         };
         let mut before = Vec::new();
         loop {
@@ -249,8 +252,10 @@ impl Serving {
                 .split_once(" is open at http://")
                 .or_else(|| line.split_once("\"address\":\"http://"));
             if let Some((_, address)) = address {
-                let host = address.split(['/', '"']).next().unwrap_or_default();
+                let address = address.split('"').next().unwrap_or_default();
+                let (host, root) = address.split_once('/').expect("a path");
                 serving.host = host.to_owned();
+                serving.root = format!("/{}", root.trim_end_matches('/'));
                 before.extend(line.starts_with('{').then_some(line));
                 return (serving, before);
             }
@@ -273,8 +278,15 @@ impl Serving {
         }
     }
 
+    /// Asks for a path, seen from the address that was printed.
     pub(crate) fn get(&self, path: &str) -> Answer {
-        self.ask(&format!("GET {path} HTTP/1.1\r\nHost: {}\r\n", self.host))
+        self.get_from(&self.root, path)
+    }
+
+    /// Asks for a path of another address.
+    pub(crate) fn get_from(&self, root: &str, path: &str) -> Answer {
+        let host = &self.host;
+        self.ask(&format!("GET {root}{path} HTTP/1.1\r\nHost: {host}\r\n"))
     }
 
     /// Sends a request, given without its end.

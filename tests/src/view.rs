@@ -28,7 +28,7 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
 
     let start = serving.get("/");
     assert_eq!(start.code, 307, "{start:?}");
-    assert!(start.head.contains("location: /report.html"), "{start:?}");
+    assert!(start.head.contains("location: report.html"), "{start:?}");
     let page = serving.get("/report.html");
     assert_eq!(page.code, 200);
     for line in [
@@ -78,25 +78,46 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
     }
 
     // nothing is written, and no other site is answered
-    let host = &serving.host;
+    let (host, root) = (&serving.host, &serving.root);
     for method in ["POST", "PUT", "DELETE", "OPTIONS"] {
         let answer = serving.ask(&format!(
-            "{method} /report.html HTTP/1.1\r\nHost: {host}\r\n"
+            "{method} {root}/report.html HTTP/1.1\r\nHost: {host}\r\n"
         ));
         assert_eq!(answer.code, 405, "{answer:?}");
     }
-    let head = serving.ask(&format!("HEAD /report.html HTTP/1.1\r\nHost: {host}\r\n"));
+    let head = serving.ask(&format!(
+        "HEAD {root}/report.html HTTP/1.1\r\nHost: {host}\r\n"
+    ));
     assert_eq!((head.code, head.body.as_str()), (200, ""));
+    let length = format!("content-length: {}", on_disk.len());
+    assert!(head.head.contains(&length), "{head:?}");
     for name in ["evil.example", "127.0.0.1:1", "localhost.evil.example"] {
-        let answer = serving.ask(&format!("GET /report.html HTTP/1.1\r\nHost: {name}\r\n"));
+        let answer = serving.ask(&format!(
+            "GET {root}/report.html HTTP/1.1\r\nHost: {name}\r\n"
+        ));
         assert_eq!(answer.code, 421, "{answer:?}");
         assert!(answer.head.contains("nosniff"), "{answer:?}");
     }
     let port = host.rsplit(':').next().expect("a port");
     let answer = serving.ask(&format!(
-        "GET /grade.json HTTP/1.1\r\nHost: localhost:{port}\r\n"
+        "GET {root}/grade.json HTTP/1.1\r\nHost: localhost:{port}\r\n"
     ));
     assert_eq!(answer.code, 200);
+    // who was not given the address reads nothing
+    for root in [
+        "",
+        "/",
+        &root[..root.len() - 1],
+        &format!("{root}0"),
+        &root.to_uppercase(),
+    ] {
+        for path in ["/", "/report.html", "/grade.json", "/nothing"] {
+            let answer = serving.get_from(root, path);
+            assert_eq!(answer.code, 403, "{root}{path} {answer:?}");
+            assert!(answer.body.contains("Open the whole address"), "{answer:?}");
+            assert!(answer.head.contains("nosniff"), "{answer:?}");
+        }
+    }
     // a port that is in use is reported
     let ran = bed.run(&["view", "out", "--no-open", "--port", port]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
@@ -109,22 +130,34 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
 fn several_reports_are_listed_with_what_they_earned() {
     let bed = graded("all/s1 <b>");
     bed.write("all/broken/report.html", "<p>");
-    bed.write("all/other/file", "");
+    bed.write("all/empty/file", "");
     let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
     let list = serving.get("/");
     assert_eq!(list.code, 200, "{list:?}");
     assert!(!list.head.contains("script-src"), "a list runs nothing");
     assert!(list.body.contains("1 of 30"), "{list:?}");
     assert!(
-        list.body.contains("href=\"/s1%20%3Cb%3E/report.html\""),
-        "{list:?}"
-    );
-    assert!(
-        !list.body.contains("<b>") && !list.body.contains("other"),
+        !list.body.contains("<b>") && !list.body.contains("empty"),
         "{list:?}"
     );
     assert!(list.body.contains("its record cannot be read"), "{list:?}");
-    assert_eq!(serving.get("/s1%20%3Cb%3E/report.html").code, 200);
+    let folder = "/s1%20%3Cb%3E";
+    let page = format!("{folder}/report.html");
+    assert_eq!(serving.get(&page).code, 200);
+    // a page that somebody sent knows its own address: it opens nothing else
+    let links = list.body.split("href=\"").skip(1);
+    let mut links = links.filter_map(|link| link.split('"').next());
+    let own = links.find_map(|link| link.strip_suffix(&page));
+    let own = own.expect("a link to it");
+    assert_ne!(own, serving.root);
+    assert_eq!(serving.get_from(own, &page).code, 200);
+    assert_eq!(
+        serving.get_from(own, &format!("{folder}/grade.json")).code,
+        200
+    );
+    for path in ["/", "/broken/report.html", "/empty/file"] {
+        assert_eq!(serving.get_from(own, path).code, 403, "{path}");
+    }
 }
 
 #[test]
@@ -183,7 +216,8 @@ fn a_program_gets_folder_and_address_as_json() {
     let bed = graded("out");
     let (serving, lines) = Serving::start(&bed, &["view", "out", "--no-open", "--json"]);
     let line: serde_json::Value = serde_json::from_str(&lines[0]).expect("JSON");
-    let address = format!("http://{}/", serving.host);
+    let address = format!("http://{}{}/", serving.host, serving.root);
+    assert!(serving.root.len() > 16, "{address}");
     assert_eq!(
         line,
         serde_json::json!({ "folder": "out", "address": address })

@@ -289,10 +289,10 @@ test("a page that is loaded anew by the server stands as it stood, also after on
   const server = createServer((asked, answer) => {
     const { pathname, searchParams } = new URL(asked.url, "http://localhost");
     const reply = () => answer.end(JSON.stringify({ version }));
-    if (pathname === "/kinemark/changes") {
+    if (pathname === "/token/kinemark/changes") {
       if (searchParams.get("seen") === String(version)) waiting.push(reply);
       else reply();
-    } else if (pathname === "/report.html") {
+    } else if (pathname === "/token/report.html") {
       const page = version === 2 ? broken : whole;
       answer.setHeader("content-type", "text/html");
       answer.end(page.replace(/script-src [^;]*/, (policy) => `${policy} ${digest}; connect-src 'self'`).replace("</body>", () => `<script data-seen="${version}">${script}</script></body>`));
@@ -303,7 +303,7 @@ test("a page that is loaded anew by the server stands as it stood, also after on
   try {
     const page = await context.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
-    await page.goto(`http://127.0.0.1:${server.address().port}/report.html`);
+    await page.goto(`http://127.0.0.1:${server.address().port}/token/report.html`);
     await seek(page, 2.5, 1);
     await seek(page, 1.25, 0);
     await page.waitForURL(/#task=knock&t=1\.25$/);

@@ -15,8 +15,8 @@ use crate::{interrupt, output};
 #[command(
     after_help = "Examples:\n  kinemark view\n  kinemark view feedback --no-open --port 8000\n  kinemark view book\n\n\
     Serves the folder to this machine only, read only, until Ctrl-C. A folder of several reports is listed with the points \
-    of each. The book of a course is listed with everybody in every lab, sorted and filtered; of a book only pages are served. Whoever \
-    else is logged in on this machine can open the address, too.\n\
+    of each. The book of a course is listed with everybody in every lab, sorted and filtered; of a book only pages are served. Only who \
+    has the address can read them: it has a random part, another at each start.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the folder has no report, 4 the port cannot be used."
 )]
 pub(crate) struct Args {

@@ -83,11 +83,12 @@ impl ServedBook {
         let report = |row: &StandingRow| {
             let key = row.record.as_deref()?;
             let has_page = book.has_page(&row.lab, key);
-            has_page.then(|| format!("/{}", page_path(&row.lab, key)))
+            // seen from the list
+            has_page.then(|| page_path(&row.lab, key))
         };
         let pages = |lab: &str| {
             let named = book.class_pages(lab).into_iter().map(|name| {
-                let address = format!("/{}/{name}", pages_path(lab));
+                let address = format!("{}/{name}", pages_path(lab));
                 (page_words(name), address)
             });
             named.collect()

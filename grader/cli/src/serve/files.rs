@@ -1,5 +1,7 @@
 //! Which file of the folder a path of the address names, and what kind it is.
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use crate::disk;
@@ -9,8 +11,8 @@ pub(super) const HTML: &str = "text/html; charset=utf-8";
 /// A picture of lines.
 pub(super) const SVG: &str = "image/svg+xml";
 
-/// A log of a long run is far below.
-const MOST_BYTES: u64 = 512 << 20;
+/// What is read as a whole: a page that is another when it is served. With the meshes of its robots it is far smaller.
+const MOST_PAGE_BYTES: u64 = 64 << 20;
 
 /// Why a file is not served.
 #[derive(Debug, PartialEq, Eq)]
@@ -19,14 +21,37 @@ pub(super) enum Unread {
     TooLarge,
 }
 
-/// What the file at `path` below `folder` holds.
-pub(super) fn read(folder: &Path, path: &str) -> Result<Vec<u8>, Unread> {
+/// A plain file, opened.
+#[derive(Debug)]
+pub(super) struct OpenFile {
+    pub(super) file: File,
+    /// How long it is.
+    pub(super) bytes: u64,
+}
+
+/// Opens the file at `path` below `folder`.
+pub(super) fn open(folder: &Path, path: &str) -> Result<OpenFile, Unread> {
     let file = find(folder, path).ok_or(Unread::Absent)?;
-    let size = file.metadata().map_err(|_| Unread::Absent)?.len();
-    if size > MOST_BYTES {
+    let file = disk::open(&file).map_err(|_| Unread::Absent)?;
+    // asked of what was opened: what lies at the path may be another by now
+    match file.metadata() {
+        Ok(there) if there.is_file() => Ok(OpenFile {
+            bytes: there.len(),
+            file,
+        }),
+        _ => Err(Unread::Absent),
+    }
+}
+
+/// What the page at `path` below `folder` holds.
+pub(super) fn read(folder: &Path, path: &str) -> Result<Vec<u8>, Unread> {
+    let OpenFile { file, bytes } = open(folder, path)?;
+    if bytes > MOST_PAGE_BYTES {
         return Err(Unread::TooLarge);
     }
-    disk::bytes_of(&file, MOST_BYTES).map_err(|_| Unread::Absent)
+    let mut page = Vec::new();
+    let read = file.take(MOST_PAGE_BYTES).read_to_end(&mut page);
+    read.map(|_| page).map_err(|_| Unread::Absent)
 }
 
 /// The plain file at `path`, if it lies in `folder` once every link is followed, and no part of its way is hidden.

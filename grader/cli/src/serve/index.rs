@@ -11,6 +11,7 @@ use maud::{DOCTYPE, html};
 use percent_encoding::utf8_percent_encode;
 
 use super::files;
+use super::token::Token;
 use crate::disk;
 
 /// Pages that are opened at once, where the folder has one.
@@ -57,8 +58,8 @@ fn entry(folder: &Path, name: String, page: &'static str) -> Entry {
     }
 }
 
-/// The list as a page.
-pub(super) fn page(folder: &Path) -> String {
+/// The list as a page; each report has an address of its own.
+pub(super) fn page(folder: &Path, token: &Token) -> String {
     let mut found = found(folder);
     let entries: Vec<Entry> = found
         .by_ref()
@@ -97,7 +98,7 @@ pub(super) fn page(folder: &Path) -> String {
                                 }
                             }
                             tbody {
-                                @for entry in &entries { (row(entry)) }
+                                @for entry in &entries { (row(entry, token)) }
                             }
                         }
                         @if more > 0 {
@@ -114,9 +115,13 @@ pub(super) fn page(folder: &Path) -> String {
     page.into_string()
 }
 
-fn row(entry: &Entry) -> maud::Markup {
+fn row(entry: &Entry, token: &Token) -> maud::Markup {
     let folder = utf8_percent_encode(&entry.folder, ADDRESS_PART);
-    let link = format!("/{folder}/{}", entry.page);
+    let link = format!(
+        "/{}/{folder}/{}",
+        token.of_folder(&entry.folder),
+        entry.page
+    );
     html! {
         tr {
             th scope="row" { a href=(link) { bdi { (visible(&entry.folder)) } } }
@@ -148,8 +153,11 @@ mod tests {
         std::fs::create_dir(&folder).unwrap();
         std::fs::write(folder.join("report.html"), "").unwrap();
         assert!(has_reports(bed.path()));
-        let page = page(bed.path());
-        assert!(page.contains("href=\"/%3Cb%3Ex/report.html\""), "{page}");
+        let token = Token::fresh().unwrap();
+        let page = page(bed.path(), &token);
+        let link = format!("href=\"/{}/%3Cb%3Ex/report.html\"", token.of_folder("<b>x"));
+        assert!(page.contains(&link), "{page}");
+        assert!(!page.contains(&token.of_all()), "each report has its own");
         assert!(!page.contains("<b>"), "{page}");
         assert!(page.contains("its record cannot be read"));
     }
@@ -171,13 +179,14 @@ mod tests {
             symlink("../../outside/report.html", folder.join("page/report.html")).unwrap();
         }
         assert!(!has_reports(&folder), "neither is served");
-        assert!(page(&folder).contains("There is no report here now."));
+        let token = Token::fresh().unwrap();
+        assert!(page(&folder, &token).contains("There is no report here now."));
         for i in 0..=MOST_REPORTS {
             let report = folder.join(format!("{i:04}"));
             std::fs::create_dir(&report).unwrap();
             std::fs::write(report.join("report.html"), "").unwrap();
         }
-        let page = page(&folder);
+        let page = page(&folder, &token);
         assert!(page.contains("/1999/report.html") && !page.contains("/2000/report.html"));
         assert!(page.contains("and 1 more"));
     }

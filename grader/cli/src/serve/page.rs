@@ -2,11 +2,11 @@
 //! loads it anew.
 
 use axum::http::{HeaderValue, header};
-use axum::response::{IntoResponse as _, Response};
+use axum::response::{IntoResponse, Response};
 
 use super::files::HTML;
 
-/// Where an open page asks whether it is still the newest.
+/// Where an open page asks whether it is still the newest, seen from the report.
 pub(super) const CHANGES: &str = "/kinemark/changes";
 
 /// Waits for a newer report, and loads it with the place and the moment that are looked at.
@@ -28,7 +28,7 @@ const FOLLOWING: &str = "default-src 'none'; script-src 'unsafe-inline'; style-s
                          connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// A page as it lies on the disk.
-pub(super) fn alone(page: Vec<u8>) -> Response {
+pub(super) fn alone(page: impl IntoResponse) -> Response {
     answer(page, ALONE)
 }
 
@@ -51,7 +51,7 @@ pub(super) fn following(page: Vec<u8>, seen: u64) -> Response {
     }
 }
 
-fn answer(page: Vec<u8>, policy: &'static str) -> Response {
+fn answer(page: impl IntoResponse, policy: &'static str) -> Response {
     let mut answer = page.into_response();
     let headers = answer.headers_mut();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(HTML));

@@ -1,6 +1,6 @@
 "use strict";
 (() => {
-  // the report that is open; the server answers when there is another
+  // the report that is open; the server answers, beside it, when there is another
   const seen = document.currentScript.dataset.seen;
   const place = "kinemark-place";
   const kept = () => JSON.parse(sessionStorage.getItem(place) ?? "null") ?? {};
@@ -51,7 +51,7 @@
     if (waits || document.hidden) return;
     waits = true;
     try {
-      const answer = await fetch(`/kinemark/changes?seen=${seen}`, { cache: "no-store" });
+      const answer = await fetch(`kinemark/changes?seen=${seen}`, { cache: "no-store" });
       if (answer.ok && String((await answer.json()).version) !== seen) return leave();
     } catch {
       // the server is gone, or not there again yet

@@ -1,5 +1,5 @@
-//! A report folder, or a book, on this machine's own address, for the browser of whoever sits at it: read only, nothing beside the folder, and
-//! for no other site.
+//! A report folder, or a book, on this machine's own address, for the browser of whoever started it: read only, nothing beside the
+//! folder, for no other site and no other user.
 
 use std::io::{ErrorKind, Write as _};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
@@ -7,17 +7,28 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use axum::Router;
-use axum::extract::{Path as Wanted, Query, State};
+use axum::body::Body;
+use axum::extract::{Path as Wanted, Query, Request, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse as _, Response};
 use axum::routing::get;
+use hyper::service::Service as _;
+use hyper_util::service::TowerToHyperService;
 use kinemark_report::output::PAGE_FILE;
+use tokio::io::AsyncReadExt as _;
 use tokio::sync::watch;
+use tokio_util::io::ReaderStream;
 
 use super::book::ServedBook;
+use super::connections::{self, Limits};
+use super::files::{OpenFile, Unread};
+use super::token::Token;
 use super::{files, guard, index, page};
 use crate::disk::plain;
 use crate::failure::Failure;
+
+/// How much of a file is read at once.
+const PIECE_BYTES: usize = 128 << 10;
 
 /// Where a report is served.
 #[derive(Debug, Clone, clap::Args)]
@@ -35,6 +46,7 @@ pub(crate) struct ServeArgs {
 struct Site {
     folder: PathBuf,
     port: u16,
+    token: Token,
     /// How often the report was written, where it is written again and again.
     changes: Option<watch::Receiver<u64>>,
     /// The book of a course, of which only a list and pages are served.
@@ -76,6 +88,7 @@ impl Server {
             site: Site {
                 folder: folder.to_owned(),
                 port,
+                token: Token::fresh()?,
                 changes,
                 book: None,
             },
@@ -88,9 +101,10 @@ impl Server {
         self
     }
 
-    /// The address to open.
+    /// The address to open: whoever has it can read what is served.
     pub(crate) fn address(&self) -> String {
-        format!("http://127.0.0.1:{}/", self.site.port)
+        let token = self.site.token.of_all();
+        format!("http://127.0.0.1:{}/{token}/", self.site.port)
     }
 
     /// Answers until `stop` says so.
@@ -104,8 +118,22 @@ impl Server {
             .map_err(unserved)?;
         let served = runtime.block_on(async {
             let listener = tokio::net::TcpListener::from_std(self.listener).map_err(unserved)?;
-            let routes = routes(Arc::new(self.site));
-            tokio::spawn(async move { axum::serve(listener, routes).await });
+            let site = Arc::new(self.site);
+            let routes = TowerToHyperService::new(routes(Arc::clone(&site)));
+            let answer = move |request: Request| {
+                let (site, routes) = (Arc::clone(&site), routes.clone());
+                async move {
+                    let answered = match guard::admit(request, site.port, &site.token) {
+                        Ok(request) => routes
+                            .call(request)
+                            .await
+                            .unwrap_or_else(|never| match never {}),
+                        Err(refusal) => refusal.into_response(),
+                    };
+                    guard::with_headers(answered)
+                }
+            };
+            tokio::spawn(connections::accept(listener, Limits::default(), answer));
             // whoever could say so being gone is as good; open connections end with the runtime
             let _ = stop.wait_for(|stop| *stop).await;
             Ok(())
@@ -139,10 +167,6 @@ fn routes(site: Arc<Site>) -> Router {
         .route("/", get(start))
         .route(page::CHANGES, get(changes))
         .route("/{*path}", get(file))
-        .layer(axum::middleware::from_fn_with_state(
-            site.port,
-            guard::guard,
-        ))
         .with_state(site)
 }
 
@@ -159,11 +183,12 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
         let first = index::FIRST
             .into_iter()
             .find(|name| files::find(&site.folder, name).is_some());
-        first.map_or_else(|| Err(index::page(&site.folder)), Ok)
+        first.map_or_else(|| Err(index::page(&site.folder, &site.token)), Ok)
     });
     match found.await {
         Some(Ok(name)) => {
-            let to = [(header::LOCATION, format!("/{name}"))];
+            // seen from the folder, whose address has the token
+            let to = [(header::LOCATION, name)];
             (StatusCode::TEMPORARY_REDIRECT, to).into_response()
         }
         Some(Err(list)) => page::list(list),
@@ -171,26 +196,41 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
     }
 }
 
+/// What is sent of a file.
+enum Content {
+    /// As it is on the disk, piece by piece.
+    File(OpenFile),
+    /// A page that is another than on the disk.
+    Page(Vec<u8>),
+}
+
 async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Response {
     // looked at before the file: a report written in between is loaded once more, never missed
     let seen = site.changes.as_ref().map(|changes| *changes.borrow());
+    // what is graded again and again is our own writing; any other page is whoever's
+    let seen = seen.filter(|_| path == PAGE_FILE);
     let kind = files::media_type(&path);
-    let is_report = path == PAGE_FILE;
     let read = off_thread(move || match &site.book {
-        Some(book) => book.page(&path),
-        None => files::read(&site.folder, &path),
+        Some(book) => book.page(&path).map(Content::Page),
+        None => match seen.map(|_| files::read(&site.folder, &path)) {
+            // one that is too large follows nothing
+            None | Some(Err(Unread::TooLarge)) => {
+                files::open(&site.folder, &path).map(Content::File)
+            }
+            Some(read) => read.map(Content::Page),
+        },
     })
     .await;
-    let bytes = match read {
-        Some(Ok(bytes)) => bytes,
-        Some(Err(files::Unread::Absent)) => {
+    let content = match read {
+        Some(Ok(content)) => content,
+        Some(Err(Unread::Absent)) => {
             return (
                 StatusCode::NOT_FOUND,
                 "there is no such file in the report\n",
             )
                 .into_response();
         }
-        Some(Err(files::Unread::TooLarge)) => {
+        Some(Err(Unread::TooLarge)) => {
             return (
                 StatusCode::PAYLOAD_TOO_LARGE,
                 "open this file from its folder\n",
@@ -199,14 +239,20 @@ async fn file(State(site): State<Arc<Site>>, Wanted(path): Wanted<String>) -> Re
         }
         None => return StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     };
+    let file = match (content, seen) {
+        (Content::Page(page), Some(seen)) => return page::following(page, seen),
+        (Content::Page(page), None) => return page::alone(page),
+        (Content::File(file), _) => file,
+    };
+    let bytes = file.bytes;
+    // what is written to it meanwhile is not part of it
+    let pieces = tokio::fs::File::from_std(file.file).take(bytes);
+    let body = Body::from_stream(ReaderStream::with_capacity(pieces, PIECE_BYTES));
+    let length = [(header::CONTENT_LENGTH, bytes)];
     if kind == files::HTML {
-        // what is graded again and again is our own writing; any other page is whoever's
-        return match seen.filter(|_| is_report) {
-            Some(seen) => page::following(bytes, seen),
-            None => page::alone(bytes),
-        };
+        return page::alone((length, body));
     }
-    let mut answer = bytes.into_response();
+    let mut answer = (length, body).into_response();
     let headers = answer.headers_mut();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
     if kind == files::SVG {
