@@ -130,12 +130,26 @@ fn a_report_is_served_read_only_and_nothing_beside_it() {
 fn several_reports_are_listed_with_what_they_earned() {
     let bed = graded("all/s1 <b>");
     bed.write("all/broken/report.html", "<p>");
+    let record = std::fs::read(bed.path("all/s1 <b>/grade.json")).expect("a record");
+    let mut record: serde_json::Value = serde_json::from_slice(&record).expect("JSON");
+    for (folder, points) in [("most", 1e308), ("more", 30.0)] {
+        record["points"] = points.into();
+        bed.write(&format!("all/{folder}/report.html"), "<p>");
+        bed.write(&format!("all/{folder}/grade.json"), record.to_string());
+    }
     bed.write("all/empty/file", "");
     let (serving, _) = Serving::start(&bed, &["view", "all", "--no-open"]);
     let list = serving.get("/");
     assert_eq!(list.code, 200, "{list:?}");
     assert!(!list.head.contains("script-src"), "a list runs nothing");
     assert!(list.body.contains("1 of 30"), "{list:?}");
+    // points that cannot be those of a grade are not shown as earned
+    let changed = list
+        .body
+        .matches("changed: its points contradict each other");
+    assert_eq!(changed.count(), 2, "{list:?}");
+    assert!(list.body.contains("<td>practice</td>"), "{list:?}");
+    assert!(!list.body.contains("inf") && !list.body.contains("30 of 30"));
     assert!(
         !list.body.contains("<b>") && !list.body.contains("empty"),
         "{list:?}"
@@ -155,7 +169,7 @@ fn several_reports_are_listed_with_what_they_earned() {
         serving.get_from(own, &format!("{folder}/grade.json")).code,
         200
     );
-    for path in ["/", "/broken/report.html", "/empty/file"] {
+    for path in ["/", "/broken/report.html", "/most/grade.json"] {
         assert_eq!(serving.get_from(own, path).code, 403, "{path}");
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use kinemark_grader::record::grade::Grade;
+use kinemark_grader::record::grade::{Grade, GradeMode};
 use kinemark_grader::record::quantity::points;
+use kinemark_grader::record::sums;
 use kinemark_report::moment::ADDRESS_PART;
 use kinemark_report::output::{PAGE_FILE, RECORD_FILE};
 use kinemark_report::visible::visible;
@@ -16,6 +17,9 @@ use crate::disk;
 
 /// Pages that are opened at once, where the folder has one.
 pub(crate) const FIRST: [&str; 2] = [PAGE_FILE, "compare.html"];
+
+/// No lab has more points: beyond, a record is no work of ours.
+const MOST_POINTS: f64 = 1e6;
 
 /// A course has a few hundred.
 const MOST_REPORTS: usize = 2_000;
@@ -93,6 +97,7 @@ pub(super) fn page(folder: &Path, token: &Token) -> String {
                                     th scope="col" { "Report" }
                                     th scope="col" { "Lab" }
                                     th scope="col" { "Submission" }
+                                    th scope="col" { "Mode" }
                                     th scope="col" { "Verdict" }
                                     th scope="col" class="number" { "Points" }
                                 }
@@ -129,14 +134,33 @@ fn row(entry: &Entry, token: &Token) -> maud::Markup {
                 Some(grade) => {
                     td { bdi { (visible(&grade.lab.name)) } }
                     td { bdi { (visible(&grade.submission.name)) } }
-                    td { (grade.verdict.name()) }
-                    td class="number" { (points(grade.points)) " of " (points(grade.max_points)) }
+                    @if is_consistent(grade) {
+                        td { (mode(grade.mode)) }
+                        td { (grade.verdict.name()) }
+                        td class="number" { (points(grade.points)) " of " (points(grade.max_points)) }
+                    } @else {
+                        td colspan="3" { "changed: its points contradict each other" }
+                    }
                 }
-                None if entry.page == "compare.html" => { td colspan="4" { "two runs compared" } }
-                None => { td colspan="4" { "its record cannot be read" } }
+                None if entry.page == "compare.html" => { td colspan="5" { "two runs compared" } }
+                None => { td colspan="5" { "its record cannot be read" } }
             }
         }
     }
+}
+
+fn mode(mode: GradeMode) -> &'static str {
+    match mode {
+        GradeMode::Practice => "practice",
+        GradeMode::Graded => "graded",
+    }
+}
+
+/// Whether the points of a record can be those of a grade. That it is the grade of its submission, only `kinemark verify` shows.
+fn is_consistent(grade: &Grade) -> bool {
+    let is_bounded = (0.0..=MOST_POINTS).contains(&grade.max_points)
+        && (0.0..=grade.max_points).contains(&grade.points);
+    is_bounded && sums::contradictions(grade).is_empty()
 }
 
 #[cfg(test)]
