@@ -156,7 +156,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let request = args.filled()?;
     let work = work(&request)?;
     let grade = &work.graded.grade;
-// beside the record, which is the same wherever the labs lie
+    // beside the record, which is the same wherever the labs lie
     if let Some(labs) = &work.labs {
         failure::note_in_words(labs);
     }
