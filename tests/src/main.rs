@@ -18,6 +18,7 @@ mod course_explain;
 mod course_release;
 mod determinism;
 mod docs;
+mod doctor;
 mod downloads;
 mod errors;
 mod eval;

@@ -165,7 +165,7 @@ fn limits() -> bool {
     use rustix::process::{Resource, Rlimit, setrlimit};
     let limits = [
         (Resource::As, ADDRESS_SPACE_BYTES, ADDRESS_SPACE_BYTES),
-        // the kernel sends the signal for the soft limit first, so that a worker's end can be told from that by lack of memory
+        // the kernel sends the signal for the soft limit first, so that its end is not taken for one by lack of memory
         (Resource::Cpu, CPU_SECONDS, CPU_SECONDS + CPU_GRACE_SECONDS),
         (Resource::Core, 0, 0),
         (Resource::Fsize, 0, 0),
