@@ -102,7 +102,7 @@ pub(crate) fn open(path: &Path, what: &str) -> Result<File, Failure> {
 /// Reads the file at `path`, which should be `what` and has at most `most` bytes, without following a link.
 ///
 /// # Errors
-/// As [`open`].
+/// As [`open()`].
 pub(crate) fn bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, Failure> {
     let file = open(path, what)?;
     disk::read_of(path, what, most, disk::contents(file, most))
@@ -111,7 +111,7 @@ pub(crate) fn bytes(path: &Path, what: &str, most: u64) -> Result<Vec<u8>, Failu
 /// Reads the text at `path` in the same way.
 ///
 /// # Errors
-/// As [`open`], and for what is no text.
+/// As [`open()`], and for what is no text.
 pub(crate) fn read(path: &Path, what: &str, most: u64) -> Result<Source, Failure> {
     disk::source(path, what, bytes(path, what, most)?)
 }
