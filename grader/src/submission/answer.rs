@@ -194,7 +194,8 @@ fn instead(value: &Value, expected: &str) -> String {
     format!("{}, expected {expected}", describe(value))
 }
 
-fn numbers(value: &Value) -> Option<Vec<f64>> {
+/// The numbers of a list of numbers.
+pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     let Value::List(items) = value else {
         return None;
     };

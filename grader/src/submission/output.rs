@@ -2,6 +2,14 @@
 
 use super::controller::{Budgets, Said};
 
+/// Longest name of a signal in characters, so that it fits a legend, and fifty thousand of them fit in memory.
+pub(super) const LONGEST_SIGNAL_NAME: usize = 64;
+
+/// Whether a signal can have this name.
+pub(super) fn is_signal_name(name: &str) -> bool {
+    !name.is_empty() && name.chars().count() <= LONGEST_SIGNAL_NAME
+}
+
 /// The output of one task. Above the budgets it only adds a note, once: printing must not end the run.
 #[derive(Debug, Default)]
 pub(super) struct Output {
@@ -31,6 +39,11 @@ impl Output {
             let note = format!("more than {most} lines are printed: the rest is not kept");
             self.said.log.push(note);
         }
+    }
+
+    /// Adds a line that the host has to say, which counts for no budget.
+    pub(super) fn note(&mut self, line: String) {
+        self.said.log.push(line);
     }
 
     /// Adds a value to a signal.

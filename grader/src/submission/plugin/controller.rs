@@ -285,10 +285,16 @@ impl PluginController {
             .iter()
             .find(|(known, ..)| *known == name)
             .map_or(OWN_PARAMETERS, |(.., parameters)| parameters);
-        let mut functions = self.compiled.functions.iter().map(String::as_str);
-        let near = match functions.clone().find(|known| *known == call.name()) {
-            Some(bare) => Some(bare),
-            None => nearest(&name, &mut functions),
+        // a function of another task is there for that task
+        let is_other = |known: &&str| {
+            let mut others = FUNCTIONS.iter().map(|(other, ..)| *other);
+            others.any(|other| other == *known)
+        };
+        let exported = self.compiled.functions.iter().map(String::as_str);
+        let exported: Vec<&str> = exported.filter(|known| !is_other(known)).collect();
+        let near = match exported.iter().find(|known| **known == call.name()) {
+            Some(bare) => Some(*bare),
+            None => nearest(&name, exported.iter().copied()),
         };
         let help = match near {
             Some(near) => format!("the module exports `{near}`: call it `{name}`"),
@@ -556,6 +562,8 @@ fn own_answer(instance: &Instance, answer: &AnswerAt, room: usize) -> Result<Val
         };
         map.push((name, value));
     }
+    // as the maps of scripts are, so that the same answer has the same digest
+    map.sort_by(|(a, _), (b, _)| a.cmp(b));
     match &map[..] {
         [] => Ok(Value::Nothing),
         [(name, value)] if name.is_empty() => Ok(value.clone()),

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use wasmi::{Caller, Engine, Error, FuncType, Linker, Memory, StoreLimits, TrapCode, ValType};
 
 use crate::submission::controller::{Budget, Grant};
-use crate::submission::output::Output;
+use crate::submission::output::{LONGEST_SIGNAL_NAME, Output, is_signal_name};
 use crate::submission::robot_model::{Model, Quantity, cost};
 
 /// Instructions that count like one operation of a script, for what both are charged for.
@@ -154,6 +154,12 @@ pub(super) fn linker(engine: &Engine) -> Result<Linker<State>, Error> {
         "plot",
         |mut caller: Caller<'_, State>, at: u32, bytes: u32, value: f64| {
             let name = text(&mut caller, at, bytes)?;
+            if !is_signal_name(&name) {
+                return Err(Error::host(Ended::Misused(
+                    format!("the name of a signal has 1 to {LONGEST_SIGNAL_NAME} characters"),
+                    "shorten it, or give it one: km_plot(\"error\", e)".to_owned(),
+                )));
+            }
             caller.data().output.borrow_mut().plot(name, value);
             Ok::<_, Error>(())
         },

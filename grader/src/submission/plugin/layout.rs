@@ -1,5 +1,6 @@
 //! The structures of `kinemark.h` as bytes in a module's memory: pointers and counts of four bytes, numbers of eight, little-endian.
 
+use crate::submission::answer::numbers;
 use crate::submission::controller::{RobotFacts, Value};
 
 /// A block of a module's memory that grows.
@@ -218,11 +219,11 @@ pub(super) fn flatten(name: &str, value: &Value, fields: &mut Vec<Field>) {
         Value::Text(text) | Value::Other(text) => add(Content::Text(text.clone())),
         Value::Nothing => {}
         Value::List(items) => {
-            if let Some(numbers) = row(value) {
+            if let Some(numbers) = numbers(value) {
                 let columns = numbers.len();
                 return add(Content::Numbers { numbers, columns });
             }
-            let rows: Option<Vec<Vec<f64>>> = items.iter().map(row).collect();
+            let rows: Option<Vec<Vec<f64>>> = items.iter().map(numbers).collect();
             let columns = rows.as_ref().and_then(|rows| Some(rows.first()?.len()));
             match (rows, columns) {
                 (Some(rows), Some(columns))
@@ -251,18 +252,4 @@ pub(super) fn flatten(name: &str, value: &Value, fields: &mut Vec<Field>) {
             }
         }
     }
-}
-
-/// The numbers of a list of numbers.
-fn row(value: &Value) -> Option<Vec<f64>> {
-    let Value::List(items) = value else {
-        return None;
-    };
-    items
-        .iter()
-        .map(|item| match item {
-            Value::Number(number) => Some(*number),
-            _ => None,
-        })
-        .collect()
 }

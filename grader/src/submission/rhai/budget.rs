@@ -7,6 +7,7 @@ use rhai::Position;
 use super::copies;
 use super::mistake::Problem;
 use crate::submission::controller::{Budget, Budgets, Said, SourcePosition};
+use crate::submission::output::Output;
 
 /// A built-in that processes elements is charged one operation for this many of them, which takes about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
@@ -39,15 +40,13 @@ pub(super) struct Meter {
     counted_there: Cell<u64>,
     /// Origin of the first NaN of this call.
     not_a_number: RefCell<Option<String>>,
-    log: RefCell<Vec<String>>,
-    log_lines: Cell<u64>,
-    plots: RefCell<Vec<(String, f64)>>,
-    plot_samples: Cell<u64>,
+    output: RefCell<Output>,
 }
 
 impl Meter {
     pub(super) fn new(budgets: Budgets) -> Self {
         Self {
+            output: RefCell::new(Output::new(&budgets)),
             budgets,
             spent: Cell::new(0),
             allowed: Cell::new(0),
@@ -58,10 +57,6 @@ impl Meter {
             position: Cell::new(Position::NONE),
             counted_there: Cell::new(0),
             not_a_number: RefCell::default(),
-            log: RefCell::default(),
-            log_lines: Cell::new(0),
-            plots: RefCell::default(),
-            plot_samples: Cell::new(0),
         }
     }
 
@@ -147,30 +142,14 @@ impl Meter {
         }
     }
 
-    /// Adds a line to the log. Above the maximum it only adds a note, once: printing must not end the run.
+    /// Adds a line to the log.
     pub(super) fn print(&self, line: String) {
-        let most = self.budgets.log_lines;
-        let printed = self.log_lines.get().saturating_add(1);
-        self.log_lines.set(printed);
-        if printed <= most {
-            self.log.borrow_mut().push(line);
-        } else if printed == most + 1 {
-            let note = format!("more than {most} lines are printed: the rest is not kept");
-            self.log.borrow_mut().push(note);
-        }
+        self.output.borrow_mut().print(line);
     }
 
-    /// Adds a value to a signal. Above the maximum it only adds a note to the log, once.
+    /// Adds a value to a signal.
     pub(super) fn plot(&self, name: String, value: f64) {
-        let most = self.budgets.plot_samples;
-        let plotted = self.plot_samples.get().saturating_add(1);
-        self.plot_samples.set(plotted);
-        if plotted <= most {
-            self.plots.borrow_mut().push((name, value));
-        } else if plotted == most + 1 {
-            let note = format!("more than {most} values are plotted: the rest is not kept");
-            self.log.borrow_mut().push(note);
-        }
+        self.output.borrow_mut().plot(name, value);
     }
 
     /// Remembers the first NaN of a call.
@@ -186,16 +165,13 @@ impl Meter {
     /// Adds the likely origin of a NaN answer to the log.
     pub(super) fn log_not_a_number(&self) {
         if let Some(note) = self.not_a_number.take() {
-            self.log.borrow_mut().push(note);
+            self.output.borrow_mut().note(note);
         }
     }
 
     /// Takes the output since the last time.
     pub(super) fn take_output(&self) -> Said {
-        Said {
-            log: self.log.take(),
-            plots: self.plots.take(),
-        }
+        self.output.borrow_mut().take()
     }
 
     /// The budget that ran out in this call.

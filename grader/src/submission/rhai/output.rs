@@ -7,9 +7,7 @@ use super::library::{Arguments, Library};
 use super::mistake::{Problem, fault};
 use super::operand::Operand;
 use super::words::{describe, show};
-
-/// Longest name of a signal, so that it fits a legend, and fifty thousand of them fit in memory.
-const LONGEST_SIGNAL_NAME: usize = 64;
+use crate::submission::output::{LONGEST_SIGNAL_NAME, is_signal_name};
 
 /// `print(a, b, ...)` takes up to this many.
 const MOST_PRINTED: usize = 8;
@@ -44,7 +42,7 @@ fn plot(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Problem>
         )));
     };
     let name: &ImmutableString = &name;
-    if name.is_empty() || name.chars().count() > LONGEST_SIGNAL_NAME {
+    if !is_signal_name(name) {
         return Err(fault(format!(
             "the name of a signal has 1 to {LONGEST_SIGNAL_NAME} characters"
         )));
