@@ -4,14 +4,6 @@
 static const double DWELL = 0.9; /* s, more than is asked for: the arm settles while it stands */
 static const double MOVE = 1.6;  /* s */
 
-static double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
-
-/* The same angle in (-pi, pi]. */
-static double wrap_pi(double angle) { return angle - 2.0 * KM_PI * ceil((angle - KM_PI) / (2.0 * KM_PI)); }
-
-/* From 0 to 1 with no velocity and no acceleration at the ends. */
-static double quintic(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
-
 void km_forward_kinematics(const km_robot *robot, const double *q, double *position) {
     const double *l = km_numbers(robot->dimensions, "link_lengths");
     position[0] = km_number(robot->dimensions, "base_height") + l[0] * cos(q[0]) + l[1] * cos(q[0] + q[1]);
@@ -30,7 +22,7 @@ km_u32 km_inverse_kinematics(const km_robot *robot, const double *position, doub
     double c = (u * u + y * y - l[0] * l[0] - l[1] * l[1]) / (2.0 * l[0] * l[1]);
     /* the boundary itself is in reach; what lies beyond it by more than rounding is not */
     if (fabs(c) > 1.0 + 1e-9 || most < 2) return 0;
-    double bend = acos(clamp(c, -1.0, 1.0));
+    double bend = acos(km_clamp(c, -1.0, 1.0));
     branch(u, y, l, bend, branches);
     branch(u, y, l, -bend, branches + 2);
     return 2;
@@ -51,13 +43,13 @@ void km_control(const km_observation *observation, double *command) {
         const double *targets = km_numbers(observation->target, "target");
         for (int i = 0; i < 2; i++) {
             double both[4];
-            km_inverse_kinematics(the_robot, targets + 3 * i, both, 2);
+            if (km_inverse_kinematics(the_robot, targets + 3 * i, both, 2) == 0) km_fail("a place is out of reach");
             /* the elbow bends the same way at both places */
             goals[i][0] = both[0], goals[i][1] = both[1];
             from[i] = observation->q[i];
         }
         /* the shoulder takes the short way round */
-        goals[1][0] = goals[0][0] + wrap_pi(goals[1][0] - goals[0][0]);
+        goals[1][0] = goals[0][0] + km_wrap_pi(goals[1][0] - goals[0][0]);
         start = 0.0;
         leg = 1;
     }
@@ -66,6 +58,6 @@ void km_control(const km_observation *observation, double *command) {
         start = observation->time;
         leg = 2;
     }
-    double s = quintic(clamp((observation->time - start) / MOVE, 0.0, 1.0));
-    for (int i = 0; i < 2; i++) command[i] = from[i] + (goals[leg - 1][i] - from[i]) * s;
+    double s = km_quintic((observation->time - start) / MOVE);
+    for (int i = 0; i < 2; i++) command[i] = km_lerp(from[i], goals[leg - 1][i], s);
 }
