@@ -10,9 +10,9 @@
  * doubles in SI units (rad, m, s, N m, N). Texts are UTF-8 and end with a zero byte. Structures have the layout that a C compiler
  * gives them for wasm32: pointers and uint32_t have 4 bytes, doubles 8.
  *
- * There is no C library: no printf, no malloc, no files. What there is of math.h and string.h is declared here, so leave out their
- * #include; <stdint.h>, <stdbool.h>, <stddef.h>, <float.h> and <limits.h> are the compiler's own and work. A call may use 1,000,000
- * instructions, all memory 16 MiB, and the variables inside functions 64 KiB: make a large array static.
+ * There is no C library: no printf, no malloc, no files. What there is of math.h, string.h and assert.h is declared here, so
+ * leave out their #include; <stdint.h>, <stdbool.h>, <stddef.h>, <float.h> and <limits.h> are the compiler's own and work. A call may
+ * use 1,000,000 instructions, all memory 16 MiB, and the variables inside functions 64 KiB: make a large array static.
  *
  * C lets much pass: a wrong index or a null pointer reads something. To find such a mistake add
  *
@@ -223,6 +223,7 @@ int printf(const char *, ...) __attribute__((unavailable("there is no C library:
 #endif
 
 #else
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 #endif
@@ -245,6 +246,13 @@ static inline void km_plot(const char *name, double value) { km_plot_bytes(name,
 
 /* Ends the call as a crash with these words. */
 KM_HELPER __attribute__((noreturn)) void km_fail(const char *text) { km_fail_bytes(text, (km_u32)strlen(text)); }
+
+#ifdef __wasm__
+#define KM_TEXT_OF(number) #number
+#define KM_LINE(line) "line " KM_TEXT_OF(line)
+/* Ends the call where the condition does not hold: "line 12: not true: q[0] > 0". */
+#define assert(condition) ((condition) ? (void)0 : km_fail(KM_LINE(__LINE__) ": not true: " #condition))
+#endif
 
 /* A line of words that is written part by part; what has no room is left out. */
 typedef struct km_words {
