@@ -1,13 +1,13 @@
 //! Checks of scenes: overlaps by hand and by separating axes, bodies that do not stay, via points and lines among shelf and can.
 
-use kinemark_sim::engine::{Layout, Overlap};
+use kinemark_sim::engine::{Layout, Overlap, WorkBudget};
 use kinemark_sim::format::SceneFile;
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::model::inertia::Solid;
 use kinemark_sim::model::prescribed_motion::Motion;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::{BodyKind, Scene, SceneBody};
-use kinemark_sim::scene_check::{Finding, Kind, LineStopCause, Severity, Work, check};
+use kinemark_sim::scene_check::{Finding, Kind, LineStopCause, Severity, Unchecked, Work, check};
 use kinemark_sim::spatial::{Twist, pose, rotation_from_rpy};
 use kinemark_sim::text::Source;
 use nalgebra::{Matrix3, Vector3};
@@ -42,7 +42,7 @@ fn named(findings: &[Finding]) -> Vec<(Severity, &'static str)> {
 
 fn depth_of(bodies: Vec<SceneBody>) -> Option<Overlap> {
     let layout = Layout::new(&scene(bodies), None).expect("a scene");
-    let found = layout.among_bodies(0.0);
+    let found = layout.among_bodies(0.0, &mut WorkBudget::new(u64::MAX));
     assert!(found.len() <= 1, "{found:?}");
     found.first().copied()
 }
@@ -579,4 +579,47 @@ fn robots_with_spare_joints_and_with_loops_are_checked_alike() {
         // the same question has the same answer
         assert_eq!(check(&nothing, Some(&work)).expect(name), found);
     }
+}
+
+/// So fine a carpet below so many boxes that the engine could not keep all its triangles.
+#[test]
+fn a_surface_with_too_many_triangles_below_everything_is_not_simulated() {
+    let mut carpet = String::new();
+    for x in 0..=100 {
+        for y in 0..=100 {
+            carpet += &format!("v {x}e-3 {y}e-3 0\n");
+        }
+    }
+    for x in 0..100 {
+        for y in 0..100 {
+            let at = 101 * x + y + 1;
+            carpet += &format!(
+                "f {at} {} {}\nf {} {} {}\n",
+                at + 101,
+                at + 1,
+                at + 1,
+                at + 101,
+                at + 102
+            );
+        }
+    }
+    let scene_of = |body: &str, boxes: usize| {
+        let mut text = format!("format = 1\nname = 's'\n{body}");
+        for i in 0..boxes {
+            text += &format!(
+                "[[bodies]]\nname = 'b{i}'\ntype = 'free'\norigin = {{ xyz_m = [0.05, 0.05, 0.1005] }}\ninertia = {{ mass_kg = 1 }}\n\
+                 shapes = [{{ box = {{ size_m = [0.2, 0.2, 0.2] }} }}]\ncontact = {{ friction = 0.4 }}\n"
+            );
+        }
+        let file = SceneFile::parse(Source::new("s", text)).expect("a scene");
+        let file = file.with_meshes(|_| Ok(carpet.clone().into_bytes()));
+        file.and_then(|file| file.build(&[])).expect("a scene")
+    };
+    let below = "[[bodies]]\nname = 'carpet'\ntype = 'fixed'\nshapes = [{ mesh = { file = 'carpet.obj' } }]\n\
+        contact = { friction = 0.4 }\n";
+    let last = of(&scene_of(below, 26)).pop().expect("a finding");
+    assert_eq!(last.kind, Kind::NotChecked(Unchecked::StayFrom(0.0)));
+    // more overlaps than are worth a simulation
+    let last = of(&scene_of("", 46)).pop().expect("a finding");
+    assert_eq!(last.kind, Kind::NotChecked(Unchecked::Stay));
 }

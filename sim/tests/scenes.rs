@@ -591,6 +591,57 @@ fn messages_say_what_was_given_and_what_to_do() {
     );
 }
 
+/// A thousand bodies of so many balls, or of so many meshes of 600 triangles.
+fn crowd(shape: &str, each: usize) -> String {
+    let shapes = vec![shape; each].join(", ");
+    let bodies = (0..1000).map(|i| {
+        format!(
+            "[[bodies]]\nname = \"b{i}\"\ntype = \"fixed\"\nshapes = [{shapes}]\ncontact = {{ friction = 1 }}\n"
+        )
+    });
+    format!("{HEAD}{}", bodies.collect::<String>())
+}
+
+#[test]
+fn more_shapes_or_triangles_than_anybody_needs_are_refused_at_the_first_one_too_many() {
+    let parse = |text: &str| SceneFile::parse(Source::new("scene.toml", text));
+    let ball = "{ sphere = { radius_m = 1 } }";
+    parse(&crowd(ball, 2)).expect("two thousand");
+    let error = parse(&crowd(ball, 5)).expect_err("five thousand");
+    let words = "5000 shapes are more than a scene may have (2000)";
+    assert_eq!(error.to_string(), words);
+    // the first shape of the body in the middle
+    let text = crowd(ball, 5);
+    let mut lines = text.lines();
+    let name = lines.position(|line| line == "name = \"b400\"");
+    // its shapes are two lines below its name
+    assert_eq!(error.line_and_column().0, name.expect("a body") + 1 + 2);
+    let mesh = "{ mesh = { file = \"strip.obj\" } }";
+    let mut strip = String::new();
+    for i in 0..302 {
+        strip += &format!("v {i} 0 0\nv {i} 1 0\n");
+    }
+    for i in 0..300 {
+        let at = 2 * i + 1;
+        strip += &format!(
+            "f {at} {} {}\nf {} {} {}\n",
+            at + 2,
+            at + 1,
+            at + 1,
+            at + 2,
+            at + 3
+        );
+    }
+    let with = |each: usize| {
+        let file = parse(&crowd(mesh, each)).expect("few shapes");
+        file.with_meshes(|_| Ok(strip.clone().into_bytes()))
+    };
+    with(1).expect("few triangles");
+    let error = with(2).expect_err("too many triangles");
+    let words = "1000200 triangles are more than a scene may have (1000000)";
+    assert_eq!(error.to_string(), words);
+}
+
 #[test]
 fn a_scene_without_bodies_is_an_empty_world() {
     let scene = read(HEAD).expect("a scene");

@@ -279,6 +279,14 @@ fn large_and_deep_texts_are_refused_or_read_in_time() {
         )),
         "robot::too_large"
     );
+    let ball = "<collision><geometry><sphere radius=\"1\"/></geometry></collision>";
+    assert_eq!(
+        refused(format!(
+            "<robot name=\"r\"><link name=\"a\">{}</link></robot>",
+            ball.repeat(2001)
+        )),
+        "robot::too_large"
+    );
     let planar =
         "<joint name=\"j\" type=\"planar\"><parent link=\"a\"/><child link=\"a\"/></joint>";
     assert_eq!(

@@ -225,3 +225,54 @@ fn what_cannot_be_checked_has_its_code_and_a_way_out() {
         assert!(ran.stdout.is_empty(), "{args:?} {ran:?}");
     }
 }
+
+/// Files that would cost minutes: too many shapes are refused, by `scene check` and with a lab; too many overlaps are not simulated.
+#[test]
+fn what_would_be_too_much_work_is_refused_or_reported() {
+    let bed = TestBed::new();
+    let shape = "  { box = { size_m = [0.4, 0.4, 1.0] } },\n";
+    let many = SCENE.replace(
+        "shapes = [{ box = { size_m = [0.4, 0.4, 1.0] } }]",
+        &format!("shapes = [\n{}]", shape.repeat(2000)),
+    );
+    bed.write("bench.toml", &many);
+    bed.copy_labs();
+    bed.write("labs/scenes/bench.toml", &many);
+    bed.write("labs/90-bench/lab.toml", LAB);
+    bed.write("mine.rhai", "fn control(o) { [0.0, 0.0] }");
+    for args in [
+        &["scene", "check", "bench.toml"][..],
+        &["scene", "check", "90-bench"],
+        &["grade", "90-bench", "mine.rhai", "--practice"],
+    ] {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(3), "{ran:?}");
+        for words in [
+            "2001 shapes are more than a scene may have (2000)",
+            "bench.toml:2019:",
+            "one too many",
+            "fewer shapes",
+        ] {
+            assert!(ran.stderr.contains(words), "{words} {ran:?}");
+        }
+    }
+    let (head, box_) = SCENE.rsplit_once("[[bodies]]").expect("a body");
+    let boxes: String = (0..46)
+        .map(|i| {
+            format!(
+                "[[bodies]]{}",
+                box_.replace("\"box\"", &format!("\"box{i}\""))
+            )
+        })
+        .collect();
+    bed.write("bench.toml", format!("{head}{boxes}"));
+    let ran = bed.run(&["scene", "check", "bench.toml", "--json"]);
+    let record = checked(&ran, 1);
+    let findings = record["findings"].as_array().expect("findings");
+    let last = findings.last().expect("a finding");
+    assert_eq!(last["kind"], "not-checked");
+    assert_eq!(
+        (&last["severity"], &last["stage"]),
+        (&"warning".into(), &"settling".into())
+    );
+}

@@ -221,6 +221,11 @@ impl Arm {
         }
     }
 
+    /// Its bodies.
+    pub(super) fn handles(&self) -> &[RigidBodyHandle] {
+        &self.handles
+    }
+
     /// Removes the robot from the world, to save time, or puts it back; then its state must be written before the next step.
     pub(super) fn set_present(&mut self, physics: &mut PhysicsWorld, present: bool) {
         if self.present == present {

@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use super::work::LOOK;
 use crate::kinematics::FramePoses;
 use crate::model::inertia::Solid;
 use crate::model::robot::Robot;
@@ -47,6 +48,8 @@ pub(crate) struct Clearance {
     /// Travel left before a near link can be clear again \[m\].
     stays_near_m: f64,
     obstacles: Vec<Obstacle>,
+    /// What all looks cost so far ([`super::work`]).
+    work: u64,
 }
 
 impl Clearance {
@@ -68,6 +71,7 @@ impl Clearance {
             left_m: 0.0,
             stays_near_m: -1.0,
             obstacles: Vec::new(),
+            work: 0,
         };
         clearance.measure_levers(robot, &vec![0.0; robot.n()]);
         clearance
@@ -109,6 +113,7 @@ impl Clearance {
         self.poses.update(robot, next_q);
         self.obstacles.clear();
         list_obstacles(&mut self.obstacles);
+        self.work += LOOK * (self.balls.len() * (1 + self.obstacles.len())) as u64;
         let distance_m = self.distance_m();
         self.left_m = (distance_m - others_m).min(BUDGET_M);
         self.stays_near_m = NEAR_M - distance_m;
@@ -116,6 +121,11 @@ impl Clearance {
         // before its travel in this step a ball may have been nearer by that distance
         let is_clear = distance_m > NEAR_M + self.travel_m(robot, q, next_q) + others_m;
         !is_clear
+    }
+
+    /// What all looks cost so far ([`super::work`]).
+    pub(crate) fn work(&self) -> u64 {
+        self.work
     }
 
     /// Upper bound of the travel of any ball from `q` to `next_q` \[m\].

@@ -96,13 +96,17 @@ pub(super) fn read(
             points,
             p_centre_in_world: from_vector(moment / impulse),
         };
-        // links and bodies may have several shapes
-        match facts.iter_mut().find(|known| known.parties == parties) {
-            None => facts.push(fact),
-            Some(known) => add(known, &fact),
-        }
+        facts.push(fact);
     }
+    // links and bodies may have several shapes: in the engine's order, since the last bit of a sum depends on it
     facts.sort_by_key(|fact| fact.parties);
+    facts.dedup_by(|next, known| {
+        let is_same = next.parties == known.parties;
+        if is_same {
+            add(known, next);
+        }
+        is_same
+    });
 }
 
 /// Adds the contact at other points of the same two parties.

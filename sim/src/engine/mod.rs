@@ -13,6 +13,7 @@
 //! | `ray` | casts rays |
 //! | `wind` | computes the air of each step |
 //! | `engine_settings` | parameters of contact |
+//! | `work` | counts what all this costs |
 
 mod arm;
 mod bounce;
@@ -26,6 +27,7 @@ mod fresh;
 pub mod overlap;
 mod ray;
 mod wind;
+pub(crate) mod work;
 mod world;
 
 #[doc(hidden)]
@@ -33,5 +35,6 @@ pub(crate) use clearance::Clearance;
 pub use engine_error::EngineError;
 pub use overlap::{Layout, Overlap};
 pub(crate) use ray::{LinkShapes, Ray};
+pub use work::WorkBudget;
 pub use world::BodyState;
-pub(crate) use world::World;
+pub(crate) use world::{StepFault, World};

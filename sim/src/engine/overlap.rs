@@ -8,12 +8,15 @@ use nalgebra::Vector3;
 use rapier3d_f64::geometry::SharedShape;
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume as _};
+use rapier3d_f64::parry::partitioning::{Bvh, BvhBuildStrategy};
 use rapier3d_f64::parry::query::{Ray, RayCast as _, contact, intersection_test};
 
 use super::collider::collider;
 use super::convert::{engine_pose, from_vector, vector};
 use super::engine_error::EngineError;
 use super::engine_settings::SURFACE;
+use super::work::{self, WorkBudget};
+use super::world::vertices;
 use crate::kinematics::FramePoses;
 use crate::model::contact::Party;
 use crate::model::robot::{Contact, Robot, Shape};
@@ -71,6 +74,8 @@ struct Part {
 pub struct Layout {
     /// The bodies in their order, then the ground, then the links in theirs.
     parts: Vec<Part>,
+    /// Which of them are where, until something moves; all but the ground.
+    index: Option<Bvh>,
 }
 
 impl Layout {
@@ -115,7 +120,7 @@ impl Layout {
                 solids: solids(&link.name, &link.shapes, link.contact.unwrap_or(SURFACE))?,
             });
         }
-        let mut layout = Self { parts };
+        let mut layout = Self { parts, index: None };
         if let Some(robot) = robot {
             layout.place_robot(robot, &FramePoses::new(robot));
         }
@@ -124,6 +129,7 @@ impl Layout {
 
     /// Moves the links of `robot`, which must be the one the layout was made with.
     pub fn place_robot(&mut self, robot: &Robot, poses: &FramePoses) {
+        self.index = None;
         for part in &mut self.parts {
             if let Party::Link(index) = part.party {
                 // every link is the frame of its index
@@ -134,18 +140,32 @@ impl Layout {
 
     /// Moves body `index` of the scene.
     pub fn place_body(&mut self, index: usize, world_from_body: &Pose) {
+        self.index = None;
         self.parts[index].place(world_from_body);
     }
 
+    /// Makes short paths cheap to look along ([`Layout::entered`]), until something is placed anew.
+    pub fn index(&mut self) {
+        let merged = |part: &Part| {
+            let bounds = part.solids.iter().map(|solid| solid.bounds);
+            bounds.reduce(|one, other| one.merged(&other))
+        };
+        let parts = self.parts.iter().enumerate();
+        // the ground has no finite bounds
+        let boxed = parts.filter(|(_, part)| part.party != Party::Ground);
+        let bounds = boxed.filter_map(|(index, part)| Some((index, merged(part)?)));
+        self.index = Some(Bvh::from_iter(BvhBuildStrategy::default(), bounds));
+    }
+
     /// The overlaps deeper than `least_m` of bodies with each other and the ground, in their order; pairs that are both fixed to the
-    /// world are left out.
-    pub fn among_bodies(&self, least_m: f64) -> Vec<Overlap> {
+    /// world are left out. Once `budget` is spent, so is what comes after.
+    pub fn among_bodies(&self, least_m: f64, budget: &mut WorkBudget) -> Vec<Overlap> {
         let is_link = |part: &Part| matches!(part.party, Party::Link(_));
         let parts: Vec<&Part> = self.parts.iter().filter(|part| !is_link(part)).collect();
         let mut found = Vec::new();
         for (index, first) in parts.iter().enumerate() {
             for second in &parts[index + 1..] {
-                found.extend(overlap(first, second, least_m));
+                found.extend(overlap(first, second, least_m, budget));
             }
         }
         found.sort_by_key(|overlap| overlap.parties);
@@ -153,13 +173,13 @@ impl Layout {
     }
 
     /// The overlaps deeper than `least_m` of links with bodies and the ground, in their order; pairs that are both fixed to the world
-    /// are left out, and so are pairs of links.
-    pub fn of_links(&self, least_m: f64) -> Vec<Overlap> {
+    /// are left out, and so are pairs of links. Once `budget` is spent, so is what comes after.
+    pub fn of_links(&self, least_m: f64, budget: &mut WorkBudget) -> Vec<Overlap> {
         let is_link = |part: &&Part| matches!(part.party, Party::Link(_));
         let mut found = Vec::new();
         for link in self.parts.iter().filter(is_link) {
             for other in self.parts.iter().filter(|part| !is_link(part)) {
-                found.extend(overlap(link, other, least_m));
+                found.extend(overlap(link, other, least_m, budget));
             }
         }
         found.sort_by_key(|overlap| overlap.parties);
@@ -174,9 +194,29 @@ impl Layout {
 
     /// The first party that the straight path `from` one point `to` another enters, without body `index`, the links that joints move,
     /// and anything that contains `from`.
-    pub fn entered(&self, index: usize, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<Party> {
+    pub fn entered(
+        &self,
+        index: usize,
+        from: &Vector3<f64>,
+        to: &Vector3<f64>,
+        budget: &mut WorkBudget,
+    ) -> Option<Party> {
         let ray = Ray::new(vector(from), vector(&(to - from)));
-        let hit = self.first_hit(index, &ray, 1.0, |fraction| fraction > 0.0);
+        let counts = |fraction| fraction > 0.0;
+        let hit = match &self.index {
+            None => first_hit(index, &ray, 1.0, self.parts.iter(), counts, budget),
+            Some(known) => {
+                let path = Aabb::from_points([vector(from), vector(to)]);
+                let leaves = known.intersect_aabb(&path);
+                let mut near: Vec<usize> = leaves.map(|leaf| leaf as usize).collect();
+                let ground = |part: &Part| part.party == Party::Ground;
+                near.extend(self.parts.iter().position(ground));
+                // as all of them would be looked at
+                near.sort_unstable();
+                let parts = near.into_iter().map(|part| &self.parts[part]);
+                first_hit(index, &ray, 1.0, parts, counts, budget)
+            }
+        };
         hit.map(|(party, _)| party)
     }
 
@@ -186,44 +226,51 @@ impl Layout {
         index: usize,
         p_in_world: &Vector3<f64>,
         down: &Vector3<f64>,
+        budget: &mut WorkBudget,
     ) -> Option<(Party, Vector3<f64>)> {
         let ray = Ray::new(vector(p_in_world), vector(down));
-        let (party, distance_m) = self.first_hit(index, &ray, ANYWHERE_M, |_| true)?;
+        let parts = self.parts.iter();
+        let (party, distance_m) = first_hit(index, &ray, ANYWHERE_M, parts, |_| true, budget)?;
         Some((party, p_in_world + down * distance_m))
     }
+}
 
-    fn first_hit(
-        &self,
-        index: usize,
-        ray: &Ray,
-        most: f64,
-        counts: impl Fn(f64) -> bool,
-    ) -> Option<(Party, f64)> {
-        let mut first: Option<(Party, f64)> = None;
-        for part in &self.parts {
-            let arm = part.mobility == Mobility::Moves && matches!(part.party, Party::Link(_));
-            if arm || part.party == Party::Body(index) {
+/// The first of `parts` that a ray hits, without body `index` and links that joints move, and where; of those at the same distance the
+/// first one.
+fn first_hit<'p>(
+    index: usize,
+    ray: &Ray,
+    most: f64,
+    parts: impl Iterator<Item = &'p Part>,
+    counts: impl Fn(f64) -> bool,
+    budget: &mut WorkBudget,
+) -> Option<(Party, f64)> {
+    let mut first: Option<(Party, f64)> = None;
+    for part in parts {
+        let arm = part.mobility == Mobility::Moves && matches!(part.party, Party::Link(_));
+        if arm || part.party == Party::Body(index) {
+            continue;
+        }
+        budget.spend(work::LOOK * part.solids.len() as u64);
+        for solid in &part.solids {
+            let near = first.map_or(most, |(_, near)| near);
+            // the ground has no finite bounds
+            let boxed = solid.shape.as_halfspace().is_none();
+            if boxed && !solid.bounds.intersects_local_ray(ray, near) {
                 continue;
             }
-            for solid in &part.solids {
-                let near = first.map_or(most, |(_, near)| near);
-                // the ground has no finite bounds
-                let boxed = solid.shape.as_halfspace().is_none();
-                if boxed && !solid.bounds.intersects_local_ray(ray, near) {
-                    continue;
-                }
-                let hit = solid
-                    .shape
-                    .cast_ray(&solid.world_from_shape, ray, near, true);
-                if let Some(hit) = hit.filter(|hit| counts(*hit))
-                    && first.is_none_or(|(_, near)| hit < near)
-                {
-                    first = Some((part.party, hit));
-                }
+            budget.spend(work::CONTACT * (1 + solid.hulls()));
+            let hit = solid
+                .shape
+                .cast_ray(&solid.world_from_shape, ray, near, true);
+            if let Some(hit) = hit.filter(|hit| counts(*hit))
+                && first.is_none_or(|(_, near)| hit < near)
+            {
+                first = Some((part.party, hit));
             }
         }
-        first
     }
+    first
 }
 
 fn solids(owner: &str, shapes: &[Shape], contact: Contact) -> Result<Vec<Solid>, EngineError> {
@@ -246,15 +293,33 @@ impl Solid {
         }
     }
 
+    /// How much more its vertices cost, if it is a hull ([`super::work`]).
+    fn hulls(&self) -> u64 {
+        (vertices(self.shape.as_ref()) / work::HULL_VERTICES) as u64
+    }
+
+    /// How many of its triangles are near `other`, if it is a surface.
+    fn triangles_near(&self, other: &Self) -> u64 {
+        let Some(surface) = self.shape.as_trimesh() else {
+            return 0;
+        };
+        let here_from_other = self.world_from_shape.inverse() * other.world_from_shape;
+        let bounds = other.shape.compute_aabb(&here_from_other);
+        surface.bvh().intersect_aabb(&bounds).count() as u64
+    }
+
     /// How deep it is in `other`, and where; none where they are apart.
-    fn depth_in(&self, other: &Self) -> Option<(f64, Vector)> {
+    fn depth_in(&self, other: &Self, budget: &mut WorkBudget) -> Option<(f64, Vector)> {
         // the engine takes a half space that comes second where it is not
         if other.shape.as_halfspace().is_some() && self.shape.as_halfspace().is_none() {
-            return other.depth_in(self);
+            return other.depth_in(self, budget);
         }
+        budget.spend(work::LOOK);
         if !self.bounds.intersects(&other.bounds) {
             return None;
         }
+        let triangles = self.triangles_near(other) + other.triangles_near(self);
+        budget.spend(work::CONTACT * (1 + triangles) * (1 + self.hulls() + other.hulls()));
         let (mut here, there) = (self.world_from_shape, &other.world_from_shape);
         let shapes = (self.shape.as_ref(), other.shape.as_ref());
         let mut found = contact(&here, shapes.0, there, shapes.1, 0.0);
@@ -279,14 +344,17 @@ impl Part {
     }
 }
 
-fn overlap(first: &Part, second: &Part, least_m: f64) -> Option<Overlap> {
+fn overlap(first: &Part, second: &Part, least_m: f64, budget: &mut WorkBudget) -> Option<Overlap> {
     if first.mobility == Mobility::Stands && second.mobility == Mobility::Stands {
         return None;
     }
     let mut deepest: Option<(f64, Vector)> = None;
     for a in &first.solids {
         for b in &second.solids {
-            if let Some((depth_m, p)) = a.depth_in(b)
+            if budget.is_spent() {
+                return None;
+            }
+            if let Some((depth_m, p)) = a.depth_in(b, budget)
                 && depth_m > deepest.map_or(least_m, |(most, _)| most)
             {
                 deepest = Some((depth_m, p));

@@ -2,8 +2,11 @@
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
-use rapier3d_f64::geometry::{ColliderBuilder, ColliderHandle, NarrowPhase, SharedShape};
+use rapier3d_f64::geometry::{
+    Collider, ColliderBuilder, ColliderHandle, ContactManifold, NarrowPhase, Shape, SharedShape,
+};
 use rapier3d_f64::math::Vector;
+use rapier3d_f64::parry::bounding_volume::BoundingVolume as _;
 use rapier3d_f64::pipeline::PhysicsWorld;
 
 use super::arm::{Arm, insert_base};
@@ -16,7 +19,7 @@ use super::engine_error::EngineError;
 use super::engine_settings::COMBINE;
 use super::ray::Ray;
 use super::wind::Air;
-use super::{contact_facts, engine_settings, fresh};
+use super::{contact_facts, engine_settings, fresh, work};
 use crate::model::air::{AirNow, Drag};
 use crate::model::contact::{ContactFact, Party};
 use crate::model::prescribed_motion::Motion;
@@ -35,6 +38,18 @@ pub struct BodyState {
     pub sleeps: bool,
 }
 
+/// Triangles of surfaces that may be near moving shapes at once: the engine keeps 200 bytes for each.
+const MOST_TRIANGLES_NEAR: usize = 500_000;
+
+/// A step that was not done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StepFault {
+    /// The state of a body, by its index, is no longer finite.
+    Lost(Option<usize>),
+    /// More triangles of surfaces are near what moves than memory would do for.
+    TooManyTriangles,
+}
+
 /// A dynamic body.
 #[derive(Clone, Copy)]
 struct FreeBody {
@@ -43,6 +58,8 @@ struct FreeBody {
     handle: RigidBodyHandle,
     /// Radius of a sphere about its centre of mass that contains it \[m\].
     radius_m: f64,
+    /// What it costs in a step by itself ([`super::work`]).
+    work: u64,
 }
 
 /// All bodies of one run.
@@ -54,6 +71,8 @@ pub(crate) struct World {
     driven: Vec<(RigidBodyHandle, Motion)>,
     blown: Vec<(RigidBodyHandle, Drag)>,
     obstacles: Vec<ColliderHandle>,
+    /// The obstacles that are surfaces of triangles, where so many triangles could be near moving shapes that memory would not do.
+    surfaces: Vec<ColliderHandle>,
     ground: bool,
     air: Option<Air>,
     /// Present if any party has a restitution.
@@ -62,6 +81,8 @@ pub(crate) struct World {
     bounced_qd: Option<Vec<f64>>,
     dt_s: f64,
     tick: u64,
+    /// What all steps cost so far ([`super::work`]).
+    work: u64,
 }
 
 impl World {
@@ -101,12 +122,14 @@ impl World {
             driven: Vec::new(),
             blown: Vec::new(),
             obstacles: Vec::new(),
+            surfaces: Vec::new(),
             ground: scene.environment.ground.is_some(),
             air,
             bounce: Bounce::new(robot, scene),
             bounced_qd: None,
             dt_s,
             tick: 0,
+            work: 0,
         };
         if let Some(surface) = scene.environment.ground {
             let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
@@ -118,7 +141,58 @@ impl World {
         for (index, body) in scene.bodies.iter().enumerate() {
             world.insert(index, body)?;
         }
+        world.list_surfaces();
         Ok(world)
+    }
+
+    /// Lists the surfaces, unless what moves can never be near too many of their triangles.
+    fn list_surfaces(&mut self) {
+        let colliders = &self.physics.colliders;
+        let triangles = |handle: &ColliderHandle| {
+            let surface = colliders[*handle].shape().as_trimesh();
+            surface.map_or(0, |surface| surface.indices().len())
+        };
+        let all: usize = self.obstacles.iter().map(triangles).sum();
+        let moving = self.moving_colliders().count();
+        if all.saturating_mul(moving) > MOST_TRIANGLES_NEAR {
+            let surfaces = self.obstacles.iter().filter(|one| triangles(one) > 0);
+            self.surfaces = surfaces.copied().collect();
+        }
+    }
+
+    /// What can touch a surface: the shapes of dynamic bodies and of the arm.
+    fn moving_colliders(&self) -> impl Iterator<Item = &Collider> {
+        let arm = self.arm.iter().flat_map(Arm::handles);
+        let free = self.free.iter().map(|body| &body.handle);
+        let bodies = arm.chain(free).map(|handle| &self.physics.bodies[*handle]);
+        let awake = bodies.filter(|body| body.is_enabled() && !body.is_sleeping());
+        let colliders = awake.flat_map(|body| body.colliders());
+        colliders.map(|collider| &self.physics.colliders[*collider])
+    }
+
+    /// Whether more triangles of surfaces are near what moves than memory would do for.
+    fn has_too_many_triangles_near(&self) -> bool {
+        let margin_m = self.physics.integration_parameters.prediction_distance();
+        let mut near = 0;
+        for handle in &self.surfaces {
+            let surface = &self.physics.colliders[*handle];
+            let Some(mesh) = surface.shape().as_trimesh() else {
+                continue;
+            };
+            let here_from_world = surface.position().inverse();
+            for moving in self.moving_colliders() {
+                let here_from_moving = here_from_world * *moving.position();
+                let bounds = moving.shape().compute_aabb(&here_from_moving);
+                let bounds = bounds.loosened(margin_m);
+                // one more shows that there are too many
+                let left = MOST_TRIANGLES_NEAR + 1 - near;
+                near += mesh.bvh().intersect_aabb(&bounds).take(left).count();
+                if near > MOST_TRIANGLES_NEAR {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     fn insert(&mut self, index: usize, body: &SceneBody) -> Result<(), EngineError> {
@@ -175,10 +249,12 @@ impl World {
                         (ball.center() - com).length() + ball.radius()
                     })
                     .fold(0.0, f64::max);
+                let shapes = body.shapes.len() as u64;
                 self.free.push(FreeBody {
                     index,
                     handle,
                     radius_m,
+                    work: work::BODY + shapes * shapes / work::OWN_PAIRS,
                 });
             }
         }
@@ -227,7 +303,7 @@ impl World {
     /// No link travels farther than about `travel_m` in the step; if `None`, the robot can touch nothing and is left out.
     ///
     /// # Errors
-    /// The index of a body whose state is no longer finite.
+    /// [`StepFault`].
     pub(crate) fn step(
         &mut self,
         robot: &Robot,
@@ -236,7 +312,7 @@ impl World {
         qd: &[f64],
         travel_m: Option<f64>,
         facts: &mut Vec<ContactFact>,
-    ) -> Result<(), Option<usize>> {
+    ) -> Result<(), StepFault> {
         self.foresee(travel_m.unwrap_or(0.0));
         if let Some(arm) = &mut self.arm {
             arm.set_present(&mut self.physics, travel_m.is_some());
@@ -262,13 +338,18 @@ impl World {
             let pose = engine_pose(&pose);
             self.physics.bodies[*handle].set_next_kinematic_position(pose);
         }
+        if !self.surfaces.is_empty() && self.has_too_many_triangles_near() {
+            return Err(StepFault::TooManyTriangles);
+        }
         if let Some(bounce) = &mut self.bounce {
             bounce.remember(robot, q, qd, &self.physics.bodies, &self.bodies);
         }
         self.physics.step();
         self.rest();
+        self.work += self.work_of_step();
         if let Some(lost) = self.physics.quarantine().bodies().first() {
-            return Err(self.bodies.iter().position(|handle| handle == lost));
+            let index = self.bodies.iter().position(|handle| handle == lost);
+            return Err(StepFault::Lost(index));
         }
         contact_facts::read(
             &self.physics.narrow_phase,
@@ -383,9 +464,46 @@ impl World {
         }
     }
 
+    /// What all steps cost so far ([`super::work`]).
+    pub(crate) fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// What the last step cost: bodies and pairs of shapes that are awake.
+    fn work_of_step(&self) -> u64 {
+        let (bodies, colliders) = (&self.physics.bodies, &self.physics.colliders);
+        let is_awake = |handle: &RigidBodyHandle| {
+            let body = bodies.get(*handle);
+            body.is_some_and(|body| !body.is_fixed() && !body.is_sleeping())
+        };
+        let free = self.free.iter().filter(|body| is_awake(&body.handle));
+        let free: u64 = free.map(|body| body.work).sum();
+        let pairs = self.physics.narrow_phase.contact_pairs().map(|pair| {
+            let both = [pair.collider1, pair.collider2].map(|handle| colliders.get(handle));
+            let mut parents = both.iter().flatten().filter_map(|one| one.parent());
+            if !parents.any(|parent| is_awake(&parent)) {
+                return 0;
+            }
+            let vertices = both.iter().flatten().map(|one| vertices(one.shape()));
+            let hulls = 1 + (vertices.sum::<usize>() / work::HULL_VERTICES) as u64;
+            // a surface has one for each of its triangles that is near
+            let manifolds = pair.solver_manifolds();
+            let touches = |one: &&ContactManifold| !one.data.solver_contacts.is_empty();
+            let patches = manifolds.iter().filter(touches).count() as u64;
+            hulls * (work::PAIR * (1 + manifolds.len() as u64) + work::PATCH * patches)
+        });
+        free + pairs.sum::<u64>()
+    }
+
     pub(crate) fn body_count(&self) -> usize {
         self.bodies.len()
     }
+}
+
+/// The vertices of a hull; none of any other shape.
+pub(super) fn vertices(shape: &dyn Shape) -> usize {
+    let hull = shape.as_convex_polyhedron();
+    hull.map_or(0, |hull| hull.points().len())
 }
 
 fn mass_properties(body: &SceneBody) -> Result<MassProperties, EngineError> {

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::mesh_files::Meshes;
 use super::part_problem::PartProblem;
 use super::part_tables::ShapeTable;
+use super::shape_count::too_many_shapes;
 use super::values::{Values, changed_dimensions};
 use crate::text::{Dimension, Dimensions, Located, Problem, Source};
 
@@ -38,7 +39,8 @@ impl<T: Tables> Document<T> {
     /// Reads the text of a description.
     ///
     /// # Errors
-    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key; a format that is not known.
+    /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key; a format that is not known; more shapes than
+    /// are read.
     pub fn parse(source: Source) -> Result<Self, Located<T::Problem>> {
         let mut tables: T = toml::from_str(source.text()).map_err(|error| {
             let (problem, at) = PartProblem::of_toml(&error, source.text());
@@ -49,6 +51,9 @@ impl<T: Tables> Document<T> {
             let (kind, found) = (T::KIND, *format.get_ref());
             let problem = PartProblem::UnknownFormat { kind, found };
             return Err(located::<T>(problem, &source, format.span()));
+        }
+        if let Some((problem, at)) = too_many_shapes(T::KIND, tables.shapes()) {
+            return Err(located::<T>(problem, &source, at));
         }
         Ok(Self {
             source,

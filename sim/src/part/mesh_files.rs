@@ -6,6 +6,7 @@ use toml::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::ShapeTable;
+use super::shape_count::ShapeCount;
 use crate::model::mesh::surface::Mesh;
 use crate::text::{Located, Source};
 
@@ -22,9 +23,15 @@ impl Meshes {
         mut read: impl FnMut(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, PartError> {
         let mut meshes = Self::default();
+        let mut count = ShapeCount::default();
         for table in shapes.filter_map(|shape| shape.get_ref().mesh.as_ref()) {
             let file = table.file.get_ref();
-            if meshes.get(file).is_some() {
+            let mut count = |mesh: &Mesh| {
+                let counted = count.mesh(kind, mesh.triangles().len());
+                counted.map_err(|problem| Located::new(problem, source, table.file.span()))
+            };
+            if let Some(mesh) = meshes.get(file) {
+                count(mesh)?;
                 continue;
             }
             let refuse = |message: String, help: Option<String>| {
@@ -40,6 +47,7 @@ impl Meshes {
             })?;
             let mesh = Mesh::parse(file, &bytes)
                 .map_err(|problem| refuse(format!("mesh `{file}`: {problem}"), problem.help()))?;
+            count(&mesh)?;
             meshes.0.push((file.clone(), Arc::new(mesh)));
         }
         Ok(meshes)

@@ -8,6 +8,7 @@ pub(crate) mod mesh_files;
 mod origin;
 pub(crate) mod part_problem;
 pub(crate) mod part_tables;
+pub(crate) mod shape_count;
 pub(crate) mod toml_text;
 pub(crate) mod values;
 

@@ -46,6 +46,13 @@ pub enum PartProblem {
         found: usize,
         most: usize,
     },
+    #[error("{found} {parts} are more than a {kind} may have ({most})")]
+    TooManyShapes {
+        kind: &'static str,
+        parts: &'static str,
+        found: usize,
+        most: usize,
+    },
     #[error("{message}")]
     Axis { message: String },
     #[error("{what} must be {expected}, got {found}")]
@@ -126,7 +133,7 @@ impl PartProblem {
             Self::Sensor { .. } => codes!("sensor"),
             Self::Duplicate { .. } => codes!("duplicate"),
             Self::BadName { .. } => codes!("bad_name"),
-            Self::TooLarge { .. } => codes!("too_large"),
+            Self::TooLarge { .. } | Self::TooManyShapes { .. } => codes!("too_large"),
             Self::Axis { .. } => codes!("axis"),
             Self::OutOfRange { .. } => codes!("out_of_range"),
             Self::Inertia { .. } => codes!("inertia"),
@@ -147,6 +154,7 @@ impl PartProblem {
             Self::Duplicate { .. } => "the second one".to_owned(),
             Self::BadName { .. } => "this name".to_owned(),
             Self::TooLarge { kind, .. } => format!("this {kind}"),
+            Self::TooManyShapes { .. } => "one too many".to_owned(),
             Self::Axis { .. } => "this axis".to_owned(),
             Self::OutOfRange { .. } => "out of range".to_owned(),
             Self::Inertia { .. } => "this inertia".to_owned(),
@@ -167,6 +175,12 @@ impl PartProblem {
             Self::Duplicate { .. } => Some("give each its own name".to_owned()),
             Self::BadName { help, .. } => Some((*help).to_owned()),
             Self::TooLarge { parts, .. } => Some(format!("leave out {parts} that nothing needs")),
+            Self::TooManyShapes {
+                parts: "triangles", ..
+            } => Some("use coarser meshes; a mesh counts as often as it is used".to_owned()),
+            Self::TooManyShapes { .. } => {
+                Some("draw it with fewer shapes: contact needs no details".to_owned())
+            }
             Self::Axis { .. } => {
                 Some("an axis has three numbers, in the child's frame, not all zero".to_owned())
             }

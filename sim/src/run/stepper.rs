@@ -46,8 +46,14 @@ impl Stepper {
                 Err(StepError::Lost { body }) => {
                     Ok(StepOutcome::Diverged(DivergenceKind::InContact { body }))
                 }
+                Err(StepError::TooManyTriangles) => Err(RunError::TooManyTriangles),
             },
         }
+    }
+
+    /// What all steps cost so far, in the units of a work budget.
+    pub(super) fn work(&self) -> u64 {
+        self.scene().map_or(0, HybridStep::work)
     }
 
     /// The scene in its current state, if there is one.

@@ -11,7 +11,7 @@ use super::stepper::{StepOutcome, Stepper};
 use crate::control::servo::{Servo, ServoError, ServoSettings};
 use crate::control::speed_limit::SpeedLimits;
 use crate::dynamics::SingularMassMatrix;
-use crate::engine::EngineError;
+use crate::engine::{EngineError, WorkBudget};
 use crate::kinematics::FramePoses;
 use crate::model::robot::{Frame, Robot};
 use crate::model::scene::Scene;
@@ -130,7 +130,30 @@ pub enum RunError {
     /// A sensor does not fit the physics step.
     #[error(transparent)]
     Sensor(#[from] SensorError),
+    /// What moves is near more triangles of a surface than fit into memory.
+    #[error("too many triangles of a surface are near what moves: give it a coarser mesh")]
+    TooManyTriangles,
+    /// More work than a run may be.
+    #[error(
+        "at {time_s} s the run has been more work than a run may be: leave out bodies and shapes that nothing needs, \
+         use coarser meshes, or make it shorter"
+    )]
+    TooMuchWork {
+        /// When \[s\].
+        time_s: f64,
+    },
 }
+
+/// What a run may cost, however short it is, in the units of [`WorkBudget`]: ten seconds of many shapes in contact ...
+const WORK: u64 = 1_000_000_000;
+/// ... and for each of its ticks: some thirty pairs of shapes in contact all the time, or an arm of a hundred joints.
+const WORK_PER_TICK: u64 = 10_000;
+/// What a ray costs for each shape that it may meet.
+const RAY: u64 = 10;
+/// What a joint costs in a tick.
+const JOINT: u64 = 100;
+/// With closed loops a tick solves a dense system: so many of the cubes of its size cost one unit.
+const CUBES: u64 = 10;
 
 /// A run between two ticks.
 #[derive(Debug)]
@@ -163,6 +186,12 @@ struct State {
     qdd: Vec<f64>,
     guard: RunawayGuard,
     poses: FramePoses,
+    /// What the run may still cost, but for what the stepper counts.
+    budget: WorkBudget,
+    /// What the stepper has counted so far.
+    stepped: u64,
+    /// Shapes that a ray may meet.
+    shapes: u64,
     /// Noise and delay between robot and controller, if any.
     disturbed: Option<Disturbed>,
 }
@@ -203,6 +232,9 @@ impl<'a> Run<'a> {
             qdd: vec![0.0; n],
             guard: RunawayGuard::new(robot),
             poses: FramePoses::new(robot),
+            budget: WorkBudget::new(WORK + WORK_PER_TICK * setup.ticks),
+            stepped: 0,
+            shapes: shapes_of(&setup),
             disturbed: None,
         };
         Ok(Self {
@@ -246,7 +278,7 @@ impl<'a> Run<'a> {
     /// Returns how the run ended, once it has.
     ///
     /// # Errors
-    /// [`RunError`] if a joint moves no inertia.
+    /// [`RunError`] if a joint moves no inertia, or the run has been too much work.
     pub fn advance<E>(
         &mut self,
         control: &mut impl FnMut(&Observation<'_>, &mut [f64]) -> Result<(), E>,
@@ -300,6 +332,11 @@ impl<'a> Run<'a> {
         let moved = state
             .stepper
             .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
+        state.count(&self.setup);
+        if state.budget.is_spent() {
+            let time_s = periods.time_s(tick);
+            return Err(RunError::TooMuchWork { time_s });
+        }
         let lost = match moved {
             StepOutcome::Diverged(what) => Some(what),
             StepOutcome::Advanced => {
@@ -315,6 +352,21 @@ impl<'a> Run<'a> {
 }
 
 impl State {
+    /// Takes what the last tick cost from the budget.
+    fn count(&mut self, setup: &Setup<'_>) {
+        let robot = setup.robot;
+        let n = robot.bodies().len() as u64;
+        let dense = match robot.loops().is_empty() {
+            true => 0,
+            false => n * n * n / CUBES,
+        };
+        let stepped = self.stepper.work();
+        let rays = self.sensors.take_rays() * self.shapes * RAY;
+        let work = n * JOINT + dense + (stepped - self.stepped) + rays;
+        self.stepped = stepped;
+        self.budget.spend(work);
+    }
+
     /// Samples the sensors at the new tick.
     fn measure(&mut self, setup: &Setup<'_>) {
         if self.sensors.is_empty() {
@@ -373,6 +425,14 @@ impl State {
     }
 }
 
+/// The shapes that a ray may meet.
+fn shapes_of(setup: &Setup<'_>) -> u64 {
+    let links = setup.robot.links().iter().map(|link| link.shapes.len());
+    let bodies = setup.scene.iter().flat_map(|scene| &scene.bodies);
+    let shapes = links.chain(bodies.map(|body| body.shapes.len()));
+    shapes.sum::<usize>() as u64
+}
+
 /// Positions and velocities for controller and servos: the measured ones under a disturbance, else the true ones.
 fn seen<'s>(
     disturbed: &'s Option<Disturbed>,
@@ -404,5 +464,91 @@ pub fn run<E>(
         if let Some(end) = run.advance(&mut control, recorder)? {
             return Ok(end);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroU32;
+
+    use super::*;
+    use crate::control::{Derivative, Gains, Mode};
+    use crate::format::{RobotFile, SceneFile};
+    use crate::text::Source;
+
+    /// Counts the ticks that it gets.
+    struct Ticks(u64);
+
+    impl Recorder for Ticks {
+        fn row(&mut self, _: Row<'_>) {
+            self.0 += 1;
+        }
+    }
+
+    /// How many ticks of a hundred there are where a run may cost so much; with a box that lies on the ground, or without a scene.
+    fn ticks_for(units: u64, in_scene: bool) -> (u64, Option<RunError>) {
+        let arm = "format = 1\nname = 'arm'\n[[links]]\nname = 'base'\n[[links]]\nname = 'bar'\n\
+            inertia = { mass_kg = 1.0, com_m = [0, 0, 0.5], tensor_kg_m2 = [0.1, 0.1, 0.1, 0, 0, 0] }\n[[joints]]\nname = 'hinge'\n\
+            type = 'revolute'\nparent = 'base'\nchild = 'bar'\naxis = [0, 1, 0]\n";
+        let arm = RobotFile::parse(Source::new("arm", arm)).unwrap();
+        let arm = arm.build(&[]).unwrap();
+        let scene = "format = 1\nname = 's'\nenvironment = { ground = { friction = 0.4 } }\n[[bodies]]\nname = 'box'\ntype = 'free'\n\
+            origin = { xyz_m = [3, 0, 0.05] }\ninertia = { mass_kg = 1.0 }\n\
+            shapes = [{ box = { size_m = [0.1, 0.1, 0.1] } }]\ncontact = { friction = 0.4 }\n";
+        let scene = SceneFile::parse(Source::new("s", scene)).unwrap();
+        let scene = scene.build(&[]).unwrap();
+        let gains = Gains {
+            kp: 0.0,
+            ki: 0.0,
+            kd: 0.0,
+            effort_limit: 1.0,
+            integral_limit: f64::INFINITY,
+        };
+        let setup = Setup {
+            robot: &arm,
+            scene: in_scene.then_some(&scene),
+            tcp: arm.tcp(),
+            seen_from: &arm.frames()[0],
+            periods: Periods {
+                step_s: 1e-3,
+                ticks_per_servo: NonZeroU32::MIN,
+                ticks_per_control: NonZeroU32::MIN,
+            },
+            gravity_m_s2: Vector3::new(0.0, 0.0, -9.81),
+            servo: ServoSettings {
+                mode: Mode::Effort,
+                derivative: Derivative::Velocity,
+                gains: vec![gains],
+                gravity_compensation: false,
+            },
+            sensors: Vec::new(),
+            start_q: vec![0.0],
+            start_qd: vec![0.0],
+            ticks: 99,
+        };
+        let mut run = Run::new(setup).unwrap();
+        run.state.budget = WorkBudget::new(units);
+        let mut control = |_: &Observation<'_>, _: &mut [f64]| Ok::<(), ()>(());
+        let mut ticks = Ticks(0);
+        loop {
+            match run.advance(&mut control, &mut ticks) {
+                Ok(None) => {}
+                Ok(Some(_)) => return (ticks.0, None),
+                Err(error) => return (ticks.0, Some(error)),
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_is_more_work_than_a_run_may_be_ends_with_an_error() {
+        assert_eq!(ticks_for(u64::MAX, true), (100, None));
+        // a joint alone
+        assert_eq!(ticks_for(99 * JOINT + 1, false), (100, None));
+        let at = |time_s| Some(RunError::TooMuchWork { time_s });
+        assert_eq!(ticks_for(50 * JOINT, false), (50, at(0.049)));
+        // with a box in contact there are fewer
+        let (ticks, error) = ticks_for(50 * JOINT, true);
+        assert!((1..40).contains(&ticks), "{ticks}");
+        assert!(matches!(error, Some(RunError::TooMuchWork { .. })));
     }
 }

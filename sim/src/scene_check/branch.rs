@@ -35,6 +35,8 @@ pub(super) struct BranchFinder<'r> {
     ranges: Vec<PositionRange>,
     /// Entries of `q` that move the TCP.
     carries: Vec<bool>,
+    /// How often it has looked for a configuration.
+    pub(super) solved: u64,
 }
 
 impl<'r> BranchFinder<'r> {
@@ -55,6 +57,7 @@ impl<'r> BranchFinder<'r> {
             near: IkSolver::new(robot, &[goal], alone)?,
             ranges: position_ranges(robot),
             carries: carries_tcp(robot),
+            solved: 0,
         })
     }
 
@@ -62,6 +65,7 @@ impl<'r> BranchFinder<'r> {
     pub(super) fn reach(&mut self, p_in_world: &Vector3<f64>) -> Result<Reach, IkError> {
         let target = Target::Position(*p_in_world);
         self.stubborn.set_target(0, target)?;
+        self.solved += 1;
         let first = self.stubborn.solve(self.start_q)?;
         if !first.reached {
             return Ok(Reach::Not {
@@ -86,6 +90,7 @@ impl<'r> BranchFinder<'r> {
                     *position = self.start_q[entry];
                 }
             }
+            self.solved += 1;
             match self.near.solve(&from) {
                 Ok(answer) if answer.reached => {
                     let q = self.unwound(answer.q);
@@ -111,6 +116,7 @@ impl<'r> BranchFinder<'r> {
         p_in_world: &Vector3<f64>,
     ) -> Result<Result<Vec<f64>, f64>, IkError> {
         self.near.set_target(0, Target::Position(*p_in_world))?;
+        self.solved += 1;
         match self.near.solve(q) {
             Ok(answer) if answer.reached => Ok(Ok(answer.q)),
             Ok(answer) => Ok(Err(answer.residual_m)),

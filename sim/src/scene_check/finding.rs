@@ -138,6 +138,8 @@ pub enum Kind {
         /// Where the best of these stops.
         stop: LineStop,
     },
+    /// Something was not checked, because it would have been too much work.
+    NotChecked(Unchecked),
     /// The straight line leads the robot into dynamic bodies.
     LineTouches {
         /// The point at which the line starts; it ends at the next point.
@@ -168,8 +170,24 @@ impl Kind {
             Self::ViaTouches { .. } => "via-touches",
             Self::LineBlocked { .. } => "line-blocked",
             Self::LineTouches { .. } => "line-touches",
+            Self::NotChecked(_) => "not-checked",
         }
     }
+}
+
+/// What was not checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unchecked {
+    /// Some pairs of shapes, for overlaps at the start.
+    Overlaps,
+    /// Whether bodies stay, in a scene with so many overlaps that it would fly apart.
+    Stay,
+    /// Whether bodies stay, from this time on \[s\].
+    StayFrom(f64),
+    /// A via point, all after it, and all lines.
+    ViaFrom(usize),
+    /// The line that begins at this via point, and all after it.
+    LinesFrom(usize),
 }
 
 /// Where a robot stops following a line.

@@ -7,14 +7,17 @@
 //! | `settle` | ten seconds of the scene alone |
 //! | `branch` | the branches in which a robot reaches a point |
 //! | `via` | via points, and the straight lines between them |
+//! | `progress` | how far a check is, and how much work it may be |
 //!
 //! Nothing here is random: the same scene has the same findings, in the same order.
 
 mod branch;
 mod checks;
 mod finding;
+mod progress;
 mod settle;
 mod via;
 
-pub use checks::{SceneCheckError, TOUCH_M, Work, check};
-pub use finding::{Finding, Kind, LineStop, LineStopCause, Severity};
+pub use checks::{SceneCheckError, TOUCH_M, Work, check, check_watched};
+pub use finding::{Finding, Kind, LineStop, LineStopCause, Severity, Unchecked};
+pub use progress::{Progress, Stage};

@@ -2,8 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::finding::{Finding, Kind, Severity};
-use crate::engine::{BodyState, EngineError, Layout, World};
+use super::checks::not_checked;
+use super::finding::{Finding, Kind, Severity, Unchecked};
+use super::progress::{Progress, Stage, Watch};
+use crate::engine::{BodyState, EngineError, Layout, StepFault, WorkBudget, World};
 use crate::format::RobotFile;
 use crate::model::contact::{ContactFact, Party};
 use crate::model::robot::Robot;
@@ -15,6 +17,8 @@ use crate::text::Source;
 const STEP_S: f64 = 1e-3;
 /// Ten seconds of them.
 const TICKS: u64 = 10_000;
+/// How often it shows how far it is.
+const SHOWN_TICKS: u64 = 20;
 /// A party that pushes a body up within these ticks counts as its support at the start.
 const STANDS_TICKS: u64 = 20;
 /// A body may move this far: more than the compliance of a contact, less than one sees \[m\].
@@ -42,7 +46,15 @@ struct Falling {
     lost: bool,
 }
 
-/// Simulates the scene for ten seconds. `layout` becomes that of the end.
+/// Where everything is after ten seconds.
+struct Ends<'a> {
+    scene: &'a Scene,
+    world: &'a World,
+    layout: &'a Layout,
+    budget: &'a mut WorkBudget,
+}
+
+/// Simulates the scene for ten seconds, or as long as the work is not too much. `layout` becomes that of the end.
 ///
 /// # Errors
 /// Shapes or masses that the engine cannot use.
@@ -51,6 +63,8 @@ pub(super) fn check(
     robot: Option<&Robot>,
     layout: &mut Layout,
     findings: &mut Vec<Finding>,
+    watch: Watch<'_>,
+    mut budget: WorkBudget,
 ) -> Result<(), EngineError> {
     let nobody = nobody();
     let robot = robot.unwrap_or(&nobody);
@@ -62,7 +76,7 @@ pub(super) fn check(
         .iter()
         .enumerate()
         .filter(|(_, body)| matches!(body.kind, BodyKind::Free))
-        .map(|(index, body)| Falling::new(index, body, scene, layout, down))
+        .map(|(index, body)| Falling::new(index, body, scene, layout, down, &mut budget))
         .collect();
     let mut facts: Vec<ContactFact> = Vec::new();
     // moved by the scene itself, or by a body that is
@@ -72,15 +86,38 @@ pub(super) fn check(
             break;
         }
         let time_s = tick as f64 * STEP_S;
-        if let Err(body) = world.step(robot, &[], &[], &[], None, &mut facts) {
-            findings.push(Finding {
-                severity: Severity::Error,
-                kind: Kind::FliesApart { body, time_s },
+        if tick % SHOWN_TICKS == 1 {
+            watch(Progress {
+                stage: Stage::Settling,
+                done: tick,
+                of: TICKS,
             });
-            // the positions of the others mean nothing after that
+        }
+        if budget.is_spent() {
+            let from_s = (tick - 1) as f64 * STEP_S;
+            findings.push(not_checked(Unchecked::StayFrom(from_s)));
             return Ok(());
         }
+        let before = world.work();
+        match world.step(robot, &[], &[], &[], None, &mut facts) {
+            Ok(()) => {}
+            Err(StepFault::Lost(body)) => {
+                findings.push(Finding {
+                    severity: Severity::Error,
+                    kind: Kind::FliesApart { body, time_s },
+                });
+                // the positions of the others mean nothing after that
+                return Ok(());
+            }
+            Err(StepFault::TooManyTriangles) => {
+                let from_s = (tick - 1) as f64 * STEP_S;
+                findings.push(not_checked(Unchecked::StayFrom(from_s)));
+                return Ok(());
+            }
+        }
+        budget.spend(world.work() - before);
         follow(scene, &world, layout);
+        layout.index();
         pass_on(scene, &facts, &mut moved);
         if let Some(down) = down.filter(|_| tick <= STANDS_TICKS) {
             for one in &mut falling {
@@ -89,7 +126,7 @@ pub(super) fn check(
         }
         for one in &mut falling {
             if !one.lost
-                && let Some(through) = one.entered(layout)
+                && let Some(through) = one.entered(layout, &mut budget)
             {
                 one.lost = true;
                 findings.push(Finding {
@@ -110,7 +147,13 @@ pub(super) fn check(
         } else {
             [Severity::Error, Severity::Warning]
         };
-        one.judge(scene, &world, layout, &state, severities, findings);
+        let ends = Ends {
+            scene,
+            world: &world,
+            layout,
+            budget: &mut budget,
+        };
+        one.judge(ends, &state, severities, findings);
     }
     Ok(())
 }
@@ -160,10 +203,11 @@ impl Falling {
         scene: &Scene,
         layout: &Layout,
         down: Option<Vector3<f64>>,
+        budget: &mut WorkBudget,
     ) -> Self {
         let start_com = com(body, &body.world_from_body);
         let up = down.map_or_else(Vector3::z, |down| -down);
-        let below = down.and_then(|down| layout.below(index, &start_com, &down));
+        let below = down.and_then(|down| layout.below(index, &start_com, &down, budget));
         // it starts inside something: an overlap, or a ring around a peg
         let below = below.filter(|(_, p_in_world)| *p_in_world != start_com);
         Self {
@@ -218,11 +262,11 @@ impl Falling {
     }
 
     /// What the centre of one of its shapes went into since the last check.
-    fn entered(&mut self, layout: &Layout) -> Option<Party> {
+    fn entered(&mut self, layout: &Layout, budget: &mut WorkBudget) -> Option<Party> {
         let mut entered = None;
         for (last, now) in self.centres.iter_mut().zip(layout.centres_of(self.body)) {
             if (now - *last).norm() >= PIECE_M {
-                entered = entered.or_else(|| layout.entered(self.body, last, &now));
+                entered = entered.or_else(|| layout.entered(self.body, last, &now, budget));
                 *last = now;
             }
         }
@@ -231,13 +275,17 @@ impl Falling {
 
     fn judge(
         &self,
-        scene: &Scene,
-        world: &World,
-        layout: &Layout,
+        ends: Ends<'_>,
         state: &BodyState,
         [bad, doubtful]: [Severity; 2],
         findings: &mut Vec<Finding>,
     ) {
+        let Ends {
+            scene,
+            world,
+            layout,
+            budget,
+        } = ends;
         let down = direction(scene.environment.gravity_m_s2);
         let body = self.body;
         let described = &scene.bodies[body];
@@ -246,7 +294,7 @@ impl Falling {
         let (speed_m_s, turning_rad_s) = (state.twist.linear.norm(), state.twist.angular.norm());
         if let Some(down) = down {
             let falls = !state.sleeps && state.twist.linear.dot(&down) > FALLING_M_S;
-            if falls && layout.below(body, &now, &down).is_none() {
+            if falls && layout.below(body, &now, &down, budget).is_none() {
                 return report(Severity::Error, Kind::FallsForever { body });
             }
             if let Some((support, p)) = self.support

@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use super::branch::{BranchFinder, Reach};
-use super::checks::{TOUCH_M, Work};
-use super::finding::{Finding, Kind, LineStop, LineStopCause, Severity};
-use crate::engine::{Layout, Overlap};
+use super::checks::{TOUCH_M, Work, not_checked};
+use super::finding::{Finding, Kind, LineStop, LineStopCause, Severity, Unchecked};
+use super::progress::{Progress, Stage, Watch};
+use crate::engine::{Layout, Overlap, WorkBudget};
 use crate::kinematics::{FramePoses, IkError};
 use crate::model::contact::Party;
 use crate::model::robot::Robot;
@@ -17,31 +18,55 @@ const SAMPLE_M: f64 = 0.01;
 const MOST_SAMPLES: f64 = 10_000.0;
 /// Near a singular configuration joints move far: a piece is halved this often before the branch counts as changed.
 const HALVINGS: u32 = 6;
+/// What looking for a configuration costs for each joint, in the units of a [`WorkBudget`].
+const SOLVE: u64 = 2_000;
 /// A joint that moves farther than this between two samples has changed its branch \[rad\], \[m\].
 const JUMP: (f64, f64) = (0.5, 0.1);
 
-/// Checks all via points of `work`, and then the lines between those that are reachable.
+/// Checks all via points of `work`, and then the lines between those that are reachable, until the work is too much.
 pub(super) fn check(
     scene: &Scene,
     work: &Work<'_>,
     layout: &mut Layout,
     findings: &mut Vec<Finding>,
+    watch: Watch<'_>,
+    budget: WorkBudget,
 ) -> Result<(), IkError> {
     if work.via_in_world.is_empty() {
         return Ok(());
     }
+    let points = work.via_in_world.len();
+    let mut at = |done: usize| {
+        watch(Progress {
+            stage: Stage::Via,
+            done: done as u64,
+            of: (2 * points - 1) as u64,
+        });
+    };
     let mut follower = Follower {
         scene,
         robot: work.robot,
         finder: BranchFinder::new(work.robot, &work.start_q)?,
         poses: FramePoses::new(work.robot),
         layout,
+        budget,
     };
     let mut usable: Vec<Option<Vec<Vec<f64>>>> = Vec::new();
     for (point, p_in_world) in work.via_in_world.iter().enumerate() {
-        usable.push(follower.point(point, p_in_world, findings)?);
+        at(point);
+        let before = findings.len();
+        let found = follower.point(point, p_in_world, findings)?;
+        if follower.is_spent() {
+            // what was found of it is not the whole of it
+            findings.truncate(before);
+            findings.push(not_checked(Unchecked::ViaFrom(point)));
+            return Ok(());
+        }
+        usable.push(found);
     }
     for (from, pair) in work.via_in_world.windows(2).enumerate() {
+        at(points + from);
+        let before = findings.len();
         if let [Some(branches), Some(_)] = &usable[from..from + 2] {
             let blocked = if work.in_straight_lines {
                 Severity::Error
@@ -49,6 +74,11 @@ pub(super) fn check(
                 Severity::Warning
             };
             follower.line(from, &pair[0], &pair[1], branches, blocked, findings)?;
+        }
+        if follower.is_spent() {
+            findings.truncate(before);
+            findings.push(not_checked(Unchecked::LinesFrom(from)));
+            return Ok(());
         }
     }
     Ok(())
@@ -68,9 +98,17 @@ struct Follower<'a> {
     finder: BranchFinder<'a>,
     poses: FramePoses,
     layout: &'a mut Layout,
+    budget: WorkBudget,
 }
 
 impl Follower<'_> {
+    /// Whether the work so far is too much.
+    fn is_spent(&mut self) -> bool {
+        let solved = std::mem::take(&mut self.finder.solved);
+        self.budget.spend(solved * SOLVE * self.robot.n() as u64);
+        self.budget.is_spent()
+    }
+
     fn collisions_at(&mut self, q: &[f64]) -> Collisions {
         self.poses.update(self.robot, q);
         self.layout.place_robot(self.robot, &self.poses);
@@ -78,7 +116,7 @@ impl Follower<'_> {
             deepest: None,
             touched: Vec::new(),
         };
-        for overlap in self.layout.of_links(TOUCH_M) {
+        for overlap in self.layout.of_links(TOUCH_M, &mut self.budget) {
             let [Party::Link(link), other] = overlap.parties else {
                 continue;
             };
@@ -223,6 +261,10 @@ impl Follower<'_> {
         let mut q = q.to_vec();
         let mut touched = Vec::new();
         for sample in 0..=pieces as usize {
+            // then nothing of the line counts
+            if self.is_spent() {
+                break;
+            }
             let part = sample as f64 / pieces;
             let before = (part - 1.0 / pieces).max(0.0);
             let mut cause = self.go(&mut q, &at(before), &at(part), HALVINGS)?;

@@ -69,6 +69,8 @@ pub struct Sensors {
     taken: Vec<f64>,
     /// Room for rays, if a sensor looks along any.
     sight: Option<Sight>,
+    /// Rays that were cast since somebody asked.
+    rays: u64,
 }
 
 /// One sensor at work.
@@ -147,6 +149,7 @@ impl Sensors {
             values: vec![0.0; width],
             taken: vec![0.0; width],
             sight,
+            rays: 0,
         })
     }
 
@@ -199,6 +202,7 @@ impl Sensors {
             unit.gauge.watch(seen);
             let held = &mut self.values[unit.channels.clone()];
             if unit.device.is_due(tick) {
+                self.rays += u64::from(unit.looks);
                 let taken = &mut self.taken[unit.channels.clone()];
                 unit.gauge.read(seen, &around, taken);
                 unit.device.disturb(taken);
@@ -207,6 +211,11 @@ impl Sensors {
             }
             unit.device.receive(tick, held);
         }
+    }
+
+    /// How many rays were cast since this was asked last.
+    pub(crate) fn take_rays(&mut self) -> u64 {
+        std::mem::take(&mut self.rays)
     }
 
     /// Takes from `effort`, shape `(n)`, what pushes a joint towards a limit switch that is pressed and opens its

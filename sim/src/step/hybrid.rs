@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::joint_limits::JointLimitConstraints;
 use super::smooth::SmoothStep;
 use crate::dynamics::SingularMassMatrix;
-use crate::engine::{BodyState, Clearance, EngineError, Ray, World};
+use crate::engine::{BodyState, Clearance, EngineError, Ray, StepFault, World};
 use crate::model::air::AirNow;
 use crate::model::contact::{ContactFact, Party};
 use crate::model::robot::Robot;
@@ -33,6 +33,9 @@ pub enum StepError {
         /// The body of the scene; a link where there is none.
         body: Option<String>,
     },
+    /// What moves is near more triangles of a surface than fit into memory.
+    #[error("too many triangles of a surface are near what moves: give it a coarser mesh")]
+    TooManyTriangles,
 }
 
 /// Which integrator's state the robot has after a step.
@@ -240,8 +243,11 @@ impl HybridStep {
                 travel_m,
                 facts,
             )
-            .map_err(|lost| StepError::Lost {
-                body: lost.map(|index| self.names[index].clone()),
+            .map_err(|fault| match fault {
+                StepFault::Lost(lost) => StepError::Lost {
+                    body: lost.map(|index| self.names[index].clone()),
+                },
+                StepFault::TooManyTriangles => StepError::TooManyTriangles,
             })?;
         let pressed = |party: &Party| matches!(party, Party::Link(link) if self.moves[*link]);
         if facts.iter().any(|fact| fact.parties.iter().any(pressed)) {
@@ -256,6 +262,11 @@ impl HybridStep {
     /// The report of the last step.
     pub fn report(&self) -> &StepReport {
         &self.report
+    }
+
+    /// What contact cost in all steps so far, in units that are the same on every machine.
+    pub(crate) fn work(&self) -> u64 {
+        self.world.work() + self.clearance.work()
     }
 
     /// The bodies of the scene, in its order.

@@ -66,7 +66,9 @@ fn a_scene_reports_what_overlaps_and_where_it_stands() {
         scene,
         arm,
     };
-    let checked = scene.check().unwrap_or_else(|error| panic!("{error}"));
+    let checked = scene
+        .check(&mut |_| {})
+        .unwrap_or_else(|error| panic!("{error}"));
     assert!(checked.has_errors());
     let text = scene_text(&checked).to_string();
     assert!(text.starts_with("scene sunk with robot rrbot\n\nerror    `crate` and the ground overlap by 50.0 mm  (sunk.toml:7)\n"), "{text}");

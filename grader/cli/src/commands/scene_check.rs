@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use kinemark_sim::scene_check::SceneCheckError;
-use kinemark_toolbox::scene_check::{CheckedScene, SceneToCheck, scene_record, scene_text};
+use indicatif::{ProgressBar, ProgressStyle};
+use kinemark_sim::scene_check::{Progress, SceneCheckError, Stage};
+use kinemark_toolbox::scene_check::{CheckedScene, scene_record, scene_text};
 use kinemark_toolbox::styled_text::StyledText;
 use serde_json::{Value, json};
 
@@ -57,8 +58,23 @@ pub(crate) struct Args {
 /// Checks the scene, or each scene of the lab.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let named = scenes_to_check(args)?;
+    let bar = ProgressBar::new(1);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {percent} %") {
+        bar.set_style(style);
+    }
+    let mut watch = |progress: Progress| {
+        bar.set_message(match progress.stage {
+            Stage::Overlaps => "overlaps",
+            Stage::Settling => "do bodies stay?",
+            Stage::Via => "via points",
+        });
+        bar.set_length(progress.of);
+        bar.set_position(progress.done);
+    };
+    let scenes = named.scenes.iter();
     let checked: Result<Vec<CheckedScene<'_>>, SceneCheckError> =
-        named.scenes.iter().map(SceneToCheck::check).collect();
+        scenes.map(|scene| scene.check(&mut watch)).collect();
+    bar.finish_and_clear();
     let checked = checked.map_err(failure)?;
     if args.json {
         let mut records: Vec<Value> = checked.iter().map(scene_record).collect();

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::origin::origin;
 use crate::format::robot_format::ReadFile;
-use crate::format::robot_problem::RobotError;
+use crate::format::robot_problem::{KIND, RobotError};
 use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::inertia::{MeshSolid, Solid};
 use crate::model::mesh::surface::Mesh;
 use crate::model::robot::Shape;
 use crate::part::part_problem::PartProblem;
+use crate::part::shape_count::ShapeCount;
 use crate::part::values::Allowed;
 
 /// A mesh file may be used at this many scales: each is a copy of its own.
@@ -20,6 +21,7 @@ const MOST_SCALES: usize = 8;
 pub(super) struct Meshes<'a> {
     read: &'a mut ReadFile<'a>,
     files: BTreeMap<String, Result<Copies, String>>,
+    count: ShapeCount,
 }
 
 /// One mesh at the scales it is used at.
@@ -34,6 +36,7 @@ impl<'a> Meshes<'a> {
         Self {
             read,
             files: BTreeMap::new(),
+            count: ShapeCount::default(),
         }
     }
 
@@ -110,6 +113,12 @@ pub(super) fn shapes(
             reader.warn(Reader::tag(second), &message);
         }
         if let Some(solid) = solid(reader, meshes, owner, node)? {
+            let at = Reader::tag(node);
+            let mut counted = meshes.count.shape(KIND);
+            if let (Ok(()), Solid::Mesh(mesh)) = (&counted, &solid) {
+                counted = meshes.count.mesh(KIND, mesh.mesh.triangles().len());
+            }
+            counted.or_else(|problem| reader.err(at, problem))?;
             shapes.push(Shape {
                 solid,
                 link_from_shape,

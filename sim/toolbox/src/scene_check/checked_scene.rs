@@ -5,7 +5,9 @@ use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::model::robot::{Joint, Robot};
 use kinemark_sim::model::scene::Scene;
-use kinemark_sim::scene_check::{Finding, Kind, SceneCheckError, Severity, Work, check};
+use kinemark_sim::scene_check::{
+    Finding, Kind, Progress, SceneCheckError, Severity, Work, check_watched,
+};
 use kinemark_sim::spatial::Pose;
 use nalgebra::{Point3, Vector3};
 
@@ -48,15 +50,18 @@ pub struct CheckedScene<'s> {
 }
 
 impl SceneToCheck {
-    /// Checks the scene, and the robot's way through it.
+    /// Checks the scene, and the robot's path through it; `watch` gets to know how far it is.
     ///
     /// # Errors
     /// A scene, a start or positions that cannot be checked.
-    pub fn check(&self) -> Result<CheckedScene<'_>, SceneCheckError> {
+    pub fn check(
+        &self,
+        watch: &mut dyn FnMut(Progress),
+    ) -> Result<CheckedScene<'_>, SceneCheckError> {
         let work = self.arm.as_ref().map(ArmInScene::work);
         Ok(CheckedScene {
             scene: self,
-            findings: check(&self.scene, work.as_ref())?,
+            findings: check_watched(&self.scene, work.as_ref(), watch)?,
         })
     }
 
@@ -141,6 +146,7 @@ fn body_of(finding: &Finding) -> Option<usize> {
         | Kind::ViaCollides { .. }
         | Kind::ViaTouches { .. }
         | Kind::LineBlocked { .. }
-        | Kind::LineTouches { .. } => None,
+        | Kind::LineTouches { .. }
+        | Kind::NotChecked(_) => None,
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use kinemark_sim::engine::Overlap;
 use kinemark_sim::model::contact::Party;
-use kinemark_sim::scene_check::{Finding, Kind, LineStop, LineStopCause};
+use kinemark_sim::scene_check::{Finding, Kind, LineStop, LineStopCause, Unchecked};
 use kinemark_sim::text::number::{metres, seconds, trimmed};
 
 use super::checked_scene::SceneToCheck;
@@ -73,7 +73,32 @@ pub(super) fn message(scene: &SceneToCheck, finding: &Finding) -> String {
             about_via_point(scene, &finding.kind)
         }
         Kind::LineBlocked { .. } | Kind::LineTouches { .. } => about_line(scene, &finding.kind),
+        Kind::NotChecked(what) => not_checked(scene, *what),
     }
+}
+
+/// What was left out, why, and what helps.
+fn not_checked(scene: &SceneToCheck, what: Unchecked) -> String {
+    let via = scene.arm.as_ref().map_or("position", |arm| arm.via_name);
+    let what = match what {
+        Unchecked::Stay => {
+            return "not checked: whether bodies stay where they are put; too many of them overlap"
+                .to_owned();
+        }
+        Unchecked::Overlaps => "some overlaps at the start".to_owned(),
+        Unchecked::StayFrom(from_s) => {
+            let from = seconds(from_s);
+            format!("whether bodies stay where they are put, from {from} of 10 s on")
+        }
+        Unchecked::ViaFrom(point) => {
+            format!("{via} {} and what comes after it", point + 1)
+        }
+        Unchecked::LinesFrom(from) => {
+            let (from, to) = (from + 1, from + 2);
+            format!("the straight line from {via} {from} to {to} and what comes after it")
+        }
+    };
+    format!("not checked: {what}; that is too much work with so many shapes, so use fewer")
 }
 
 fn falls_forever(scene: &SceneToCheck, who: &str) -> String {

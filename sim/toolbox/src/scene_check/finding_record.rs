@@ -2,7 +2,7 @@
 
 use kinemark_sim::engine::Overlap;
 use kinemark_sim::model::contact::Party;
-use kinemark_sim::scene_check::{Finding, Kind, LineStopCause};
+use kinemark_sim::scene_check::{Finding, Kind, LineStopCause, Unchecked};
 use serde_json::{Map, Value, json};
 
 use super::checked_scene::{CheckedScene, SceneToCheck};
@@ -84,6 +84,15 @@ fn numbers(scene: &SceneToCheck, kind: &Kind) -> Value {
         | Kind::ViaTouches { .. }
         | Kind::LineBlocked { .. }
         | Kind::LineTouches { .. } => numbers_of_motion(scene, kind),
+        Kind::NotChecked(what) => match what {
+            Unchecked::Overlaps => json!({ "stage": "overlaps" }),
+            Unchecked::Stay => json!({ "stage": "settling" }),
+            Unchecked::StayFrom(from_s) => json!({ "stage": "settling", "from_s": from_s }),
+            Unchecked::ViaFrom(point) => json!({ "stage": "via", "point": point + 1 }),
+            Unchecked::LinesFrom(from) => {
+                json!({ "stage": "via", "points": [from + 1, from + 2] })
+            }
+        },
     }
 }
 
