@@ -120,7 +120,7 @@ fn a_file_that_is_no_program_is_explained_once_and_truly() {
     grade(&bed, &["--no-reports"]);
     for (student, why) in [
         ("s102", "(line 3: \"}\")"),
-        ("s106", "the file is text in UTF-16, not a script"),
+        ("s106", "the file is text in UTF-16, not a submission"),
     ] {
         let ran = bed.run(&["course", "explain", student, LAB, "--out", "complaint"]);
         assert_eq!(ran.code, Some(0), "{ran:?}");

@@ -1,18 +1,50 @@
-//! A submission that is not text: it does not build, and the place of the first byte that cannot be read says why.
+//! A file that is neither a script nor a module: it does not build, and its first bytes, the place of the first byte that is no text, or
+//! the language that it is written in say why.
 
 use super::controller::{Controller, Mistake, Opening, SourcePosition, Stop};
 use super::host::Host;
 
-/// Files that are handed in instead of a script, by their first bytes.
-const OTHERS: [(&[u8], &str); 7] = [
-    (b"PK\x03\x04", "a ZIP archive"),
-    (b"Rar!", "a RAR archive"),
-    (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
-    (b"\x1f\x8b", "a gzip archive"),
-    (b"%PDF", "a PDF"),
-    (b"\xff\xfe", "text in UTF-16"),
-    (b"\xfe\xff", "text in UTF-16"),
+/// Files that are handed in instead of a submission, by their first bytes.
+const OTHERS: [(&[u8], &str, &str); 13] = [
+    (b"PK\x03\x04", "a ZIP archive", SCRIPT),
+    (b"Rar!", "a RAR archive", SCRIPT),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive", SCRIPT),
+    (b"\x1f\x8b", "a gzip archive", SCRIPT),
+    (b"%PDF", "a PDF", SCRIPT),
+    (b"\xff\xfe", "text in UTF-16", SCRIPT),
+    (b"\xfe\xff", "text in UTF-16", SCRIPT),
+    (b"\x7fELF", "a program for Linux", MODULE),
+    (b"MZ", "a program for Windows", MODULE),
+    (b"\xcf\xfa\xed\xfe", "a program for macOS", MODULE),
+    (b"\xca\xfe\xba\xbe", "a program for macOS or Java", MODULE),
+    (b"!<arch>\n", "a library", MODULE),
+    (
+        b"(module",
+        "WebAssembly in text form",
+        "make a module of it: wat2wasm",
+    ),
 ];
+const SCRIPT: &str = "hand in the script itself, saved as UTF-8 text";
+const MODULE: &str =
+    "build it for WebAssembly, as docs/plugin.md says, and hand in submission.wasm";
+
+/// The language of a file that has to be built before it can be handed in.
+fn to_be_built(text: &str) -> Option<(&'static str, SourcePosition)> {
+    let mut lines = (1..).zip(text.lines());
+    lines.find_map(|(line, text)| {
+        let written = text.trim_start();
+        // neither can begin a line of a script
+        let language = if written.starts_with("#include") {
+            "C"
+        } else if written.starts_with("use kinemark_plugin") || written.starts_with("#![no_std]") {
+            "Rust"
+        } else {
+            return None;
+        };
+        let column = text.chars().count() - written.chars().count() + 1;
+        Some((language, SourcePosition { line, column }))
+    })
+}
 
 /// How bytes begin that stand for a submission that is not there; no script begins so.
 const ABSENT: &[u8] = b"\0no submission\n";
@@ -32,7 +64,7 @@ pub struct NotText {
 }
 
 impl NotText {
-    /// What is wrong with the bytes of a file; `None` where they are UTF-8.
+    /// What is wrong with the bytes of a file; `None` where they may be a script.
     pub fn of(bytes: &[u8]) -> Option<Self> {
         if let Some(lines) = bytes.strip_prefix(ABSENT) {
             let lines = String::from_utf8_lossy(lines);
@@ -47,18 +79,33 @@ impl NotText {
                 },
             });
         }
-        let other = OTHERS.iter().find(|(first, _)| bytes.starts_with(first));
-        let valid = match std::str::from_utf8(bytes) {
-            Ok(_) if other.is_none() => return None,
+        // two letters may begin any name
+        let is_text = std::str::from_utf8(bytes);
+        let mut others = OTHERS.iter();
+        let other = others
+            .find(|(first, ..)| bytes.starts_with(first) && (first.len() > 2 || is_text.is_err()));
+        let valid = match is_text {
+            Ok(text) if other.is_none() => {
+                let (language, place) = to_be_built(text)?;
+                return Some(Self {
+                    shown: text.to_owned(),
+                    mistake: Mistake {
+                        message: format!("the file is source code in {language}, not a submission"),
+                        place: Some(place),
+                        help: Some(MODULE.to_owned()),
+                        further: Vec::new(),
+                    },
+                });
+            }
             // an archive may be UTF-8 by chance
             Ok(_) => 0,
             Err(error) => error.valid_up_to(),
         };
         let mistake = match other {
-            Some((_, what)) => Mistake {
-                message: format!("the file is {what}, not a script"),
+            Some((_, what, help)) => Mistake {
+                message: format!("the file is {what}, not a submission"),
                 place: None,
-                help: Some("hand in the script itself, saved as UTF-8 text".to_owned()),
+                help: Some((*help).to_owned()),
                 further: Vec::new(),
             },
             None => {
@@ -119,10 +166,24 @@ mod tests {
     }
 
     #[test]
+    fn source_code_has_the_place_that_shows_its_language() {
+        let c = NotText::of(b"// mine\n  #include \"kinemark.h\"\n").expect("no script");
+        assert_eq!(c.mistake.place, Some(SourcePosition { line: 2, column: 3 }));
+        for script in ["MZ(1);", "let use_kinemark_plugin = 1; // #include", "#{}"] {
+            assert_eq!(NotText::of(script.as_bytes()), None);
+        }
+    }
+
+    #[test]
     fn other_files_are_named() {
         for (bytes, what) in [
             (&b"PK\x03\x04rest"[..], "a ZIP archive"),
             (b"%PDF-1.7", "a PDF"),
+            (b"\x7fELF\x02\x01", "for Linux"),
+            (b"MZ\x90\x00", "for Windows"),
+            (b"(module (memory 1))", "text form"),
+            (b"// mine\n  #include \"kinemark.h\"\n", "in C"),
+            (b"use kinemark_plugin::*;\n", "in Rust"),
             (b"\xff\xfel\0e\0t\0", "UTF-16"),
         ] {
             let found = NotText::of(bytes).expect("no script");

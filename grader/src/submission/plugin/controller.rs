@@ -7,10 +7,11 @@ use std::rc::Rc;
 use kinemark_sim::text::nearest;
 use wasmi::TrapCode;
 
-use super::imports::{Ended, State, numbers};
+use super::imports::{Ended, State, canonical, numbers};
 use super::instance::{Instance, Trouble, ended};
-use super::layout::{AnswerAt, Block, Content, FIELD_BYTES, Field, count, flatten};
-use super::module::{Compiled, FUNCTIONS, Limits, MOST_CALLS, OWN_PARAMETERS, export_name};
+use super::layout::{AnswerAt, Block, Content, FIELD_BYTES, Field, UNWRITTEN, count, flatten};
+use super::module::{Compiled, FUNCTIONS, Limits, MOST_CALLS, export_name, parameter_names};
+use crate::submission::answer::NOT_A_NUMBER;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Grant, Mistake, Observation, Opening, Reads,
     RobotFacts, Said, SensorFacts, Stop, Value,
@@ -211,7 +212,7 @@ impl PluginController {
                 instance.write(block.changing, changing)?;
                 instance.call("km_control", &[block.observation, block.command])?;
                 let n = self.robot.joint_names.len();
-                Ok(list(&read(instance, block.command, n)?))
+                Ok(list(&self.written(instance, call, block.command, n)?))
             }
             _ if !self.has("km_init") => Ok(Value::Nothing),
             _ => {
@@ -228,25 +229,24 @@ impl PluginController {
             Call::ForwardKinematics { robot, q } => {
                 let (robot, q, out) = given(instance, robot, q, 3)?;
                 instance.call(&name, &[robot, q, out])?;
-                Ok(list(&read(instance, out, 3)?))
+                Ok(list(&self.written(instance, call, out, 3)?))
             }
             Call::InverseKinematics { robot, position_m } => {
                 let n = robot.joint_names.len();
                 let most = (self.budgets.list_size as usize) / n.max(1);
                 let (robot, position, out) = given(instance, robot, position_m, most * n)?;
                 let branches = instance.call(&name, &[robot, position, out, count(most)])?;
-                rows(instance, "branches", (out, branches.unwrap_or(0), most), n)
+                let branches = counted("branches", branches, most)?;
+                let numbers = self.written(instance, call, out, branches * n)?;
+                Ok(rows(&numbers, n))
             }
             Call::Jacobian { robot, q } => {
                 let n = robot.joint_names.len();
                 let (robot, q, out) = given(instance, robot, q, MOST_ROWS * n)?;
-                let rows_there = instance.call(&name, &[robot, q, out])?;
-                rows(
-                    instance,
-                    "rows",
-                    (out, rows_there.unwrap_or(0), MOST_ROWS),
-                    n,
-                )
+                let written = instance.call(&name, &[robot, q, out])?;
+                let written = counted("rows", written, MOST_ROWS)?;
+                let numbers = self.written(instance, call, out, written * n)?;
+                Ok(rows(&numbers, n))
             }
             Call::Free { given, .. } => {
                 let room = self.budgets.list_size as usize;
@@ -274,6 +274,26 @@ impl PluginController {
         }
     }
 
+    /// The numbers that a function wrote; the log says where it wrote none.
+    fn written(
+        &self,
+        instance: &Instance,
+        call: &Call,
+        at: u32,
+        count: usize,
+    ) -> Result<Vec<f64>, Trouble> {
+        let numbers = read(instance, at, count)?;
+        if let Some(first) = numbers.iter().position(|x| x.to_bits() == UNWRITTEN) {
+            let line = format!(
+                "`{}` writes nothing to `{}[{first}]`: {NOT_A_NUMBER}",
+                export_name(call.name()),
+                written_to(call)
+            );
+            self.output.borrow_mut().print(line);
+        }
+        Ok(numbers.into_iter().map(canonical).collect())
+    }
+
     fn has(&self, export: &str) -> bool {
         self.compiled.functions.iter().any(|name| name == export)
     }
@@ -281,10 +301,6 @@ impl PluginController {
     /// The stop for a function that the module does not export.
     fn missing(&self, call: &Call) -> Stop {
         let name = export_name(call.name());
-        let parameters = FUNCTIONS
-            .iter()
-            .find(|(known, ..)| *known == name)
-            .map_or(OWN_PARAMETERS, |(.., parameters)| parameters);
         // a function of another task is there for that task
         let is_other = |known: &&str| {
             let mut others = FUNCTIONS.iter().map(|(other, ..)| *other);
@@ -304,7 +320,7 @@ impl PluginController {
             ),
         };
         Stop::Missing {
-            function: format!("{name}({parameters})"),
+            function: format!("{name}({})", parameter_names(&name)),
             help: Some(help),
             namesake: None,
         }
@@ -356,6 +372,11 @@ impl PluginController {
         match ended(error) {
             Some(Ended::Failed(words)) => {
                 let help = "these are the module's own words: a panic, or a call of `km_fail`";
+                // a panic names its place itself, and what runs then is the machinery of panics
+                let within = match words.starts_with("panicked") {
+                    true => "",
+                    false => &within,
+                };
                 return crashed(format!("{words}{within}"), help);
             }
             Some(Ended::Misused(words, help)) => return crashed(format!("{words}{within}"), help),
@@ -490,6 +511,17 @@ fn read(instance: &Instance, at: u32, count: usize) -> Result<Vec<f64>, Trouble>
     }
 }
 
+/// What a function writes to, as `kinemark.h` calls it.
+fn written_to(call: &Call) -> &'static str {
+    match call {
+        Call::ForwardKinematics { .. } => "position",
+        Call::InverseKinematics { .. } => "branches",
+        Call::Jacobian { .. } => "matrix",
+        Call::Init | Call::Control(_) => "command",
+        Call::Free { .. } => "answer",
+    }
+}
+
 /// An answer that cannot be read.
 fn unreadable(message: String) -> Trouble {
     Trouble::Stop(Stop::Crashed(Mistake {
@@ -503,22 +535,20 @@ fn unreadable(message: String) -> Trouble {
     }))
 }
 
-/// The rows that a function says it wrote, of those there is room for.
-fn rows(
-    instance: &Instance,
-    what: &str,
-    (at, written, most): (u32, u32, usize),
-    columns: usize,
-) -> Result<Value, Trouble> {
-    let written = written as usize;
+/// How much a function says it wrote, of what there is room for.
+fn counted(what: &str, written: Option<u32>, most: usize) -> Result<usize, Trouble> {
+    let written = written.unwrap_or(0) as usize;
     if written > most {
         return Err(unreadable(format!(
             "it returned {written} {what}, there is room for {most}"
         )));
     }
-    let numbers = read(instance, at, written * columns)?;
-    let rows = numbers.chunks_exact(columns.max(1)).map(list);
-    Ok(Value::List(rows.collect()))
+    Ok(written)
+}
+
+/// Numbers row by row.
+fn rows(numbers: &[f64], columns: usize) -> Value {
+    Value::List(numbers.chunks_exact(columns.max(1)).map(list).collect())
 }
 
 /// What a function of the lab's own wrote: a map, or one entry without a name.
@@ -549,6 +579,7 @@ fn own_answer(instance: &Instance, answer: &AnswerAt, room: usize) -> Result<Val
             )));
         }
         let numbers = read(instance, at, length as usize)?;
+        let numbers: Vec<f64> = numbers.into_iter().map(canonical).collect();
         let value = match (columns as usize, numbers.as_slice()) {
             (0, [number]) => Value::Number(*number),
             (columns, _) if columns > 0 && columns < numbers.len() => {
@@ -592,7 +623,8 @@ fn trap_words(trap: TrapCode) -> (&'static str, &'static str) {
         ),
         TrapCode::MemoryOutOfBounds => (
             "reads or writes outside of its memory",
-            "look for a wrong index or pointer",
+            "look for a wrong index or pointer, a function that calls itself too often, or large arrays inside functions: they share a small \
+             stack, so make them static in C, or a `Vec` in Rust",
         ),
         TrapCode::TableOutOfBounds | TrapCode::IndirectCallToNull | TrapCode::BadSignature => (
             "calls a function pointer that is none",
@@ -605,6 +637,10 @@ fn trap_words(trap: TrapCode) -> (&'static str, &'static str) {
         TrapCode::IntegerOverflow | TrapCode::BadConversionToInteger => (
             "converts a number that no integer can hold",
             "check that the number is finite and small enough before it becomes an integer",
+        ),
+        TrapCode::GrowthOperationLimited => (
+            "wants more memory, or a larger table, than a module may have",
+            "a module has 16 MiB: use again what is there, and let nothing grow from call to call",
         ),
         TrapCode::StackOverflow | TrapCode::OutOfFuel => ("runs too long", "look for a loop"),
         _ => ("stops", "look at what it does last: `km_log` shows it"),

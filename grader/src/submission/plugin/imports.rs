@@ -182,7 +182,7 @@ pub(super) fn linker(engine: &Engine) -> Result<Linker<State>, Error> {
 }
 
 /// One bit pattern for every NaN, as the interpreter has it: those of `libm` differ between platforms.
-fn canonical(x: f64) -> f64 {
+pub(super) fn canonical(x: f64) -> f64 {
     if x.is_nan() {
         f64::from_bits(0x7ff8_0000_0000_0000)
     } else {

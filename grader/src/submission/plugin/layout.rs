@@ -3,6 +3,9 @@
 use crate::submission::answer::numbers;
 use crate::submission::controller::{RobotFacts, Value};
 
+/// What a place for a number holds until something is written there: a NaN that no computation of a module has as its result.
+pub(super) const UNWRITTEN: u64 = 0x7ff8_0000_006b_6d00;
+
 /// A block of a module's memory that grows.
 pub(super) struct Block {
     base: u32,
@@ -55,7 +58,7 @@ impl Block {
 
     /// Room for so many numbers, each NaN until somebody writes it; its address.
     pub(super) fn unwritten(&mut self, count: usize) -> u32 {
-        self.numbers(&vec![f64::NAN; count])
+        self.numbers(&vec![f64::from_bits(UNWRITTEN); count])
     }
 
     pub(super) fn numbers(&mut self, numbers: &[f64]) -> u32 {

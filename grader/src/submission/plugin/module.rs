@@ -2,6 +2,7 @@
 //! wrong with them is `did-not-build` with the reason.
 
 use wasmi::{CompilationMode, Config, Engine, ExternType, FuncType, Linker, Module};
+
 use wasmi::{StoreLimits, StoreLimitsBuilder, ValType};
 
 use super::imports::{self, State};
@@ -44,6 +45,8 @@ impl Limits {
             .instances(1)
             .memories(1)
             .tables(16)
+            // else most modules fail later, where nobody sees why
+            .trap_on_grow_failure(true)
             .build()
     }
 }
@@ -115,9 +118,15 @@ impl Compiled {
             let (module, name) = (import.module(), import.name());
             let shown = format!("`{module}.{name}`");
             let ExternType::Func(wanted) = import.ty() else {
+                let help = match OF_OBJECT_FILES.contains(&name) {
+                    true => OBJECT_FILE,
+                    false => {
+                        "let it define its own memory, tables and globals: leave out options such as --import-memory"
+                    }
+                };
                 return Err(refused(
                     format!("the module imports {shown}, which is no function"),
-                    "let it define its own memory, tables and globals: leave out options such as --import-memory",
+                    help,
                 ));
             };
             let Some(there) = imports::type_of(module, name) else {
@@ -181,7 +190,14 @@ impl Compiled {
                     shape(&there),
                     shape(&wanted)
                 ),
-                "declare it as kinemark.h does",
+                &match REQUIRED.iter().any(|(known, _)| *known == name) {
+                    true => "leave it to kinemark.h, or to the crate kinemark-plugin".to_owned(),
+                    false => {
+                        let result = if results == 0 { "void" } else { "km_u32" };
+                        let parameters = declared_parameters(name);
+                        format!("in C declare it as {result} {name}({parameters})")
+                    }
+                },
             )),
             _ => Ok(()),
         }
@@ -191,22 +207,47 @@ impl Compiled {
 /// What every module exports besides its memory, with how many pointers or counts it takes and returns.
 const REQUIRED: &[(&str, [usize; 2])] = &[("km_version", [0, 1]), ("km_buffer", [1, 1])];
 
-/// The functions that tasks name, with the same counts, and how C declares their parameters.
+/// The functions that tasks name, with the same counts, and their parameters in C.
 pub(super) const FUNCTIONS: &[(&str, [usize; 2], &str)] = &[
-    ("km_forward_kinematics", [3, 0], "robot, q, position"),
+    (
+        "km_forward_kinematics",
+        [3, 0],
+        "const km_robot *robot, const double *q, double *position",
+    ),
     (
         "km_inverse_kinematics",
         [4, 1],
-        "robot, position, branches, most",
+        "const km_robot *robot, const double *position, double *branches, km_u32 most",
     ),
-    ("km_jacobian", [3, 1], "robot, q, matrix"),
-    ("km_init", [2, 0], "robot, task"),
-    ("km_control", [2, 0], "observation, command"),
+    (
+        "km_jacobian",
+        [3, 1],
+        "const km_robot *robot, const double *q, double *matrix",
+    ),
+    ("km_init", [2, 0], "const km_robot *robot, const char *task"),
+    (
+        "km_control",
+        [2, 0],
+        "const km_observation *observation, double *command",
+    ),
 ];
 
-/// The counts of a function of the lab's own, and its parameters.
+/// The counts of a function of the lab's own, and its parameters in C.
 const OWN_FUNCTION: [usize; 2] = [2, 0];
-pub(super) const OWN_PARAMETERS: &str = "given, answer";
+const OWN_PARAMETERS: &str = "const km_map *given, km_answer *answer";
+
+/// How C declares the parameters of an export that a task calls.
+fn declared_parameters(export: &str) -> &'static str {
+    let known = FUNCTIONS.iter().find(|(known, ..)| *known == export);
+    known.map_or(OWN_PARAMETERS, |(.., parameters)| parameters)
+}
+
+/// The names of its parameters, with commas between them.
+pub(super) fn parameter_names(export: &str) -> String {
+    let declared = declared_parameters(export).split(", ");
+    let names = declared.filter_map(|one| one.rsplit([' ', '*']).next());
+    names.collect::<Vec<&str>>().join(", ")
+}
 
 /// The export of the function that scripts call `name`.
 pub(super) fn export_name(name: &str) -> String {
@@ -260,6 +301,8 @@ fn invalid(error: &wasmi::Error) -> Stop {
         "build it without SIMD: leave out -msimd128 and target features such as +simd128"
     } else if message.contains("threads") || message.contains("shared") {
         "build it without threads and shared memory"
+    } else if message.contains("memory64") || message.contains("64-bit") {
+        "build it for wasm32, not for wasm64"
     } else if message.contains("not enabled") {
         "build it for plain wasm32: leave out the target features that it names"
     } else {
@@ -268,6 +311,53 @@ fn invalid(error: &wasmi::Error) -> Stop {
     refused(format!("the module is not valid: {message}"), help)
 }
 
+/// What only the object files of a compiler import, before they are linked.
+const OF_OBJECT_FILES: &[&str] = &[
+    "__wasm_call_ctors",
+    "__linear_memory",
+    "__stack_pointer",
+    "__indirect_function_table",
+];
+const OBJECT_FILE: &str =
+    "this is an object file, not a module yet: leave out -c, and let the compiler link it";
+
+/// Functions of the C library that students call, and what there is instead.
+const OF_THE_C_LIBRARY: &[(&[&str], &str)] = &[
+    (
+        &[
+            "printf", "puts", "putchar", "fprintf", "sprintf", "snprintf", "vprintf", "iprintf",
+        ],
+        "there is no standard output: `km_log(\"text\")` and `km_log_number(\"name\", x)` write to the log of the report",
+    ),
+    (
+        &[
+            "malloc", "calloc", "realloc", "free", "_Znwm", "_Znam", "_ZdlPv", "_Znwj", "_Znaj",
+        ],
+        "there is no heap in C and C++: use arrays of a fixed size, static where they are large",
+    ),
+    (&["fma"], "write a * b + c: there is no fused multiply-add"),
+    (
+        &[
+            "sinf", "cosf", "tanf", "asinf", "acosf", "atanf", "atan2f", "sqrtf", "powf", "expf",
+            "logf", "fabsf", "hypotf", "fmodf",
+        ],
+        "use double and the function without the f at its end",
+    ),
+    (
+        &["rand", "srand", "random", "time", "clock", "gettimeofday"],
+        "there is no clock and no chance: the observation has the time, and every run is the same",
+    ),
+    (
+        &["exit", "abort", "_Exit"],
+        "`km_fail(\"why\")` ends a call",
+    ),
+    (
+        &["sincos"],
+        "call `sin` and `cos`, or build with -fno-builtin",
+    ),
+    (OF_OBJECT_FILES, OBJECT_FILE),
+];
+
 /// What to do about an import that is not there.
 fn missing_import(module: &str, name: &str) -> String {
     if module.starts_with("wasi") {
@@ -275,6 +365,20 @@ fn missing_import(module: &str, name: &str) -> String {
     }
     if module.contains("wbindgen") || name.contains("wbindgen") {
         return "build it with cargo alone, not with wasm-bindgen or wasm-pack".to_owned();
+    }
+    if name.starts_with("km_") {
+        return "Kinemark defines no function `km_...`: include kinemark.h, which declares what there is by its own name".to_owned();
+    }
+    if let Some((_, help)) = OF_THE_C_LIBRARY
+        .iter()
+        .find(|(known, _)| known.contains(&name))
+    {
+        return (*help).to_owned();
+    }
+    // __addtf3, __multf3, __trunctfdf2: what long double is made of
+    if name.starts_with("__") && name.contains("tf") {
+        return "use double: there is no long double in WebAssembly, and no literals such as 1.0L"
+            .to_owned();
     }
     let known: Vec<&str> = imports::names().map(|(_, name)| name).collect();
     match kinemark_sim::text::nearest(name, known.iter().copied()) {

@@ -44,8 +44,10 @@ impl FunctionNames {
     }
 }
 
-/// A name without the hash that the Rust compiler adds, `::h0123456789abcdef`.
+/// A name as its author wrote it: without the mangling of the Rust compiler, and without the hash that it adds, `::h0123456789abcdef`.
 fn readable(name: &str) -> String {
+    let demangled = rustc_demangle::try_demangle(name).map(|name| format!("{name:#}"));
+    let name = demangled.as_deref().unwrap_or(name);
     let plain = match name.rsplit_once("::h") {
         Some((path, hash))
             if hash.len() == 16 && hash.bytes().all(|byte| byte.is_ascii_hexdigit()) =>

@@ -1,5 +1,7 @@
 //! Modules written as WebAssembly text: what they get, what they may do, and how each way to fail is reported.
 
+mod words;
+
 use super::PluginController;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Observation, Opening, Reads, RobotFacts,
@@ -206,7 +208,18 @@ fn what_is_not_written_is_not_a_number() {
     let answer = control(&body("(f64.store (local.get 1) (f64.const 3))")).unwrap();
     let command = numbers(&answer.value);
     assert_eq!(command[0], 3.0);
-    assert!(command[1].is_nan());
+    // the mark of what is not written goes no further
+    assert_eq!(command[1].to_bits(), f64::NAN.to_bits());
+    assert_eq!(
+        answer.said.log,
+        ["`km_control` writes nothing to `command[1]`: the result is not a number"]
+    );
+    // a NaN that was computed is another matter
+    let computed = "(f64.div (f64.const 0) (f64.const 0))";
+    let text = format!(
+        "(f64.store (local.get 1) {computed}) (f64.store offset=8 (local.get 1) {computed})"
+    );
+    assert_eq!(control(&body(&text)).unwrap().said.log, [""; 0]);
 }
 
 #[test]
@@ -507,10 +520,19 @@ fn memory_grows_to_its_limit_and_no_further() {
         first("(f64.convert_i32_s (memory.grow (i32.const 254)))"),
         2.0
     );
+    let (message, help) = mistake(control(&body("(drop (memory.grow (i32.const 255)))")));
     assert_eq!(
-        first("(f64.convert_i32_s (memory.grow (i32.const 255)))"),
-        -1.0
+        message,
+        "`km_control` wants more memory, or a larger table, than a module may have"
     );
+    assert!(help.contains("16 MiB"), "{help}");
+    // a module may have a smaller limit of its own, which it may handle
+    let own = wat::parse_str(
+        "(module (memory (export \"memory\") 2 3)
+            (func (export \"km_version\") (result i32) (i32.add (memory.grow (i32.const 2)) (i32.const 2)))
+            (func (export \"km_buffer\") (param i32) (result i32) i32.const 1024))",
+    );
+    assert!(PluginController::open(&opening(own.unwrap())).is_ok());
     let large = wat::parse_str(
         "(module (memory (export \"memory\") 257)
             (func (export \"km_version\") (result i32) i32.const 1)
