@@ -6,6 +6,7 @@ use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::{Grade, Outcome, TaskGrade};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::record::sums::contradictions;
+use kinemark_grader::record::visible_part;
 use kinemark_report::text::text as shown;
 use toml::{Table, Value};
 
@@ -74,6 +75,11 @@ fn gets_its_verdict(lab: &Lab, staff: &Staff, folder: &Path) {
     let submission = read("submission.rhai");
     let graded = grade(lab, Some(staff), "submission.rhai", &submission).grade;
     assert_eq!(contradictions(&graded), [], "{}", shown(&graded));
+    // what `kinemark verify` compares without the course staff's part
+    let practice = grade(lab, None, "submission.rhai", &submission).grade;
+    assert_eq!(contradictions(&practice), [], "{}", shown(&practice));
+    let hidden = visible_part::contradictions(&graded, &practice);
+    assert_eq!(hidden, [], "{}", shown(&graded));
     assert_eq!(
         Some(graded.verdict.name()),
         word(&expect, "verdict"),

@@ -9,7 +9,7 @@ use kinemark_sim::text::Source;
 
 use super::practice::Practice;
 use super::variant::{Variant, VariantRule};
-use crate::check::{Check, Criterion, FunctionCheck, MotionCheck};
+use crate::check::{Check, Criterion, FromReference, FunctionCheck, MotionCheck};
 use crate::submission::controller::Budgets;
 use crate::task::mesh_file::MeshFile;
 use crate::task::model::{FunctionTask, MotionTask};
@@ -91,6 +91,17 @@ impl Task {
         match &self.work {
             TaskWork::Function(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
             TaskWork::Motion(_, checks) => checks.iter().map(|check| &check.criterion).collect(),
+        }
+    }
+
+    /// Whether a check compares with what the reference solution does in its own run.
+    pub fn needs_reference(&self) -> bool {
+        match &self.work {
+            TaskWork::Function(..) => false,
+            TaskWork::Motion(_, checks) => {
+                let mut uses = checks.iter().map(|check| check.kind.reference_use());
+                uses.any(|of_reference| of_reference != FromReference::Nothing)
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! A finished grade: the record, the runs it is based on, and names and numbers for people.
 
 pub mod comparison;
+pub mod difference;
 pub mod explanation;
 pub mod grade;
 pub mod graded;
@@ -13,3 +14,4 @@ pub mod sample;
 pub mod staff_fault;
 pub mod sums;
 pub mod verdict;
+pub mod visible_part;
