@@ -55,6 +55,7 @@ mod path_checks;
 mod pictures;
 mod reference_bands;
 mod report;
+mod report_links;
 mod robot_docs;
 mod robot_files;
 mod robot_response;

@@ -39,6 +39,22 @@ pub(crate) fn open(folder: &Path, path: impl AsRef<Path>) -> Result<File, Unread
     opened(folder, &parts)
 }
 
+/// What the plain file at `path` beneath `folder` holds, of at most `most` bytes.
+///
+/// # Errors
+/// As [`open`], and for what is no plain file or is larger.
+pub(crate) fn bytes(folder: &Path, path: &str, most: u64) -> Result<Vec<u8>, Unread> {
+    disk::contents(open(folder, path)?, most).map_err(Unread::Other)
+}
+
+/// Whether there is a plain file at `path` beneath `folder`.
+pub(crate) fn is_file(folder: &Path, path: &str) -> bool {
+    let there = open(folder, path)
+        .ok()
+        .and_then(|file| file.metadata().ok());
+    there.is_some_and(|there| there.is_file())
+}
+
 #[cfg(unix)]
 fn opened(folder: &Path, parts: &[&Path]) -> Result<File, Unread> {
     use rustix::fs::{AtFlags, CWD, FileType, Mode, OFlags, openat, statat};
@@ -90,4 +106,87 @@ fn opened(folder: &Path, parts: &[&Path]) -> Result<File, Unread> {
 /// A part of a path for people.
 fn shown(part: &Path) -> String {
     kinemark_report::visible::visible(&part.to_string_lossy()).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_found_beneath_a_folder_and_not_beside_it() {
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().join("out");
+        std::fs::create_dir_all(folder.join("plots")).unwrap();
+        for name in ["out/report.html", "out/plots/a.svg", "secret"] {
+            std::fs::write(bed.path().join(name), name).unwrap();
+        }
+        let of = |path: &str| bytes(&folder, path, 99);
+        assert_eq!(of("report.html").unwrap(), b"out/report.html");
+        assert_eq!(of("plots/a.svg").unwrap(), b"out/plots/a.svg");
+        assert!(is_file(&folder, "plots/a.svg") && !is_file(&folder, "plots"));
+        let secret = bed.path().join("secret").display().to_string();
+        for path in [
+            "",
+            ".",
+            "..",
+            "../secret",
+            "plots/../report.html",
+            "nothing",
+            "report.html/a",
+            &secret,
+        ] {
+            assert_eq!(of(path), Err(Unread::Absent), "{path}");
+        }
+        let too_large = Err(Unread::Other("more than 3 bytes".to_owned()));
+        assert_eq!(bytes(&folder, "report.html", 3), too_large);
+        assert!(matches!(of("plots"), Err(Unread::Other(_))));
+        assert_eq!(bytes(&bed.path().join("none"), "a", 9), Err(Unread::Absent));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn no_link_is_followed_but_the_one_to_the_folder_itself() {
+        use std::os::unix::fs::symlink;
+        let bed = tempfile::tempdir().unwrap();
+        let folder = bed.path().join("out");
+        std::fs::create_dir_all(folder.join("lab/one")).unwrap();
+        for name in ["secret", "out/report.html", "out/lab/one/lab.toml"] {
+            std::fs::write(bed.path().join(name), name).unwrap();
+        }
+        symlink("../secret", folder.join("file")).unwrap();
+        symlink("..", folder.join("up")).unwrap();
+        symlink("report.html", folder.join("same.html")).unwrap();
+        symlink("nowhere", folder.join("dangling")).unwrap();
+        symlink("one", folder.join("lab/two")).unwrap();
+        for (path, link) in [
+            ("file", "file"),
+            ("up/secret", "up"),
+            ("same.html", "same.html"),
+            ("dangling", "dangling"),
+            ("lab/two/lab.toml", "two"),
+        ] {
+            let refused = Err(Unread::Link(link.to_owned()));
+            assert_eq!(bytes(&folder, path, 99), refused, "{path}");
+            assert!(!is_file(&folder, path), "{path}");
+        }
+        symlink(&folder, bed.path().join("chosen")).unwrap();
+        let chosen = bed.path().join("chosen");
+        assert_eq!(
+            bytes(&chosen, "report.html", 99).unwrap(),
+            b"out/report.html"
+        );
+    }
+
+    /// A pipe that nobody writes to, and a folder that can be passed through and not listed.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_plain_file_is_refused_at_once() {
+        let bed = tempfile::tempdir().unwrap();
+        let made = std::process::Command::new("mkfifo")
+            .arg(bed.path().join("pipe"))
+            .status();
+        assert!(made.unwrap().success());
+        let refused = Err(Unread::Other("it is no plain file".to_owned()));
+        assert_eq!(bytes(bed.path(), "pipe", 9), refused);
+    }
 }

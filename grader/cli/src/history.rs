@@ -14,7 +14,7 @@ use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::{disk, output};
+use crate::{beneath, output};
 
 /// The name of the file.
 const HISTORY_FILE: &str = ".kinemark-history.json";
@@ -217,7 +217,8 @@ fn signed(points_changed: f64) -> String {
 }
 
 fn read(path: &Path) -> Result<History, String> {
-    let bytes = disk::bytes_of(path, MOST_BYTES)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let bytes = beneath::bytes(folder, HISTORY_FILE, MOST_BYTES).map_err(|why| why.to_string())?;
     let read: serde_json::Result<History> = serde_json::from_slice(&bytes);
     let read = read.map_err(|error| visible(&error.to_string()).into_owned())?;
     if read.format == FORMAT {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use kinemark_grader::record::grade::Grade;
 use kinemark_report::output::RECORD_FILE;
 
-use crate::disk;
+use crate::beneath;
 use crate::working_lab::REPORT_FOLDER;
 
 /// Records are far smaller.
@@ -25,7 +25,7 @@ pub(crate) fn last_report(submission: &Path, lab: &str) -> Option<(PathBuf, Grad
 
 /// The record of the report in a folder, if there is one that this version reads.
 fn last_grade(folder: &Path) -> Option<Grade> {
-    let bytes = disk::bytes_of(&folder.join(RECORD_FILE), MOST_RECORD_BYTES).ok()?;
+    let bytes = beneath::bytes(folder, RECORD_FILE, MOST_RECORD_BYTES).ok()?;
     serde_json::from_slice(&bytes).ok()
 }
 

@@ -18,6 +18,7 @@ use kinemark_report::output::{
 use kinemark_report::visible::visible;
 use kinemark_sim::text::Source;
 
+use crate::beneath;
 use crate::disk::{self, Folder, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
@@ -72,7 +73,7 @@ pub(crate) fn write(
 /// Checks, before anything is graded, that `out` is free, empty, or an earlier report and nothing else; what exports put beside its
 /// logs is to be kept.
 pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
-    let manifest = disk::bytes_of(&out.join(MANIFEST_FILE), MOST_BYTES).ok();
+    let manifest = beneath::bytes(out, MANIFEST_FILE, MOST_BYTES).ok();
     let manifest = manifest.and_then(|text| Manifest::parse(&text).ok());
     if manifest.is_none() && out.join(RECORD_FILE).is_file() {
         return Err(Failure::usage(
@@ -176,6 +177,18 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
         labs: folder.join(LAB_FOLDER),
         grade,
     })
+}
+
+/// The report in which a file lies, and the file's path in it with `/` between names: the outermost folder above the file that has a
+/// record, so that none inside passes for the report itself.
+pub(crate) fn enclosing(file: &Path) -> Option<(PathBuf, String)> {
+    // from the root on: the folder one stands in may be inside a report
+    let file = std::path::absolute(file).ok()?;
+    let is_report = |folder: &&Path| folder.join(RECORD_FILE).symlink_metadata().is_ok();
+    let folder = file.ancestors().skip(1).filter(is_report).last()?;
+    let inside = file.strip_prefix(folder).ok()?;
+    let names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
+    Some((folder.to_owned(), names.join("/")))
 }
 
 /// Reads a grade record, if it is of the format that this version writes.

@@ -7,7 +7,7 @@ use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::{disk, output};
+use crate::{beneath, output};
 
 /// The name of the file.
 const HINTS_FILE: &str = ".kinemark-hints.json";
@@ -82,7 +82,8 @@ impl UnfoldedHints {
 }
 
 fn read(path: &Path) -> Result<BTreeMap<String, BTreeMap<String, usize>>, String> {
-    let bytes = disk::bytes_of(path, MOST_BYTES)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let bytes = beneath::bytes(folder, HINTS_FILE, MOST_BYTES).map_err(|why| why.to_string())?;
     let read: serde_json::Result<UnfoldedHints> = serde_json::from_slice(&bytes);
     let read = read.map_err(|error| visible(&error.to_string()).into_owned())?;
     if read.format == FORMAT {

@@ -11,10 +11,11 @@ use kinemark_report::log::{ReadError, Table, Tables, tables, write_csv};
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
+use crate::beneath::{self, Unread};
 use crate::disk::{self, plain};
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
-use crate::output;
+use crate::{output, report_folder};
 
 /// Write a log as tables
 #[derive(Debug, clap::Args)]
@@ -107,7 +108,19 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         })?;
         return Ok(ExitCode::SUCCESS);
     }
-    let out = args.out.clone().unwrap_or_else(|| beside(&args.log));
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None => {
+            let out = beside(&args.log);
+            // the tables of a report that somebody handed in go nowhere else
+            if out.is_symlink() {
+                let shown = output::path(&out);
+                let what = format!("`{shown}` is a link, and links in a report are not followed");
+                return Err(Failure::usage(what, "choose a folder with --out"));
+            }
+            out
+        }
+    };
     refuse_foreign(&out)?;
     let export = write(&log, &found, wanted, &out).map_err(|why| match why {
         Why::Log(error) => broken(error),
@@ -144,11 +157,18 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
             "`kinemark grade` writes one per motion task, such as out/TASK/run.mcap",
         ));
     }
-    disk::bytes_of(path, MOST_LOG_BYTES).map_err(|why| {
-        Failure::broken(
-            format!("`{shown}` cannot be read: {why}"),
-            "cut out a part of a longer log: `mcap filter LOG -o PART -s 0 -e 10`",
-        )
+    let bytes = match report_folder::enclosing(path) {
+        Some((report, inside)) => beneath::bytes(&report, &inside, MOST_LOG_BYTES),
+        None => disk::bytes_of(path, MOST_LOG_BYTES).map_err(Unread::Other),
+    };
+    bytes.map_err(|why| {
+        let help = match &why {
+            Unread::Absent | Unread::Link(_) => "grade the submission again",
+            Unread::Other(_) => {
+                "cut out a part of a longer log: `mcap filter LOG -o PART -s 0 -e 10`"
+            }
+        };
+        Failure::broken(format!("`{shown}` cannot be read: {why}"), help)
     })
 }
 
@@ -331,7 +351,6 @@ fn text(export: &Export, out: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report_folder;
 
     #[test]
     fn the_tables_of_a_run_are_where_a_report_keeps_them() {

@@ -2,9 +2,9 @@
 
 use std::fs::File;
 use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::disk;
+use crate::beneath;
 
 /// A page.
 pub(super) const HTML: &str = "text/html; charset=utf-8";
@@ -29,10 +29,11 @@ pub(super) struct OpenFile {
     pub(super) bytes: u64,
 }
 
-/// Opens the file at `path` below `folder`.
+/// Opens the file at `path` below `folder`. Neither it nor a folder on the way is a link.
 pub(super) fn open(folder: &Path, path: &str) -> Result<OpenFile, Unread> {
-    let file = find(folder, path).ok_or(Unread::Absent)?;
-    let file = disk::open(&file).map_err(|_| Unread::Absent)?;
+    // the folder is looked up each time: a report that is written again is another folder of the same name
+    let file = is_served(path).then(|| beneath::open(folder, path).ok());
+    let file = file.flatten().ok_or(Unread::Absent)?;
     // asked of what was opened: what lies at the path may be another by now
     match file.metadata() {
         Ok(there) if there.is_file() => Ok(OpenFile {
@@ -54,22 +55,18 @@ pub(super) fn read(folder: &Path, path: &str) -> Result<Vec<u8>, Unread> {
     read.map(|_| page).map_err(|_| Unread::Absent)
 }
 
-/// The plain file at `path`, if it lies in `folder` once every link is followed, and no part of its way is hidden.
-pub(super) fn find(folder: &Path, path: &str) -> Option<PathBuf> {
+/// Whether there is a plain file at `path` below `folder` that is served.
+pub(super) fn is_there(folder: &Path, path: &str) -> bool {
+    is_served(path) && beneath::is_file(folder, path)
+}
+
+/// Whether no part of a path is hidden, or more than a name.
+fn is_served(path: &str) -> bool {
     let is_plain = |part: &str| {
         let strange = |c: char| c.is_control() || matches!(c, '\\' | ':');
         !part.is_empty() && !part.starts_with('.') && !part.contains(strange)
     };
-    if !path.split('/').all(is_plain) {
-        return None;
-    }
-    // the folder is looked up each time: a report that is written again is another folder of the same name
-    let folder = folder.canonicalize().ok()?;
-    let file = folder.join(path).canonicalize().ok()?;
-    let inside = file.strip_prefix(&folder).ok()?;
-    let is_hidden =
-        |part: std::path::Component<'_>| part.as_os_str().as_encoded_bytes().starts_with(b".");
-    (file.is_file() && !inside.components().any(is_hidden)).then_some(file)
+    path.split('/').all(is_plain)
 }
 
 /// The media type of a file by its name. What could run and is no page of ours is text.
@@ -136,7 +133,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_lead_nowhere_else() {
+    fn no_link_is_followed() {
         use std::os::unix::fs::symlink;
         let bed = tempfile::tempdir().unwrap();
         let folder = bed.path().join("out");
@@ -148,9 +145,12 @@ mod tests {
         symlink("..", folder.join("up")).unwrap();
         symlink(".env", folder.join("env")).unwrap();
         symlink("report.html", folder.join("same.html")).unwrap();
-        for other in ["file", "up/secret", "env"] {
+        for other in ["file", "up/secret", "env", "same.html"] {
             assert_eq!(read(&folder, other), Err(Unread::Absent), "{other}");
         }
-        assert_eq!(read(&folder, "same.html").unwrap(), b"out/report.html");
+        // the folder that was named may be reached by one
+        symlink("out", bed.path().join("chosen")).unwrap();
+        let chosen = bed.path().join("chosen");
+        assert_eq!(read(&chosen, "report.html").unwrap(), b"out/report.html");
     }
 }

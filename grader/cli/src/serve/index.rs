@@ -13,7 +13,7 @@ use percent_encoding::utf8_percent_encode;
 
 use super::files;
 use super::token::Token;
-use crate::disk;
+use crate::beneath;
 
 /// Pages that are opened at once, where the folder has one.
 pub(crate) const FIRST: [&str; 2] = [PAGE_FILE, "compare.html"];
@@ -33,7 +33,7 @@ struct Entry {
 
 /// Whether there is anything to look at in `folder`.
 pub(crate) fn has_reports(folder: &Path) -> bool {
-    let is_page = |page: &&str| files::find(folder, page).is_some();
+    let is_page = |page: &&str| files::is_there(folder, page);
     FIRST.iter().any(is_page) || found(folder).next().is_some()
 }
 
@@ -47,14 +47,13 @@ fn found(folder: &Path) -> impl Iterator<Item = (String, &'static str)> {
     names.into_iter().filter_map(|name| {
         let page = FIRST
             .into_iter()
-            .find(|page| files::find(folder, &format!("{name}/{page}")).is_some())?;
+            .find(|page| files::is_there(folder, &format!("{name}/{page}")))?;
         Some((name, page))
     })
 }
 
 fn entry(folder: &Path, name: String, page: &'static str) -> Entry {
-    let record = files::find(folder, &format!("{name}/{RECORD_FILE}"));
-    let record = record.and_then(|record| disk::bytes_of(&record, 64 << 20).ok());
+    let record = beneath::bytes(folder, &format!("{name}/{RECORD_FILE}"), 64 << 20).ok();
     Entry {
         folder: name,
         page,
@@ -187,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn links_that_lead_out_are_not_listed_and_what_is_left_out_is_reported() {
+    fn what_is_reached_by_a_link_is_not_listed_and_what_is_left_out_is_reported() {
         let bed = tempfile::tempdir().unwrap();
         let folder = bed.path().join("all");
         std::fs::create_dir(&folder).unwrap();
@@ -201,8 +200,11 @@ mod tests {
             symlink("../outside", folder.join("link")).unwrap();
             std::fs::create_dir(folder.join("page")).unwrap();
             symlink("../../outside/report.html", folder.join("page/report.html")).unwrap();
+            std::fs::create_dir(folder.join("inside")).unwrap();
+            std::fs::write(folder.join("inside/page.html"), "").unwrap();
+            symlink("page.html", folder.join("inside/report.html")).unwrap();
         }
-        assert!(!has_reports(&folder), "neither is served");
+        assert!(!has_reports(&folder), "none of them is served");
         let token = Token::fresh().unwrap();
         assert!(page(&folder, &token).contains("There is no report here now."));
         for i in 0..=MOST_REPORTS {

@@ -182,7 +182,7 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
     let found = off_thread(move || {
         let first = index::FIRST
             .into_iter()
-            .find(|name| files::find(&site.folder, name).is_some());
+            .find(|name| files::is_there(&site.folder, name));
         first.map_or_else(|| Err(index::page(&site.folder, &site.token)), Ok)
     });
     match found.await {
