@@ -248,7 +248,15 @@ fn what_is_no_whole_report_of_this_version_is_refused() {
         std::fs::rename(&away, bed.path(&format!("b/{name}"))).expect("moved");
     }
     std::fs::rename(bed.path("b/lab/01-kinematics"), bed.path("away")).expect("moved");
-    broken("has no lab `01-kinematics`");
+    let ran = bed.run(&["compare", "a", "b"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let stderr = ran.stderr.replace("\n  \u{2502} ", " ");
+    assert!(stderr.contains("has no lab `01-kinematics`"), "{ran:?}");
+    // where the course has the lab, its copies are files like others
+    let ran = bed.run(&["verify", "b", "--practice"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let missing = "file `lab/01-kinematics/lab.toml`\n  in the folder: missing";
+    assert!(ran.stdout.contains(missing), "{ran:?}");
 }
 
 /// Names in a record that somebody sent must not steer a terminal.

@@ -71,6 +71,7 @@ mod step_checks;
 mod stopped_runs;
 mod submissions;
 mod submit;
+mod tampered_reports;
 mod targets;
 mod testbed;
 mod variant_mistakes;

@@ -1,4 +1,4 @@
-//! A lab whose robot has a mesh: graded, copied with its report, verified from the copy, and distinguished when the mesh changes.
+//! A lab whose robot has a mesh: graded, copied with its report, verified, run again from the copy, and distinguished when the mesh changes.
 
 use crate::robot_files::CUBE;
 use crate::testbed::{TestBed, files_below, root};
@@ -60,19 +60,35 @@ fn a_report_takes_the_meshes_along() {
             && text.contains("\"triangles\":[{")
     });
     assert!(triangles, "no triangles in the log");
-    // without the labs it came from
-    std::fs::remove_dir_all(bed.path("labs")).expect("removed");
-    let ran = bed.run(&["verify", "out", "--practice"]);
-    assert_eq!(ran.code, Some(0), "{ran:?}");
-    // a mesh that changed in the copy is found
-    bed.edit(
-        "out/lab/robots/meshes/cube.obj",
-        "v 0.1 0 0\n",
-        "v 0.10 0 0\n",
-    );
-    let ran = bed.run(&["verify", "out", "--practice"]);
+    let verify = || bed.run(&["verify", "out", "--practice"]);
+    assert_eq!(verify().code, Some(0), "{:?}", verify());
+    // another mesh of the course is another robot
+    let lab_file = "lab/robots/meshes/cube.obj";
+    bed.edit(MESH, "v 0.1 0 0\n", "v 0.10 0 0\n");
+    let ran = verify();
     assert_eq!(ran.code, Some(1), "{ran:?}");
-    assert!(ran.stdout.contains("robot"), "{ran:?}");
+    let why = "the lab is not the course's (robot)\n";
+    assert!(ran.stdout.contains(why), "{ran:?}");
+    let named = format!("differs: file `{lab_file}`");
+    assert!(ran.stdout.contains(&named), "{ran:?}");
+    bed.write(MESH, CUBE);
+    // a mesh that changed in the copy is found, and changes nothing else
+    bed.edit(&format!("out/{lab_file}"), "v 0.1 0 0\n", "v 0.10 0 0\n");
+    let ran = verify();
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains(&named), "{ran:?}");
+    assert_eq!(ran.stdout.matches("differs: ").count(), 1, "{ran:?}");
+    bed.write(&format!("out/{lab_file}"), CUBE);
+    // without the labs it came from, those built in are the course's; runs are made again from the copies
+    std::fs::remove_dir_all(bed.path("labs")).expect("removed");
+    let ran = verify();
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    assert!(ran.stdout.contains(why), "{ran:?}");
+    assert!(
+        ran.stdout.contains("compared with the labs built in\n"),
+        "{ran:?}"
+    );
+    assert_eq!(bed.run(&["compare", "out", "out"]).code, Some(0));
     // and a lab with another mesh has another robot
     bed.copy_labs();
     let plain = robot_digest(&bed);

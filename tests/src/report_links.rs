@@ -47,6 +47,59 @@ fn taken_out(bed: &TestBed, path: &str) {
 }
 
 #[test]
+fn no_command_follows_a_link_in_a_report() {
+    let bed = bed();
+    let whole = files_below(&bed.path("out"));
+    for (path, target) in [
+        ("out/grade.json", "secret/grade.json"),
+        ("out/report.json", "secret/report.json"),
+        ("out/submission.rhai", "secret/lab.toml"),
+        ("out/lab", "secret"),
+        ("out/lab/01-kinematics", "secret"),
+        ("out/lab/01-kinematics/lab.toml", "secret/lab.toml"),
+        ("out/lab/01-kinematics/variant.toml", "secret/lab.toml"),
+        ("out/lab/01-kinematics/practice.json", "secret/lab.toml"),
+        ("out/lab/robots", "secret"),
+        ("out/lab/robots/rrbot.toml", "secret/lab.toml"),
+        // a link to what was there is one, too
+        ("out/lab/robots/rrbot.toml", "aside"),
+    ] {
+        planted(&bed, path, target);
+        for args in [
+            &["verify", "out"][..],
+            &["verify", "out", "--practice", "--json"],
+            &["compare", "other", "out"],
+        ] {
+            let what = format!("{args:?} {path} -> {target}");
+            let ran = bed.run(args);
+            assert!(matches!(ran.code, Some(1 | 3)), "{what}: {ran:?}");
+            let all = format!("{}{}", ran.stdout, ran.stderr).replace("\n  \u{2502} ", " ");
+            assert!(all.contains("is a link"), "{what}: {ran:?}");
+            shows_nothing(&ran, &what);
+        }
+        taken_out(&bed, path);
+    }
+    // pictures and pages are compared, and read by nobody else
+    for (path, target) in [
+        ("out/report.html", "secret/lab.toml"),
+        ("out/plots", "other/plots"),
+        ("out/move/run.mcap", "other/move/run.mcap"),
+    ] {
+        planted(&bed, path, target);
+        let ran = bed.run(&["verify", "out"]);
+        assert_eq!(ran.code, Some(1), "{path}: {ran:?}");
+        assert!(ran.stdout.contains("is a link"), "{path}: {ran:?}");
+        shows_nothing(&ran, path);
+        taken_out(&bed, path);
+    }
+    assert!(whole == files_below(&bed.path("out")));
+    // the folder itself may be reached by one
+    symlink("out", bed.path("chosen")).expect("a link");
+    assert_eq!(bed.run(&["verify", "chosen"]).code, Some(0));
+    assert_eq!(bed.run(&["compare", "chosen", "other"]).code, Some(0));
+}
+
+#[test]
 fn a_log_of_a_report_is_read_in_the_report_alone() {
     let bed = bed();
     let export = ["log", "export", "out/move/run.mcap", "--csv"];

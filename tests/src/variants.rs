@@ -236,25 +236,14 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
     assert!(report.contains("variant of s7: lengths = ["));
     let ran = bed.run(&["verify", "out"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
-    assert!(ran.stdout.starts_with("same bits: 2 of 2 tasks"), "{ran:?}");
-    let ran = bed.run(&["verify", "out", "--practice"]);
     assert!(
-        ran.stdout
-            .contains("not compared: task `touch`: its hidden runs"),
+        ran.stdout.starts_with(
+            "graded report: 93-touch, submission.rhai, variant of `s7`: 5 of 5 points\n"
+        ),
         "{ran:?}"
     );
-    bed.edit(
-        "out/lab/93-touch/variant.toml",
-        &format!("out = {out}"),
-        "out = 0.9123",
-    );
-    let ran = bed.run(&["verify", "out", "--practice"]);
-    assert_eq!(ran.code, Some(1), "{ran:?}");
-    assert!(ran.stdout.contains("differs: lab"), "{ran:?}");
-    let ran = bed.run(&["verify", "out"]);
-    assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(
-        ran.stderr.contains("is not the variant of student `s7`"),
+        ran.stdout.contains("\nsame bits: 2 of 2 tasks, "),
         "{ran:?}"
     );
 
@@ -283,6 +272,135 @@ fn a_variant_is_given_out_graded_reported_and_verified() {
     assert_eq!(everyone.get("variant"), None);
     assert_ne!(everyone["lab"], own["lab"]);
     assert_ne!(everyone["tasks"][1]["digests"], own["tasks"][1]["digests"]);
+}
+
+/// What `verify` says of the report in `out`.
+fn verified(bed: &TestBed, args: &[&str], code: i32, words: &str) {
+    let ran = bed.run(&[&["verify", "out"], args].concat());
+    assert_eq!(ran.code, Some(code), "{args:?}: {ran:?}");
+    assert!(
+        ran.stdout.contains(words),
+        "{args:?}: no {words:?} in {ran:?}"
+    );
+}
+
+#[test]
+fn a_variant_of_somebody_else_is_found_in_a_report() {
+    let bed = bed();
+    let grade = |args: &[&str]| {
+        let ran = bed.run(&[&["grade", "93-touch", "solution.rhai"], args].concat());
+        assert_eq!(ran.code, Some(0), "{args:?}: {ran:?}");
+    };
+    let not_the_variant = "its variant is not the one that the course gives";
+    grade(&["--student", "s7"]);
+    verified(
+        &bed,
+        &["--graded", "--labs", "labs", "--student", "s7"],
+        0,
+        "same bits",
+    );
+    verified(&bed, &["--student", "s8"], 1, not_the_variant);
+    // without the salt nobody can say
+    verified(&bed, &["--practice"], 5, "not compared: variant: ");
+    verified(
+        &bed,
+        &["--practice"],
+        5,
+        "not compared: hidden runs of task `touch`",
+    );
+    // the copy was changed after grading
+    let variant = std::fs::read_to_string(bed.path("out/lab/93-touch/variant.toml"));
+    let variant = variant.expect("a variant");
+    bed.write(
+        "out/lab/93-touch/variant.toml",
+        variant.replace("out = 0.", "out = 0.7"),
+    );
+    verified(&bed, &[], 1, not_the_variant);
+    verified(&bed, &["--practice"], 1, "differs: lab\n");
+
+    // numbers that the lab does not have
+    bed.write(
+        "out/lab/93-touch/variant.toml",
+        variant.replace("out = ", "ouf = "),
+    );
+    verified(&bed, &[], 1, "lab `93-touch` has no parameter `ouf`");
+
+    // graded by a student with easier numbers, under the own name and under none
+    let easy = "format = 1\nlab = \"93-touch\"\nstudent = \"s7\"\n[parameters]\nout = 0.5\n";
+    bed.write("easy.toml", easy);
+    grade(&["--variant", "easy.toml", "--practice"]);
+    verified(&bed, &[], 1, not_the_variant);
+    verified(&bed, &["--practice"], 5, "not compared: variant: ");
+    let nobodys = easy
+        .replace("student = \"s7\"\n", "")
+        .replace("0.5", "0.86");
+    bed.write("easy.toml", &nobodys);
+    grade(&["--variant", "easy.toml"]);
+    verified(
+        &bed,
+        &[],
+        5,
+        "not compared: variant: its variant.toml names no student",
+    );
+    verified(&bed, &["--student", "s7"], 1, not_the_variant);
+    // course staff grade with no numbers that no student has
+    bed.write(
+        "out/lab/93-touch/variant.toml",
+        nobodys.replace("0.86", "0.5"),
+    );
+    verified(
+        &bed,
+        &[],
+        1,
+        "no student's variant of lab `93-touch` has out = 0.5",
+    );
+
+    // the numbers of everybody are nobody's variant
+    grade(&[]);
+    verified(&bed, &[], 0, "default variant");
+    verified(&bed, &["--student", "s7"], 1, not_the_variant);
+}
+
+/// Staff verify a report that was made with the lab as it was handed out, which says what the reference solution reaches in a variant.
+#[test]
+fn what_a_handed_out_lab_says_of_the_reference_is_compared() {
+    let bed = TestBed::a_little_off();
+    bed.write("roster.csv", "id\ns7\n");
+    let pack = ["lab", "pack", "01-kinematics", "--for", "students"];
+    let ran = bed.run(&[&pack[..], &["--roster", "roster.csv", "--out", "pack.zip"]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let file = std::fs::File::open(bed.path("pack.zip")).expect("a pack");
+    let mut pack = zip::ZipArchive::new(file).expect("a pack");
+    pack.extract(bed.path("home")).expect("unpacked");
+    let home = bed.path("home/s7");
+    std::fs::copy(bed.path("submission.rhai"), home.join("submission.rhai")).expect("copied");
+    let grade = || {
+        let ran = bed.run_in(&home, &["grade", "--out", "../../out"]);
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+    };
+    grade();
+    let own = std::fs::read_to_string(bed.path("out/lab/01-kinematics/practice.json"));
+    let own = own.expect("values of the reference solution");
+    verified(&bed, &[], 0, "practice report, visible cases only: ");
+    verified(
+        &bed,
+        &["--practice"],
+        5,
+        "not compared: what practice.json says",
+    );
+    // a reference solution that takes its time
+    let value = own.split("\"time\":").nth(1);
+    let value = value.and_then(|rest| rest.split([',', '}']).next());
+    let value = value.expect("a value");
+    let eased = own.replace(&format!("\"time\":{value}"), "\"time\":100.0");
+    std::fs::write(home.join("labs/01-kinematics/practice.json"), eased).expect("written");
+    grade();
+    verified(
+        &bed,
+        &[],
+        1,
+        "the lab is not the course's (what practice.json says",
+    );
 }
 
 #[test]

@@ -2,7 +2,10 @@
 //! folder itself is reached is the choice of the person who named it.
 
 use std::fs::File;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
+
+use kinemark_grader::task::files::{Files, text};
+use kinemark_report::output;
 
 use crate::disk;
 
@@ -45,6 +48,15 @@ pub(crate) fn open(folder: &Path, path: impl AsRef<Path>) -> Result<File, Unread
 /// As [`open`], and for what is no plain file or is larger.
 pub(crate) fn bytes(folder: &Path, path: &str, most: u64) -> Result<Vec<u8>, Unread> {
     disk::contents(open(folder, path)?, most).map_err(Unread::Other)
+}
+
+/// The digest of that file, piece by piece.
+///
+/// # Errors
+/// As [`bytes`].
+pub(crate) fn digest(folder: &Path, path: &str, most: u64) -> Result<String, Unread> {
+    let file = disk::plain_file(open(folder, path)?, most).map_err(Unread::Other)?;
+    output::digest_of(file).map_err(|error| Unread::Other(disk::plain(&error)))
 }
 
 /// Whether there is a plain file at `path` beneath `folder`.
@@ -108,6 +120,67 @@ fn shown(part: &Path) -> String {
     kinemark_report::visible::visible(&part.to_string_lossy()).into_owned()
 }
 
+/// A folder beneath another one as [`Files`], none of which is reached by a link.
+#[derive(Debug, Clone)]
+pub(crate) struct FolderBeneath {
+    folder: PathBuf,
+    path: String,
+}
+
+impl FolderBeneath {
+    /// The folder at `path` beneath `folder`.
+    pub(crate) fn new(folder: PathBuf, path: &str) -> Self {
+        let path = path.to_owned();
+        Self { folder, path }
+    }
+
+    fn contents(&self, path: &str, most: u64) -> Result<Option<Vec<u8>>, String> {
+        // beneath the inner folder, too: a name in it leads to nothing beside it
+        match bytes(&self.folder, &format!("{}/{path}", self.path), most) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(Unread::Absent) => Ok(None),
+            Err(why) => Err(why.to_string()),
+        }
+    }
+}
+
+impl Files for FolderBeneath {
+    fn name(&self) -> String {
+        self.folder.join(&self.path).display().to_string()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        self.contents(path, disk::MOST_MESH_BYTES)
+    }
+
+    fn read(&self, path: &str) -> Result<Option<String>, String> {
+        let bytes = self.contents(path, disk::MOST_BYTES)?;
+        bytes.map(text).transpose()
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let mut path = self.folder.join(&self.path);
+        let inside = Path::new(folder).components();
+        let mut ways = vec![path.clone()];
+        for part in inside {
+            path.push(part);
+            ways.push(path.clone());
+        }
+        let is_link = |path: &PathBuf| {
+            let there = path.symlink_metadata();
+            there.is_ok_and(|there| there.is_symlink())
+        };
+        // names alone, which are for suggestions
+        let entries = (!ways.iter().any(is_link)).then(|| std::fs::read_dir(path));
+        let entries = entries.into_iter().flatten().flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,6 +214,13 @@ mod tests {
         assert_eq!(bytes(&folder, "report.html", 3), too_large);
         assert!(matches!(of("plots"), Err(Unread::Other(_))));
         assert_eq!(bytes(&bed.path().join("none"), "a", 9), Err(Unread::Absent));
+        let files = FolderBeneath::new(bed.path().to_owned(), "out");
+        assert_eq!(
+            files.read("report.html").unwrap().unwrap(),
+            "out/report.html"
+        );
+        assert_eq!(files.read("../secret"), Ok(None));
+        assert_eq!(files.list("plots"), ["a.svg"]);
     }
 
     #[cfg(unix)]
@@ -169,6 +249,13 @@ mod tests {
             assert_eq!(bytes(&folder, path, 99), refused, "{path}");
             assert!(!is_file(&folder, path), "{path}");
         }
+        let files = FolderBeneath::new(folder.clone(), "lab");
+        assert_eq!(
+            files.read("two/lab.toml").unwrap_err(),
+            "`two` is a link, and links are not followed here"
+        );
+        assert!(files.list("two").is_empty());
+        assert_eq!(files.list("one"), ["lab.toml"]);
         symlink(&folder, bed.path().join("chosen")).unwrap();
         let chosen = bed.path().join("chosen");
         assert_eq!(

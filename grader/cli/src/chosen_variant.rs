@@ -192,7 +192,7 @@ pub(crate) fn refuse_forged(
     let Some(student) = lab.variant.as_ref().and_then(Variant::student) else {
         return Ok(());
     };
-    let Some(salt) = Staff::salt(reference, name, staff.salt.as_deref())? else {
+    let Some(salt) = salt(Some(reference), name, staff)? else {
         return Ok(());
     };
     let own = lab.variant_of(&salt, student).map_err(LoadError::from)?;
@@ -209,6 +209,22 @@ pub(crate) fn refuse_forged(
              `kinemark lab variant {name} --student {student} --out FILE`"
         ),
     ))
+}
+
+/// The course's salt for a lab: that of `--salt`, else that of the course staff's part; none where there is neither.
+///
+/// # Errors
+/// A staff part that is broken.
+pub(crate) fn salt(
+    reference: Option<&dyn Files>,
+    lab: &str,
+    staff: &StaffPart,
+) -> Result<Option<String>, Failure> {
+    let given = staff.salt.as_deref();
+    Ok(match reference {
+        Some(reference) => Staff::salt(reference, lab, given)?,
+        None => given.map(str::to_owned),
+    })
 }
 
 /// The variant of a student, computed from the course's salt.
@@ -233,11 +249,8 @@ pub(crate) fn of_student(
             "leave --student out, or add [variants] to its lab.toml",
         ));
     }
-    let salt = match (reference, &staff.salt) {
-        (Some(reference), salt) => Staff::salt(reference, &lab.name, salt.as_deref())?,
-        (None, salt) => salt.clone(),
-    };
-    let Some(salt) = salt else {
+    let reference = reference.map(|reference| reference as &dyn Files);
+    let Some(salt) = salt(reference, &lab.name, staff)? else {
         return Err(Failure::usage(
             "--student needs the course's salt, which is in the course staff's hidden.toml"
                 .to_owned(),

@@ -22,7 +22,7 @@ use crate::worker;
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Start with `kinemark new 00-step-response`.\n\
     Exit codes: 0 full marks or done, 1 points lost or answers with errors, 2 usage, 3 the lab, robot or scene is broken, \
-    4 the grader or this machine failed.")]
+    4 the grader or this machine failed, 5 verified only in part.")]
 pub(crate) struct CommandLine {
     #[command(flatten)]
     lab_list: lab_list::Args,

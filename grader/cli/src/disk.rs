@@ -16,7 +16,7 @@ pub(crate) struct Folder {
 }
 
 /// Labs, robots and references are written by people; above this a file is something else.
-const MOST_BYTES: u64 = 16 << 20;
+pub(crate) const MOST_BYTES: u64 = 16 << 20;
 
 /// Above this a file is no mesh of a link.
 pub(crate) const MOST_MESH_BYTES: u64 = 256 << 20;
@@ -80,6 +80,20 @@ pub(crate) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, String> {
 
 /// What an opened file of at most `most` bytes holds, if it is a plain file; why not, in words.
 pub(crate) fn contents(file: File, most: u64) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    // one byte more shows that a file is longer, without reading all of it
+    plain_file(file, most)?
+        .take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| plain(&error))?;
+    if bytes.len() as u64 > most {
+        return Err(too_large(most));
+    }
+    Ok(bytes)
+}
+
+/// An opened file, if it is a plain file of at most `most` bytes; why not, in words.
+pub(crate) fn plain_file(file: File, most: u64) -> Result<File, String> {
     // asked of what was opened: what lies at the path may be another by now
     let there = file.metadata().map_err(|error| plain(&error))?;
     if !there.is_file() {
@@ -88,15 +102,7 @@ pub(crate) fn contents(file: File, most: u64) -> Result<Vec<u8>, String> {
     if there.len() > most {
         return Err(too_large(most));
     }
-    let mut bytes = Vec::new();
-    // one byte more shows that a file is longer, without reading all of it
-    file.take(most + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| plain(&error))?;
-    if bytes.len() as u64 > most {
-        return Err(too_large(most));
-    }
-    Ok(bytes)
+    Ok(file)
 }
 
 /// Opens a file to read, and never waits for a pipe's other end.

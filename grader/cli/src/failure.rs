@@ -16,6 +16,8 @@ pub(crate) const USAGE: u8 = 2;
 pub(crate) const BROKEN: u8 = 3;
 /// The grader or this machine.
 pub(crate) const FAULT: u8 = 4;
+/// Compared as far as that could be, and the same so far.
+pub(crate) const PARTLY_COMPARED: u8 = 5;
 /// As shells have it for Ctrl-C.
 pub(crate) const INTERRUPTED: u8 = 130;
 

@@ -183,15 +183,34 @@ pub(crate) fn refuse_foreign(
             help,
         ));
     }
-    let mut kept = Vec::new();
+    let others = others(&real, ours).map_err(|why| Failure::usage(why, help))?;
+    if let Some((path, _)) = others.iter().find(|(_, entry)| *entry != Entry::Kept) {
+        return Err(Failure::usage(
+            format!(
+                "`{shown}` contains `{}`, which is not part of {whole}",
+                visible(path)
+            ),
+            help,
+        ));
+    }
+    Ok(others.into_iter().map(|(path, _)| path).collect())
+}
+
+/// What is in a folder and is not `ours`, by path: what is kept, and what is foreign, which all is that should be a file or a folder and
+/// is none. No link is followed below the folder.
+///
+/// # Errors
+/// Which folder cannot be listed, in words.
+pub(crate) fn others(
+    real: &Path,
+    ours: impl Fn(&str) -> Entry,
+) -> Result<Vec<(String, Entry)>, String> {
+    let mut others = Vec::new();
     let mut open = vec![String::new()];
     while let Some(folder) = open.pop() {
         let unread = |error: std::io::Error| {
             let path = real.join(&folder);
-            Failure::usage(
-                format!("`{}` cannot be listed: {}", path.display(), plain(&error)),
-                help,
-            )
+            format!("`{}` cannot be listed: {}", path.display(), plain(&error))
         };
         let mut names = Vec::new();
         for entry in std::fs::read_dir(real.join(&folder)).map_err(unread)? {
@@ -209,20 +228,14 @@ pub(crate) fn refuse_foreign(
             match ours(&path) {
                 Entry::Ours if kind.is_file() => {}
                 Entry::Inside if kind.is_dir() => open.push(path),
-                Entry::Kept if kind.is_dir() => kept.push(path),
+                Entry::Kept if kind.is_dir() => others.push((path, Entry::Kept)),
                 Entry::Ours | Entry::Inside | Entry::Kept | Entry::Foreign => {
-                    return Err(Failure::usage(
-                        format!(
-                            "`{shown}` contains `{}`, which is not part of {whole}",
-                            visible(&path)
-                        ),
-                        help,
-                    ));
+                    others.push((path, Entry::Foreign));
                 }
             }
         }
     }
-    Ok(kept)
+    Ok(others)
 }
 
 #[cfg(test)]

@@ -48,6 +48,7 @@ mod typed_numbers;
 mod typed_path;
 mod unfinished;
 mod unfolded_hints;
+mod verification;
 mod whose_labs;
 mod worker;
 mod working_lab;

@@ -18,8 +18,8 @@ use kinemark_report::output::{
 use kinemark_report::visible::visible;
 use kinemark_sim::text::Source;
 
-use crate::beneath;
-use crate::disk::{self, Folder, plain};
+use crate::beneath::{self, FolderBeneath, Unread};
+use crate::disk::plain;
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::unfinished::is_there_or_restored;
@@ -86,19 +86,22 @@ pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
     }
     fresh_folder::refuse_foreign(out, "a Kinemark report", |path| {
         // without a list of ours nothing in it is ours
-        let Some(manifest) = &manifest else {
-            return Entry::Foreign;
-        };
-        let is_tables = path.strip_suffix(TABLES).is_some_and(|task| {
-            task.ends_with('/') && manifest.lists(&format!("{task}{LOG_FILE}"))
-        });
-        match path {
-            path if manifest.lists(path) => Entry::Ours,
-            path if manifest.lists_below(path) => Entry::Inside,
-            _ if is_tables => Entry::Kept,
-            _ => Entry::Foreign,
-        }
+        let manifest = manifest.as_ref();
+        manifest.map_or(Entry::Foreign, |manifest| entry(manifest, path))
     })
+}
+
+/// What an entry of the folder is to a report of these files.
+pub(crate) fn entry(manifest: &Manifest, path: &str) -> Entry {
+    let is_tables = path
+        .strip_suffix(TABLES)
+        .is_some_and(|task| task.ends_with('/') && manifest.lists(&format!("{task}{LOG_FILE}")));
+    match path {
+        path if manifest.lists(path) => Entry::Ours,
+        path if manifest.lists_below(path) => Entry::Inside,
+        _ if is_tables => Entry::Kept,
+        _ => Entry::Foreign,
+    }
 }
 
 /// Every file of the folder but `report.json`: a function of lab, submission, graded run and request alone.
@@ -128,15 +131,16 @@ pub(crate) fn files(
     clippy::needless_pass_by_value,
     reason = "it is what `map_err` hands on"
 )]
-fn fault(error: OutputError) -> Failure {
+pub(crate) fn fault(error: OutputError) -> Failure {
     Failure::fault(error.to_string(), "please report this")
 }
 
 /// A report read back.
 pub(crate) struct Report {
+    /// Where it is.
+    pub(crate) folder: PathBuf,
     pub(crate) grade: Grade,
     pub(crate) submission: SubmissionSource,
-    pub(crate) labs: PathBuf,
     /// What was requested, and the digests of its files.
     pub(crate) manifest: Manifest,
 }
@@ -158,23 +162,23 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
         )),
     };
     there(RECORD_FILE)?;
-    let grade = record(&folder.join(RECORD_FILE))?;
+    let grade = record(folder)?;
     there(MANIFEST_FILE)?;
-    let manifest = manifest(&folder.join(MANIFEST_FILE))?;
+    let manifest = manifest(folder)?;
     there(SUBMISSION_FILE)?;
     there(LAB_FOLDER)?;
-    let path = folder.join(SUBMISSION_FILE);
-    let submission = disk::bytes_of(&path, MOST_BYTES);
+    let submission = beneath::bytes(folder, SUBMISSION_FILE, MOST_BYTES);
     let submission = submission.map_err(|why| {
+        let path = folder.join(SUBMISSION_FILE);
         Failure::broken(
             format!("`{}` cannot be read: {why}", path.display()),
             "grade the submission again",
         )
     })?;
     Ok(Report {
+        folder: folder.to_owned(),
         manifest,
         submission: SubmissionSource::new(&grade.submission.name, &submission),
-        labs: folder.join(LAB_FOLDER),
         grade,
     })
 }
@@ -191,12 +195,30 @@ pub(crate) fn enclosing(file: &Path) -> Option<(PathBuf, String)> {
     Some((folder.to_owned(), names.join("/")))
 }
 
+impl Report {
+    /// Its copies of the lab's files.
+    pub(crate) fn copies(&self) -> FolderBeneath {
+        FolderBeneath::new(self.folder.clone(), LAB_FOLDER)
+    }
+
+    /// A picture of the report.
+    pub(crate) fn picture(&self, path: &str) -> Result<Vec<u8>, Unread> {
+        beneath::bytes(&self.folder, path, MOST_BYTES)
+    }
+
+    /// The digest of a file of the report, which is not held in memory.
+    pub(crate) fn digest(&self, path: &str) -> Result<String, Unread> {
+        beneath::digest(&self.folder, path, MOST_PAGE_BYTES)
+    }
+}
+
 /// Reads a grade record, if it is of the format that this version writes.
-fn record(path: &Path) -> Result<Grade, Failure> {
+fn record(folder: &Path) -> Result<Grade, Failure> {
     #[derive(serde::Deserialize)]
     struct Format {
         format: String,
     }
+    let path = folder.join(RECORD_FILE);
     let shown = path.display();
     let unread = |why: &str| {
         Failure::broken(
@@ -204,7 +226,8 @@ fn record(path: &Path) -> Result<Grade, Failure> {
             "grade the submission again",
         )
     };
-    let bytes = disk::bytes_of(path, MOST_BYTES).map_err(|why| unread(&why))?;
+    let bytes = beneath::bytes(folder, RECORD_FILE, MOST_BYTES);
+    let bytes = bytes.map_err(|why| unread(&why.to_string()))?;
     // the format first: of another version everything else may be another
     let Format { format } =
         serde_json::from_slice(&bytes).map_err(|error| unread(&visible(&error.to_string())))?;
@@ -216,9 +239,10 @@ fn record(path: &Path) -> Result<Grade, Failure> {
 }
 
 /// Reads a list of a report's files, if it is of the format that this version writes.
-fn manifest(path: &Path) -> Result<Manifest, Failure> {
-    let bytes = disk::bytes_of(path, MOST_BYTES);
-    let read = bytes.and_then(|bytes| {
+fn manifest(folder: &Path) -> Result<Manifest, Failure> {
+    let path = folder.join(MANIFEST_FILE);
+    let bytes = beneath::bytes(folder, MANIFEST_FILE, MOST_BYTES);
+    let read = bytes.map_err(|why| why.to_string()).and_then(|bytes| {
         Manifest::parse(&bytes).map_err(|error| visible(&error.to_string()).into_owned())
     });
     read.map_err(|why| {
@@ -232,30 +256,33 @@ fn manifest(path: &Path) -> Result<Manifest, Failure> {
     })
 }
 
-/// The lab of a report, in its variant, from the copies in its folder; and these.
-pub(crate) fn lab_of(report: &Report) -> Result<(Lab, Folder), Failure> {
-    let copies = Folder::new(report.labs.clone());
-    let lab = load(&copies, &report.grade.lab.name).map_err(|error| match error {
+/// The lab of a report, in its variant, from the copies in its folder.
+pub(crate) fn lab_of(report: &Report) -> Result<Lab, Failure> {
+    let copies = report.copies();
+    load(&copies, &report.grade.lab.name).map_err(|error| match error {
         // nobody named a lab here
         LoadError::UnknownLab { .. } => Failure::broken(
             format!(
                 "`{}` has no lab `{}`: the report is not complete",
-                report.labs.display(),
+                copies.name(),
                 visible(&report.grade.lab.name)
             ),
             "grade the submission again",
         ),
         other => other.into(),
-    })?;
-    Ok((lab, copies))
+    })
 }
 
-fn load(copies: &Folder, name: &str) -> Result<Lab, LoadError> {
+fn load(copies: &FolderBeneath, name: &str) -> Result<Lab, LoadError> {
+    Lab::load_variant(copies, name, variant(copies, name)?.as_ref())
+}
+
+/// The variant of which the copies of a lab are, if they are of one.
+pub(crate) fn variant(copies: &FolderBeneath, name: &str) -> Result<Option<Variant>, LoadError> {
     let path = format!("{name}/{VARIANT_FILE}");
-    let variant = match copies.read(&path) {
-        Ok(Some(text)) => Some(Variant::parse(Source::new(VARIANT_FILE, text))?),
-        Ok(None) => None,
-        Err(why) => return Err(LoadError::Unreadable { path, why }),
-    };
-    Lab::load_variant(copies, name, variant.as_ref())
+    match copies.read(&path) {
+        Ok(Some(text)) => Ok(Some(Variant::parse(Source::new(VARIANT_FILE, text))?)),
+        Ok(None) => Ok(None),
+        Err(why) => Err(LoadError::Unreadable { path, why }),
+    }
 }

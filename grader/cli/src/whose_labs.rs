@@ -30,6 +30,14 @@ impl Found {
     /// # Errors
     /// Exit code 2 with the way out.
     pub(crate) fn refuse_handed_in(&self, submission: &Path) -> Result<(), Failure> {
+        self.refuse_in(folder_of(submission), "the submission", HELP)
+    }
+
+    /// The same for `folder` as what was handed in, which is that of `whose`; with what to do.
+    ///
+    /// # Errors
+    /// Exit code 2 with the way out.
+    pub(crate) fn refuse_in(&self, folder: &Path, whose: &str, help: &str) -> Result<(), Failure> {
         let course = self.course.as_ref();
         // `.` is no part of a name for people
         let course = course.map(|root| root.strip_prefix(".").unwrap_or(root).join(COURSE_FILE));
@@ -41,7 +49,7 @@ impl Found {
         let found = found
             .into_iter()
             .filter_map(|(what, path)| Some((what, path.as_ref()?)));
-        let handed_in = real(folder_of(submission));
+        let handed_in = real(folder);
         for (what, path) in found {
             let shown = output::path(path);
             // where it lies, and where it leads to if it is a link
@@ -51,9 +59,9 @@ impl Found {
             {
                 return Err(Failure::usage(
                     format!(
-                        "the {what} `{shown}` may be part of what was handed in: it lies in the folder of the submission"
+                        "the {what} `{shown}` may be part of what was handed in: it lies in the folder of {whose}"
                     ),
-                    HELP,
+                    help,
                 ));
             }
             if let Some(outer) = self.outer(path) {
@@ -63,7 +71,7 @@ impl Found {
                     format!(
                         "the {what} `{shown}` may be part of what was handed in: above it there is `{outer}`"
                     ),
-                    HELP,
+                    help,
                 ));
             }
         }

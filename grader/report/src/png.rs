@@ -1,9 +1,11 @@
 //! A picture as PNG: its light form at twice its size, the words in the one font that is built in, so that no machine's fonts
-//! and settings show in it.
+//! and settings show in it; and whether a PNG shows such a picture.
 
+use std::io::Cursor;
 use std::sync::{Arc, OnceLock};
 
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError};
+use png::{BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Info, Limits};
+use png::{ScaledFloat, Transformations};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, Tree, fontdb};
 
@@ -36,6 +38,22 @@ pub enum PngError {
 /// # Errors
 /// [`PngError`], if it is no SVG, or of a size that is not drawn.
 pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
+    written(&drawn(svg)?).map_err(|error| PngError::Unwritable(error.to_string()))
+}
+
+/// Whether a PNG shows the picture that `svg` draws, as [`png`] would. However it is written: what counts are the pixels, and of these no
+/// more than what kinds of processors round otherwise.
+///
+/// # Errors
+/// [`PngError`] of the SVG; a file that is no PNG shows another picture.
+pub fn shows(file: &[u8], svg: &str) -> Result<bool, PngError> {
+    let drawn = drawn(svg)?;
+    let shown = decoded(file, drawn.width(), drawn.height());
+    Ok(shown.is_some_and(|shown| is_alike(&shown, &drawn)))
+}
+
+/// The pixels of the picture that `svg` draws on a light screen; nothing shines through them.
+fn drawn(svg: &str) -> Result<Pixmap, PngError> {
     let tree =
         Tree::from_str(svg, options()).map_err(|error| PngError::Unreadable(error.to_string()))?;
     let size = tree
@@ -55,7 +73,71 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
     );
     pixels.fill(Color::WHITE);
     resvg::render(&tree, to_pixels, &mut pixels.as_mut());
-    written(&pixels).map_err(|error| PngError::Unwritable(error.to_string()))
+    Ok(pixels)
+}
+
+/// The opaque pixels of a PNG of this size; none of another size, and of one that a viewer shows otherwise than its pixels say. No more
+/// is decoded than so many pixels.
+fn decoded(file: &[u8], width: u32, height: u32) -> Option<Vec<[u8; 3]>> {
+    // at most four channels of 16 bits each, and what a header may have besides
+    let bytes = 8 * width as usize * height as usize + (1 << 20);
+    let mut decoder = Decoder::new_with_limits(Cursor::new(file), Limits { bytes });
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    decoder.set_ignore_text_chunk(true);
+    let header = decoder.read_header_info().ok()?;
+    if (header.width, header.height) != (width, height) {
+        return None;
+    }
+    let mut reader = decoder.read_info().ok()?;
+    let mut samples = vec![0; reader.output_buffer_size()?];
+    let frame = reader.next_frame(&mut samples).ok()?;
+    reader.finish().ok()?;
+    if is_shown_otherwise(reader.info()) {
+        return None;
+    }
+    let pixels = samples.chunks_exact(frame.color_type.samples());
+    let opaque = pixels.map(|pixel| match *pixel {
+        [r, g, b] | [r, g, b, u8::MAX] => Some([r, g, b]),
+        [grey] | [grey, u8::MAX] => Some([grey; 3]),
+        _ => None,
+    });
+    opaque.collect()
+}
+
+/// Whether a viewer would show other pixels: a later frame, other colours, turned by what a camera says.
+fn is_shown_otherwise(info: &Info<'_>) -> bool {
+    // what sRGB, which screens have anyway, is written as beside its own chunk
+    let is_srgb = |gamma: ScaledFloat| gamma.into_scaled() == 45_455;
+    info.animation_control.is_some()
+        || info.gama_chunk.is_some_and(|gamma| !is_srgb(gamma))
+        || (info.chrm_chunk.is_some() && info.srgb.is_none())
+        || info.icc_profile.is_some()
+        || info.coding_independent_code_points.is_some()
+        || info.exif_metadata.is_some()
+}
+
+/// A difference of a colour, of 255, that nobody sees: another rounding.
+const ROUNDING: u8 = 4;
+/// On an edge one sample more or less may lie in a shape: so much of the colour, in one of so many pixels.
+const ON_EDGES: u8 = 32;
+const EDGES: usize = 10_000;
+
+/// Whether pixels are those that were drawn, up to rounding.
+fn is_alike(shown: &[[u8; 3]], drawn: &Pixmap) -> bool {
+    let drawn = drawn.data().chunks_exact(4);
+    let differences = shown.iter().zip(drawn).map(|(shown, drawn)| {
+        let channels = shown.iter().zip(drawn);
+        let differences = channels.map(|(shown, drawn)| shown.abs_diff(*drawn));
+        differences.max().unwrap_or(0)
+    });
+    let mut on_edges = 0;
+    for difference in differences.filter(|difference| *difference > ROUNDING) {
+        on_edges += 1;
+        if difference > ON_EDGES || on_edges * EDGES > shown.len() {
+            return false;
+        }
+    }
+    true
 }
 
 /// The pixels, which nothing shines through, as a file. Fast compression: the slow one takes longer than all the drawing.
@@ -189,6 +271,84 @@ mod tests {
             }
         }
         std::fs::remove_dir_all(&folder).expect("removed");
+    }
+
+    const SQUARE: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"150\" height=\"100\"><rect x=\"5\" y=\"5\" width=\"20\" height=\"20\" fill=\"#06a\"/></svg>";
+
+    /// The picture's pixels written once more, changed by `change`, with the encoder set up by `with`.
+    fn rewritten(
+        colour: ColorType,
+        change: impl Fn(&mut [u8]),
+        with: impl Fn(&mut Encoder<'_, &mut Vec<u8>>),
+    ) -> Vec<u8> {
+        let mut pixels = drawn(SQUARE).expect("a picture");
+        change(pixels.data_mut());
+        let data: Vec<u8> = match colour {
+            ColorType::Rgba => pixels.data().to_vec(),
+            _ => {
+                let colours = pixels.data().chunks_exact(4);
+                colours.flat_map(|c| [c[0], c[1], c[2]]).collect()
+            }
+        };
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
+        encoder.set_color(colour);
+        with(&mut encoder);
+        let mut writer = encoder.write_header().expect("a header");
+        writer.write_image_data(&data).expect("pixels");
+        writer.finish().expect("a file");
+        file
+    }
+
+    #[test]
+    fn a_png_shows_a_picture_however_it_is_written_and_no_other_one() {
+        let shows = |file: &[u8]| shows(file, SQUARE).expect("a picture");
+        let ours = png(SQUARE).expect("a picture");
+        assert!(shows(&ours));
+        let same = rewritten(ColorType::Rgba, |_| {}, |_| {});
+        assert!(same != ours && shows(&same), "with an alpha channel");
+        let srgb = |encoder: &mut Encoder<'_, &mut Vec<u8>>| {
+            encoder.set_compression(Compression::High);
+            encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        };
+        assert!(shows(&rewritten(ColorType::Rgb, |_| {}, srgb)));
+        let changed = |of: usize, by: u8| {
+            let change = move |data: &mut [u8]| {
+                data.chunks_exact_mut(4).take(of).for_each(|c| c[0] ^= by);
+            };
+            rewritten(ColorType::Rgb, change, |_| {})
+        };
+        assert!(shows(&changed(60_000, ROUNDING)), "rounding everywhere");
+        assert!(shows(&changed(6, ON_EDGES)), "and more on edges");
+        assert!(!shows(&changed(7, ON_EDGES)));
+        assert!(!shows(&changed(1, ON_EDGES + 1)));
+        // what shows through
+        let change = |data: &mut [u8]| data[3] = 0;
+        assert!(!shows(&rewritten(ColorType::Rgba, change, |_| {})));
+        // what a viewer shows otherwise
+        let gamma = |encoder: &mut Encoder<'_, &mut Vec<u8>>| {
+            encoder.set_source_gamma(ScaledFloat::new(0.05));
+        };
+        assert!(!shows(&rewritten(ColorType::Rgb, |_| {}, gamma)));
+        let animated = |encoder: &mut Encoder<'_, &mut Vec<u8>>| {
+            encoder.set_animated(1, 0).expect("an animation");
+        };
+        assert!(!shows(&rewritten(ColorType::Rgb, |_| {}, animated)));
+        for other in [&b""[..], b"GIF89a", &ours[..ours.len() / 2], &ours[..60]] {
+            assert!(!shows(other), "{} bytes", other.len());
+        }
+        let other = SQUARE.replace("width=\"150\"", "width=\"151\"");
+        assert!(!shows(&png(&other).expect("a picture")), "of another size");
+    }
+
+    /// A few kilobytes that would be gigabytes of pixels.
+    #[test]
+    fn no_more_is_decoded_than_the_picture_has() {
+        let mut bomb = Vec::new();
+        let mut encoder = Encoder::new(&mut bomb, 60_000, 60_000);
+        encoder.set_color(ColorType::Rgb);
+        encoder.write_header().expect("a header");
+        assert_eq!(shows(&bomb, SQUARE), Ok(false));
     }
 
     #[test]

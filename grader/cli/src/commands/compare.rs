@@ -110,9 +110,8 @@ fn read(path: &Path) -> Result<Graded, Failure> {
         return of_book(path);
     }
     let report = report_folder::read(path)?;
-    let (lab, _) = report_folder::lab_of(&report)?;
     Ok(Graded {
-        lab,
+        lab: report_folder::lab_of(&report)?,
         submission: report.submission,
         grade: report.grade,
     })

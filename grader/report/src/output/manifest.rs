@@ -1,6 +1,7 @@
 //! `report.json`: what a report was requested to show, and the digests of its files.
 
 use std::collections::BTreeMap;
+use std::io::Read;
 
 use serde::{Deserialize, Serialize};
 
@@ -100,6 +101,16 @@ impl Manifest {
 /// The digest of a file, as `report.json` has it.
 pub fn digest(bytes: &[u8]) -> String {
     blake3::hash(bytes).to_hex().to_string()
+}
+
+/// The same of what is read piece by piece.
+///
+/// # Errors
+/// Where it cannot be read to its end.
+pub fn digest_of(file: impl Read) -> std::io::Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(file)?;
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 #[cfg(test)]

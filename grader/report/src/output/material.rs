@@ -18,13 +18,31 @@ pub struct Sources<'a> {
     pub lab_files: &'a [(String, Vec<u8>)],
 }
 
-/// Whether pictures are drawn in pixels, or their paths alone are of interest.
+/// Whether pictures are drawn in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pixels {
     /// PNG files have their bytes.
     Drawn,
-    /// PNG files have no bytes: what they show is compared as SVG, for their pixels may differ between processors.
+    /// In place of a PNG file is the SVG that it shows: whoever compares it with another one compares pixels ([`shows`]), for they may
+    /// differ between processors.
     Undrawn,
+}
+
+/// Whether a PNG shows what `drawing`, an SVG, draws; a build without the feature `png` does not know.
+///
+/// # Errors
+/// [`OutputError::Png`] where the drawing is of a size that is not drawn.
+pub fn shows(file: &[u8], drawing: &[u8]) -> Result<Option<bool>, OutputError> {
+    #[cfg(feature = "png")]
+    return Ok(Some(crate::png::shows(
+        file,
+        &String::from_utf8_lossy(drawing),
+    )?));
+    #[cfg(not(feature = "png"))]
+    {
+        let _ = (file, drawing);
+        Ok(None)
+    }
 }
 
 /// What outputs are made from.
@@ -87,7 +105,7 @@ impl<'a> Material<'a> {
     /// [`OutputError::Png`] where it is of a size that is not drawn, [`OutputError::NoPng`] in a build that draws none.
     pub(super) fn pixels_of(&self, svg: &str) -> Result<Vec<u8>, OutputError> {
         match self.pixels {
-            Pixels::Undrawn => Ok(Vec::new()),
+            Pixels::Undrawn => Ok(svg.as_bytes().to_owned()),
             #[cfg(feature = "png")]
             Pixels::Drawn => Ok(crate::png::png(svg)?),
             #[cfg(not(feature = "png"))]

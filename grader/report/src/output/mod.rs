@@ -7,8 +7,10 @@ mod run_log;
 mod storyboards;
 mod table;
 
-pub use manifest::{FILE as MANIFEST_FILE, Manifest, ManifestError, ReportRequest, digest};
-pub use material::{Material, OutFile, OutputError, Pixels, Sources};
+pub use manifest::{
+    FILE as MANIFEST_FILE, Manifest, ManifestError, ReportRequest, digest, digest_of,
+};
+pub use material::{Material, OutFile, OutputError, Pixels, Sources, shows};
 #[cfg(feature = "log")]
 pub use run_log::FILE as LOG_FILE;
 pub use storyboards::FILE as STORYBOARD_FILE;
