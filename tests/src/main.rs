@@ -47,6 +47,7 @@ mod lab_truths;
 mod linkage_lab;
 mod mesh_labs;
 mod module_order;
+mod module_reports;
 mod moments;
 mod named_submissions;
 mod own_lab;

@@ -9,11 +9,12 @@ use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Lab, Variant};
 use kinemark_grader::record::grade::{self, Grade};
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::submission::handed_in::Program;
 use kinemark_grader::task::files::Files as _;
 use kinemark_grader::task::problem::LoadError;
 use kinemark_report::output::{
-    self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, Manifest, Material, OutFile, OutputError, Pixels,
-    RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,
+    self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, MODULE_FILE, Manifest, Material, OutFile,
+    OutputError, Pixels, RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,
 };
 use kinemark_report::visible::visible;
 use kinemark_sim::text::Source;
@@ -41,7 +42,8 @@ pub(crate) fn write(
     request: ReportRequest,
 ) -> Result<(), Failure> {
     let kept = refuse_foreign(out)?;
-    let files = files(lab, submission, graded, request, Pixels::Drawn)?;
+    let copy = copy_name(submission);
+    let files = files(lab, (copy, submission), graded, request, Pixels::Drawn)?;
     let manifest = output::json(&Manifest::of(request, &files)).map_err(fault)?;
     let failed = |error: std::io::Error| {
         Failure::fault(
@@ -104,10 +106,18 @@ pub(crate) fn entry(manifest: &Manifest, path: &str) -> Entry {
     }
 }
 
-/// Every file of the folder but `report.json`: a function of lab, submission, graded run and request alone.
+/// The name of the copy of a submission, by what it is.
+pub(crate) fn copy_name(submission: &SubmissionSource) -> &'static str {
+    match submission.submission.program() {
+        Program::Module(_) => MODULE_FILE,
+        Program::Script(_) => SUBMISSION_FILE,
+    }
+}
+
+/// Every file of the folder but `report.json`: a function of lab, submission with the name of its copy, graded run and request alone.
 pub(crate) fn files(
     lab: &Lab,
-    submission: &SubmissionSource,
+    (copy, submission): (&str, &SubmissionSource),
     graded: &GradedRun,
     request: ReportRequest,
     pixels: Pixels,
@@ -118,6 +128,7 @@ pub(crate) fn files(
         .map(|(path, bytes)| (path.to_owned(), bytes.to_owned()))
         .collect();
     let sources = Sources {
+        submission_file: copy,
         submission: &submission.bytes,
         lab: &lab.graded_text,
         robot: lab.robot_file.source().text(),
@@ -141,6 +152,8 @@ pub(crate) struct Report {
     pub(crate) folder: PathBuf,
     pub(crate) grade: Grade,
     pub(crate) submission: SubmissionSource,
+    /// The name of the submission's copy in the folder.
+    pub(crate) copy: &'static str,
     /// What was requested, and the digests of its files.
     pub(crate) manifest: Manifest,
 }
@@ -165,11 +178,17 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     let grade = record(folder)?;
     there(MANIFEST_FILE)?;
     let manifest = manifest(folder)?;
-    there(SUBMISSION_FILE)?;
+    let is_module = manifest.lists(MODULE_FILE);
+    let copy = if is_module {
+        MODULE_FILE
+    } else {
+        SUBMISSION_FILE
+    };
+    there(copy)?;
     there(LAB_FOLDER)?;
-    let submission = beneath::bytes(folder, SUBMISSION_FILE, MOST_BYTES);
+    let submission = beneath::bytes(folder, copy, MOST_BYTES);
     let submission = submission.map_err(|why| {
-        let path = folder.join(SUBMISSION_FILE);
+        let path = folder.join(copy);
         Failure::broken(
             format!("`{}` cannot be read: {why}", path.display()),
             "grade the submission again",
@@ -178,6 +197,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     Ok(Report {
         folder: folder.to_owned(),
         manifest,
+        copy,
         submission: SubmissionSource::new(&grade.submission.name, &submission),
         grade,
     })
@@ -199,6 +219,14 @@ impl Report {
     /// Its copies of the lab's files.
     pub(crate) fn copies(&self) -> FolderBeneath {
         FolderBeneath::new(self.folder.clone(), LAB_FOLDER)
+    }
+
+    /// The name that the copy of its submission should have: by what it is, and earlier reports have modules under the name of a script.
+    pub(crate) fn right_copy(&self) -> &'static str {
+        match copy_name(&self.submission) {
+            MODULE_FILE => self.copy,
+            name => name,
+        }
     }
 
     /// A picture of the report.

@@ -8,6 +8,8 @@ use crate::plot::{Plot, plots};
 /// Texts and files that a report copies.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
+    /// The name of the submission's copy, by what the submission is.
+    pub submission_file: &'a str,
     /// The submission.
     pub submission: &'a [u8],
     /// `lab.toml`.

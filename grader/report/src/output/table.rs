@@ -2,15 +2,17 @@
 
 use serde::Serialize;
 
-use super::material::{Material, OutFile, OutputError};
+use super::material::{Material, OutFile, OutputError, Sources};
 use super::{ReportRequest, storyboards};
 
 /// The grade record; a folder that has it claims to be a report.
 pub const RECORD_FILE: &str = "grade.json";
 /// The page for people.
 pub const PAGE_FILE: &str = "report.html";
-/// The copy of the submission.
+/// The copy of a submission that is a script, or that is neither.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
+/// The copy of a submission that is a compiled module.
+pub const MODULE_FILE: &str = "submission.wasm";
 /// The folder of the copies of lab, robot and scenes.
 pub const LAB_FOLDER: &str = "lab";
 /// The folder of the plots.
@@ -49,8 +51,12 @@ pub const OUTPUTS: &[Output] = &[
         name: "submission",
         is_requested: always,
         files: |material| {
-            let submission = material.sources.submission;
-            Ok(vec![OutFile::new(SUBMISSION_FILE, submission)])
+            let Sources {
+                submission_file,
+                submission,
+                ..
+            } = material.sources;
+            Ok(vec![OutFile::new(submission_file, submission)])
         },
     },
     Output {
@@ -119,7 +125,7 @@ pub fn json(value: &impl Serialize) -> Result<String, OutputError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::material::{Pixels, Sources};
+    use super::super::material::Pixels;
     use super::*;
     use kinemark_grader::record::sample;
 
@@ -127,6 +133,7 @@ mod tests {
         let graded = sample::graded();
         let lab_files = [("one/lab.toml".to_owned(), Vec::new())];
         let sources = Sources {
+            submission_file: SUBMISSION_FILE,
             submission: b"",
             lab: "",
             robot: "",
