@@ -17,6 +17,6 @@ pub use dimensions::{Dimension, Dimensions};
 pub use linear::Linear;
 pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};
 pub use source::{Located, Problem, Source};
-pub use suggest::{nearest, suggest};
+pub use suggest::{LONGEST_TYPO, nearest, suggest};
 pub use toml_refusal::TomlRefusal;
 pub use typed_table::TypedTable;

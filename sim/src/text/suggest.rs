@@ -1,7 +1,7 @@
 //! Suggestions for a mistyped name: the nearest known name, or the list of known names.
 
-/// Names longer than this many bytes are not searched for typos: the distance costs memory by the product of the lengths.
-const LONGEST_TYPO: usize = 200;
+/// Names longer than this many bytes are not searched for typos: the distance costs time and memory by the product of the lengths.
+pub const LONGEST_TYPO: usize = 64;
 
 /// The known name nearest to `given`, if one is near enough to be a typo.
 pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {

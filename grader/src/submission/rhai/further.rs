@@ -1,6 +1,8 @@
 //! What else is wrong in a file that does not parse: the parser stops at the first, and a student should not need a run for each. What it
 //! stops at is taken out, and the rest is parsed again; what stands in the lines that are taken out is read from their text.
 
+use std::collections::BTreeSet;
+
 use rhai::Engine;
 
 use super::habits::{Written, of_line, percent_comment};
@@ -16,6 +18,8 @@ use crate::submission::controller::{Mistake, SourcePosition};
 const MOST: usize = 40;
 /// Times that a file is parsed again.
 const MOST_REPAIRS: usize = 60;
+/// Bytes that are parsed again, in all these times: a long file is parsed less often.
+const MOST_READ_AGAIN: usize = 1 << 20;
 const COMMENT: &str = "a comment begins with //; the remainder of a division is a % b";
 
 /// A line, and what to write there.
@@ -67,8 +71,9 @@ impl Context<'_> {
         let signs = Signs::of(self.source);
         let code: Vec<(usize, String)> = signs.lines().collect();
         let written = Written::of(code.iter().map(|(_, code)| code.as_str()));
+        let raw: Vec<&str> = self.source.lines().collect();
         for (line, code) in &code {
-            let raw = self.line(*line).unwrap_or_default();
+            let raw = raw.get(*line - 1).copied().unwrap_or_default();
             let comment = percent_comment(raw);
             // without what is in a comment of another language
             let before = comment.and_then(|at| Signs::of(&raw[..at]).lines().next());
@@ -95,11 +100,11 @@ impl Context<'_> {
     }
 
     /// Takes out what the parser stops at, again and again, adds what it stops at next to `found`, and says which lines were taken out.
-    fn parse_on(&self, engine: &Engine, first: &Mistake, found: &mut Found) -> Vec<usize> {
+    fn parse_on(&self, engine: &Engine, first: &Mistake, found: &mut Found) -> BTreeSet<usize> {
         let mut rest = Rest::of(self.source);
         let first_line = first.place.map(|place| place.line);
         let mut mistake = first.clone();
-        for _ in 0..MOST_REPAIRS {
+        for _ in 0..most_repairs(self.source) {
             let Some(place) = mistake.place else {
                 break;
             };
@@ -141,6 +146,11 @@ impl Context<'_> {
     }
 }
 
+/// Times that this file is parsed again at most.
+fn most_repairs(source: &str) -> usize {
+    MOST_REPAIRS.min(MOST_READ_AGAIN / source.len().max(1))
+}
+
 /// What was found, the same advice once with all lines it is for; that of `first`, which has a line already, before all others.
 fn listed(found: &Found, first: &Mistake) -> Vec<FurtherMistake> {
     let first_line = first.place.map(|place| place.line);
@@ -175,4 +185,17 @@ fn listed(found: &Found, first: &Mistake) -> Vec<FurtherMistake> {
         });
     }
     listed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_file_is_parsed_again_less_often() {
+        assert_eq!(most_repairs("let x = ;"), MOST_REPAIRS);
+        assert_eq!(most_repairs(&"x".repeat(10_000)), MOST_REPAIRS);
+        assert_eq!(most_repairs(&"x".repeat(65_536)), 16);
+        assert_eq!(most_repairs(""), MOST_REPAIRS);
+    }
 }

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use kinemark_sim::text::LONGEST_TYPO;
+
 use super::foreign;
 use super::places::Places;
 use super::unknown::Unknown;
@@ -354,11 +356,16 @@ fn abbreviation<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<
 
 /// The known name that a typo could have made `name` from; the first among equally near ones.
 fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let is_searched = |name: &str| name.len() <= LONGEST_TYPO;
+    if !is_searched(name) {
+        return None;
+    }
     let slips = 1 + name.chars().count() / 5;
     let lower = name.to_lowercase();
     known
         // a single letter is near to every other
         .filter(|known| *known != name && known.len() > 1 && name.len() > 1)
+        .filter(|known| is_searched(known) && known.len().abs_diff(name.len()) <= 4 * slips)
         .map(|known| {
             let known_lower = known.to_lowercase();
             let shared = lower.chars().zip(known_lower.chars());
@@ -385,6 +392,14 @@ mod tests {
         assert_eq!(near("qdd"), Some("qd"));
         assert_eq!(near("velocity"), None);
         assert_eq!(near("x"), None);
+    }
+
+    #[test]
+    fn a_very_long_name_is_compared_with_nothing() {
+        let [long, other] = ["a", "b"].map(|last| "ab".repeat(LONGEST_TYPO / 2) + last);
+        assert_eq!(nearest(&long, [other.as_str()].into_iter()), None);
+        let [long, other] = [&long[1..], &other[1..]];
+        assert_eq!(nearest(long, [other].into_iter()), Some(other));
     }
 
     #[test]

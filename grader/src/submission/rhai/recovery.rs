@@ -1,5 +1,7 @@
 //! A file from which is taken out what the parser stops at, line by line, so that the rest can be parsed again.
 
+use std::collections::BTreeSet;
+
 use super::signs::Signs;
 use crate::submission::controller::{Mistake, SourcePosition};
 
@@ -16,17 +18,17 @@ const BLOCKS: [&str; 6] = ["if", "for", "while", "switch", "fn", "function"];
 pub(super) struct Rest {
     pub(super) lines: Vec<String>,
     /// Lines that were taken out.
-    pub(super) changed: Vec<usize>,
+    pub(super) changed: BTreeSet<usize>,
     /// Every word of what was taken out: names that may have been declared there.
-    pub(super) taken_out: Vec<String>,
+    pub(super) taken_out: BTreeSet<String>,
 }
 
 impl Rest {
     pub(super) fn of(source: &str) -> Self {
         let mut rest = Self {
             lines: source.lines().map(str::to_owned).collect(),
-            changed: Vec::new(),
-            taken_out: Vec::new(),
+            changed: BTreeSet::new(),
+            taken_out: BTreeSet::new(),
         };
         rest.close_blocks();
         rest
@@ -93,9 +95,8 @@ impl Rest {
 
     /// Takes out the statement at a place, all but its braces.
     fn take_out(&mut self, place: SourcePosition) -> bool {
-        let [first, last] = self.statement(place.line);
-        let text = self.lines.join("\n");
-        let signs = Signs::of(&text);
+        let signs = Signs::of(&self.lines.join("\n"));
+        let [first, last] = statement(&signs, place.line);
         let of_statement: Vec<(usize, String)> = signs
             .lines()
             .filter(|(line, _)| (first..=last).contains(line))
@@ -111,39 +112,37 @@ impl Rest {
             let text = &mut self.lines[line - 1];
             is_new |= *text != left;
             *text = left;
-            self.changed.push(line);
+            self.changed.insert(line);
         }
         is_new
     }
+}
 
-    /// The lines of the statement in a line: those that brackets tie together.
-    fn statement(&self, line: usize) -> [usize; 2] {
-        let text = self.lines.join("\n");
-        let signs = Signs::of(&text);
-        let begins = SourcePosition { line, column: 1 };
-        let mut first = line;
-        let mut at = begins;
-        while let Some((open, sign)) = signs.open_at(at)
-            && sign != '{'
-        {
-            (first, at) = (open.line, open);
-        }
-        let mut depth = 0_i64;
-        let mut last = line;
-        for (number, code) in signs.lines().filter(|(number, _)| *number >= first) {
-            let change = |sign: char| match sign {
-                '(' | '[' => 1,
-                ')' | ']' => -1,
-                _ => 0,
-            };
-            depth += code.chars().map(change).sum::<i64>();
-            last = number.max(line);
-            if number >= line && depth <= 0 || number - first >= MOST_LINES {
-                break;
-            }
-        }
-        [first, last]
+/// The lines of the statement in a line: those that brackets tie together.
+fn statement(signs: &Signs, line: usize) -> [usize; 2] {
+    let begins = SourcePosition { line, column: 1 };
+    let mut first = line;
+    let mut at = begins;
+    while let Some((open, sign)) = signs.open_at(at)
+        && sign != '{'
+    {
+        (first, at) = (open.line, open);
     }
+    let mut depth = 0_i64;
+    let mut last = line;
+    for (number, code) in signs.lines().filter(|(number, _)| *number >= first) {
+        let change = |sign: char| match sign {
+            '(' | '[' => 1,
+            ')' | ']' => -1,
+            _ => 0,
+        };
+        depth += code.chars().map(change).sum::<i64>();
+        last = number.max(line);
+        if number >= line && depth <= 0 || number - first >= MOST_LINES {
+            break;
+        }
+    }
+    [first, last]
 }
 
 /// Blocks that open and close as those of a line of code do, with nothing in them.

@@ -19,7 +19,7 @@ use super::slips;
 use super::unknown::unknown;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
-    SensorFacts, Stop, Value,
+    SensorFacts, SourcePosition, Stop, Value,
 };
 use crate::submission::robot_model::Model;
 
@@ -410,7 +410,10 @@ fn entry_parameters(name: &str) -> &'static [&'static str] {
         .map_or(&[], |(_, parameters)| parameters)
 }
 
-/// Refuses code that the engine would run with another meaning than the student's.
+/// The most characters of a name.
+const LONGEST_NAME: usize = 200;
+
+/// Refuses code that the engine would run with another meaning than the student's, and names of a length that nobody reads.
 fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
     let mut slips = Vec::new();
     ast.walk(&mut |path| {
@@ -418,7 +421,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
             Some(ASTNode::Expr(Expr::FnCall(call, position))) if call.name == "^" => {
                 slips.push((
                     place(*position),
-                    "`^` is not a power here",
+                    "`^` is not a power here".to_owned(),
                     "use ** for powers: x ** 2",
                 ));
             }
@@ -427,14 +430,23 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
             {
                 slips.push((
                     place(*position),
-                    "an index is negative",
+                    "an index is negative".to_owned(),
                     "counting starts at 0; the last is v[len(v) - 1]",
                 ));
             }
-            _ => {}
+            Some(node) => {
+                let long = names_of(node).find(|name| name.len() > LONGEST_NAME);
+                slips.extend(long.map(|name| too_long(name, node.position())));
+            }
+            None => {}
         }
         true
     });
+    for function in ast.iter_fn_def() {
+        let mut names = std::iter::once(&function.name).chain(&function.params);
+        let long = names.find(|name| name.len() > LONGEST_NAME);
+        slips.extend(long.map(|name| too_long(name, function.body.start_position())));
+    }
     // the first in the file, because the engine has its own order of functions
     let first = slips
         .into_iter()
@@ -442,12 +454,39 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
     match first {
         None => Ok(()),
         Some((place, message, help)) => Err(Stop::DidNotBuild(Mistake {
-            message: message.to_owned(),
+            message,
             place,
             help: Some(help.to_owned()),
             further: Vec::new(),
         })),
     }
+}
+
+/// The names that a node itself has.
+fn names_of<'n>(node: &'n ASTNode<'_>) -> impl Iterator<Item = &'n str> {
+    let (one, keys) = match node {
+        ASTNode::Stmt(Stmt::Var(declared, ..)) => (Some(declared.0.as_str()), None),
+        ASTNode::Stmt(Stmt::For(declared, _)) => (Some(declared.0.as_str()), None),
+        ASTNode::Stmt(Stmt::FnCall(call, _))
+        | ASTNode::Expr(Expr::FnCall(call, _) | Expr::MethodCall(call, _)) => {
+            (Some(call.name.as_str()), None)
+        }
+        ASTNode::Expr(Expr::Variable(variable, ..)) => (Some(variable.1.as_str()), None),
+        ASTNode::Expr(Expr::Property(property, _)) => (Some(property.2.as_str()), None),
+        ASTNode::Expr(Expr::Map(entries, _)) => (None, Some(&entries.0)),
+        _ => (None, None),
+    };
+    let keys = keys.into_iter().flatten();
+    one.into_iter().chain(keys.map(|(key, _)| key.as_str()))
+}
+
+fn too_long(name: &str, position: Position) -> (Option<SourcePosition>, String, &'static str) {
+    let length = name.len();
+    (
+        place(position),
+        format!("a name has {length} characters"),
+        "a name has up to 200 characters",
+    )
 }
 
 /// Records the declarations of the file.
@@ -487,5 +526,5 @@ fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
     names.local.extend(local);
     names.places = Places::of(ast);
     names.top_level = top_level;
-    names.unknown = unknown(ast, names, &[]);
+    names.unknown = unknown(ast, names, &BTreeSet::new());
 }

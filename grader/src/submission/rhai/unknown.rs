@@ -24,13 +24,19 @@ pub(super) struct Unknown {
     is_call: bool,
 }
 
+/// Unknown names that are looked for: each is compared with all known ones, and more than that nobody reads.
+const MOST_FOUND: usize = 40;
+
 /// The unknown names of a script, each where it stands first, in the order of the file. Those among `but` may be declared in what was
 /// taken out.
-pub(super) fn unknown(ast: &AST, names: &Names, but: &[String]) -> Vec<Unknown> {
+pub(super) fn unknown(ast: &AST, names: &Names, but: &BTreeSet<String>) -> Vec<Unknown> {
     let variables = variables(ast);
     let mut found: Vec<Unknown> = Vec::new();
     let all = used(ast, names, but);
     for used in &all {
+        if found.len() == MOST_FOUND {
+            break;
+        }
         let Some(place) = place(used.position) else {
             continue;
         };
@@ -118,7 +124,7 @@ struct Used {
 }
 
 /// The uses of names that are not declared, in the order of the file.
-fn used(ast: &AST, names: &Names, but: &[String]) -> Vec<Used> {
+fn used(ast: &AST, names: &Names, but: &BTreeSet<String>) -> Vec<Used> {
     let functions: BTreeSet<&str> = ast.iter_functions().map(|known| known.name).collect();
     let top_level = ast
         .statements()
@@ -128,7 +134,7 @@ fn used(ast: &AST, names: &Names, but: &[String]) -> Vec<Used> {
             _ => None,
         });
     let top_level: BTreeSet<&str> = top_level.collect();
-    let is_among_others = |name: &str| but.iter().any(|other| other == name);
+    let is_among_others = |name: &str| but.contains(name);
     let is_declared = |name: &str| {
         top_level.contains(name)
             || names.constants.contains(name)
@@ -227,4 +233,20 @@ pub(super) fn others(all: &[Unknown], name: &str, line: Option<usize>) -> Vec<Fu
             help: help.clone(),
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_very_many_unknown_names_the_first_ones_are_found() {
+        let source: String = (0..500).map(|i| format!("x{i};\n")).collect();
+        let mut engine = rhai::Engine::new_raw();
+        engine.set_optimization_level(rhai::OptimizationLevel::None);
+        let ast = engine.compile(source).unwrap();
+        let found = unknown(&ast, &Names::default(), &BTreeSet::new());
+        let lines: Vec<usize> = found.iter().map(|unknown| unknown.line).collect();
+        assert_eq!(lines, (1..=MOST_FOUND).collect::<Vec<_>>());
+    }
 }

@@ -183,6 +183,29 @@ fn hostile_scripts_end_at_a_budget() {
 }
 
 #[test]
+fn a_long_name_is_refused() {
+    let name = "n".repeat(201);
+    for source in [
+        format!("fn control(o) {{ {name} }}"),
+        format!("fn control(o) {{ let {name} = 1; 1 }}"),
+        format!("fn control(o) {{ o.{name} }}"),
+        format!("fn control(o) {{ {name}() }}"),
+        format!("fn control(o) {{ #{{ {name}: 1 }} }}"),
+        format!("fn control(o) {{ for {name} in 0..1 {{ }} }}"),
+        format!("fn control({name}) {{ 1 }}"),
+        format!("fn {name}() {{ 1 }}"),
+    ] {
+        let Stop::DidNotBuild(mistake) = stop(&source) else {
+            panic!("{source:.60} builds");
+        };
+        assert_eq!(mistake.message, "a name has 201 characters", "{source:.60}");
+        assert!(mistake.place.is_some(), "{source:.60}");
+    }
+    let name = "n".repeat(200);
+    assert!(run(&format!("fn control(o) {{ let {name} = 1; {name} }}")).is_ok());
+}
+
+#[test]
 fn what_is_shown_beyond_the_most_is_left_out_and_said_once() {
     let mut opening = opening("fn control(o) { for i in 0..9 { print(i); plot(\"a\", i); } 1 }");
     (opening.budgets.log_lines, opening.budgets.plot_samples) = (4, 3);
