@@ -256,6 +256,13 @@ impl ScriptController {
         convert::to_value(&self.meter, &value).map_err(|problem| self.after_call(name, problem))
     }
 
+    /// Empties `this`: what is kept in one case of a function task could say in another how many there are, and which are hidden.
+    fn forget(&mut self) {
+        if let Some(memory) = self.run.scope.get_mut(MEMORY) {
+            *memory = Dynamic::from_map(Map::new());
+        }
+    }
+
     /// Checks the budgets of size for `this` as a whole, including its vectors.
     fn check_memory(&self, name: &str) -> Result<(), Stop> {
         let memory = self.run.scope.get(MEMORY).unwrap_or(&Dynamic::UNIT);
@@ -304,6 +311,9 @@ impl Controller for ScriptController {
             model.is_now(facts)?;
         }
         self.meter.start();
+        if !matches!(call, Call::Init | Call::Control(_)) {
+            self.forget();
+        }
         let vector =
             |elements: &[f64]| Dynamic::from(super::vector::Vector::new(elements.to_vec()));
         let value = match call {

@@ -84,6 +84,50 @@ fn this_is_shared_by_init_and_control_and_kept() {
 }
 
 #[test]
+fn every_case_of_a_function_begins_with_an_empty_this() {
+    let counting = |function: &str| {
+        format!("fn {function} {{ let before = keys(this); this.n = 1; this.log = [1]; before }}")
+    };
+    let mut opening = opening(&format!(
+        "{} {} {} {}",
+        counting("forward_kinematics(robot, q)"),
+        counting("inverse_kinematics(robot, position)"),
+        counting("jacobian(robot, q)"),
+        counting("own(given)"),
+    ));
+    opening.function = Some("own".into());
+    let mut script = ScriptController::open(&opening).unwrap();
+    let q = vec![0.5, 0.0];
+    let calls = [
+        Call::ForwardKinematics {
+            robot: robot(),
+            q: q.clone(),
+        },
+        Call::InverseKinematics {
+            robot: robot(),
+            position_m: [2.0, 1.4, 0.0],
+        },
+        Call::Jacobian { robot: robot(), q },
+        Call::Free {
+            function: "own".into(),
+            given: vec![("x".into(), Value::Number(1.0))],
+        },
+    ];
+    let first: Vec<_> = calls
+        .iter()
+        .map(|call| script.call(call).unwrap())
+        .collect();
+    let again: Vec<_> = calls
+        .iter()
+        .map(|call| script.call(call).unwrap())
+        .collect();
+    for (first, again) in first.iter().zip(&again) {
+        assert_eq!(first.value, Value::List(Vec::new()));
+        assert_eq!(first, again);
+    }
+}
+
+#[test]
 fn constants_are_seen_in_functions_and_variables_are_not() {
     let source = "const A = 2; const B = A * 3; fn double(x) { x * A } const C = double(B); fn control(o) { helper() } fn helper() { C + pi - PI }";
     assert_eq!(run(source).unwrap().value, Value::Number(12.0));
