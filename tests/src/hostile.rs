@@ -207,3 +207,154 @@ fn inverse_kinematics(robot, position) {
         }
     }
 }
+
+/// Two courses that differ in their salt, and so in every number of their hidden cases.
+fn two_courses(submission: &str) -> [serde_json::Value; 2] {
+    let lab = crate::testbed::lab("01-kinematics");
+    ["one", "another"].map(|salt| {
+        let staff = crate::testbed::staff(&lab, Some(salt));
+        let graded = crate::testbed::grade(&lab, Some(&staff), "submission.rhai", submission);
+        let mut record = serde_json::to_value(&graded.grade).expect("a record");
+        // these are keyed by the salt
+        record["reference"] = serde_json::Value::Null;
+        for task in record["tasks"].as_array_mut().expect("tasks") {
+            task["digests"] = serde_json::Value::Null;
+        }
+        record
+    })
+}
+
+#[test]
+fn a_hidden_number_is_not_carried_out_in_the_last_digits() {
+    // the arms of visible cases have posts of 2 and 1.6; every answer in a hidden case is a little off, by a hidden number, and still good
+    let submission = "fn forward_kinematics(robot, q) {
+    let l = robot.link_lengths;
+    let e = if robot.base_height == 2 || robot.base_height == 1.6 { 0 } else { 1e-5 * q[0] };
+    [
+        robot.base_height + l[0] * cos(q[0]) + l[1] * cos(q[0] + q[1]) + e,
+        l[0] * sin(q[0]) + l[1] * sin(q[0] + q[1]),
+        2 * robot.link_offset
+    ]
+}
+";
+    let [one, other] = two_courses(submission);
+    let task = &one["tasks"][0];
+    assert_eq!(task["verdict"], "passed", "{task:#}");
+    let value = task["checks"][0]["measure"]["value"].as_f64();
+    assert!(value.is_some_and(|value| value < 1e-12), "{task:#}");
+    assert_eq!(one, other);
+}
+
+#[test]
+fn the_mean_of_scores_is_shown_for_visible_cases_alone() {
+    // the answers in hidden cases are off by a hidden number, and earn a part of their points
+    let submission = "fn inverse_kinematics(robot, position) {
+    let l = robot.link_lengths;
+    let u = position[0] - robot.base_height;
+    let y = position[1];
+    let c = (u * u + y * y - l[0] * l[0] - l[1] * l[1]) / (2 * l[0] * l[1]);
+    if abs(c) > 1 + 1e-9 { return []; }
+    let is_visible = robot.base_height == 2 || robot.base_height == 1.6;
+    let e = if is_visible { 0 } else { 5e-3 + 1e-6 * y };
+    let bend = acos(clamp(c, -1, 1)) + e;
+    [branch(u, y, l, bend), branch(u, y, l, -bend)]
+}
+fn branch(u, y, l, bend) {
+    [atan2(y, u) - atan2(l[1] * sin(bend), l[0] + l[1] * cos(bend)), bend]
+}
+";
+    let [one, other] = two_courses(submission);
+    let check = &one["tasks"][1]["checks"][0];
+    let measure = &check["measure"];
+    assert_eq!(measure["quantity"], "targets reached, visible cases");
+    assert_eq!(measure["value"], 1.0, "{check:#}");
+    assert_eq!(check["outcome"], "partial", "{check:#}");
+    // all that another salt changes is points, in whole hundredths
+    for record in [&one, &other] {
+        let points = record["tasks"][1]["checks"][0]["points"].as_f64();
+        let hundredths = points.expect("points") * 100.0;
+        assert!(
+            (hundredths - hundredths.round()).abs() < 1e-9,
+            "{hundredths}"
+        );
+    }
+    let differences = differences("", &one, &other);
+    assert!(!differences.is_empty());
+    for difference in &differences {
+        assert!(difference.contains("/points: "), "{differences:#?}");
+    }
+}
+
+/// A body of `forward_kinematics` that is right in visible cases, and the way by which it would carry out a number of a hidden one.
+const LEAKS: [(&str, &str); 9] = [
+    ("a message", "throw \"\" + q[0];"),
+    (
+        "a line that fails",
+        "if q[0] > 0 {\nthrow 1\n}\nif q[1] > 0 {\nthrow 1\n}\nthrow 1;",
+    ),
+    (
+        "output",
+        "print(q[0]); plot(\"q\", q[0]); plot(\"x\" + q[0], 1); return [0, 0, 0];",
+    ),
+    (
+        "operations",
+        "let i = 0; while i < q[0] * 100 { i += 1; } return [0, 0, 0];",
+    ),
+    ("an answer", "return [q[0], q[1], 0];"),
+    (
+        "an answer of another shape",
+        "let a = []; while len(a) < 10 + q[0] * 3 { a.push(q[0]); } return a;",
+    ),
+    ("an answer that is no list", "return \"\" + q[0];"),
+    (
+        "an answer that is no number",
+        "return [q[0], 0.0 / 0.0, 0];",
+    ),
+    (
+        "a mistake of the engine",
+        "let m = #{}; m[\"k\" + q[0]] = 1; m.nosuch + [1][to_int(q[0] * 100)]",
+    ),
+];
+
+/// What differs between two records, each with the path to it.
+fn differences(path: &str, one: &serde_json::Value, other: &serde_json::Value) -> Vec<String> {
+    use serde_json::Value::{Array, Object};
+    match (one, other) {
+        (Object(a), Object(b)) if a.keys().eq(b.keys()) => {
+            let of = |(key, value)| differences(&format!("{path}/{key}"), value, &b[key]);
+            a.iter().flat_map(of).collect()
+        }
+        (Array(a), Array(b)) if a.len() == b.len() => {
+            let pairs = a.iter().zip(b).enumerate();
+            let of = |(i, (a, b))| differences(&format!("{path}/{i}"), a, b);
+            pairs.flat_map(of).collect()
+        }
+        _ if one == other => Vec::new(),
+        _ => vec![format!("{path}: {one} is {other}")],
+    }
+}
+
+#[test]
+fn a_hidden_number_does_not_leave_by_any_way() {
+    let cases = LEAKS.map(|(name, leak)| (name.to_owned(), leak));
+    every_case(&cases, |leak| {
+        let submission = format!(
+            "fn forward_kinematics(robot, q) {{
+    if robot.base_height != 2 && robot.base_height != 1.6 {{ {leak} }}
+    let l = robot.link_lengths;
+    this.n = (this.get(\"n\", 0)) + q[0];
+    [
+        robot.base_height + l[0] * cos(q[0]) + l[1] * cos(q[0] + q[1]),
+        l[0] * sin(q[0]) + l[1] * sin(q[0] + q[1]),
+        2 * robot.link_offset * (if this.n == q[0] {{ 1 }} else {{ 0 }})
+    ]
+}}
+"
+        );
+        let [one, other] = two_courses(&submission);
+        let value = one["tasks"][0]["checks"][0]["measure"]["value"].as_f64();
+        assert!(value.is_some_and(|value| value < 1e-12), "{one:#}");
+        let differences = differences("", &one, &other);
+        assert!(differences.is_empty(), "{differences:#?}");
+    });
+}

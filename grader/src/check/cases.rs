@@ -60,6 +60,40 @@ impl CaseScore {
     }
 }
 
+/// The scores or errors of cases, for their mean. What is shown is the mean of the visible ones: the last digits of a mean over all cases
+/// would carry out a number of a hidden one.
+#[derive(Default)]
+struct Scores {
+    /// Of every case.
+    all: Vec<f64>,
+    /// Of the visible ones.
+    visible: Vec<f64>,
+}
+
+impl Scores {
+    fn add(&mut self, facts: &CaseFacts<'_>, score: f64) {
+        self.all.push(score);
+        if facts.is_visible() {
+            self.visible.push(score);
+        }
+    }
+
+    /// The mean over all cases, which decides the points.
+    fn mean(&self) -> Option<f64> {
+        mean(&self.all)
+    }
+
+    /// The mean over the visible cases, if there are others: infinite or not a number where there is nothing to show.
+    fn of_visible(&self) -> Option<f64> {
+        let has_hidden = self.visible.len() < self.all.len();
+        has_hidden.then(|| mean(&self.visible).unwrap_or(f64::NAN))
+    }
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
 /// The pieces of evidence that a person reads before the hidden classes.
 const SHOWN: usize = 3;
 
@@ -84,23 +118,20 @@ impl Cases<'_> {
     ) -> Finding {
         let mut judged = Vec::new();
         let mut failed = Vec::new();
-        let mut sum = 0.0;
+        let mut scores = Scores::default();
         for facts in self.cases {
             let Some(CaseScore { score, lost }) = score(facts) else {
                 continue;
             };
             judged.push(facts);
-            sum += score;
+            scores.add(facts, score);
             if !lost.is_empty() {
                 failed.push((facts, lost));
             }
         }
-        let mean = if judged.is_empty() {
-            0.0
-        } else {
-            sum / judged.len() as f64
-        };
-        Finding::share(mean, quantity).because(self.evidence(failed, &judged))
+        Finding::share(scores.mean().unwrap_or_default(), quantity)
+            .shown_as(scores.of_visible())
+            .because(self.evidence(failed, &judged))
     }
 
     /// The mean of all errors, held against the band; `mistakes` says what is wrong with an answer that is too far off.
@@ -111,8 +142,13 @@ impl Cases<'_> {
         mistakes: impl Fn(&CaseFacts<'_>, f64) -> Vec<WrongAnswer>,
     ) -> Finding {
         let cases = self.cases;
-        let mean = cases.iter().map(&error).sum::<f64>() / cases.len() as f64;
-        let finding = Finding::against(self.band, mean, self.unit, quantity);
+        let mut errors = Scores::default();
+        cases
+            .iter()
+            .for_each(|facts| errors.add(facts, error(facts)));
+        let mean = errors.mean().unwrap_or(f64::NAN);
+        let finding =
+            Finding::against(self.band, mean, self.unit, quantity).shown_as(errors.of_visible());
         let mut failed = Vec::new();
         for facts in cases.iter().filter(|_| finding.is_lost()) {
             let error = error(facts);

@@ -74,6 +74,15 @@ impl Finding {
         }
     }
 
+    /// With the value of the visible cases in place of that of all cases, which decides the score and may reveal hidden numbers.
+    pub(super) fn shown_as(mut self, of_visible: Option<f64>) -> Self {
+        if let (Some(measure), Some(value)) = (&mut self.measure, of_visible) {
+            measure.value = value.is_finite().then_some(value);
+            measure.quantity += ", visible cases";
+        }
+        self
+    }
+
     /// Whether points are lost.
     pub fn is_lost(&self) -> bool {
         self.score < 1.0

@@ -355,7 +355,7 @@ pub struct Instant {
 pub struct Measure {
     /// What was measured, such as `mean position error`.
     pub quantity: String,
-    /// The value; absent where it is not finite.
+    /// The value, of the visible run or cases; absent where it is not finite.
     pub value: Option<f64>,
     /// Unit of value and band; empty for a ratio.
     pub unit: String,
