@@ -358,3 +358,68 @@ fn a_hidden_number_does_not_leave_by_any_way() {
         assert!(differences.is_empty(), "{differences:#?}");
     });
 }
+
+/// Work that the engine does in one operation, as much of it as a script can have, in functions of lab 1 and with what stands around them.
+fn uncounted() -> Vec<(String, String)> {
+    let many = format!(
+        "[{},{}]",
+        vec!["#{a:1}"; 250].join(","),
+        vec!["[1]"; 370].join(",")
+    );
+    let letters = |other: &str| format!("a{other}").repeat(15_000);
+    let lets: String = (0..3_600).map(|i| format!("let a{i}=this.a;")).collect();
+    let of = |name: &str, source: String| (name.to_owned(), source);
+    vec![
+        of(
+            "copies of all that is kept",
+            format!(
+                "fn init(robot, task) {{ this.a = {many}; }} fn control(o) {{ for i in 0..7900 {{ this; }} [0.5, 0.0] }}"
+            ),
+        ),
+        of(
+            "copies that are held in memory",
+            format!(
+                "fn init(robot, task) {{ this.a = {many}; }} fn control(o) {{ {lets} [0.5, 0.0] }}"
+            ),
+        ),
+        of(
+            "an unknown name beside a long known one",
+            format!(
+                "fn inverse_kinematics(robot, position) {{ let {} = 1; {} }}",
+                letters("b"),
+                letters("c")
+            ),
+        ),
+        of(
+            "an unknown function beside a long known one",
+            format!(
+                "fn {}() {{ }} fn forward_kinematics(robot, q) {{ {}() }}",
+                letters("b"),
+                letters("c")
+            ),
+        ),
+    ]
+}
+
+#[test]
+fn work_that_the_engine_does_not_count_ends_at_a_budget_and_not_at_a_limit_of_the_machine() {
+    every_case(&uncounted(), |source| {
+        let bed = TestBed::new();
+        bed.write("submission.rhai", source);
+        let ran = bed.run(&["grade", "01-kinematics", "submission.rhai", "--json"]);
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        let record: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a record");
+        let is_long_name = source.contains("abab");
+        let expected = if is_long_name {
+            "did-not-build"
+        } else {
+            "over-budget"
+        };
+        let tasks = record["tasks"].as_array().expect("tasks");
+        let ended = tasks
+            .iter()
+            .filter(|task| task["verdict"] == expected)
+            .count();
+        assert!(ended > 0, "{record:#}");
+    });
+}

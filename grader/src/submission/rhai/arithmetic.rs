@@ -218,6 +218,10 @@ fn calculate(
     let (a, b) = (Operand::of(left), Operand::of(right));
     let elements = a.elements().max(b.elements());
     meter.charge(elements)?;
+    if matches!(operator.symbol, "**" | "%") {
+        // each takes about as long as an operation
+        meter.charge(8 * elements.saturating_sub(1))?;
+    }
     if let (Operand::Int(a), Operand::Int(b)) = (&a, &b) {
         return Ok((operator.whole)(*a, *b).map_or_else(
             || (operator.float)(*a as f64, *b as f64).into(),

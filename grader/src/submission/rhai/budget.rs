@@ -12,6 +12,10 @@ use crate::submission::output::Output;
 /// A built-in that processes elements is charged one operation for this many of them, which takes about as long.
 const ELEMENTS_PER_OPERATION: usize = 8;
 
+/// What the engine only looks at is charged one operation for this many, after the first ones, which are free.
+const PARTS_PER_OPERATION: usize = 16;
+const FREE_PARTS: usize = 64;
+
 /// Copies of vectors are charged this often, in operations.
 const COPIES_EVERY: u64 = 64;
 
@@ -111,6 +115,20 @@ impl Meter {
         } else {
             Err(Problem::Exhausted)
         }
+    }
+
+    /// Takes back operations that the engine has counted for what no script says.
+    pub(super) fn uncount(&self, operations: u64) {
+        let before = self.counted_before.get();
+        self.counted_before.set(before.saturating_add(operations));
+    }
+
+    /// Charges for what the engine does with each of `parts` in less time than with an element: comparing, looking, stepping over it.
+    pub(super) fn glance(&self, parts: usize) -> Result<(), Problem> {
+        if parts < FREE_PARTS {
+            return Ok(());
+        }
+        self.operations((parts / PARTS_PER_OPERATION) as u64)
     }
 
     /// Charges a built-in for walking over `elements`.

@@ -11,7 +11,12 @@ thread_local! {
 
 /// Counts one copy on this thread.
 pub(super) fn count_one() {
-    COPIES.set(COPIES.get() + 1);
+    count(1);
+}
+
+/// Counts what takes as long as so many copies.
+pub(super) fn count(copies: usize) {
+    COPIES.set(COPIES.get() + copies);
 }
 
 /// The copies since the last time.

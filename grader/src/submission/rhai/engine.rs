@@ -4,13 +4,14 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use rhai::{Dynamic, Engine, EvalAltResult, Position};
+use rhai::{Dynamic, Engine, Position};
 
 use super::budget::Meter;
 use super::granted;
 use super::hints::Names;
 use super::library::Library;
-use super::mistake::raise;
+use super::mistake::{Problem, raise};
+use super::weight::charge_for_copy;
 use super::{arithmetic, linear, list, math, output};
 use crate::submission::controller::{Budgets, Grant};
 use crate::submission::robot_model::Model;
@@ -22,10 +23,18 @@ pub(super) struct Globals {
     pub(super) constants: RefCell<BTreeMap<String, Dynamic>>,
     /// Arguments of the next call, each moved out when it is read.
     pub(super) arguments: [Cell<Dynamic>; 2],
+    /// How many functions the file has.
+    pub(super) functions: Cell<usize>,
 }
+
+/// A function is looked at for as long as so many variables.
+const FUNCTION: usize = 8;
 
 /// The variables through which a call reads its arguments; a script that uses one finds nothing in it.
 pub(super) const ARGUMENTS: [&str; 2] = ["argument_0_of_the_call", "argument_1_of_the_call"];
+
+/// The variable that is `this` in a call: a map that is kept between calls.
+pub(super) const MEMORY: &str = "memory";
 
 /// Names that work although nothing registers them.
 const DISABLED: [&str; 8] = [
@@ -106,22 +115,35 @@ fn set_callbacks(engine: &mut Engine, meter: &Rc<Meter>, globals: &Rc<Globals>) 
     let globals = Rc::clone(globals);
     let reader = Rc::clone(meter);
     engine.on_var(move |name, offset, context| {
+        let charged = |charged: Result<(), Problem>| {
+            charged.map_err(|problem| raise(problem, Position::NONE))
+        };
         // a local variable lies so far from the end of the scope; the engine finds it itself
         if let Some(distance) = offset.checked_sub(1) {
+            charged(reader.glance(distance / 2))?;
             if let Some((_, _, value)) = context.scope().iter_raw().nth(distance) {
-                charge_for_copy(&reader, value)?;
+                // charged as if it were copied, because the engine mostly does and never says when
+                charged(charge_for_copy(&reader, value))?;
             }
             return Ok(None);
         }
         if let Some(argument) = ARGUMENTS.iter().position(|known| *known == name) {
             return Ok(Some(globals.arguments[argument].take()));
         }
+        if name == MEMORY {
+            return Ok(None);
+        }
         match globals.constants.borrow().get(name) {
             Some(value) => {
-                charge_for_copy(&reader, value)?;
+                charged(charge_for_copy(&reader, value))?;
                 Ok(Some(value.clone()))
             }
-            None => Ok(None),
+            None => {
+                // the engine looks through all variables by their names, then through all functions
+                let names = context.scope().len() + FUNCTION * globals.functions.get();
+                charged(reader.glance(names))?;
+                Ok(None)
+            }
         }
     });
     let meter = Rc::clone(meter);
@@ -129,15 +151,4 @@ fn set_callbacks(engine: &mut Engine, meter: &Rc<Meter>, globals: &Rc<Globals>) 
         meter.at(Position::NONE);
         Err(raise(linear::list_index_fault(list, index), Position::NONE))
     });
-}
-
-/// Charges for mentioning a variable as if it were copied, because the engine mostly does and never says when.
-fn charge_for_copy(meter: &Meter, value: &Dynamic) -> Result<(), Box<EvalAltResult>> {
-    if value.is_array() || value.is_map() || value.is_string() {
-        let size = list::size(value);
-        meter
-            .charge(size)
-            .map_err(|problem| raise(problem, Position::NONE))?;
-    }
-    Ok(())
 }

@@ -8,6 +8,7 @@ use rhai::{Dynamic, FuncRegistration, Module, NativeCallContext, RhaiFunc};
 
 use super::budget::Meter;
 use super::mistake::{Problem, raise};
+use super::weight::parts;
 
 /// A built-in's arguments; the first may be a variable of the script.
 pub(super) type Arguments<'a, 'b> = &'a mut [&'b mut Dynamic];
@@ -59,7 +60,12 @@ impl Library {
         let call = move |context: Option<NativeCallContext<'_>>, arguments: &mut [&mut Dynamic]| {
             let position = context.map_or(rhai::Position::NONE, |context| context.call_position());
             meter.at(position);
-            function(&meter, arguments).map_err(|problem| raise(problem, position))
+            // the engine looks through the first argument afterwards, which may have been changed
+            let looked_through = arguments.first().map_or(0, |first| parts(first));
+            meter
+                .glance(looked_through)
+                .and_then(|()| function(&meter, arguments))
+                .map_err(|problem| raise(problem, position))
         };
         FuncRegistration::new(name)
             .in_global_namespace()

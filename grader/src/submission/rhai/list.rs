@@ -14,8 +14,8 @@ use super::mistake::{Problem, fault, fault_with_help};
 use super::operand::{as_number, as_whole, count, number};
 use super::range::Range;
 use super::vector::{Matrix, Vector};
+use super::weight::size;
 use super::words::{describe, show};
-use crate::submission::controller::Budget;
 
 pub(super) fn register(library: &mut Library) {
     let module = library.module_mut();
@@ -24,15 +24,10 @@ pub(super) fn register(library: &mut Library) {
     module.set_iterable::<ops::Range<INT>>();
     module.set_iterable::<ops::RangeInclusive<INT>>();
     module.set_iter(TypeId::of::<ImmutableString>(), |text| {
-        let characters: Vec<char> = text
-            .as_immutable_string_ref()
-            .map(|text| text.chars().collect())
-            .unwrap_or_default();
-        Box::new(
-            characters
-                .into_iter()
-                .map(|c| ImmutableString::from(c.to_string()).into()),
-        )
+        Box::new(Characters {
+            text: text.cast(),
+            next: 0,
+        })
     });
 
     library.function("len", 1, |_, arguments| {
@@ -61,6 +56,23 @@ pub(super) fn register(library: &mut Library) {
             _ => Err(fault("`range` takes integers")),
         }
     });
+}
+
+/// An iterator over the characters of a string, each made when it is needed.
+struct Characters {
+    text: ImmutableString,
+    /// The byte at which the next one begins.
+    next: usize,
+}
+
+impl Iterator for Characters {
+    type Item = Dynamic;
+
+    fn next(&mut self) -> Option<Dynamic> {
+        let character = self.text.get(self.next..)?.chars().next()?;
+        self.next += character.len_utf8();
+        Some(ImmutableString::from(character.to_string()).into())
+    }
 }
 
 fn length(value: &Dynamic) -> Result<INT, Problem> {
@@ -221,7 +233,7 @@ fn elements(meter: &Meter, name: &str, value: &Dynamic) -> Result<Array, Problem
     match value.as_array_ref() {
         Ok(list) => {
             let list: &Array = &list;
-            meter.charge(8 * list.len())?;
+            meter.charge((8 * list.len()).max(size(value)))?;
             Ok(list.clone())
         }
         Err(_) => Err(fault(format!(
@@ -266,7 +278,11 @@ fn register_maps(library: &mut Library) {
         let Ok(key) = arguments[1].as_immutable_string_ref() else {
             return Err(fault("the key of a map is a string"));
         };
-        Ok(map.get(key.as_str()).cloned().unwrap_or(otherwise))
+        let Some(found) = map.get(key.as_str()) else {
+            return Ok(otherwise);
+        };
+        meter.charge(size(found))?;
+        Ok(found.clone())
     });
 }
 
@@ -283,7 +299,7 @@ fn with_map(
         )));
     };
     let map: &Map = &map;
-    meter.charge(8 * map.len())?;
+    meter.charge((8 * map.len()).max(size(value)))?;
     Ok(Dynamic::from_array(list(map)))
 }
 
@@ -316,63 +332,4 @@ fn contains(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, Prob
         }
     }
     Ok(false.into())
-}
-
-/// Refuses a value beyond a budget of size, including its vectors, which the engine does not count.
-pub(super) fn check_size(meter: &Meter, value: &Dynamic) -> Result<(), Problem> {
-    let mut weight = Weight::default();
-    weight.add(value);
-    meter.within(Budget::ListSize, weight.elements + weight.numbers)?;
-    meter.within(Budget::MapSize, weight.entries)?;
-    meter.within(Budget::TextSize, weight.bytes)
-}
-
-/// The cost of a copy of a value; vectors are shared.
-pub(super) fn size(value: &Dynamic) -> usize {
-    let mut weight = Weight::default();
-    weight.add(value);
-    weight.elements + weight.entries + weight.bytes
-}
-
-#[derive(Default)]
-struct Weight {
-    /// Elements of lists.
-    elements: usize,
-    /// Elements of vectors and matrices.
-    numbers: usize,
-    /// Entries of maps.
-    entries: usize,
-    /// Bytes of strings.
-    bytes: usize,
-}
-
-impl Weight {
-    fn add(&mut self, value: &Dynamic) {
-        // asked once: most values are numbers, and this is done whenever a list or map is mentioned
-        let kind = value.type_id();
-        if kind == TypeId::of::<f64>() || kind == TypeId::of::<bool>() {
-            return;
-        }
-        if kind == TypeId::of::<Vector>() {
-            self.numbers += value.read_lock::<Vector>().map_or(0, |vector| vector.len());
-        } else if kind == TypeId::of::<Array>() {
-            if let Ok(list) = value.as_array_ref() {
-                let list: &Array = &list;
-                self.elements += list.len();
-                list.iter().for_each(|element| self.add(element));
-            }
-        } else if kind == TypeId::of::<Map>() {
-            if let Ok(map) = value.as_map_ref() {
-                let map: &Map = &map;
-                self.entries += map.len();
-                map.values().for_each(|element| self.add(element));
-            }
-        } else if kind == TypeId::of::<ImmutableString>() {
-            if let Ok(text) = value.as_immutable_string_ref() {
-                self.bytes += text.len();
-            }
-        } else if let Some(matrix) = value.read_lock::<Matrix>() {
-            self.numbers += matrix.rows() * matrix.columns();
-        }
-    }
 }

@@ -19,6 +19,7 @@ mod library;
 mod linear;
 mod list;
 mod math;
+mod metered;
 mod mistake;
 mod operand;
 mod output;
@@ -33,6 +34,7 @@ mod slips;
 mod tests;
 mod unknown;
 mod vector;
+mod weight;
 mod words;
 
 /// Every function that a submission can call, with its arguments and what it does, as language servers of Rhai read it (`.d.rhai`).

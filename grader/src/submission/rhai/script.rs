@@ -10,13 +10,14 @@ use rhai::{
 
 use super::budget::{Meter, place};
 use super::convert;
-use super::engine::{self, ARGUMENTS, Globals};
+use super::engine::{self, ARGUMENTS, Globals, MEMORY};
 use super::hints::{ENTRY_POINTS, Names};
-use super::list;
+use super::metered::metered;
 use super::mistake::{Context, Problem, raise};
 use super::places::Places;
 use super::slips;
 use super::unknown::unknown;
+use super::weight;
 use crate::submission::controller::{
     Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
     SensorFacts, SourcePosition, Stop, Value,
@@ -59,9 +60,6 @@ struct Run {
     /// The scope with the variable [`MEMORY`].
     scope: Scope<'static>,
 }
-
-/// The variable that is `this` in a call: a map that is kept between calls.
-const MEMORY: &str = "memory";
 
 /// The map `robot`, created again only for another robot.
 struct CachedRobot {
@@ -110,7 +108,7 @@ impl ScriptController {
         };
         let grants = opening.granted.as_ref().map(|g| g.functions.as_slice());
         let granted = model.as_ref().zip(grants);
-        let (engine, mut names) = engine::build(budgets, &meter, &globals, granted);
+        let (mut engine, mut names) = engine::build(budgets, &meter, &globals, granted);
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
         names.observation = observation.keys().map(ToString::to_string).collect();
@@ -140,6 +138,8 @@ impl ScriptController {
             .map_err(|error| context.not_compiled(&engine, &error))?;
         refuse_known_slips(&ast)?;
         collect_names(&ast, &mut names, opening.function.as_deref());
+        globals.functions.set(names.functions.len());
+        let ast = metered(&mut engine, &meter, &ast, &names)?;
 
         let mut global = engine.new_global_runtime_state();
         global.lib.push(ast.shared_lib().clone());
@@ -274,7 +274,7 @@ impl ScriptController {
                 further: Vec::new(),
             }));
         }
-        list::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
+        weight::check_size(&self.meter, memory).map_err(|problem| self.after_call(name, problem))
     }
 
     /// The stop for a problem with the answer or `this` of `function`.

@@ -9,6 +9,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::copies;
 
+/// So many elements are copied in the time of a shared copy.
+const ELEMENTS_PER_COPY: usize = 8;
+
 /// A column of numbers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Vector(Rc<DVector<f64>>);
@@ -273,6 +276,7 @@ impl Iterator for Rows {
             return None;
         }
         self.next += 1;
+        copies::count(self.matrix.columns() / ELEMENTS_PER_COPY);
         Some(self.matrix.row(self.next - 1))
     }
 }

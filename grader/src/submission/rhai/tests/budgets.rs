@@ -1,6 +1,6 @@
 //! Scripts that use up what there is, by accident or on purpose.
 
-use super::{answer, observation, opening, run, stop};
+use super::{answer, observation, opening, run, stop, value};
 use crate::submission::controller::{Budget, Call, Controller, Stop};
 use crate::submission::rhai::{STACK_BYTES, ScriptController};
 
@@ -63,7 +63,7 @@ fn hostile_scripts_end_at_a_budget() {
         (control("let a = []; loop { a = [a]; }"), OperationsPerCall),
         (
             control("this.a = []; loop { this.a = [this.a]; }"),
-            ListSize,
+            OperationsPerCall,
         ),
         (
             control("this.a = 1; loop { this.a = #{a: this.a}; }"),
@@ -182,6 +182,230 @@ fn hostile_scripts_end_at_a_budget() {
     on_a_large_stack(run_all);
 }
 
+/// Functions that statements below call.
+const FUNCTIONS: &str = "fn give(x) { 1 } fn give(x, y) { 1 } fn same(x) { x } fn whole() { this } fn returned() { return this; }
+    fn kept() { 1 } const A = [1.5, 2.5];";
+
+/// The operations that statements take in a body of `control`.
+fn operations(statements: &str) -> u64 {
+    let source = format!("{FUNCTIONS} fn control(o) {{ {statements}; 1 }}");
+    match run(&source) {
+        Ok(answer) => answer.operations,
+        Err(stop) => panic!("{statements:.300}: {stop:?}"),
+    }
+}
+
+/// The operations that a statement takes after others.
+fn cost(before: &str, statement: &str) -> u64 {
+    operations(&format!("{before} {statement}")) - operations(before)
+}
+
+/// A list of 100 small maps and 100 small lists: a copy of it costs as much as one of 1172 numbers.
+fn nested() -> String {
+    format!(
+        "[{},{}]",
+        vec!["#{a:1}"; 100].join(","),
+        vec!["[1]"; 100].join(",")
+    )
+}
+
+const OF_NESTED: u64 = (200 + 200 + 4 * (201 - 8)) / 8;
+
+#[test]
+fn what_is_copied_out_of_this_is_charged_by_its_size() {
+    let nested = nested();
+    let before = format!("this.a = {nested}; let k = \"a\";");
+    for statement in [
+        "this.a",
+        "this[\"a\"]",
+        "this[k]",
+        "this?.a",
+        "this",
+        "let b = this",
+        "let b = this.a",
+        "give(this.a)",
+        "give(1, this.a)",
+        "give(this)",
+        "give(1, this)",
+        "same(this.a)",
+        "this.give(this.a)",
+        "this.whole()",
+        "this.a.returned()",
+        "[this.a]",
+        "#{ b: this.a }",
+        "{ this.a }",
+        "if true { this.a }",
+        "let b = if true { this.a } else { 1 }",
+        "loop { break this.a; }",
+        "for x in this.a { break; }",
+        "switch this.a { 1 => 2 }",
+        "switch 1 { 1 => this.a }",
+        "this.a ?? 1",
+        "this.a == 1",
+        "1 == this.a",
+        "this == this.a",
+        "values(this)",
+        "get(this, k, 0)",
+        "this.get(k, 0)",
+        "try { throw this.a } catch { }",
+        "try { throw this.a } catch (e) { }",
+        "try { -this.a } catch { }",
+        "try { 1 + this } catch { }",
+        "try { rows(this.a) } catch { }",
+        "try { plot(k, this.a) } catch { }",
+        "try { nosuch(this.a) } catch { }",
+        "try { `${this.a}` } catch { }",
+        "try { while this.a { } } catch { }",
+        "try { [1][this.a] } catch { }",
+    ] {
+        let cost = cost(&before, statement);
+        assert!(cost >= OF_NESTED, "{statement}: {cost} of {OF_NESTED}");
+    }
+    // inside of maps and lists of `this`
+    for (kept, used) in [
+        ("#{ b: @ }", "this.a.b"),
+        ("#{ b: @ }", "this[k].b"),
+        ("#{ b: @ }", "this.a[\"b\"]"),
+        ("#{ b: #{ c: @ } }", "this.a.b.c"),
+        ("[#{ b: @ }]", "this.a[0].b"),
+        ("#{ b: [@] }", "this.a.b[0]"),
+        ("[[@]]", "this.a[0][0]"),
+        ("[[@]]", "this.a[this.i][this.i]"),
+    ] {
+        let value = kept.replace('@', &nested);
+        let before = format!("this.i = 0; this.a = {value}; let k = \"a\";");
+        for statement in ["@", "let x = @", "give(@)", "give(1, @)", "[@]", "@ == 1"] {
+            let statement = statement.replace('@', used);
+            let cost = cost(&before, &statement);
+            assert!(cost >= OF_NESTED, "{statement}: {cost} of {OF_NESTED}");
+        }
+    }
+}
+
+#[test]
+fn looking_through_what_this_holds_is_charged_where_nothing_is_copied() {
+    let before = format!("this.a = {}; this.m = #{{}}; let k = \"a\";", nested());
+    for statement in [
+        "this.i = 1",
+        "this.m.i = 1",
+        "len(this)",
+        "this.a.len()",
+        "is_empty(this)",
+        "k in this",
+        "this.get(k + 1, 0)",
+        "this.a.pop()",
+    ] {
+        let cost = cost(&before, statement);
+        assert!((400 / 16..OF_NESTED).contains(&cost), "{statement}: {cost}");
+    }
+}
+
+#[test]
+fn small_things_in_this_cost_as_much_as_in_a_variable() {
+    let before = |owner: &str| {
+        format!(
+            "let t = #{{}}; {owner}.i = 1; {owner}.v = zeros(2); {owner}.m = #{{ a: 1 }}; {owner}.list = [1];"
+        )
+    };
+    for statement in [
+        "@.i + 1",
+        "@.i += 1",
+        "@.i = 2",
+        "@[\"i\"] += 1",
+        "@.v[0]",
+        "@.v[0] = 2.5",
+        "@.v[@.i]",
+        "@.m.a",
+        "@.m.a += @.i",
+        "@.list[0]",
+        "@.list[0] = 3",
+        "@.list.push(2)",
+        "@.list[@.i - 1]",
+        "sin(@.i)",
+        "norm(@.v) + @.v.x",
+        "if @.i > 0 { @.i = 0; }",
+        "[@.i, @.m.a]",
+        "give(@.i, @.list)",
+        "@.fresh = [@.i]",
+        "let v = @.v + @.i * @.v",
+        "for x in @.list { @.i += x; }",
+    ] {
+        let of = |owner: &str| {
+            let statement = statement.replace('@', owner);
+            operations(&format!("{} {statement}", before(owner)))
+        };
+        assert_eq!(of("this"), of("t"), "{statement}");
+    }
+}
+
+#[test]
+fn what_the_engine_does_in_one_operation_is_charged() {
+    let many = |item: &dyn Fn(usize) -> String| (0..2_000).map(item).collect::<String>();
+    let list = format!("[{}]", vec!["1"; 900].join(","));
+    let text = format!("\"{}\"", "ab".repeat(2_000));
+    let vector = "let v = 1.5 * ones(900);";
+    let lets = many(&|i| format!("let a{i}=1;"));
+    for (before, statement, least) in [
+        // a list of constants as an argument or as an index
+        ("", format!("give({list})"), 900),
+        ("", format!("len({list})"), 900),
+        (
+            "let x = [1];",
+            format!("try {{ x[{list}] }} catch {{ }}"),
+            900,
+        ),
+        // every element takes as long as an operation
+        (vector, "v ** 1.37".to_owned(), 900),
+        (vector, "v % 3e-300".to_owned(), 900),
+        // arms that are tried one after the other
+        (
+            "",
+            format!(
+                "switch 1 {{ {} }}",
+                many(&|i| format!("{}..{}=>0,", i + 10, i + 12))
+            ),
+            100,
+        ),
+        (
+            "",
+            format!("switch 1 {{ {} }}", many(&|_| "1 if false=>0,".to_owned())),
+            100,
+        ),
+        // far away in the list of variables, and by name
+        (lets.as_str(), "a0".to_owned(), 50),
+        (lets.as_str(), "try { nosuch } catch { }".to_owned(), 100),
+        // by all combinations of types
+        (
+            "",
+            "try { nosuch(1,2,3,4,5,6,7,8,9,0,1,2,3) } catch { }".to_owned(),
+            3_000,
+        ),
+        (
+            "let x = 1;",
+            "try { x.nosuch(2,3,4,5,6,7,8,9,0,1,2,3) } catch { }".to_owned(),
+            3_000,
+        ),
+        // mistakes that are caught
+        ("", "try { nosuch } catch { }".to_owned(), 8),
+        ("", "try { throw 1 } catch (e) { }".to_owned(), 8),
+        // what is thrown is copied for the variable
+        (
+            format!("let a = {list};").as_str(),
+            "try { throw a } catch (e) { }".to_owned(),
+            2 * 900 / 8,
+        ),
+    ] {
+        let cost = cost(before, &statement);
+        assert!(cost >= least, "{statement:.60}: {cost} of {least}");
+    }
+    // only as many characters as the loop comes to
+    assert!(cost("", &format!("for c in {text} {{ break; }}")) < 10);
+    assert_eq!(
+        value("let s = \"\"; for c in \"aäb\" { s = c + s; } s"),
+        value("\"bäa\"")
+    );
+}
+
 #[test]
 fn a_long_name_is_refused() {
     let name = "n".repeat(201);
@@ -257,6 +481,8 @@ fn the_deepest_expressions_in_the_deepest_calls_fit_the_stack() {
             ("!", ""),
             ("1+", ""),
             ("x[", "]"),
+            ("this[", "]"),
+            ("[this, ", "]"),
             ("switch x { 1 => ", "}"),
             ("loop { ", "}"),
             ("try { ", "} catch {}"),
@@ -264,9 +490,16 @@ fn the_deepest_expressions_in_the_deepest_calls_fit_the_stack() {
             ("for i in [1] {", "}"),
         ];
         for (before, after) in nestings {
+            // a function has `this` if it is called as a method of it
+            let call = if before.contains("this") {
+                "this.f"
+            } else {
+                "f"
+            };
             let deepest = (1..64).rev().find_map(|depth| {
                 let (before, after) = (before.repeat(depth), after.repeat(depth));
-                let source = format!("fn f(x) {{ {before}f(x){after} }} fn control(o) {{ f(1) }}");
+                let source =
+                    format!("fn f(x) {{ {before}{call}(x){after} }} fn control(o) {{ {call}(1) }}");
                 ScriptController::open(&opening(&source)).ok()
             });
             let result = deepest

@@ -1,0 +1,1032 @@
+//! What a counted operation of a script takes at most: a list of statements, each in a loop until the budget ends it. Prints those that
+//! take more than ten times as long per operation as an addition, and the files that take longest to be read.
+//!
+//! `cargo run --release -p kinemark-grader --example script_cost [-- --all | WORD]`; docs/performance.md says more.
+
+#![expect(clippy::print_stdout, reason = "it reports to a person")]
+
+use std::time::Duration;
+
+use kinemark_grader::submission::controller::{
+    Budget, Budgets, Call, Controller, Observation, Opening, RobotFacts, Stop, Value,
+};
+use kinemark_grader::submission::handed_in::Program;
+use kinemark_grader::submission::rhai::{STACK_BYTES, ScriptController};
+
+/// Operations of a measurement.
+const OPERATIONS: u64 = 20_000;
+
+/// Measurements of a statement.
+const TIMES: usize = 12;
+
+/// The most that an operation may take, in operations of the baseline.
+const MOST: f64 = 10.0;
+
+/// The longest that reading a file may take.
+const LONGEST_TO_READ: Duration = Duration::from_secs(1);
+
+/// A statement to repeat, and what comes before the loop.
+struct Statement {
+    functions: String,
+    before: String,
+    repeated: String,
+}
+
+fn statement(before: impl Into<String>, repeated: impl Into<String>) -> Statement {
+    Statement {
+        functions: String::new(),
+        before: before.into(),
+        repeated: repeated.into(),
+    }
+}
+
+impl Statement {
+    fn with(self, functions: impl Into<String>) -> Self {
+        Self {
+            functions: functions.into(),
+            ..self
+        }
+    }
+
+    /// It in one line.
+    fn name(&self) -> String {
+        let shown = |text: &str, most: usize| {
+            let mut shown: String = text.chars().take(most).collect();
+            if shown.len() < text.len() {
+                shown.push_str("...");
+            }
+            shown
+        };
+        format!(
+            "{}{}{}",
+            shown(&self.functions, 40),
+            if self.before.is_empty() {
+                String::new()
+            } else {
+                format!("[{}] ", shown(&self.before, 40))
+            },
+            shown(&self.repeated, 60)
+        )
+    }
+
+    /// Time of an operation, or why there is none: that of what comes before the loop is taken off.
+    fn time(&self) -> Result<Duration, String> {
+        let script = |rest: &str, budget| {
+            let source = format!(
+                "{} fn control(o) {{ {}\n{rest} }}",
+                self.functions, self.before
+            );
+            ScriptController::open(&opening(source, budget))
+                .map_err(|stop| format!("does not open: {stop:?}"))
+        };
+        let call = Call::Control(observation());
+        let mut setup = script("1", u64::MAX)?;
+        let (of_setup, answer) = timed(|| setup.call(&call));
+        let before = answer.map_err(|stop| format!("does not begin: {stop:?}"))?;
+        let mut whole = script(
+            &format!("loop {{ {} }}", self.repeated),
+            before.operations + OPERATIONS,
+        )?;
+        let (of_whole, result) = timed(|| whole.call(&call));
+        match result {
+            Err(Stop::OverBudget {
+                budget: Budget::OperationsPerCall,
+                ..
+            }) => Ok(of_whole.saturating_sub(of_setup) / OPERATIONS as u32),
+            other => Err(format!("ends otherwise: {other:?}")),
+        }
+    }
+
+    /// The least of some times, because other programs only ever add to it.
+    fn least_time(&self) -> Result<Duration, String> {
+        let first = self.time()?;
+        let others = (1..TIMES).filter_map(|_| self.time().ok());
+        Ok(others.fold(first, Duration::min))
+    }
+}
+
+#[expect(clippy::disallowed_methods, reason = "it measures time")]
+fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
+    let start = std::time::Instant::now();
+    let result = work();
+    (start.elapsed(), result)
+}
+
+fn list(item: &str, count: usize) -> String {
+    format!("[{}]", vec![item; count].join(","))
+}
+
+/// A list of small maps and lists, as many as a script may keep: the value that takes longest to copy.
+fn nested() -> String {
+    let maps = vec!["#{a:1}"; 250].join(",");
+    let lists = vec!["[1]"; 370].join(",");
+    format!("[{maps},{lists}]")
+}
+
+/// A map of `count` entries whose keys have `length` characters.
+fn map(count: usize, length: usize) -> String {
+    let entry = |i: usize| format!("k{i:0>length$}: {i}", length = length - 1);
+    let entries: Vec<String> = (0..count).map(entry).collect();
+    format!("#{{{}}}", entries.join(", "))
+}
+
+/// A string of `length` characters, quoted.
+fn text(length: usize) -> String {
+    format!("\"{}\"", "ab".repeat(length / 2))
+}
+
+// long: a list
+fn statements() -> Vec<Statement> {
+    let at_this = |value: &str| format!("this.a = {value};");
+    let local = |value: &str| format!("let a = {value};");
+    let nested_this = || at_this(&nested());
+    let floats_this = || at_this(&list("1.5", 990));
+    let keys = |length| {
+        format!(
+            "let s = \"{}\"; for i in 0..250 {{ this[s + i] = i; }}",
+            "k".repeat(length)
+        )
+    };
+    let many = |count: usize| {
+        (0..count)
+            .map(|i| format!("let v{i}=1;"))
+            .collect::<String>()
+    };
+    let mut all = vec![
+        // numbers
+        statement("let a = 1.5;", "a + 1.0"),
+        statement("let a = 1.5;", "a * a - a / 2.0"),
+        statement("let a = 3;", "a + 1"),
+        statement("let a = 3;", "a / 2"),
+        statement("let a = 1.5;", "a ** 2"),
+        statement("let a = 1.5;", "a ** 1.37"),
+        statement("let a = 1e300;", "a ** 1.0000001"),
+        statement("let a = -1.5;", "a ** 0.5"),
+        statement("let a = 3;", "a ** 40"),
+        statement("let a = 1;", "a ** 4000000000"),
+        statement("let a = 7;", "a ** -3"),
+        statement("let a = 7.5;", "a % 2.0"),
+        statement("let a = 1e300;", "a % 3e-300"),
+        statement("let a = 1e300;", "a % 3.0"),
+        statement("let a = 9e15;", "a %= 3e-300; a = 9e15"),
+        statement("let a = 7;", "a % 3"),
+        statement("let a = 1.5;", "a < 2.0 && a > 1.0 || a == 1.5"),
+        statement("let a = true;", "!a"),
+        statement("let a = 1.5;", "-a"),
+        statement("let a = 1.5;", "a += 1.0"),
+        statement("let a = 1.5;", "a = a"),
+        statement("", "let a = 1.5"),
+        statement("", "1.5"),
+        statement("", "if true { 1 } else { 2 }"),
+        statement("", "{ { { 1 } } }"),
+        statement("", "for i in 0..1000 { }"),
+        statement("", "for i in 0..1000 { i }"),
+        statement("", "for i in range(1000) { i }"),
+        statement("", "for i in 0..0 { }"),
+        statement("", "while false { }"),
+        statement("", "do { } while false"),
+        statement("let a = ();", "a ?? 1"),
+        // functions of numbers
+        statement("let a = 1.5;", "sin(a)"),
+        statement("let a = 1e300;", "sin(a)"),
+        statement("let a = 1e300;", "cos(a)"),
+        statement("let a = 1e300;", "tan(a)"),
+        statement("let a = 0.5;", "asin(a)"),
+        statement("let a = 0.5;", "acos(a)"),
+        statement("let a = 0.5;", "atan(a)"),
+        statement("let a = 0.5;", "atan2(a, 1.0)"),
+        statement("let a = 0.5;", "sinh(a)"),
+        statement("let a = 20.5;", "cosh(a)"),
+        statement("let a = 0.5;", "tanh(a)"),
+        statement("let a = 0.5;", "exp(a)"),
+        statement("let a = 0.5;", "ln(a)"),
+        statement("let a = 0.5;", "log10(a)"),
+        statement("let a = 0.5;", "log2(a)"),
+        statement("let a = 0.5;", "sqrt(a)"),
+        statement("let a = -0.5;", "sqrt(a)"),
+        statement("let a = 0.5;", "hypot(a, 1.5)"),
+        statement("let a = 0.5;", "pow(a, 1.37)"),
+        statement("let a = 1e300;", "wrap_pi(a)"),
+        statement("let a = 0.5;", "round(a, 7)"),
+        statement("let a = 0.5;", "quintic(a)"),
+        statement("let a = 0.5;", "clamp(a, 0, 1)"),
+        statement("let a = 0.5;", "lerp(a, 1, 0.5)"),
+        statement("let a = 0.5;", "max(a, 1.0, 2)"),
+        statement("let a = 0.5;", "min(a, 3)"),
+        statement("let a = 0.5;", "is_nan(a)"),
+        // vectors and matrices
+        statement("let v = zeros(990);", "v + v"),
+        statement("let v = zeros(990);", "v * 2.0"),
+        statement("let v = ones(990);", "v ** 1.37"),
+        statement("let v = 1e300 * ones(990);", "v % 3e-300"),
+        statement("let v = 1e300 * ones(990);", "wrap_pi(v)"),
+        statement("let v = 1e300 * ones(990);", "sin(v)"),
+        statement("let v = ones(990);", "pow(v, 1.37)"),
+        statement("let v = ones(990);", "norm(v)"),
+        statement("let v = ones(990);", "sum(v)"),
+        statement("let v = ones(990);", "dot(v, v)"),
+        statement("let v = ones(990);", "max(v)"),
+        statement("let v = ones(990);", "-v"),
+        statement("let v = ones(990);", "v[3]"),
+        statement("let v = ones(990);", "v[0..900]"),
+        statement(
+            "let v = ones(990); let i = 0.0;",
+            "let w = v; v[0] = i; i += 1.0",
+        ),
+        statement("let v = ones(990);", "for x in v { break; }"),
+        statement("let v = ones(990);", "v == v"),
+        statement("let v = ones(990);", "reverse(v)"),
+        statement("let v = ones(990);", "sort(v)"),
+        statement("let v = ones(990);", "slice(v, 0, 900)"),
+        statement("let v = ones(990);", "concat(v, [])"),
+        statement("let v = ones(900);", "v.push(1.0); v = ones(900)"),
+        statement("let v = ones(2);", "v + v"),
+        statement("let v = ones(2);", "v.x + v.y"),
+        statement("", "zeros(990)"),
+        statement("", "eye(31)"),
+        statement("", "zeros(990, 1)"),
+        statement("", "zeros(0, 990)"),
+        statement("", "linspace(0, 1, 990)"),
+        statement("let v = ones(31);", "diag(v)"),
+        statement("let m = eye(31);", "m * m"),
+        statement("let m = eye(31); let v = ones(31);", "m * v"),
+        statement("let m = eye(31);", "m + m"),
+        statement("let m = eye(31);", "det(m)"),
+        statement("let m = eye(31);", "inverse(m)"),
+        statement("let m = eye(31);", "solve(m, m)"),
+        statement("let m = eye(3);", "inverse(m)"),
+        statement("let m = eye(2);", "det(m)"),
+        statement("let m = eye(31);", "transpose(m)"),
+        statement("let m = eye(31);", "m.T"),
+        statement("let m = eye(31);", "m[0][0]"),
+        statement("let m = zeros(1, 990);", "m[0][0]"),
+        statement("let m = zeros(1, 990); let i = 0.0;", "m[0][0] = i; i += 1"),
+        statement("let m = zeros(1, 990);", "for r in m { break; }"),
+        statement("let m = zeros(990, 1);", "col(m, 0)"),
+        statement("let m = zeros(1, 990);", "row(m, 0)"),
+        statement("let m = eye(31);", "rows(m)"),
+        statement("let m = eye(31);", "abs(m)"),
+        statement(local(&list("1.5", 990)), "try { rows(a) } catch { }"),
+        statement(local(&list("[1,2]", 330)), "rows(a)"),
+        statement(local(&list("[1,2]", 330)), "a * 2"),
+        statement(local(&list("[1,2]", 330)), "try { a + 1 } catch { }"),
+        // literals and what they are passed to
+        statement("", list("1", 990)),
+        statement("", format!("len({})", list("1", 990))),
+        statement("", format!("len({})", list("[1]", 330))),
+        statement("", format!("f({})", list("1", 990))).with("fn f(x) { 1 }"),
+        statement("", format!("f({})", nested())).with("fn f(x) { 1 }"),
+        statement(
+            "let x = [1];",
+            format!("try {{ x[{}] }} catch {{ }}", list("1", 990)),
+        ),
+        statement("", format!("{}[0]", list("1", 990))),
+        statement("", format!("f({})", map(250, 8))).with("fn f(x) { 1 }"),
+        statement("", format!("for x in {} {{ break; }}", list("1", 990))),
+        statement("", map(250, 8)),
+        statement("", map(100, 190)),
+        statement("", format!("for c in {} {{ break; }}", text(4000))),
+        statement("", format!("{}[3990]", text(4000))),
+        statement("", format!("len({})", text(4000))),
+        statement("", format!("{} < {}", text(4000), text(4000))),
+        statement("", format!("{} == {}", text(4000), text(4000))),
+        statement("", format!("\"b\" in {}", text(4000))),
+        statement("", format!("{} + 1", text(3900))),
+        statement("", format!("`{}${{1}}`", "ab".repeat(1900))),
+        statement("", format!("let a = {}", text(4000))),
+        statement("", format!("switch {} {{ 1 => 2 }}", text(4000))),
+        statement("", format!("to_string({})", text(4000))),
+        statement("", format!("try {{ sin({}) }} catch {{ }}", text(4000))),
+        statement(
+            "",
+            format!("try {{ throw {} }} catch (e) {{ }}", text(4000)),
+        ),
+        statement(local(&text(4000)), "for c in a { break; }"),
+        statement(local(&text(4000)), "for c in a { }"),
+        statement(local(&text(4000)), "a[3990]"),
+        statement(local(&text(4000)), "a == a"),
+        statement(local(&text(3900)), "`${a}x`"),
+        statement(local(&text(4000)), "try { a[3990] = \"c\" } catch { }"),
+        statement(local(&text(30)), "a + 1"),
+        statement("", "`${1.1}${2.2}${3.3}`"),
+        statement("", "`${0.1 + 0.2}`"),
+        statement("", "to_string(1e-300)"),
+        // lists and maps
+        statement(local(&list("1.5", 990)), "a[3]"),
+        statement(local(&list("1.5", 990)), "a"),
+        statement(local(&list("1.5", 990)), "len(a)"),
+        statement(local(&list("1.5", 990)), "let b = a"),
+        statement(local(&list("1.5", 990)), "a[3] = 1"),
+        statement(local(&list("1.5", 990)), "a == a"),
+        statement(local(&list("1.5", 990)), "sum(a)"),
+        statement(local(&list("1.5", 990)), "a + a"),
+        statement(local(&list("1.5", 990)), "sort(a)"),
+        statement(local(&list("1.5", 990)), "reverse(a)"),
+        statement(local(&list("1.5", 990)), "2 in a"),
+        statement(local(&list("1.5", 700)), "print(a)"),
+        statement(local(&list("1.5", 990)), "switch a { 1 => 2 }"),
+        statement(local(&list("1.5", 990)), "for x in a { break; }"),
+        statement(local(&list("1.5", 900)), "a.push(1); a.pop()"),
+        statement(local(&list("1.5", 900)), "a.insert(0, 1); a.remove(0)"),
+        statement(local(&nested()), "a"),
+        statement(local(&nested()), "len(a)"),
+        statement(local(&nested()), "let b = a"),
+        statement(local(&nested()), "reverse(a)"),
+        statement(local(&nested()), "a == a"),
+        statement(local(&nested()), "throw_it(a)")
+            .with("fn throw_it(x) { try { throw x } catch (e) { } }"),
+        statement(local(&nested()), "try { sin(a) } catch { }"),
+        statement(local(&nested()), "try { nosuch(a) } catch { }"),
+        statement(local(&nested()), "f(a)").with("fn f(x) { 1 }"),
+        statement(format!("let a = #{{ b: {} }};", nested()), "a.b"),
+        statement(format!("let a = #{{ b: {} }};", nested()), "values(a)"),
+        statement(
+            format!("let a = #{{ b: {} }};", nested()),
+            "get(a, \"b\", 0)",
+        ),
+        statement(local(&map(250, 8)), "a.k0000003"),
+        statement(local(&map(250, 8)), "a.k0000003 = 1"),
+        statement(local(&map(250, 8)), "keys(a)"),
+        statement(local(&map(250, 8)), "values(a)"),
+        statement(local(&map(250, 8)), "a"),
+        statement(local(&map(100, 190)), "a"),
+        statement(local(&map(20, 190)), "keys(a)"),
+        statement("let a = #{ b: 1 };", "a.b"),
+        statement("let a = #{ b: #{ c: 1 } };", "a.b.c"),
+        statement("let a = #{ b: #{ c: 1 } };", "a.b.c = 2"),
+        statement("", "#{ a: 1, b: 2 }"),
+        statement("", "[1, 2]"),
+        statement("", "[[[[[[[[[[1]]]]]]]]]]"),
+        // constants
+        statement("", "A").with(format!("const A = {};", nested())),
+        statement("", "A[3]").with(format!("const A = {};", list("1.5", 990))),
+        statement("", "f(A)").with(format!("const A = {}; fn f(x) {{ 1 }}", nested())),
+        statement("", "sum(A)").with(format!("const A = {};", list("1.5", 990))),
+        statement("", "A").with("const A = 1.5;"),
+        statement("", "[A, A]").with(format!("const A = {};", list("1.5", 490))),
+        // `this`
+        statement("this.i = 0;", "this.i += 1"),
+        statement("this.i = 0;", "this.i"),
+        statement("this.i = 0;", "this.i = 1"),
+        statement("this.i = 0;", "this.i + 1"),
+        statement("this.m = #{ i: 0 };", "this.m.i += 1"),
+        statement("", "this.nosuch = 1"),
+        statement(nested_this(), "this"),
+        statement(nested_this(), "this.a"),
+        statement(nested_this(), "this[\"a\"]"),
+        statement(nested_this() + "let k = \"a\";", "this[k]"),
+        statement(nested_this(), "let b = this"),
+        statement(nested_this(), "let b = this.a"),
+        statement(nested_this(), "this.a;"),
+        statement(nested_this(), "f(this.a)").with("fn f(x) { 1 }"),
+        statement(nested_this(), "f(this)").with("fn f(x) { 1 }"),
+        statement(nested_this(), "f(1, this)").with("fn f(x, y) { 1 }"),
+        statement(nested_this(), "this.f()").with("fn f() { this }"),
+        statement(nested_this(), "this.f(1)").with("fn f(x) { 1 }"),
+        statement(nested_this(), "this.f(this.a)").with("fn f(x) { 1 }"),
+        statement(nested_this(), "this.a.f()").with("fn f() { 1 }"),
+        statement(nested_this(), "this.a.f()").with("fn f() { return this; }"),
+        statement(nested_this(), "try { throw this.a } catch { }"),
+        statement(nested_this(), "try { throw this } catch (e) { }"),
+        statement(nested_this(), "try { plot(\"a\", this.a) } catch { }"),
+        statement(nested_this(), "try { rows(this.a) } catch { }"),
+        statement(nested_this(), "try { nosuch(this.a) } catch { }"),
+        statement(nested_this(), "try { this.nosuch } catch { }"),
+        statement(nested_this(), "try { this + 1 } catch { }"),
+        statement(nested_this(), "try { 1 + this } catch { }"),
+        statement(nested_this(), "try { -this.a } catch { }"),
+        statement(nested_this(), "this == this.a"),
+        statement(nested_this(), "this.a == 1"),
+        statement(nested_this(), "1 == this.a"),
+        statement(nested_this(), "this.a == this.a"),
+        statement(nested_this(), "this.i = 1"),
+        statement(nested_this() + "this.i = 0;", "this.i += 1"),
+        statement(nested_this() + "this.i = 0;", "this.i"),
+        statement(nested_this() + "this.i = [0];", "this.i[0] = 1"),
+        statement(nested_this(), "this.a[0]"),
+        statement(nested_this(), "this.a[0].a = 1"),
+        statement(nested_this(), "this.a[600] = [1]"),
+        statement(nested_this(), "this.a.len()"),
+        statement(nested_this(), "len(this.a)"),
+        statement(nested_this(), "this.len()"),
+        statement(nested_this(), "len(this)"),
+        statement(nested_this(), "is_empty(this)"),
+        statement(nested_this(), "\"a\" in this"),
+        statement(nested_this(), "keys(this)"),
+        statement(nested_this(), "values(this)"),
+        statement(nested_this(), "get(this, \"a\", 0)"),
+        statement(nested_this(), "this.get(\"a\", 0)"),
+        statement(nested_this(), "this.get(\"b\", 0)"),
+        statement(nested_this(), "for x in this.a { break; }"),
+        statement(nested_this(), "switch this.a { 1 => 2 }"),
+        statement(nested_this(), "[this.a]"),
+        statement(nested_this(), "#{ b: this.a }"),
+        statement(nested_this(), "this.a ?? 1"),
+        statement(nested_this(), "this?.a"),
+        statement(nested_this(), "{ this.a }"),
+        statement(nested_this(), "if true { this.a }"),
+        statement(nested_this(), "loop { break this.a; }"),
+        statement(nested_this(), "f()").with("fn f() { 1 }"),
+        statement(nested_this(), "let b = if true { this.a } else { 1 }"),
+        statement(nested_this(), "`${this.a[0]}`"),
+        statement(nested_this(), "(this.a)[0]"),
+        statement(nested_this(), "this.a[this.a.len() - 1]"),
+        statement(
+            format!("this.a = [{}];", nested().replace("[1]", "1")),
+            "this.a[0]",
+        ),
+        statement(format!("this.m = #{{ a: {} }};", nested()), "this.m.a"),
+        statement(format!("this.m = #{{ a: {} }};", nested()), "this.m[\"a\"]"),
+        statement(format!("this.m = #{{ a: {} }};", nested()), "this.m.i = 1"),
+        statement(format!("this.l = [{}];", nested()), "this.l[0]"),
+        statement(format!("this.l = [{}];", nested()), "this.l[0][3]"),
+        statement(floats_this(), "this.a"),
+        statement(floats_this(), "this.a[3]"),
+        statement(floats_this(), "this.a[3] = 1"),
+        statement(floats_this(), "this.a[3] += 1"),
+        statement(floats_this(), "this.i = 1"),
+        statement(floats_this(), "sum(this.a)"),
+        statement(floats_this(), "this.a.len()"),
+        statement(floats_this(), "this.a.push(1); this.a.pop()"),
+        statement(at_this("zeros(990)"), "this.a"),
+        statement(at_this("zeros(990)"), "this.a[3]"),
+        statement(at_this("zeros(990)"), "this.a[3] = 1.5; this.a[3] = 2.5"),
+        statement(at_this(&list("zeros(1)", 490)), "this.a"),
+        statement(at_this(&text(3900)), "this.a"),
+        statement(at_this(&text(3900)), "this.a[3800]"),
+        statement(at_this(&text(3900)), "this.a.len()"),
+        statement(at_this(&text(3900)), "for c in this.a { break; }"),
+        statement(keys(8), "this.i = 1"),
+        statement(keys(8), "this"),
+        statement(keys(1_000), "this"),
+        statement(keys(1_000), "keys(this)"),
+        statement(keys(3_000), "let b = this"),
+        statement(keys(3_000), "keys(this)"),
+        statement(keys(3_000), "this.i = 1"),
+        statement(keys(3_000) + "let s = s + 200;", "this[s]"),
+        // mistakes that are caught
+        statement("", "try { nosuch; } catch { }"),
+        statement("", "try { nosuch; } catch (e) { }"),
+        statement("", "try { nosuch(); } catch { }"),
+        statement(
+            "",
+            "try { nosuch(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16) } catch { }",
+        ),
+        statement(
+            "",
+            "try { print(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16) } catch { }",
+        ),
+        statement("", "try { sin(1, 2) } catch { }"),
+        statement("", "try { sin(\"a\") } catch { }"),
+        statement("", "try { sin(\"a\") } catch (e) { }"),
+        statement("", "try { throw 1 } catch { }"),
+        statement("", "try { throw 1 } catch (e) { }"),
+        statement("let a = [1];", "try { a[5] } catch { }"),
+        statement("let a = ones(1);", "try { a[5] } catch { }"),
+        statement("let a = #{};", "try { a.b } catch { }"),
+        statement("let a = 1;", "try { a.b } catch { }"),
+        statement("let a = 1;", "try { a.b = 1 } catch { }"),
+        statement("let a = 1;", "try { a[0] } catch { }"),
+        statement("let a = 1;", "try { if a { } } catch { }"),
+        statement("let a = 1;", "try { for x in a { } } catch { }"),
+        statement("", "try { 1 + \"a\"[0..2] } catch { }"),
+        statement("", "try { f(0) } catch { }")
+            .with("fn f(x) { if x < 25 { f(x + 1) } else { throw 1 } }"),
+        statement("", "try { f(0) } catch { }")
+            .with("fn f(x) { if x < 25 { f(x + 1) } else { nosuch } }"),
+        statement("", format!("try {{ {} }} catch {{ }}", "n".repeat(200))),
+        statement(
+            "",
+            format!("try {{ {}() }} catch (e) {{ }}", "n".repeat(200)),
+        ),
+        statement(
+            "let a = #{};",
+            format!("try {{ a.{} }} catch (e) {{ }}", "n".repeat(200)),
+        ),
+        statement(many(2_000), "try { nosuch } catch { }"),
+        statement("", "try { nosuch } catch { }").with(
+            (0..2_000)
+                .map(|i| format!("fn f{i}(){{}}"))
+                .collect::<String>(),
+        ),
+        // many variables, functions, arms
+        statement(many(2_000), "v0 + 1"),
+        statement(many(2_000), "v0"),
+        statement(many(2_000), "v1999"),
+        statement(many(2_000), "pi"),
+        statement(many(2_000), "A").with("const A = 1;"),
+        statement("", "f(1)").with("fn f(x) { x }"),
+        statement("", "f()").with("fn f() { }"),
+        statement("", "f(1,2,3,4,5,6,7,8,9,10)").with("fn f(a,b,c,d,e,f,g,h,i,j) { }"),
+        statement("let a = 1;", "a.f()").with("fn f() { this }"),
+        statement("let a = 1;", "a.f()").with("fn f() { this + 1 }"),
+        statement("", "f(20)").with("fn f(x) { if x > 0 { f(x - 1) } }"),
+        statement("let a = 1;", "switch a { 1 => 2, 3 => 4 }"),
+        statement(
+            "let a = 1;",
+            format!(
+                "switch a {{ {} }}",
+                (0..3_000)
+                    .map(|i| format!("{}=>0,", i + 10))
+                    .collect::<String>()
+            ),
+        ),
+        statement(
+            "let a = 1;",
+            format!(
+                "switch a {{ {} }}",
+                (0..3_000)
+                    .map(|i| format!("{}..{}=>0,", i + 10, i + 12))
+                    .collect::<String>()
+            ),
+        ),
+        statement(
+            "let a = 1.5;",
+            format!(
+                "switch a {{ {} }}",
+                (0..3_000)
+                    .map(|i| format!("{}..={}=>0,", i + 10, i + 12))
+                    .collect::<String>()
+            ),
+        ),
+        statement(
+            "let a = 1;",
+            format!(
+                "switch a {{ {} }}",
+                (0..2_000)
+                    .map(|_| "1 if false=>0,".to_owned())
+                    .collect::<String>()
+            ),
+        ),
+        // output
+        statement("", "print(1.1)"),
+        statement("", "print(1,2,3,4,5,6,7,8)"),
+        // with other types of arguments each time
+        statement(
+            "let a = 1; let b = 1.5; let c = true; let d = (); let e = zeros(1); let f = eye(1); let g = \"\"; let h = []; let n = 0;",
+            "let t = a; a = b; b = c; c = d; d = e; if n % 3 == 0 { e = f; f = g; } g = h; h = t; n += 1; print(a, b, c, d, e, f, g, h)",
+        ),
+        statement(
+            "let a = 1; let b = 1.5; let c = true; let d = (); let e = zeros(1); let f = eye(1); let g = \"\"; let h = []; let n = 0;",
+            "let t = a; a = b; b = c; c = d; d = e; if n % 3 == 0 { e = f; f = g; } g = h; h = t; n += 1; try { nosuch(a, b, c, d, e, f, g, h) } catch { }",
+        ),
+        statement(
+            "let a = 1; let b = 1.5; let c = true; let d = (); let e = 1; let f = 2.5; let g = false; let h = []; let n = 0;",
+            "let t = a; a = b; b = c; c = d; d = e; if n % 3 == 0 { e = f; f = g; } if n % 7 == 0 { g = h; h = t; } n += 1; try { xa(a, b, c, d, e, f, g, h, a, b, c, d, e, f, g, h) } catch { } try { xb(a, b, c, d, e, f, g, h, a, b, c, d, e, f, g, h) } catch { } try { xc(a, b, c, d, e, f, g, h, a, b, c, d, e, f, g, h) } catch { } try { xd(a, b, c, d, e, f, g, h, a, b, c, d, e, f, g, h) } catch { }",
+        ),
+        statement("let m = #{ f: own };", "m.f()").with("fn own() { 1 }"),
+        statement("", "own").with("fn own() { 1 }"),
+        statement("", "plot(\"a\", 1)"),
+        statement("let v = ones(990);", "plot(\"a\", v)"),
+        statement("let v = ones(2);", "plot(\"a\", v)"),
+        // what the grader gives
+        statement("", "o.q"),
+        statement("", "o.q[0]"),
+        statement("", "o.time"),
+        statement("", "o.target"),
+        statement("", "o"),
+        statement("", "let b = o"),
+        statement("", format!("`{}{}`", "ab".repeat(1900), "${1}".repeat(60))),
+        statement(format!("let a = #{{ b: {} }};", nested()), "a.b[0].a = 1"),
+        statement(local(&nested()), "f(a)").with("fn f(x) { loop { x; } }"),
+        statement(local(&nested()), "a.f()").with("fn f() { loop { this; } }"),
+        statement(local(&nested()), "a.f()").with("fn f() { loop { this[0].a = 1; } }"),
+        statement("let m = #{};", format!("m[{}] = 1", text(3900))),
+        statement(local(&map(250, 8)), "let t = this; a.k0000003 += 1"),
+        // strings
+        statement("let a = \"abc\";", "a == \"abd\""),
+        statement("let a = \"abc\";", "a[1]"),
+        statement("let a = \"abc\";", "\"b\" in a"),
+        statement("let a = \"\";", "a += \"x\"; if a.len() > 100 { a = \"\" }"),
+    ];
+    // what several statements can be about
+    for used in [
+        "this.a.b",
+        "this.a.b.c",
+        "this.a[0].b",
+        "this.a.b[0]",
+        "this.a[0][0]",
+        "this[\"a\"].b",
+    ] {
+        let inner = nested();
+        let before = match used {
+            "this.a.b" | "this[\"a\"].b" => format!("this.a = #{{ b: {inner} }};"),
+            "this.a.b.c" => format!("this.a = #{{ b: #{{ c: {inner} }} }};"),
+            "this.a[0].b" => format!("this.a = [#{{ b: {inner} }}];"),
+            "this.a.b[0]" => format!("this.a = #{{ b: [{inner}] }};"),
+            _ => format!("this.a = [[{inner}]];"),
+        };
+        for pattern in [
+            "@",
+            "let x = @",
+            "f(@)",
+            "f(1, @)",
+            "[@]",
+            "@ == 1",
+            "return_it(@)",
+        ] {
+            let functions = "fn f(x) { 1 } fn f(x, y) { 1 } fn return_it(x) { x }";
+            all.push(statement(before.clone(), pattern.replace('@', used)).with(functions));
+        }
+    }
+    all
+}
+
+/// Files that are slow to read, by name.
+// long: a list
+fn files() -> Vec<(String, String)> {
+    let flat = |item: &dyn Fn(usize) -> String, most: usize| {
+        let mut text = String::new();
+        let mut index = 0;
+        while text.len() + 40 < most {
+            text += &item(index);
+            index += 1;
+        }
+        text
+    };
+    const MOST: usize = 65_000;
+    let control = |body: String| format!("fn control(o) {{ {body} }}");
+    let of = |name: &str, source: String| (name.to_owned(), source);
+    let letters = |mut i: usize| {
+        let mut name = String::new();
+        loop {
+            name.push(char::from(b'a' + (i % 26) as u8));
+            i /= 26;
+            if i == 0 {
+                return name;
+            }
+        }
+    };
+    vec![
+        of(
+            "switch",
+            control(format!(
+                "switch 1 {{ {} }}",
+                flat(&|i| format!("{i}=>1,"), MOST)
+            )),
+        ),
+        of(
+            "switch of ranges",
+            control(format!(
+                "switch 1 {{ {} }}",
+                flat(&|i| format!("{i}..{}=>1,", i + 2), MOST)
+            )),
+        ),
+        of(
+            "switch of one range",
+            control(format!(
+                "switch 1 {{ {} }}",
+                flat(&|_| "0..9=>1,".to_owned(), MOST)
+            )),
+        ),
+        of("lets", control(flat(&|i| format!("let a{i}=1;"), MOST))),
+        of(
+            "lets that are read",
+            control(flat(&|i| format!("let a{i}=a0;"), MOST)),
+        ),
+        of(
+            "one let again and again",
+            control(flat(&|_| "let a=1;".to_owned(), MOST)),
+        ),
+        of("constants", flat(&|i| format!("const a{i}=1;"), MOST)),
+        of("functions", flat(&|i| format!("fn f{i}(){{}}\n"), MOST)),
+        of(
+            "parameters",
+            format!(
+                "fn f({}) {{ }} fn control(o) {{ 1 }}",
+                flat(&|i| format!("a{i},"), MOST)
+            ),
+        ),
+        of(
+            "arguments",
+            control(format!("f({})", flat(&|_| "1,".to_owned(), MOST))),
+        ),
+        of(
+            "unknown variables",
+            control(flat(&|i| format!("x{};", letters(i)), MOST)),
+        ),
+        of(
+            "unknown variables that are set",
+            control(flat(&|i| format!("x{}=1;", letters(i)), MOST)),
+        ),
+        of(
+            "unknown variables beside known ones",
+            control(flat(&|i| format!("let xa{0};xb{0};", letters(i)), MOST)),
+        ),
+        of(
+            "unknown functions",
+            control(flat(&|i| format!("x{}();", letters(i)), MOST)),
+        ),
+        of(
+            "unknown functions beside known ones",
+            flat(&|i| format!("fn xa{}(){{}}", letters(i)), MOST / 2)
+                + &*control(flat(&|i| format!("xb{}();", letters(i)), MOST / 2)),
+        ),
+        of(
+            "one unknown variable in many blocks",
+            control(flat(&|_| "if x{x=1}".to_owned(), MOST)),
+        ),
+        of(
+            "nested blocks with an unknown variable",
+            control(
+                (0..900)
+                    .map(|i| format!("{}x{i}=1;{}", "if true{".repeat(4), "}".repeat(4)))
+                    .collect(),
+            ),
+        ),
+        of(
+            "long unknown name beside a long known one",
+            control(format!(
+                "let {} = 1; {}",
+                "ab".repeat(15_000),
+                "ac".repeat(15_000)
+            )),
+        ),
+        of(
+            "long unknown names",
+            control(flat(&|i| format!("{}{i};", "ab".repeat(150)), MOST)),
+        ),
+        of(
+            "map",
+            control(format!("#{{{}}}", flat(&|i| format!("a{i}:1,"), MOST))),
+        ),
+        of(
+            "list",
+            control(format!("[{}]", flat(&|_| "1,".to_owned(), MOST))),
+        ),
+        of("lists", control(flat(&|_| "[1,2,3];".to_owned(), MOST))),
+        of(
+            "nested lists",
+            control(flat(
+                &|_| format!("{}1{};", "[".repeat(30), "]".repeat(30)),
+                MOST,
+            )),
+        ),
+        of(
+            "nested blocks",
+            control(flat(
+                &|_| format!("{}{}", "{".repeat(30), "}".repeat(30)),
+                MOST,
+            )),
+        ),
+        of(
+            "nested calls",
+            control(flat(
+                &|_| format!("{}1{};", "f(".repeat(30), ")".repeat(30)),
+                MOST,
+            )),
+        ),
+        of(
+            "sums",
+            control(flat(&|_| "1+1+1+1+1+1+1+1;".to_owned(), MOST)),
+        ),
+        of("comparisons", control(flat(&|_| "1<1;".to_owned(), MOST))),
+        of(
+            "chains",
+            control(flat(&|_| format!("o{};", ".a".repeat(30)), MOST)),
+        ),
+        of(
+            "strings",
+            control(flat(&|_| format!("\"{}\";", "a".repeat(3_000)), MOST)),
+        ),
+        of(
+            "interpolated strings",
+            control(flat(&|_| "`${1}${2}${3}`;".to_owned(), MOST)),
+        ),
+        of("comments", flat(&|_| "//\n".to_owned(), MOST)),
+        of(
+            "nested comments",
+            format!("{}{}", "/*".repeat(16_000), "*/".repeat(16_000)),
+        ),
+        of("a comment that is not closed", "/*".repeat(32_000)),
+        of(
+            "a string that is not closed",
+            control(format!("\"{}", "a".repeat(3_000))),
+        ),
+        of("empty lines", "\n".repeat(65_000)),
+        of("blanks", " ".repeat(65_000)),
+        of("a long line of digits", control("1".repeat(64_000))),
+        of(
+            "numbers with long fractions",
+            control(format!("1.{}", "1".repeat(64_000))),
+        ),
+        of(
+            "a mistake in each line",
+            flat(&|_| "x ^^ 2\n".to_owned(), MOST),
+        ),
+        of(
+            "a mistake in each short line",
+            flat(&|_| ")\n".to_owned(), MOST),
+        ),
+        of(
+            "a mistake at the end",
+            flat(&|_| "let a=1;\n".to_owned(), MOST) + ")",
+        ),
+        of(
+            "mistakes at the end",
+            flat(&|_| "let a=1;\n".to_owned(), MOST - 1_000) + &*")\n".repeat(400),
+        ),
+        of(
+            "mistakes in one line",
+            control(flat(&|_| "x x;".to_owned(), MOST)),
+        ),
+        of(
+            "a missing semicolon in each line",
+            control(flat(&|i| format!("let a{i}=1\n"), MOST)),
+        ),
+        of(
+            "Python",
+            flat(&|i| format!("def f{i}(x):\n    return x**2\n"), MOST),
+        ),
+        of(
+            "MATLAB",
+            flat(
+                &|i| format!("function y = f{i}(x)\n  y = x.^2; % squared\nend\n"),
+                MOST,
+            ),
+        ),
+        of("comments of Python", flat(&|_| "# a\n".to_owned(), MOST)),
+        of("powers", control(flat(&|_| "a^2;\n".to_owned(), MOST))),
+        of(
+            "open brackets before a mistake",
+            format!("fn control(o) {{ {} )", flat(&|_| "f(1);".to_owned(), MOST)),
+        ),
+        of(
+            "brackets over many lines",
+            control(
+                "f(\n".repeat(20) + &*flat(&|_| "1,\n".to_owned(), MOST - 200) + &*")".repeat(20),
+            ),
+        ),
+        of(
+            "blocks that are not closed",
+            flat(&|i| format!("fn f{i}() {{\n"), MOST),
+        ),
+        of(
+            "words of other languages",
+            flat(&|_| "end\n".to_owned(), MOST),
+        ),
+        of("fences", flat(&|_| "```\n".to_owned(), MOST)),
+        of(
+            "fences with mistakes between",
+            "```\n".to_owned() + &*flat(&|_| "x ^^ 2\n".to_owned(), MOST - 100) + "\n```",
+        ),
+        of("quotes", "\"\n".repeat(32_000)),
+        of("backquotes", "`".repeat(60_000)),
+        of("letters of other alphabets", "ä".repeat(32_000)),
+        of(
+            "annotations",
+            control(flat(&|i| format!("let a{i}: float = 1;\n"), MOST)),
+        ),
+        of(
+            "else if",
+            control(format!("if o {{}} {}", "else if o {}".repeat(5_000))),
+        ),
+        of("a long sum", control(format!("1{}", "+1".repeat(32_000)))),
+        of(
+            "a long chain of and",
+            control(format!("o{}", "&&o".repeat(20_000))),
+        ),
+        of(
+            "a long chain of ??",
+            control(format!("o{}", "??o".repeat(20_000))),
+        ),
+        of(
+            "a long chain of fields",
+            control(format!("o{}", ".a".repeat(32_000))),
+        ),
+        of(
+            "a long chain of indices",
+            control(format!("o{}", "[0]".repeat(20_000))),
+        ),
+        of(
+            "a long chain of calls",
+            control(format!("o{}", ".a()".repeat(15_000))),
+        ),
+        of(
+            "a long chain of assignments",
+            control(format!("{}1", "a=".repeat(30_000))),
+        ),
+        of(
+            "a long chain of fields that are set",
+            control(format!("o{}=1", ".a".repeat(32_000))),
+        ),
+        of(
+            "powers of powers",
+            control(format!("2{}", "**2".repeat(20_000))),
+        ),
+        of("signs", control(format!("{}1", "-".repeat(60_000)))),
+        of("signs apart", control(format!("{}1", "- ".repeat(30_000)))),
+        of("nots", control(format!("{}true", "!".repeat(60_000)))),
+        of("round brackets", control("(".repeat(60_000))),
+        of("square brackets", control("[".repeat(60_000))),
+        of("braces", "{".repeat(65_000)),
+        of("maps in maps", control("#{a:".repeat(15_000))),
+        of("strings in strings", control("`${".repeat(20_000))),
+        of("ifs in ifs", control("if ".repeat(20_000))),
+        of("if blocks", control("if o {".repeat(10_000))),
+        of("loops in loops", control("loop {".repeat(10_000))),
+        of("tries in tries", control("try {".repeat(10_000))),
+        of(
+            "switches in switches",
+            control("switch o { 1 => ".repeat(4_000)),
+        ),
+        of("returns of returns", control("return ".repeat(9_000))),
+        of("lets of lets", control("let a = ".repeat(8_000))),
+        of("functions in functions", "fn f() {".repeat(8_000)),
+        of("functions without names", control("|a|".repeat(20_000))),
+        of("commas", control(format!("f({})", ",".repeat(60_000)))),
+        of("colons", control("a::".repeat(20_000))),
+        of("closing brackets", ")".repeat(65_000)),
+        of("closing brackets in lines", "}\n".repeat(32_000)),
+        of("increments", control(flat(&|_| "i++;\n".to_owned(), MOST))),
+    ]
+}
+
+fn main() {
+    // the engine is recursive
+    let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
+    let measured = thread.spawn(report).expect("a thread").join();
+    measured.expect("no panic");
+}
+
+fn report() {
+    let word = std::env::args().nth(1);
+    let all = word.as_deref() == Some("--all");
+    let only = word.filter(|_| !all);
+    let is_wanted = |name: &str| only.as_deref().is_none_or(|word| name.contains(word));
+    let is_shown = all || only.is_some();
+    let statements = statements();
+    let baseline = statements[0].least_time().expect("the baseline runs");
+    println!(
+        "{} statements; an operation of `a + 1.0` takes {baseline:?}",
+        statements.len()
+    );
+    for statement in &statements {
+        let name = statement.name();
+        if !is_wanted(&name) {
+            continue;
+        }
+        match statement.least_time() {
+            Err(why) => println!("   ?   {name}: {why:.300}"),
+            Ok(time) => {
+                let ratio = time.as_secs_f64() / baseline.as_secs_f64();
+                if is_shown || ratio > MOST {
+                    println!("{ratio:6.1} {name}");
+                }
+            }
+        }
+    }
+    for (name, source) in files() {
+        if !is_wanted(&name) {
+            continue;
+        }
+        let bytes = source.len();
+        let opening = opening(source, u64::MAX);
+        let (took, result) = timed(|| ScriptController::open(&opening).map(|_| ()));
+        if is_shown || took > LONGEST_TO_READ {
+            let end = match result {
+                Ok(()) => "read".to_owned(),
+                Err(stop) => format!("{stop:?}").chars().take(60).collect(),
+            };
+            println!("{:6} ms {name} ({bytes} bytes): {end}", took.as_millis());
+        }
+    }
+}
+
+fn opening(source: String, operations_per_call: u64) -> Opening {
+    Opening {
+        file: "submission.rhai".into(),
+        program: Program::Script(source),
+        task: "move".into(),
+        robot: RobotFacts {
+            name: "rrbot".into(),
+            joint_names: vec!["shoulder".into(), "elbow".into()],
+            dimensions: vec![("base_height".into(), Value::Number(2.0))],
+            lower: vec![-6.3; 2],
+            upper: vec![6.3; 2],
+            effort: vec![30.0, 15.0],
+        },
+        target: Value::List([2.0, 1.4, 0.0].map(Value::Number).to_vec()),
+        sensors: Vec::new(),
+        budgets: Budgets {
+            operations_per_call,
+            operations_per_task: u64::MAX,
+            ..Budgets::default()
+        },
+        granted: None,
+        function: None,
+    }
+}
+
+fn observation() -> Observation {
+    Observation {
+        tick: 100,
+        time_s: 0.1,
+        dt_s: 0.01,
+        q: vec![0.1, -0.2],
+        qd: vec![0.5, 0.25],
+        effort: vec![1.0, 2.0],
+        tcp_m: [4.0, 0.1, 0.0],
+        sensors: Vec::new(),
+    }
+}
