@@ -4,6 +4,7 @@ use super::facts::MotionFacts;
 use super::signal::Statistic;
 use crate::record::grade::{Evidence, Measure};
 use crate::record::graded::Curve;
+use crate::record::quantity::OF_VISIBLE_CASES;
 use crate::task::model::Band;
 
 /// What a check found.
@@ -78,7 +79,7 @@ impl Finding {
     pub(super) fn shown_as(mut self, of_visible: Option<f64>) -> Self {
         if let (Some(measure), Some(value)) = (&mut self.measure, of_visible) {
             measure.value = value.is_finite().then_some(value);
-            measure.quantity += ", visible cases";
+            measure.quantity += OF_VISIBLE_CASES;
         }
         self
     }

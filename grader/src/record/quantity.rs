@@ -5,6 +5,9 @@ use kinemark_sim::text::number::{metres, seconds, significant, trimmed};
 /// Larger numbers are shown as being above this one.
 const BEYOND: f64 = 1e9;
 
+/// The end of the words for what a function's check measured, where hidden cases decide the points and the value is not theirs.
+pub const OF_VISIBLE_CASES: &str = ", visible cases";
+
 /// A value in the unit of a measure.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {

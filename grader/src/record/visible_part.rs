@@ -4,8 +4,8 @@
 use serde_json::{Map, Value, json};
 
 use super::difference::first_difference;
-use super::grade::{CheckGrade, Grade, HiddenClass, Outcome, TaskGrade, TaskKind};
-use super::quantity::points;
+use super::grade::{CheckGrade, Grade, HiddenClass, Measure, Outcome, TaskGrade, TaskKind};
+use super::quantity::{OF_VISIBLE_CASES, points};
 use super::sums::Contradiction;
 
 /// The places at which `recorded`, a graded record, cannot be of the submission that was graded again in practice, `now`.
@@ -121,17 +121,12 @@ impl<'g> TwiceGraded<'g> {
         if !is_comparable {
             return part;
         }
-        let measure = check.measure.as_ref();
-        part["measure"] = match measure.filter(|_| is_run || !self.has_hidden) {
-            Some(measure) => json!(measure),
-            // the value is one of hidden cases, too
-            None => json!(measure.map(|measure| json!({
-                "quantity": measure.quantity,
-                "unit": measure.unit,
-                "full": measure.full,
-                "zero": measure.zero,
-            }))),
-        };
+        let measure = check.measure.clone();
+        let is_of_cases = self.has_hidden && !is_run;
+        part["measure"] = json!(measure.map(|measure| match is_of_cases {
+            true => of_visible_cases(measure),
+            false => measure,
+        }));
         if is_run {
             part["first_lost"] = json!(check.first_lost);
         }
@@ -198,6 +193,16 @@ impl<'g> TwiceGraded<'g> {
             mean((now.points + cut).min(of), total).min(of),
         ]
     }
+}
+
+/// What was measured, in the words and with the value of practice. Where a check judges hidden cases alone, there is no value to show, and
+/// in practice it is none of no case.
+fn of_visible_cases(mut measure: Measure) -> Measure {
+    if let Some(words) = measure.quantity.strip_suffix(OF_VISIBLE_CASES) {
+        measure.quantity = words.to_owned();
+    }
+    measure.value = measure.value.or(Some(0.0));
+    measure
 }
 
 /// The value of the reference solution on which the band of a check depends.
@@ -303,6 +308,30 @@ mod tests {
             let first = found.first().map_or("", |it| it.place.as_str());
             assert_eq!(first, place);
         }
+    }
+
+    /// The points of a function's check are those of hidden cases, too, and its value is that of the visible ones.
+    #[test]
+    fn the_value_of_a_functions_check_is_that_of_practice() {
+        let [mut recorded, now] = twice_graded();
+        let fk = recorded.tasks.iter().position(|task| task.name == "fk");
+        let fk = fk.unwrap();
+        let task = &mut recorded.tasks[fk];
+        task.digests.all = "keyed".to_owned();
+        task.hidden = vec![HiddenClass {
+            class: "folded".to_owned(),
+            good: 1,
+            total: 2,
+        }];
+        task.checks[0].points = 0.5;
+        let measure = task.checks[0].measure.as_mut().unwrap();
+        measure.quantity += OF_VISIBLE_CASES;
+        assert_eq!(contradictions(&recorded, &now), []);
+        let measure = recorded.tasks[fk].checks[0].measure.as_mut().unwrap();
+        measure.value = Some(0.0);
+        let found = contradictions(&recorded, &now);
+        let place = format!("tasks[{fk}].checks[0].measure.value");
+        assert_eq!(found[0].place, place);
     }
 
     /// In practice the reference solution's values may be others, or unknown.
