@@ -503,6 +503,26 @@ fn statements() -> Vec<Statement> {
             "let a = #{};",
             format!("try {{ a.{} }} catch (e) {{ }}", "n".repeat(200)),
         ),
+        // beside known names that are as long as one is compared with
+        statement(
+            local(&map(60, 60)),
+            format!("try {{ a.{} }} catch (e) {{ }}", "n".repeat(60)),
+        ),
+        statement(
+            (0..600)
+                .map(|i| format!("let n{i:0>59}=1;"))
+                .collect::<String>(),
+            format!("try {{ {} }} catch (e) {{ }}", "n".repeat(60)),
+        ),
+        statement(
+            "",
+            format!("try {{ {}() }} catch (e) {{ }}", "n".repeat(60)),
+        )
+        .with(
+            (0..600)
+                .map(|i| format!("fn n{i:0>59}(){{}}"))
+                .collect::<String>(),
+        ),
         statement(many(2_000), "try { nosuch } catch { }"),
         statement("", "try { nosuch } catch { }").with(
             (0..2_000)

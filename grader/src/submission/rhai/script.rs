@@ -445,7 +445,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
                 ));
             }
             Some(node) => {
-                let long = names_of(node).find(|name| name.len() > LONGEST_NAME);
+                let long = names_of(node).find(|name| is_too_long(name));
                 slips.extend(long.map(|name| too_long(name, node.position())));
             }
             None => {}
@@ -454,7 +454,7 @@ fn refuse_known_slips(ast: &AST) -> Result<(), Stop> {
     });
     for function in ast.iter_fn_def() {
         let mut names = std::iter::once(&function.name).chain(&function.params);
-        let long = names.find(|name| name.len() > LONGEST_NAME);
+        let long = names.find(|name| is_too_long(name));
         slips.extend(long.map(|name| too_long(name, function.body.start_position())));
     }
     // the first in the file, because the engine has its own order of functions
@@ -490,8 +490,12 @@ fn names_of<'n>(node: &'n ASTNode<'_>) -> impl Iterator<Item = &'n str> {
     one.into_iter().chain(keys.map(|(key, _)| key.as_str()))
 }
 
+fn is_too_long(name: &str) -> bool {
+    name.len() > LONGEST_NAME && name.chars().count() > LONGEST_NAME
+}
+
 fn too_long(name: &str, position: Position) -> (Option<SourcePosition>, String, &'static str) {
-    let length = name.len();
+    let length = name.chars().count();
     (
         place(position),
         format!("a name has {length} characters"),
