@@ -54,6 +54,7 @@ mod own_lab;
 mod pack;
 mod path_checks;
 mod pictures;
+mod projects;
 mod reference_bands;
 mod report;
 mod report_links;

@@ -11,11 +11,12 @@ use kinemark_course::history::History;
 use kinemark_course::index::{Index, IndexError};
 use kinemark_course::intake::IntakeError;
 use kinemark_course::journal::{Event, JournalError};
+use kinemark_course::language::Language;
 use kinemark_course::roster::Roster;
 use kinemark_course::staffed_lab::StaffedLab;
 use kinemark_course::standing::{Standing, standings};
 use kinemark_course::student::StudentId;
-use kinemark_course::working_folder::{BRIEF_FILE, STARTER_FILE};
+use kinemark_course::working_folder::BRIEF_FILE;
 use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::problem::LoadError;
 use kinemark_sim::text::{Source, suggest};
@@ -291,11 +292,12 @@ impl Course {
         Ok(all)
     }
 
-    /// What students were given besides the files that the lab is read from: brief and starter, where there are any.
+    /// What students were given besides the files that the lab is read from: brief and starters, where there are any.
     pub(crate) fn handed_out(&self, rules: &CourseLab) -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let (labs, _) = self.labs()?;
         let mut files = Vec::new();
-        for name in [BRIEF_FILE, STARTER_FILE] {
+        let starters = Language::ALL.map(Language::starter);
+        for name in [BRIEF_FILE].into_iter().chain(starters) {
             let path = format!("{}/{name}", rules.name);
             let bytes = labs.bytes(&path).map_err(|why| {
                 let shown = format!("{}/{path}", labs.name());

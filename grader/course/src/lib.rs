@@ -34,6 +34,9 @@
 //! | [`submission_source`] | a submission's bytes as what is graded |
 //! | [`grading`] | one hand-in to its record |
 //! | [`handed_out`] | the note of which lab and engine the course uses |
+//! | [`language`] | the languages of submissions: starters, sources, how they are built |
+//! | `plugin_starter` | a starter in a compiled language where a lab has none |
+//! | [`plugin_project`] | what a project in C or Rust has beside its source |
 //! | [`working_folder`] | what a student begins a lab with |
 //! | [`gradescope_results`] | a grade as Gradescope's autograder reports it |
 //! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
@@ -74,12 +77,15 @@ pub mod index;
 pub mod intake;
 pub mod journal;
 mod lab_rows;
+pub mod language;
 pub mod layout;
 #[cfg(test)]
 mod made_up_class;
 pub mod matching;
 pub mod pack;
 pub mod page;
+pub mod plugin_project;
+mod plugin_starter;
 pub mod private_files;
 pub mod public;
 pub mod question;

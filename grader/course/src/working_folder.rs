@@ -10,9 +10,12 @@ use kinemark_report::brief_page::{Brief, brief_page};
 use kinemark_report::replay::{ArmShows, LiveArm};
 use serde::{Deserialize, Serialize};
 
-use crate::editor_files::EDITOR_FILES;
+use crate::editor_files::editor_files;
+use crate::language::Language;
+use crate::plugin_project::project_files;
+use crate::plugin_starter::plugin_starter;
 
-/// The file that a student works in.
+/// The file that a student works in, where it is a script.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
 /// The brief as text, which links the pictures beside it.
 pub const BRIEF_FILE: &str = "brief.md";
@@ -99,13 +102,14 @@ pub enum WorkingFolderError {
     },
 }
 
-/// The files of such a folder by name, the submission first; `lab` was read from `files`.
+/// The files of such a folder by name, the submission in `language` first, the page of the brief second; `lab` was read from `files`.
 ///
 /// # Errors
 /// [`WorkingFolderError`] where the lab is not complete.
 pub fn working_folder(
     files: &dyn Files,
     lab: &Lab,
+    language: Language,
 ) -> Result<Vec<(String, String)>, WorkingFolderError> {
     let brief = required(files, lab, BRIEF_FILE)?;
     let brief = with_numbers(&with_grading(&brief, lab), lab)
@@ -122,10 +126,7 @@ pub fn working_folder(
         arm: LiveArm::of(&lab.robot, &lab.frame, arm_shows(lab)),
     });
     let mut written = vec![
-        (
-            SUBMISSION_FILE.to_owned(),
-            required(files, lab, STARTER_FILE)?,
-        ),
+        (language.source().to_owned(), starter(files, lab, language)?),
         (BRIEF_PAGE.to_owned(), page),
         (BRIEF_FILE.to_owned(), brief),
     ];
@@ -140,8 +141,19 @@ pub fn working_folder(
             written.push((name, picture));
         }
     }
-    written.extend(EDITOR_FILES.map(|(path, text)| (path.to_owned(), text.to_owned())));
+    written.extend(project_files(lab, language));
+    written.extend(editor_files(language));
     Ok(written)
+}
+
+/// What a submission in `language` begins with: the lab's own starter, or where it has none in a compiled language, its functions.
+fn starter(files: &dyn Files, lab: &Lab, language: Language) -> Result<String, WorkingFolderError> {
+    let own = text(files, &lab.name, language.starter())?;
+    own.or_else(|| plugin_starter(lab, language))
+        .ok_or_else(|| WorkingFolderError::Missing {
+            lab: lab.name.clone(),
+            name: language.starter(),
+        })
 }
 
 /// What the arm of a brief shows from the start: what the lab asks for.

@@ -229,6 +229,25 @@ impl Audit {
         self.add((Tried::Starter, ""), None, earned, problem);
     }
 
+    /// Looks into the starter of a compiled language, which is not built here: it should define what the tasks call. `defines` says
+    /// whether it defines a function of this name.
+    pub fn compiled_starter(&mut self, lab: &Lab, file: &str, defines: &dyn Fn(&str) -> bool) {
+        let missing = lab.tasks.iter().find_map(|task| {
+            let function = match &task.work {
+                TaskWork::Function(function, _) => function.function.name(),
+                TaskWork::Motion(..) => "control",
+            };
+            (!defines(function)).then_some((function, &task.name))
+        });
+        let problem = missing.map(|(function, task)| {
+            let what = format!("{file} does not define `{function}`, which task `{task}` calls");
+            let help = "write every function that the tasks call, as the starter in Rhai does; or remove the file: students then get \
+                        one with these functions";
+            (what, help)
+        });
+        self.add((Tried::Starter, file), None, None, problem);
+    }
+
     /// Tries the reference solution in the form `form` of the lab.
     pub fn reference(&mut self, lab: &Lab, staff: &Staff, form: &str) -> Option<GradedRun> {
         let run = graded(lab, staff, &staff.solution)?;

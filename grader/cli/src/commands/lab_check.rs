@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
+use kinemark_course::language::Language;
 use kinemark_grader::audit::{
     Audit, PracticeError, Row, Tried, Variants, depends_on_salt, practice_forms,
 };
@@ -93,6 +94,15 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let formula = formulas.first().map(ToString::to_string);
     audit.brief(&lab, brief.as_deref(), formula.as_deref());
     audit.starter(&lab, &own, &starter);
+    for language in [Language::Rust, Language::C] {
+        let path = format!("{}/{}", lab.name, language.starter());
+        let text = files.read(&path);
+        let text = text.map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
+        if let Some(text) = text {
+            let defines = |name: &str| language.defines(&text, name);
+            audit.compiled_starter(&lab, language.starter(), &defines);
+        }
+    }
     audit.reference(&lab, &own, "own hidden cases");
     audit_practice(&mut audit, files.as_ref(), &lab, &own)?;
     let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
@@ -260,7 +270,8 @@ fn push(out: &mut String, row: &Row) {
     let task = row.task.as_deref().unwrap_or_default();
     let right = match row.tried {
         Tried::Brief => "can be handed out",
-        Tried::Starter => "misses",
+        Tried::Starter if row.name.is_empty() => "misses",
+        Tried::Starter => "defines what its tasks call",
         Tried::Reference => "full marks",
         Tried::Practice => "is what the reference solution gives",
         Tried::Mutants => "enough of them",

@@ -1,9 +1,11 @@
-//! `kinemark new`: a folder with a lab's starter and brief (as text and as a page), and nothing of it overwritten.
+//! `kinemark new`: a folder with a lab's starter and brief (as text and as a page), for a script or as a project that is compiled, and
+//! nothing of it overwritten.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_course::durable::{self, Readers};
+use kinemark_course::language::Language;
 use kinemark_course::working_folder::working_folder;
 use kinemark_report::visible::visible;
 use serde::Serialize;
@@ -16,18 +18,45 @@ use crate::{interrupt, output};
 /// Start a lab: writes its starter and its brief into a folder
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade"
+    after_help = "Examples:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade\n\n  \
+    kinemark new 01-kinematics --lang c\n\n\
+    With --lang rust and --lang c the folder is a project with everything that it needs to build; its README.md has the commands. \
+    See docs/plugin.md."
 )]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
     /// Folder to write to [default: the lab's name]
     pub(crate) dir: Option<PathBuf>,
+    /// The language to write it in; Rust and C are compiled to WebAssembly
+    #[arg(long, value_enum, default_value = "rhai")]
+    pub(crate) lang: Lang,
     /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) from: LabArgs,
+}
+
+/// A language, as `--lang` names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Lang {
+    /// A script, graded as it is.
+    Rhai,
+    /// A crate.
+    Rust,
+    /// A file with a header.
+    C,
+}
+
+impl From<Lang> for Language {
+    fn from(lang: Lang) -> Self {
+        match lang {
+            Lang::Rhai => Self::Rhai,
+            Lang::Rust => Self::Rust,
+            Lang::C => Self::C,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -40,8 +69,9 @@ struct Written {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let Chosen { lab, files, .. } = chosen_variant::choose(&args.lab, &args.from, None)?;
     let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
-    let written =
-        working_folder(files.as_ref(), &lab).map_err(|error| Failure::diagnostic(BROKEN, error))?;
+    let language = Language::from(args.lang);
+    let written = working_folder(files.as_ref(), &lab, language)
+        .map_err(|error| Failure::diagnostic(BROKEN, error))?;
     let written: Vec<(PathBuf, String)> = written
         .into_iter()
         .map(|(name, text)| (dir.join(name), text))
@@ -61,11 +91,15 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         })?;
     } else {
         output::print(&format!(
-            "{}\nRead {}, then edit {} and run in that folder:\n  cd {}\n  kinemark grade\n",
+            "{}\nRead {}, then edit {} and run in that folder:\n  cd {}\n{}  kinemark grade\n",
             visible(&lab.title),
             output::path(&paths[1]),
             output::path(&paths[0]),
-            output::path(&dir)
+            output::path(&dir),
+            language
+                .build_line()
+                .map(|build| format!("  {build}\n"))
+                .unwrap_or_default()
         ))?;
     }
     Ok(ExitCode::SUCCESS)
@@ -88,7 +122,8 @@ fn put_in_place(dir: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> 
         }
         // folders that hold nothing, the inner ones first
         for (path, _) in files {
-            if let Some(inner) = path.parent().filter(|inner| *inner != dir) {
+            let above = path.ancestors().skip(1);
+            for inner in above.take_while(|inner| *inner != dir) {
                 let _ = std::fs::remove_dir(inner);
             }
         }

@@ -14,11 +14,10 @@ use kinemark_grader::task::files::Files;
 
 use crate::fixed_zip::ArchiveFile;
 use crate::handed_out::{HANDED_OUT_FILE, HandedOut};
+use crate::language::Language;
 use crate::staffed_lab::{engine_id, lab_version};
 use crate::student::StudentId;
-use crate::working_folder::{
-    BRIEF_FILE, STARTER_FILE, WorkingFolderError, is_picture, working_folder,
-};
+use crate::working_folder::{BRIEF_FILE, WorkingFolderError, is_picture, working_folder};
 use secrets::SharedLine;
 
 pub use gradescope::{Autograder, METADATA_IDS, ROSTER_FILE, SALT_FILE, autograder};
@@ -149,7 +148,7 @@ pub struct PackedLab<'a> {
 }
 
 impl PackedLab<'_> {
-    /// What students may have of it, in the shape of a folder of labs: the lab, its robot, scenes and meshes, its brief and starter,
+    /// What students may have of it, in the shape of a folder of labs: the lab, its robot, scenes and meshes, its brief and starters,
     /// and the note of what was handed out.
     fn for_students(&self) -> Result<Vec<ArchiveFile>, PackError> {
         let name = &self.lab.name;
@@ -161,11 +160,8 @@ impl PackedLab<'_> {
             .filter(|(path, _)| *path != practice)
             .map(|(path, bytes)| ArchiveFile::new(format!("{LABS}/{path}"), bytes))
             .collect();
-        let mut beside = vec![
-            BRIEF_FILE.to_owned(),
-            STARTER_FILE.to_owned(),
-            PRACTICE_FILE.to_owned(),
-        ];
+        let mut beside = vec![BRIEF_FILE.to_owned(), PRACTICE_FILE.to_owned()];
+        beside.extend(Language::ALL.map(|language| language.starter().to_owned()));
         beside.extend(
             self.files
                 .list(name)
@@ -219,7 +215,7 @@ pub fn for_students(
             inside(readme::NAME),
             readme::for_students(lab),
         ));
-        for (name, text) in working_folder(packed.files, lab)? {
+        for (name, text) in working_folder(packed.files, lab, Language::Rhai)? {
             files.push(ArchiveFile::new(inside(&name), text));
         }
         for file in &shared {

@@ -5,13 +5,22 @@ use std::fmt;
 
 use kinemark_grader::task::files::Files;
 
-use super::{PackError, read};
+use super::{PackError, all_below};
 use crate::fixed_zip::ArchiveFile;
 
 /// Salts shorter than this are in many texts by chance.
 pub const LEAST_SALT: usize = 8;
 /// Shorter lines are in many programs by chance.
 const LEAST_LINE: usize = 40;
+
+/// The endings of solutions that have a folder of their own.
+const SOURCES: [&str; 6] = [".rs", ".c", ".h", ".cc", ".cpp", ".zig"];
+/// What a line of such a solution has that says how something is computed. The rest of it is much as in any starter: heads of functions,
+/// dimensions that are read, the question which task it is.
+const COMPUTES: [&str; 14] = [
+    " + ", " - ", " * ", " / ", "sin(", "cos(", "tan(", "atan2(", "sqrt(", "hypot(", "lerp(",
+    "quintic(", "solve(", "pow(",
+];
 
 /// What students must not get.
 #[derive(Debug, Clone, Default)]
@@ -73,16 +82,12 @@ impl Secrets {
             }
             secrets.salts.push(salt);
         }
-        for name in reference.list(lab) {
-            if !name.starts_with("solution") {
-                continue;
+        for (path, bytes) in all_below(reference, lab)? {
+            let inside = path.strip_prefix(lab).unwrap_or(&path);
+            if is_solution(inside.trim_start_matches('/')) {
+                secrets.has_solution = true;
+                secrets.add_solution(&path, &String::from_utf8_lossy(&bytes));
             }
-            let path = format!("{lab}/{name}");
-            let Some(bytes) = read(reference, &path)? else {
-                continue;
-            };
-            secrets.has_solution = true;
-            secrets.add_solution(&path, &String::from_utf8_lossy(&bytes));
         }
         Ok(secrets)
     }
@@ -91,7 +96,11 @@ impl Secrets {
         for (i, line) in text.lines().enumerate() {
             let code = code(line);
             // the first line of a function is what the brief asks for
-            if code.chars().count() < LEAST_LINE || code.starts_with("fn ") {
+            let is_secret = match path.ends_with(".rhai") {
+                true => !code.starts_with("fn "),
+                false => COMPUTES.iter().any(|sign| code.contains(sign)),
+            };
+            if code.chars().count() < LEAST_LINE || !is_secret {
                 continue;
             }
             self.lines.push(SecretLine {
@@ -156,6 +165,14 @@ impl Secrets {
     }
 }
 
+/// Whether a file of the course staff's folder for a lab is a solution: `solution.rhai`, `solution.c`, `rust/src/lib.rs`.
+fn is_solution(path: &str) -> bool {
+    match path.split_once('/') {
+        None => path.starts_with("solution"),
+        Some((folder, _)) => folder != "mutants" && SOURCES.iter().any(|end| path.ends_with(end)),
+    }
+}
+
 /// Files of which no other before them has the same bytes: in a pack for a class most are there once a student.
 fn distinct(files: &[ArchiveFile]) -> impl Iterator<Item = &ArchiveFile> {
     let mut seen = BTreeSet::new();
@@ -171,7 +188,12 @@ fn position(bytes: &[u8], part: &[u8]) -> Option<usize> {
 /// A line without its comment and the spaces around it.
 fn code(line: &str) -> &str {
     let code = line.split_once("//").map_or(line, |(code, _)| code);
-    code.trim()
+    let code = code.split_once("/*").map_or(code, |(code, _)| code).trim();
+    // inside a comment of several lines
+    if code == "*" || code.starts_with("* ") {
+        return "";
+    }
+    code
 }
 
 fn without_spaces(text: &str) -> String {
@@ -191,6 +213,43 @@ mod tests {
         let reference =
             Copies::from_texts([("01/solution.rhai", SOLUTION), ("01/mutants.toml", "x")]);
         Secrets::of(&reference, "01", ["our secret".to_owned()]).unwrap()
+    }
+
+    const IN_C: &str = "/* closed forms, as in the book of Lynch and Park, chapter 6 */\n\
+        km_u32 km_inverse_kinematics(const km_robot *robot, const double *position, double *branches, km_u32 most) {\n    \
+        double c = (u * u + y * y - l1 * l1 - l2 * l2) / (2 * l1 * l2); /* law of cosines */\n}\n";
+    const IN_RUST: &str = "use kinemark_plugin::{Observation, Robot, Rows, Submission, export};\n\
+        let cosine = (u * u + y * y - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);\n";
+
+    #[test]
+    fn solutions_in_every_language_are_secret_and_what_starters_share_is_not() {
+        let reference = Copies::from_texts([
+            ("01/solution.c", IN_C),
+            ("01/rust/src/lib.rs", IN_RUST),
+            (
+                "01/mutants/in.rs",
+                "let mutant = (u * u + y * y - l1 * l1) / (2.0 * l1 * l2);",
+            ),
+        ]);
+        let secrets = Secrets::of(&reference, "01", []).unwrap();
+        assert!(secrets.has_solution());
+        let starter =
+            |text: &str| secrets.shared_lines(&[ArchiveFile::new("labs/01/starter", text)]);
+        let shared = starter(IN_C);
+        let places: Vec<_> = shared
+            .iter()
+            .map(|line| (line.line, line.solution_line))
+            .collect();
+        assert_eq!(places, [(3, 3)], "{shared:?}");
+        let shared = starter(IN_RUST);
+        let [line] = shared.as_slice() else {
+            panic!("{shared:?}");
+        };
+        assert_eq!(
+            (line.line, line.solution.as_str()),
+            (2, "01/rust/src/lib.rs")
+        );
+        assert!(starter("let mutant = (u * u + y * y - l1 * l1) / (2.0 * l1 * l2);").is_empty());
     }
 
     fn file(text: &str) -> [ArchiveFile; 1] {
