@@ -221,7 +221,17 @@ pub(crate) struct Answer {
 impl Serving {
     /// Starts a command and waits for the line with its address; returns the lines before it, too.
     pub(crate) fn start(bed: &TestBed, args: &[&str]) -> (Self, Vec<String>) {
+        Self::start_with(bed, args, &[])
+    }
+
+    /// The same with these variables of the environment.
+    pub(crate) fn start_with(
+        bed: &TestBed,
+        args: &[&str],
+        environment: &[(&str, &str)],
+    ) -> (Self, Vec<String>) {
         let mut command = bed.command(args);
+        command.envs(environment.iter().copied());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the binary runs");
         let (sender, lines) = channel();

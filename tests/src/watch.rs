@@ -11,7 +11,7 @@ fn bed() -> TestBed {
 }
 
 /// Waits for a report after the one seen, and returns its number: a save that a busy machine spreads out may be graded twice.
-fn newer(serving: &Serving, seen: u64) -> u64 {
+pub(crate) fn newer(serving: &Serving, seen: u64) -> u64 {
     let answer = serving.get(&format!("/kinemark/changes?seen={seen}"));
     let status: serde_json::Value = serde_json::from_str(&answer.body).expect("JSON");
     let version = status["version"].as_u64().expect("a number");

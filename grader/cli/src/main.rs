@@ -30,6 +30,7 @@ mod operator;
 mod output;
 mod pool;
 mod practice_variants;
+mod project;
 mod report_folder;
 mod response_pictures;
 mod robot_source;

@@ -1,4 +1,4 @@
-//! The submission that a person names: a script, or a folder, an archive or a hand-in file with one in it. What is none of them gets a
+//! The submission that a person names: a script, a module, or a folder, a project, an archive or a hand-in file with one in it. What is none of them gets a
 //! grade all the same, `did-not-build` with what to do: a report of an earlier file must not stand in for it.
 
 use std::path::Path;
@@ -12,6 +12,7 @@ use kinemark_course::tree::{Limits, Tree};
 use kinemark_grader::submission::not_text::absent;
 
 use crate::failure::Failure;
+use crate::project::Project;
 use crate::{disk, typed_path};
 
 /// Reads what lies at `path` as a submission for `lab`.
@@ -32,6 +33,15 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
         ));
     }
     typed_path::refuse_links(path)?;
+    if let Some(project) = Project::of(path) {
+        return Ok(match project.module(path)? {
+            Ok(module) => {
+                project.warn_if_stale(&module);
+                SubmissionSource::new(&module.name(), &module.bytes)
+            }
+            Err(none) => missing(&none.what, &none.help),
+        });
+    }
     let opened = if path.is_dir() {
         Some(Tree::open(path, &Limits::default()))
     } else if has_ending(path, &["zip", "tar", "gz", "tgz"]) {

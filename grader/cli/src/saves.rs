@@ -1,15 +1,17 @@
-//! Which saves concern a grade: those of the submission, of the variant beside it, and of the lab and the staff's part where they
+//! Which saves concern a grade: those of the submission, or of the sources that it is built from, of the variant beside it, and of the lab and the staff's part where they
 //! come from folders.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::Sender;
 
+use kinemark_course::module_sources::may_be_program;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use notify::{EventKind, RecursiveMode, Watcher as _};
 
 use crate::commands::grade;
 use crate::disk::{self, plain};
 use crate::failure::Failure;
+use crate::project::Project;
 use crate::{labs_folder, staff_folder};
 
 /// What a watched grade reacts to.
@@ -33,7 +35,8 @@ impl Saves {
         events: Sender<WatchEvent>,
     ) -> Result<Self, Failure> {
         let concerns = Concerns::of(request)?;
-        let trees = concerns.trees.clone();
+        let trees = concerns.trees.iter().chain(&concerns.project);
+        let trees: Vec<PathBuf> = trees.cloned().collect();
         // folders and not files: editors put another file in a file's place
         let folders = concerns.files.iter().map(|file| parent(file).to_owned());
         let mut folders: Vec<PathBuf> = folders.collect();
@@ -84,6 +87,8 @@ struct Concerns {
     files: Vec<PathBuf>,
     /// Folders in which everything counts.
     trees: Vec<PathBuf>,
+    /// The folder of a project that is built, in which sources count. What is built from them does not: it would be built for ever.
+    project: Option<PathBuf>,
     /// The report, which is written by ourselves.
     out: PathBuf,
 }
@@ -91,10 +96,15 @@ struct Concerns {
 impl Concerns {
     fn of(request: &grade::Request<'_>) -> Result<Self, Failure> {
         let args = request.args;
-        let mut files = vec![
-            real(&request.submission)?,
-            real(&request.submission.with_file_name(VARIANT_FILE))?,
-        ];
+        let mut files = vec![real(&request.submission.with_file_name(VARIANT_FILE))?];
+        let built = request.built()?;
+        if built.is_none() {
+            files.push(real(&request.submission)?);
+            let modules = Project::of(&request.submission).map(|project| project.modules());
+            for module in modules.into_iter().flatten() {
+                files.push(real(&module)?);
+            }
+        }
         if let Some(variant) = &args.from.variant.variant {
             files.push(real(variant)?);
         }
@@ -120,6 +130,7 @@ impl Concerns {
         Ok(Self {
             files,
             trees: trees.collect(),
+            project: built.and_then(|project| disk::real(project.folder()).canonicalize().ok()),
             out: disk::real(&request.out),
         })
     }
@@ -136,6 +147,21 @@ impl Concerns {
     fn path(&self, path: &Path) -> bool {
         if self.files.iter().any(|file| file == path) {
             return true;
+        }
+        let in_project = self
+            .project
+            .as_ref()
+            .and_then(|folder| path.strip_prefix(folder).ok());
+        if let Some(inside) = in_project {
+            let names = inside
+                .components()
+                .map(|part| part.as_os_str().to_string_lossy());
+            let names: Vec<_> = names.collect();
+            let is_source = may_be_program(&names.join("/"))
+                && !names.last().is_some_and(|name| name.ends_with('~'));
+            if is_source && !path.starts_with(&self.out) {
+                return true;
+            }
         }
         let inside = self
             .trees
@@ -212,6 +238,7 @@ mod tests {
     fn saves_of_what_is_graded_with_count_and_others_do_not() {
         let concerns = Concerns {
             files: vec!["/course/mine.rhai".into(), "/course/variant.toml".into()],
+            project: None,
             trees: vec!["/labs/one".into(), "/labs/robots".into()],
             out: "/labs/one/out".into(),
         };
@@ -241,5 +268,32 @@ mod tests {
         let written = notify::Event::new(EventKind::Modify(notify::event::ModifyKind::Any))
             .add_path("/course/mine.rhai".into());
         assert!(concerns.event(&written));
+    }
+
+    #[test]
+    fn sources_of_a_project_count_and_what_is_built_from_them_does_not() {
+        let concerns = Concerns {
+            files: Vec::new(),
+            project: Some("/student".into()),
+            trees: Vec::new(),
+            out: "/student/reports".into(),
+        };
+        for path in ["submission.c", "src/lib.rs", "Cargo.toml", "include/arm.h"] {
+            assert!(concerns.path(&Path::new("/student").join(path)), "{path}");
+        }
+        for path in [
+            "submission.wasm",
+            "target/wasm32-unknown-unknown/release/submission.wasm",
+            "target/debug/build/x.rs",
+            "out/report.html",
+            "reports/lab/01/starter.rs",
+            ".kinemark-history.json",
+            "Cargo.lock",
+            "submission.c~",
+            ".submission.c.swp",
+            "README.md",
+        ] {
+            assert!(!concerns.path(&Path::new("/student").join(path)), "{path}");
+        }
     }
 }

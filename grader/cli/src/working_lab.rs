@@ -10,32 +10,53 @@ use kinemark_grader::task::files::Files;
 
 use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
+use crate::project::{self, Project};
 use crate::{disk, last_report, output, typed_path};
 
 /// Where reports go unless another folder is named.
 pub(crate) const REPORT_FOLDER: &str = "out";
 
+/// What is graded, as far as words on the command line and the folder say.
+pub(crate) struct Meant {
+    /// The lab, or the beginning of its name.
+    pub(crate) lab: String,
+    /// The submission. That of a project need not be there: it is `submission.wasm` in its folder.
+    pub(crate) submission: PathBuf,
+    /// Whether its file was named, and not found in a folder.
+    pub(crate) is_named: bool,
+}
+
 /// The lab and the submission that are meant by up to two words; `help` names both for `variant` and everything beside it.
 ///
 /// # Errors
-/// As [`lab_of`].
+/// As [`lab_of`], and where a folder has a script and a module.
 pub(crate) fn lab_and_submission(
     words: (Option<&str>, Option<&Path>),
     variant: Option<&Path>,
     labs_folder: &LabsFolderArgs,
     help: &str,
-) -> Result<(String, PathBuf), Failure> {
+) -> Result<Meant, Failure> {
     let (lab, file) = match words {
         // one word that can only be a file
         (Some(word), None) if is_program(word) => (None, Some(PathBuf::from(word))),
         (lab, file) => (lab, file.map(Path::to_owned)),
     };
-    let file = file.map_or_else(|| submission(lab), |file| typed_path::plain(&file));
+    let named = file.map(|file| typed_path::plain(&file));
+    let of_folder = named.as_deref().and_then(Project::submission_in);
+    let is_named = named.is_some() && of_folder.is_none();
+    let submission = match of_folder.or(named) {
+        Some(file) => file,
+        None => submission(lab)?,
+    };
     let lab = match lab {
         Some(lab) => lab.to_owned(),
-        None => lab_of(&file, variant, labs_folder, help)?,
+        None => lab_of(&submission, variant, labs_folder, help)?,
     };
-    Ok((lab, file))
+    Ok(Meant {
+        lab,
+        submission,
+        is_named,
+    })
 }
 
 fn is_program(word: &str) -> bool {
@@ -82,13 +103,23 @@ fn folder_file(submission: &Path) -> Result<Option<FolderFile>, Failure> {
 }
 
 /// The submission where none is named: here, or in the folder that `kinemark new` has made for the lab.
-pub(crate) fn submission(lab: Option<&str>) -> PathBuf {
-    let here = PathBuf::from(SUBMISSION_FILE);
+///
+/// # Errors
+/// Exit code 2 where a folder has a script and a module: nobody can say which one counts.
+pub(crate) fn submission(lab: Option<&str>) -> Result<PathBuf, Failure> {
+    let here = project::submission_of_folder(Path::new(""))?;
+    let script = Path::new(SUBMISSION_FILE);
+    // any folder may have a Cargo.toml, and only that of a lab is one of ours
+    let is_ours = |path: &PathBuf| path == script || Path::new(FOLDER_FILE).is_file();
+    if let Some(here) = here.as_ref().filter(|path| is_ours(path)) {
+        return Ok(here.clone());
+    }
     // `kinemark new` has made a folder of the lab's name
-    let below = lab.map(|lab| Path::new(lab).join(&here));
-    below
-        .filter(|below| !here.exists() && below.is_file())
-        .unwrap_or(here)
+    let below = match lab {
+        Some(lab) => project::submission_of_folder(Path::new(lab))?,
+        None => None,
+    };
+    Ok(below.or(here).unwrap_or_else(|| script.to_owned()))
 }
 
 /// The lab of a submission where none is named: that of the kinemark.toml beside it, of its variant (`variant`, else the one beside it), of

@@ -9,6 +9,10 @@
 //! | [`fixes`] | `fixes.toml`: what people decided |
 //! | [`tree`] | what an LMS exported, as a tree of files |
 //! | `submission_name` | what the name of a file says: a script, a hand-in file, an archive, a copy |
+//! | [`device_name`] | names that Windows takes for devices |
+//! | [`language`] | the languages of submissions: starters, sources, how they are built |
+//! | [`plugin_project`] | what a project in C or Rust has beside its source |
+//! | [`module_sources`] | the sources beside a module: which are kept, and under which names |
 //! | [`layout`] | how the files of a class are arranged: whose folder is which |
 //! | [`selection`] | which of a person's files is the submission |
 //! | [`matching`] | which student of the roster a folder belongs to |
@@ -34,9 +38,7 @@
 //! | [`submission_source`] | a submission's bytes as what is graded |
 //! | [`grading`] | one hand-in to its record |
 //! | [`handed_out`] | the note of which lab and engine the course uses |
-//! | [`language`] | the languages of submissions: starters, sources, how they are built |
 //! | `plugin_starter` | a starter in a compiled language where a lab has none |
-//! | [`plugin_project`] | what a project in C or Rust has beside its source |
 //! | [`working_folder`] | what a student begins a lab with |
 //! | [`gradescope_results`] | a grade as Gradescope's autograder reports it |
 //! | [`pack`] | archives to hand out: for students, for course staff, for Gradescope |
@@ -61,6 +63,7 @@ pub mod class_pages;
 pub mod clusters;
 pub mod course_file;
 pub mod course_text;
+pub mod device_name;
 pub mod durable;
 mod editor_files;
 pub mod fixed_zip;
@@ -82,6 +85,7 @@ pub mod layout;
 #[cfg(test)]
 mod made_up_class;
 pub mod matching;
+pub mod module_sources;
 pub mod pack;
 pub mod page;
 pub mod plugin_project;

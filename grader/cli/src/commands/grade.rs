@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_course::language::MODULE_FILE;
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::judge::reference_run;
 use kinemark_grader::lab::{Lab, Staff};
@@ -10,6 +11,7 @@ use kinemark_grader::record::grade::{Grade, GradeMode};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_grader::submission::host::{Host, InProcess};
+use kinemark_grader::submission::not_text::absent;
 use kinemark_grader::task::files::Files;
 
 use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
@@ -17,9 +19,11 @@ use kinemark_report::short_text::short_text;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, LabArgs};
+use crate::course_folder::enclosing_root;
 use crate::failure::{self, FAULT, Failure, LOST};
 use crate::history::History;
 use crate::practice_variants::{PracticeVariants, try_variants};
+use crate::project::{Built, NoModule, Project};
 use crate::sandbox::SandboxArgs;
 use crate::staff_folder::{self, StaffArgs};
 use crate::worker::WorkerHost;
@@ -34,19 +38,25 @@ use crate::{
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
     kinemark grade 01-kinematics submission.rhai --variants 5\n  \
-    kinemark grade --format short\n\n\
+    kinemark grade --format short\n  \
+    kinemark grade --build\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
     With the course staff's part only --variant and --student give a variant, and labs that may have been handed in are refused: docs/ta-guide.md.\n\
+    --build runs what the project's author wrote, so it is refused with the course staff's part, and in the folder of a course. A build that \
+    fails is graded as `did-not-build`, with the compiler's errors; see docs/plugin.md.\n\
     What is no script is graded as `did-not-build`, with what to do; no link in the path of a submission is followed.\n\
     Writes grade.json, report.html, plots, a log per motion task and a copy of the submission and the lab to the output folder.\n\
-    Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed, or the grade cannot be \
-    printed or written."
+    Exit codes: 0 every check full, 1 points lost, 2 usage, 3 the lab is broken, 4 the grader or this machine failed, a compiler \
+    is missing, or the grade cannot be printed or written."
 )]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it, or the beginning of its name [default: that of the folder]
     pub(crate) lab: Option<String>,
-    /// The submission: a script, or a folder, a ZIP archive or a hand-in file with one in it [default: submission.rhai]
+    /// The submission: a script, a module, or a folder, a ZIP archive or a hand-in file with one in it [default: submission.rhai, or the module of the project here]
     pub(crate) submission: Option<PathBuf>,
+    /// Build the project of the submission first: runs the compiler, and a build script if the project has one
+    #[arg(long)]
+    pub(crate) build: bool,
     /// Folder to write to; an earlier report there is replaced [default: `out`; in practice beside the submission, where `kinemark new` has made its folder]
     #[arg(long, short, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -95,8 +105,41 @@ pub(crate) struct Request<'a> {
     pub(crate) lab: String,
     /// The submission.
     pub(crate) submission: PathBuf,
+    /// Whether its file was named, and not found in a folder.
+    is_named: bool,
+    /// Whether a project is built before it is graded.
+    pub(crate) build: Build,
     /// Folder to write to.
     pub(crate) out: PathBuf,
+}
+
+/// When a project is built before it is graded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Build {
+    /// Never.
+    No,
+    /// Wherever it is the work of whoever runs this: in practice.
+    InPractice,
+    /// Always, or it is an error.
+    Asked,
+}
+
+impl Request<'_> {
+    /// The project that is built before each grade, as far as can be seen before the lab is read.
+    ///
+    /// # Errors
+    /// Exit code 2 for a folder of the course staff's part that is none.
+    pub(crate) fn built(&self) -> Result<Option<Project>, Failure> {
+        let project = Project::of(&self.submission).filter(Project::can_be_built);
+        if self.build == Build::No || project.is_none() || enclosing_root().is_some() {
+            return Ok(None);
+        }
+        let from = &self.args.from;
+        let (_, labs) = labs_folder::open(&from.labs_folder)?;
+        let reference = staff_folder::open(&from.staff, labs.as_deref())?;
+        let is_graded = reference.is_some_and(|part| staff_folder::has_solution(&part, &self.lab));
+        Ok(project.filter(|_| !is_graded))
+    }
 }
 
 impl Args {
@@ -105,7 +148,11 @@ impl Args {
     /// # Errors
     /// Exit code 2 where nothing says which lab is meant.
     pub(crate) fn filled(&self) -> Result<Request<'_>, Failure> {
-        let (lab, submission) = working_lab::lab_and_submission(
+        let working_lab::Meant {
+            lab,
+            submission,
+            is_named,
+        } = working_lab::lab_and_submission(
             (self.lab.as_deref(), self.submission.as_deref()),
             self.from.variant.variant.as_deref(),
             &self.from.labs_folder,
@@ -124,6 +171,11 @@ impl Args {
             args: self,
             lab: labs_folder::full_name(files.as_ref(), &lab)?,
             submission,
+            is_named,
+            build: match self.build {
+                true => Build::Asked,
+                false => Build::No,
+            },
             out,
         })
     }
@@ -289,8 +341,8 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
     if staff.is_some() && lab.variant.is_none() && !lab.variants.is_empty() && note.is_none() {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
-    let submission = named_submission::read(&request.submission, &lab.name)?;
     report_folder::refuse_foreign(&request.out)?;
+    let submission = submission(request, &lab, staff.is_some())?;
 
     let mut in_process = InProcess;
     let mut workers = WorkerHost::new((!args.in_process).then(|| progress(lab.tasks.len())));
@@ -331,6 +383,43 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
         labs: chosen.labs,
         variants,
     })
+}
+
+/// The submission, built where that is asked for; a build that fails is a submission that is not there.
+fn submission(
+    request: &Request<'_>,
+    lab: &Lab,
+    is_graded: bool,
+) -> Result<SubmissionSource, Failure> {
+    let project = Project::of(&request.submission);
+    let is_of_staff = is_graded || enclosing_root().is_some();
+    let built = match (request.build, &project) {
+        (Build::No, _) | (Build::InPractice, None) => Built::Yes,
+        (Build::InPractice, Some(project)) if is_of_staff || !project.can_be_built() => Built::Yes,
+        (Build::Asked, _) if is_of_staff => {
+            return Err(Failure::usage(
+                "--build runs what the author of the project wrote, and here it could read the course staff's files".to_owned(),
+                "grade the module that was handed in; if the project is your own, build it yourself, or use --practice outside of a course",
+            ));
+        }
+        (Build::Asked, None) => {
+            return Err(Failure::usage(
+                format!(
+                    "`{}` is no project that can be built",
+                    output::path(&request.submission)
+                ),
+                "leave --build out; `kinemark new LAB --lang rust` or `--lang c` makes a project",
+            ));
+        }
+        (Build::InPractice | Build::Asked, Some(project)) => project.build()?,
+    };
+    if let Built::Refused(NoModule { what, help }) = built {
+        return Ok(SubmissionSource::new(MODULE_FILE, &absent(&what, &help)));
+    }
+    if let Some(project) = project.filter(|_| !request.is_named) {
+        project.refuse_several()?;
+    }
+    named_submission::read(&request.submission, &lab.name)
 }
 
 /// Refuses pictures in pixels where this build draws none.

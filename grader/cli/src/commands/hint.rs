@@ -138,7 +138,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 }
 
 fn known(args: &Args) -> Result<LabHints, Failure> {
-    let submission = working_lab::submission(args.lab.as_deref());
+    let submission = working_lab::submission(args.lab.as_deref())?;
     let name = match &args.lab {
         Some(name) => name.clone(),
         None => {

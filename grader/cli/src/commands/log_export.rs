@@ -7,6 +7,7 @@ use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use kinemark_course::device_name::is_device;
 use kinemark_report::log::{ReadError, Table, Tables, tables, write_csv};
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
@@ -315,16 +316,6 @@ fn file_name(topic: &str, before: &[Exported]) -> String {
         number += 1;
     }
     name
-}
-
-/// Whether Windows takes a name for a device.
-fn is_device(name: &str) -> bool {
-    let name = name.to_ascii_lowercase();
-    let numbered = |kind: &str| {
-        let number = name.strip_prefix(kind);
-        number.is_some_and(|number| number.len() == 1 && number.as_bytes()[0].is_ascii_digit())
-    };
-    matches!(name.as_str(), "con" | "prn" | "aux" | "nul") || numbered("com") || numbered("lpt")
 }
 
 fn text(export: &Export, out: &Path) -> String {

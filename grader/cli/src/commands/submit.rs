@@ -21,6 +21,7 @@ use crate::failure::{self, FAULT, Failure};
 use crate::hand_in_warnings::BeforeUpload;
 use crate::handed_out_lab::Warning;
 use crate::labs_folder::LabsFolderArgs;
+use crate::project::Project;
 use crate::staff_folder::{StaffArgs, StaffPart};
 use crate::worker::WorkerHost;
 use crate::{disk, interrupt, output, typed_path, working_lab};
@@ -38,7 +39,7 @@ use crate::{disk, interrupt, output, typed_path, working_lab};
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
     pub(crate) lab: Option<String>,
-    /// The submission [default: submission.rhai]
+    /// The submission: a script, a module, or the folder of a project [default: submission.rhai, or the project's module]
     #[arg(value_name = "FILE")]
     pub(crate) submission: Option<PathBuf>,
     /// File or folder to write to [default: LAB.kinemark]; an earlier hand-in file there is replaced
@@ -73,13 +74,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let student = args.student.as_deref().map(StudentId::new).transpose();
     let student =
         student.map_err(|why| Failure::usage(why, "write the id as the course writes it"))?;
-    let (lab, path) = working_lab::lab_and_submission(
+    let meant = working_lab::lab_and_submission(
         (args.lab.as_deref(), args.submission.as_deref()),
         args.variant.as_deref(),
         &args.labs_folder,
         "name the lab, such as `kinemark submit 01-kinematics submission.rhai`",
     )?;
-    let bytes = submission(&path)?;
+    let (lab, path) = (meant.lab, meant.submission);
+    let bytes = submission(&path, meant.is_named)?;
     let Chosen { lab, files, .. } = chosen_variant::choose(&lab, &practice(args), Some(&path))?;
     let default = Lab::load(files.as_ref(), &lab.name)?;
     let variant_of = lab.variant.as_ref().and_then(Variant::student);
@@ -126,7 +128,16 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 }
 
 /// The bytes of the submission, text or not.
-fn submission(path: &Path) -> Result<Vec<u8>, Failure> {
+fn submission(path: &Path, is_named: bool) -> Result<Vec<u8>, Failure> {
+    if let Some(project) = Project::of(path) {
+        if !is_named {
+            project.refuse_several()?;
+        }
+        let module = project.module(path)?;
+        let module = module.map_err(|none| Failure::usage(none.what, &none.help))?;
+        project.warn_if_stale(&module);
+        return Ok(module.bytes);
+    }
     disk::refuse_toml(path)?;
     let bytes = typed_path::bytes(path, "a submission", MOST_SUBMISSION_BYTES)?;
     if is_hand_in(&bytes) {

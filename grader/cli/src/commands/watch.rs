@@ -12,8 +12,9 @@ use kinemark_report::visible::visible;
 use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
-use super::grade::{self, Request, Work};
+use super::grade::{self, Build, Request, Work};
 use crate::failure::{self, Failure};
+use crate::project::Project;
 use crate::saves::{Saves, WatchEvent};
 use crate::serve::{self, ServeArgs, Server};
 use crate::{interrupt, output};
@@ -23,7 +24,8 @@ use crate::{interrupt, output};
 #[group(id = "watch")] // its own name is that of the arguments of `grade`
 #[command(
     after_help = "Examples:\n  kinemark watch\n  kinemark watch 01-kinematics submission.rhai\n\n\
-    Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. The report opens in the browser \
+    Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. In practice a project in Rust or C is \
+    built first, whenever a source of it is saved; what the compiler reports is in the terminal and in the page. The report opens in the browser \
     and reloads at the same moment and position. With --json each grade is one line.\n\
     See docs/watch-and-compare.md.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
@@ -50,7 +52,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let _ = stop.send(true);
         let _ = on_stop.send(WatchEvent::Stop);
     });
-    let request = args.grade.filled()?;
+    let mut request = args.grade.filled()?;
+    if request.build == Build::No {
+        request.build = Build::InPractice;
+    }
     // listened to before the first grade: what is saved while it runs counts
     let _saves = Saves::listen(&request, sender)?;
     let first = match grade::work(&request) {
@@ -110,7 +115,8 @@ fn follow(
                 Err(_) => break,
             }
         }
-        if !request.submission.exists() {
+        let project = Project::of(&request.submission);
+        if !request.submission.exists() && !project.is_some_and(|project| project.is_there()) {
             if !is_gone {
                 let name = output::path(&request.submission);
                 print_beside(&format!(
