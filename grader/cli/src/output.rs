@@ -4,7 +4,7 @@ use std::io::{ErrorKind, IsTerminal as _, Write as _};
 use std::path::Path;
 
 use kinemark_course::durable::{self, Readers};
-use kinemark_report::visible::visible;
+use kinemark_report::visible::{visible, visible_json};
 use kinemark_toolbox::styled_text::{Emphasis, StyledText};
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
@@ -91,7 +91,7 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 /// A value as JSON, in lines a person can read, with a line end.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
     match serde_json::to_string_pretty(value) {
-        Ok(text) => Ok(text + "\n"),
+        Ok(text) => Ok(visible_json(text) + "\n"),
         Err(error) => Err(Failure::fault(
             format!("a value could not be written as JSON: {error}"),
             "please report this",

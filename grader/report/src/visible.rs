@@ -62,6 +62,26 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// JSON with the same characters as `\u202e`, which mean the same to every reader: whoever looks at a record in a terminal sees them, too.
+pub fn visible_json(json: String) -> String {
+    let is_escaped = |c: char| is_unseen(c) && c != '\n';
+    if !json.chars().any(is_escaped) {
+        return json;
+    }
+    let mut shown = String::with_capacity(json.len() + 16);
+    for c in json.chars() {
+        if is_escaped(c) {
+            for unit in c.encode_utf16(&mut [0; 2]) {
+                // writing into a string cannot fail
+                let _ = write!(shown, "\\u{unit:04x}");
+            }
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
+}
+
 /// [`visible`] text of at most `max` characters, the last an ellipsis where something was cut.
 pub fn shortened(text: &str, max: usize) -> String {
     // no more than `max` characters can be shown, so no more need be looked at
@@ -97,6 +117,21 @@ pub(crate) fn file_stem(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn json_means_the_same_and_hides_nothing() {
+        let value = serde_json::json!({ "a": "x\u{202e}y\u{9b}31m\u{e0001}\n\"é" });
+        let text = serde_json::to_string_pretty(&value).unwrap();
+        let shown = visible_json(text);
+        assert_eq!(
+            shown,
+            "{\n  \"a\": \"x\\u202ey\\u009b31m\\udb40\\udc01\\n\\\"é\"\n}"
+        );
+        assert_eq!(
+            serde_json::from_str::<serde_json::Value>(&shown).unwrap(),
+            value
+        );
+    }
 
     #[test]
     fn escapes_and_overrides_are_written_out() {

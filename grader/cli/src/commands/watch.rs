@@ -8,7 +8,7 @@ use std::time::Duration;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::points;
 use kinemark_report::moment::{FirstLoss, look_first};
-use kinemark_report::visible::visible;
+use kinemark_report::visible::{visible, visible_json};
 use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
@@ -143,7 +143,7 @@ fn follow(
 fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Result<(), Failure> {
     let grade = &work.graded.grade;
     let line = match request.args.json {
-        true => serde_json::to_string(grade).map(|text| text + "\n"),
+        true => serde_json::to_string(grade).map(|text| visible_json(text) + "\n"),
         false => Ok(line(grade, work.note.as_deref())),
     };
     let line = line.map_err(|error| {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::material::{Material, OutFile, OutputError, Sources};
 use super::{ReportRequest, storyboards};
+use crate::visible::visible_json;
 
 /// The grade record; a folder that has it claims to be a report.
 pub const RECORD_FILE: &str = "grade.json";
@@ -115,12 +116,12 @@ pub fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
     Ok(files)
 }
 
-/// A value as JSON, in lines a person can read, with a line end.
+/// A value as JSON, in lines a person can read, with a line end; characters that nobody sees are escaped.
 ///
 /// # Errors
 /// [`OutputError::Json`] where the value has no JSON form.
 pub fn json(value: &impl Serialize) -> Result<String, OutputError> {
-    Ok(serde_json::to_string_pretty(value)? + "\n")
+    Ok(visible_json(serde_json::to_string_pretty(value)?) + "\n")
 }
 
 #[cfg(test)]

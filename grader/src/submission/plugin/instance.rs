@@ -5,7 +5,7 @@ use wasmi::{Error, Global, Memory, Store, TrapCode, Val};
 
 use super::imports::{Ended, State};
 use super::marks::MARK;
-use super::module::{Compiled, MEMORY, VERSION, refused};
+use super::module::{Compiled, MEMORY, MOST_TABLES, VERSION, refused};
 use crate::submission::controller::Stop;
 
 /// An instance.
@@ -183,6 +183,15 @@ fn too_large(error: &Error, compiled: &Compiled) -> Option<Stop> {
         ErrorKind::Table(_)
         | ErrorKind::Instantiation(InstantiationError::FailedToInstantiateTable(_)) => {
             ("tables", format!("{} elements each", limits.table_elements))
+        }
+        ErrorKind::Instantiation(InstantiationError::TooManyTables) => {
+            ("tables", format!("{MOST_TABLES}"))
+        }
+        ErrorKind::Instantiation(InstantiationError::ElementSegmentDoesNotFit { .. }) => {
+            return Some(refused(
+                "the module fills a table beyond its end".to_owned(),
+                "build it again: the file may have been changed after it was built",
+            ));
         }
         _ => return None,
     };

@@ -44,12 +44,15 @@ impl Limits {
             .table_elements(self.table_elements)
             .instances(1)
             .memories(1)
-            .tables(16)
+            .tables(MOST_TABLES)
             // else most modules fail later, where nobody sees why
             .trap_on_grow_failure(true)
             .build()
     }
 }
+
+/// Tables of a module.
+pub(super) const MOST_TABLES: usize = 16;
 
 /// Calls inside each other, and bytes of their values.
 pub(super) const MOST_CALLS: usize = 1_000;

@@ -546,6 +546,16 @@ fn memory_grows_to_its_limit_and_no_further() {
         refusal(module("(table 10001 funcref)")),
         "the module begins with more tables than it may have: 10000 elements each"
     );
+    assert_eq!(
+        refusal(module(&"(table 1 funcref) ".repeat(17))),
+        "the module begins with more tables than it may have: 16"
+    );
+    assert_eq!(
+        refusal(module(
+            "(table 1 funcref) (func $f) (elem (i32.const 7) $f)"
+        )),
+        "the module fills a table beyond its end"
+    );
 }
 
 #[test]
