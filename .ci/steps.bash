@@ -54,12 +54,14 @@ declare -A what=(
   [node]="the viewer's bundle, reports in a browser, logs in JavaScript"
   [browser]="reports in a browser"
   [wasm]="the comparison with WebAssembly"
+  [clang]="the reference solutions in C"
   [python]="logs in Python, unused dependencies"
 )
 declare -A why=(
   [node]="Node 20 or later with npm and its packages cannot be had here"
   [browser]="Chromium cannot be had here (CHROMIUM names another one)"
   [wasm]="the Rust target or Node cannot be had here"
+  [clang]="clang and lld cannot be had here"
   [python]="Python 3.11 with the packages of tests/readers/requirements.txt cannot be had here"
 )
 
@@ -88,6 +90,9 @@ target_is_there() { [ -d "$(rustc --print target-libdir --target "$1")" ]; }
 fetch_wasm() {
   command -v node >/dev/null || install nodejs || return 1
   target_is_there wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
+}
+fetch_clang() {
+  command -v clang >/dev/null && command -v wasm-ld >/dev/null || install clang lld
 }
 # C for other systems
 what[zig]="what needs zig"
@@ -176,6 +181,46 @@ step_test() { # the README's command
   [ "$command" = "cargo test --workspace" ] || { echo "README's test command is: $command"; return 1; }
   $command --locked
 }
+
+# The corpus again as a user without privileges, where the gate runs as root: what seals a worker must not need any.
+step_attacks() {
+  [ "$(id -u)" = 0 ] || { echo "the tests ran as an ordinary user"; return; }
+  local binaries folder test
+  binaries=$(cargo test --workspace --locked --test attacks --no-run 2>&1 | sed -n 's/.*(\(.*attacks-[0-9a-f]*\)).*/\1/p')
+  folder=$(mktemp -d)
+  # where a user without privileges can read it
+  cp "$binaries" "$folder/attacks"
+  cp "$target/debug/kinemark" "$folder/kinemark"
+  mkdir "$folder/tests" && cp -r tests/attacks tests/submissions "$folder/tests"
+  cp -r labs reference "$folder"
+  chmod -R a+rX "$folder"
+  (cd "$folder" && setpriv --reuid=65534 --regid=65534 --clear-groups \
+    env HOME=/nonexistent KINEMARK_CHECKOUT="$folder" KINEMARK_BINARY="$folder/kinemark" ./attacks)
+  rm -rf "$folder"
+}
+
+# The reference solutions in C and Rust: the points and the very digests of the scripts.
+step_modules() {
+  need clang || return 0
+  need wasm || return 0
+  local lab name module out=$target/ci/modules built=$target/ci/modules/rust
+  mkdir -p "$out"
+  cargo build --quiet --release --locked --lib --examples --target wasm32-unknown-unknown \
+    --manifest-path reference/rust/Cargo.toml --target-dir "$built"
+  for lab in labs/[0-9]*/; do
+    name=$(basename "$lab")
+    release grade "$name" "reference/$name/solution.rhai" --out "$out/script" --json 2>/dev/null | digests >"$out/script.txt"
+    grep -q digest "$out/script.txt"
+    clang --target=wasm32 -O2 -Wall -Werror -mbulk-memory -nostdlib -Wl,--no-entry,--stack-first -Igrader/plugin/c \
+      -o "$out/c.wasm" "reference/$name/solution.c"
+    for module in "$out/c.wasm" "$built/wasm32-unknown-unknown/release/$(rust_module "$name")"; do
+      release grade "$name" "$module" --out "$out/module" --json 2>/dev/null | digests | diff "$out/script.txt" -
+    done
+    echo "$name: the same points and digests in C, Rust and as a script"
+  done
+}
+digests() { sed -n 's/^ *"\(points\|all\|seconds\|q\|qd\)": \(.*\)$/digest \1 \2/p'; }
+rust_module() { sed -n 's/^name = "\(.*\)"$/\1/p' "reference/$1/rust/Cargo.toml" | head -1 | tr - _ | sed 's/$/.wasm/'; }
 
 # The same bytes from a build without optimisation and from WebAssembly, since both build everything again, and every submission explained:
 # what `cargo test` leaves out.

@@ -54,7 +54,7 @@ pub(crate) fn large_class_in(bed: TestBed, count: usize) -> TestBed {
 }
 
 /// Labs, salt, roster and rules.
-fn course(bed: &TestBed, roster: &str) {
+pub(crate) fn course(bed: &TestBed, roster: &str) {
     bed.copy_labs();
     bed.write("salt.txt", "a line that nobody can guess\n");
     bed.write("roster.csv", roster);

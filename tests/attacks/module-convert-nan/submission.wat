@@ -1,0 +1,6 @@
+(module
+  (func (export "km_forward_kinematics") (param $robot i32) (param $q i32) (param $position i32) 
+    (drop (i32.trunc_f64_s (f64.const nan))))
+  (memory (export "memory") 2)
+  (func (export "km_version") (result i32) (i32.const 1))
+  (func (export "km_buffer") (param i32) (result i32) (i32.const 1024)))

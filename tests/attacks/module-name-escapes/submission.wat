@@ -1,0 +1,7 @@
+(module
+  (func (export "km_forward_kinematics") (param $robot i32) (param $q i32) (param $position i32) 
+    (call $"\1b]0;owned\07\e2\80\ae</script>"))
+  (func $"\1b]0;owned\07\e2\80\ae</script>" unreachable)
+  (memory (export "memory") 2)
+  (func (export "km_version") (result i32) (i32.const 1))
+  (func (export "km_buffer") (param i32) (result i32) (i32.const 1024)))
