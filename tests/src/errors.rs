@@ -361,7 +361,7 @@ fn files_that_are_no_submission_are_refused_or_judged() {
         "{ran:?}"
     );
     assert!(ran.stdout.contains("0 of 24 points"), "{ran:?}");
-    bed.write("binary.rhai", [0x7f, b'E', b'L', b'F', 0xff, 0xfe, 0]);
+    bed.write("binary.rhai", [0x7e, b'E', b'L', b'F', 0xff, 0xfe, 0]);
     let ran = grade("binary.rhai");
     assert_eq!(ran.code, Some(1), "{ran:?}");
     let words = "the file is not UTF-8 text: byte 0xff";

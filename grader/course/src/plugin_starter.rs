@@ -113,6 +113,7 @@ fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
 }
 
 /// A function in Rust: what it imports, and its text.
+// long: a text for each function
 fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
     match one {
         Called::Function(Function::ForwardKinematics) => (

@@ -93,27 +93,22 @@ pub(super) fn check(
                 of: TICKS,
             });
         }
+        let not_from_here = not_checked(Unchecked::StayFrom((tick - 1) as f64 * STEP_S));
         if budget.is_spent() {
-            let from_s = (tick - 1) as f64 * STEP_S;
-            findings.push(not_checked(Unchecked::StayFrom(from_s)));
+            findings.push(not_from_here);
             return Ok(());
         }
         let before = world.work();
-        match world.step(robot, &[], &[], &[], None, &mut facts) {
-            Ok(()) => {}
-            Err(StepFault::Lost(body)) => {
-                findings.push(Finding {
+        if let Err(fault) = world.step(robot, &[], &[], &[], None, &mut facts) {
+            // the positions of the others mean nothing after that
+            findings.push(match fault {
+                StepFault::Lost(body) => Finding {
                     severity: Severity::Error,
                     kind: Kind::FliesApart { body, time_s },
-                });
-                // the positions of the others mean nothing after that
-                return Ok(());
-            }
-            Err(StepFault::TooManyTriangles) => {
-                let from_s = (tick - 1) as f64 * STEP_S;
-                findings.push(not_checked(Unchecked::StayFrom(from_s)));
-                return Ok(());
-            }
+                },
+                StepFault::TooManyTriangles => not_from_here,
+            });
+            return Ok(());
         }
         budget.spend(world.work() - before);
         follow(scene, &world, layout);
@@ -125,19 +120,7 @@ pub(super) fn check(
             }
         }
         for one in &mut falling {
-            if !one.lost
-                && let Some(through) = one.entered(layout, &mut budget)
-            {
-                one.lost = true;
-                findings.push(Finding {
-                    severity: Severity::Error,
-                    kind: Kind::FallsThrough {
-                        body: one.body,
-                        through,
-                        time_s,
-                    },
-                });
-            }
+            findings.extend(one.falls_through(layout, &mut budget, time_s));
         }
     }
     for one in falling.iter().filter(|one| !one.lost) {
@@ -259,6 +242,28 @@ impl Falling {
             self.support = Some((other, p));
             self.supported = true;
         }
+    }
+
+    /// That it fell through something since the last check, if it did so for the first time.
+    fn falls_through(
+        &mut self,
+        layout: &Layout,
+        budget: &mut WorkBudget,
+        time_s: f64,
+    ) -> Option<Finding> {
+        if self.lost {
+            return None;
+        }
+        let through = self.entered(layout, budget)?;
+        self.lost = true;
+        Some(Finding {
+            severity: Severity::Error,
+            kind: Kind::FallsThrough {
+                body: self.body,
+                through,
+                time_s,
+            },
+        })
     }
 
     /// What the centre of one of its shapes went into since the last check.

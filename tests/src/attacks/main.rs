@@ -11,13 +11,12 @@ mod good_beside;
 mod run;
 mod served;
 
-#[allow(dead_code, reason = "shared with the tests of the whole system")]
+#[expect(dead_code, reason = "shared with the tests of the whole system")]
 #[path = "../course_class.rs"]
 mod course_class;
-#[allow(dead_code, reason = "shared with the tests of the whole system")]
 #[path = "../every_case.rs"]
 mod every_case;
-#[allow(dead_code, reason = "shared with the tests of the whole system")]
+#[expect(dead_code, reason = "shared with the tests of the whole system")]
 #[path = "../testbed.rs"]
 mod testbed;
 

@@ -111,14 +111,15 @@ impl ScriptController {
         let (mut engine, mut names) = engine::build(budgets, &meter, &globals, granted);
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
-        names.observation = observation.keys().map(ToString::to_string).collect();
+        let keys = |map: &Map| map.keys().map(ToString::to_string).collect();
+        names.observation = keys(&observation);
         if let Value::Map(entries) = &opening.target {
             names.target = entries.iter().map(|(key, _)| key.clone()).collect();
         }
         names.robot = robot
             .map
             .as_map_ref()
-            .map(|map| map.keys().map(ToString::to_string).collect())
+            .map(|map| keys(&map))
             .unwrap_or_default();
 
         // a byte order mark, which editors do not show
