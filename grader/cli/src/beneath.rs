@@ -45,7 +45,7 @@ pub(crate) fn open(folder: &Path, path: impl AsRef<Path>) -> Result<File, Unread
 /// What the plain file at `path` beneath `folder` holds, of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`], and for what is no plain file or is larger.
+/// As [`open()`], and for what is no plain file or is larger.
 pub(crate) fn bytes(folder: &Path, path: &str, most: u64) -> Result<Vec<u8>, Unread> {
     disk::contents(open(folder, path)?, most).map_err(Unread::Other)
 }

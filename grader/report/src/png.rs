@@ -41,7 +41,7 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
     written(&drawn(svg)?).map_err(|error| PngError::Unwritable(error.to_string()))
 }
 
-/// Whether a PNG shows the picture that `svg` draws, as [`png`] would. However it is written: what counts are the pixels, and of these no
+/// Whether a PNG shows the picture that `svg` draws, as [`png()`] would. However it is written: what counts are the pixels, and of these no
 /// more than what kinds of processors round otherwise.
 ///
 /// # Errors
