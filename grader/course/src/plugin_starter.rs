@@ -113,28 +113,24 @@ fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
 }
 
 /// A function in Rust: what it imports, and its text.
-// long: a text for each function
 fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
     match one {
         Called::Function(Function::ForwardKinematics) => (
             &["Robot"],
             format!(
-                "\n    // {of}: return [x, y, z] of the TCP in metres.\n    \
-                 fn forward_kinematics(&mut self, robot: &Robot, q: &[f64]) -> [f64; 3] {{\n        [0.0, 0.0, 0.0]\n    }}\n"
+                "\n    // {of}: return [x, y, z] of the TCP in metres.\n    fn forward_kinematics(&mut self, robot: &Robot, q: &[f64]) -> [f64; 3] {{\n        [0.0, 0.0, 0.0]\n    }}\n"
             ),
         ),
         Called::Function(Function::InverseKinematics) => (
             &["Robot", "Rows"],
             format!(
-                "\n    // {of}: push the joint positions of every way to get to `position`.\n    \
-                 fn inverse_kinematics(&mut self, robot: &Robot, position: [f64; 3], branches: &mut Rows) {{}}\n"
+                "\n    // {of}: push the joint positions of every way to get to `position`.\n    fn inverse_kinematics(&mut self, robot: &Robot, position: [f64; 3], branches: &mut Rows) {{}}\n"
             ),
         ),
         Called::Function(Function::Jacobian(rows)) => {
             let names: Vec<&str> = rows.names().collect();
             let text = format!(
-                "\n    // {of}: push the rows of the Jacobian ({}), one number a joint in each.\n    \
-                 fn jacobian(&mut self, robot: &Robot, q: &[f64], rows: &mut Rows) {{\n        \
+                "\n    // {of}: push the rows of the Jacobian ({}), one number a joint in each.\n    fn jacobian(&mut self, robot: &Robot, q: &[f64], rows: &mut Rows) {{\n        \
                  for _ in 0..{} {{\n            rows.push(&vec![0.0; q.len()]);\n        }}\n    }}\n",
                 names.join(", "),
                 names.len()
@@ -145,15 +141,13 @@ fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
             &["Answer", "Map"],
             format!(
                 "\n    // {of}: given.number(\"NAME\") and given.numbers(\"NAME\") are what is given, answer.number(\"NAME\", x) and\n    \
-                 // answer.list write the answer; without a name it is the answer itself.\n    \
-                 fn {name}(&mut self, given: &Map, answer: &mut Answer) {{}}\n"
+                 // answer.list write the answer; without a name it is the answer itself.\n    fn {name}(&mut self, given: &Map, answer: &mut Answer) {{}}\n"
             ),
         ),
         Called::Control => (
             &["Observation"],
             format!(
-                "\n    // {of}, called every control period: write one number for each joint.\n    \
-                 fn control(&mut self, observation: &Observation, command: &mut [f64]) {{\n        command.fill(0.0);\n    }}\n"
+                "\n    // {of}, called every control period: write one number for each joint.\n    fn control(&mut self, observation: &Observation, command: &mut [f64]) {{\n        command.fill(0.0);\n    }}\n"
             ),
         ),
     }

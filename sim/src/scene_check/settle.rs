@@ -87,11 +87,7 @@ pub(super) fn check(
         }
         let time_s = tick as f64 * STEP_S;
         if tick % SHOWN_TICKS == 1 {
-            watch(Progress {
-                stage: Stage::Settling,
-                done: tick,
-                of: TICKS,
-            });
+            watch(at_tick(tick));
         }
         let not_from_here = not_checked(Unchecked::StayFrom((tick - 1) as f64 * STEP_S));
         if budget.is_spent() {
@@ -139,6 +135,15 @@ pub(super) fn check(
         one.judge(ends, &state, severities, findings);
     }
     Ok(())
+}
+
+/// How far the simulation is.
+fn at_tick(tick: u64) -> Progress {
+    Progress {
+        stage: Stage::Settling,
+        done: tick,
+        of: TICKS,
+    }
 }
 
 /// Moves the bodies of `layout` to their poses in `world`; a sleeping body has not moved.

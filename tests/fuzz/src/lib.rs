@@ -1,5 +1,9 @@
 //! What every target does with a robot or an error it gets: walk through all of it, so that whatever loads can be worked with.
 
+mod opening;
+
+pub use opening::opening;
+
 use kinemark_sim::dynamics::{
     GRAVITY_M_S2, driven_efforts, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,

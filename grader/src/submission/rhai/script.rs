@@ -111,16 +111,7 @@ impl ScriptController {
         let (mut engine, mut names) = engine::build(budgets, &meter, &globals, granted);
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
-        let keys = |map: &Map| map.keys().map(ToString::to_string).collect();
-        names.observation = keys(&observation);
-        if let Value::Map(entries) = &opening.target {
-            names.target = entries.iter().map(|(key, _)| key.clone()).collect();
-        }
-        names.robot = robot
-            .map
-            .as_map_ref()
-            .map(|map| keys(&map))
-            .unwrap_or_default();
+        note_fields(&mut names, &observation, &opening.target, &robot);
 
         // a byte order mark, which editors do not show
         let source = source.trim_start_matches('\u{feff}');
@@ -489,6 +480,20 @@ fn names_of<'n>(node: &'n ASTNode<'_>) -> impl Iterator<Item = &'n str> {
     };
     let keys = keys.into_iter().flatten();
     one.into_iter().chain(keys.map(|(key, _)| key.as_str()))
+}
+
+/// Notes the names of what an observation, a target and a robot have.
+fn note_fields(names: &mut Names, observation: &Map, target: &Value, robot: &CachedRobot) {
+    let keys = |map: &Map| map.keys().map(ToString::to_string).collect();
+    names.observation = keys(observation);
+    if let Value::Map(entries) = target {
+        names.target = entries.iter().map(|(key, _)| key.clone()).collect();
+    }
+    names.robot = robot
+        .map
+        .as_map_ref()
+        .map(|map| keys(&map))
+        .unwrap_or_default();
 }
 
 fn is_too_long(name: &str) -> bool {
