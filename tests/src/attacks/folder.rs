@@ -1,6 +1,6 @@
 //! The folder that a case runs in: its files, modules made of WebAssembly text, and what its steps make.
 
-use std::io::Write as _;
+use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::process::Command;
 
@@ -37,11 +37,11 @@ fn lay_out_folder(folder: &Path, base: &Path, bed: &TestBed) {
 pub(crate) fn make(step: &Step, bed: &TestBed) {
     let to = || bed.path(step.to.as_deref().expect("`to`"));
     if let Some(name) = &step.file {
-        bed.write(name, content(step));
+        bed.write(name, "");
+        append(&bed.path(name), step);
     }
     if let Some(name) = &step.append {
-        let before = std::fs::read(bed.path(name)).expect("a file");
-        bed.write(name, [before, content(step)].concat());
+        append(&bed.path(name), step);
     }
     if let Some(name) = &step.pipe {
         let made = Command::new("mkfifo").arg(bed.path(name)).status();
@@ -86,17 +86,26 @@ fn parent_made(path: &Path) -> &Path {
     path
 }
 
-fn content(step: &Step) -> Vec<u8> {
+/// Writes what a step says to the end of a file, little by little: what this process takes, its children begin with.
+fn append(path: &Path, step: &Step) {
+    let file = std::fs::OpenOptions::new().append(true).open(path);
+    let mut file = BufWriter::new(file.expect("a file"));
+    let mut write = |bytes: &[u8], times: usize| {
+        for _ in 0..times {
+            file.write_all(bytes).expect("written");
+        }
+    };
     if let Some(from) = &step.copy {
-        return std::fs::read(root().join(from)).unwrap_or_else(|e| panic!("{from}: {e}"));
+        let bytes = std::fs::read(root().join(from));
+        write(&bytes.unwrap_or_else(|e| panic!("{from}: {e}")), 1);
     }
-    let bytes = |text: &Option<String>| text.as_deref().unwrap_or_default().as_bytes().to_vec();
-    let mut content = bytes(&step.text);
-    content.extend(of_hex(&step.hex));
-    content.extend(of_hex(&step.repeat_hex).repeat(step.times));
-    content.extend(bytes(&step.repeat).repeat(step.times));
-    content.extend(bytes(&step.after));
-    content
+    let text = |text: &Option<String>| text.clone().unwrap_or_default().into_bytes();
+    write(&text(&step.text), 1);
+    write(&of_hex(&step.hex), 1);
+    write(&of_hex(&step.repeat_hex), step.times);
+    write(&text(&step.repeat), step.times);
+    write(&text(&step.after), 1);
+    file.flush().expect("written");
 }
 
 /// The bytes that hexadecimal digits stand for.

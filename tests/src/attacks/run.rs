@@ -2,6 +2,7 @@
 //! nothing of the environment or the salt, no process that is left.
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use wait4::Wait4 as _;
@@ -9,7 +10,7 @@ use wait4::Wait4 as _;
 use crate::case::{Case, Step};
 use crate::folder::{filled, lay_out, make};
 use crate::served::ask;
-use crate::testbed::{TestBed, binary, files_below};
+use crate::testbed::{TestBed, binary};
 
 /// What a case took.
 #[derive(Debug, Clone, Copy, Default)]
@@ -20,6 +21,9 @@ pub(crate) struct Spent {
 
 /// The most memory that one process of a case may take \[MB\].
 const MOST_MEMORY_MB: u64 = 256;
+
+/// No file of a report is as large as this.
+const LARGEST_BYTES: u64 = 16 << 20;
 
 /// What is in the environment of every command and must not come out of it: the course's salt, and another secret.
 const SALT: &str = "salt-of-the-attacked-course";
@@ -116,26 +120,35 @@ fn done(step: &Step, bed: &TestBed) -> Spent {
     for secret in step.never.iter().map(String::as_str).chain([SALT, SECRET]) {
         assert!(!shown.contains(secret), "`{secret}` in {shown}");
     }
-    if bed.path("out").is_dir() {
-        for (name, bytes) in files_below(&bed.path("out")) {
-            // the attacker's own
-            if bed.path("out").join(&name).is_symlink() {
-                continue;
-            }
-            let text = String::from_utf8_lossy(&bytes);
-            for secret in step.never.iter().map(String::as_str).chain([SALT, SECRET]) {
-                assert!(!text.contains(secret), "`{secret}` in {name}");
-            }
-            let is_page = [".html", ".svg"].iter().any(|end| name.ends_with(end));
-            for words in step.never_in_pages.iter().filter(|_| is_page) {
-                assert!(!text.contains(words.as_str()), "`{words}` in {name}");
-            }
+    for (name, text) in written_below(&bed.path("out")) {
+        for secret in step.never.iter().map(String::as_str).chain([SALT, SECRET]) {
+            assert!(!text.contains(secret), "`{secret}` in {name}");
+        }
+        let is_page = [".html", ".svg"].iter().any(|end| name.ends_with(end));
+        for words in step.never_in_pages.iter().filter(|_| is_page) {
+            assert!(!text.contains(words.as_str()), "`{words}` in {name}");
         }
     }
     if step.verdict.is_some() || !step.tasks.is_empty() {
         verdicts(step, &ran.stdout);
     }
     ran.spent
+}
+
+/// The files below a folder, without links and without what is so large that only the attacker can have made it.
+fn written_below(folder: &Path) -> Vec<(String, String)> {
+    let mut written = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let (path, is) = (entry.path(), entry.file_type().expect("a type"));
+        if is.is_dir() {
+            written.extend(written_below(&path));
+        } else if is.is_file() && entry.metadata().expect("a size").len() < LARGEST_BYTES {
+            let bytes = std::fs::read(&path).expect("a file");
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            written.push((path.display().to_string(), text));
+        }
+    }
+    written
 }
 
 fn verdicts(step: &Step, record: &str) {
@@ -166,7 +179,7 @@ fn is_harmless(text: &str, of: &str) {
 
 fn command(step: &Step, bed: &TestBed) -> Ran {
     let (out, err) = (bed.path(".stdout"), bed.path(".stderr"));
-    let file = |path: &std::path::Path| std::fs::File::create(path).expect("a file");
+    let file = |path: &Path| std::fs::File::create(path).expect("a file");
     let mut command = Command::new(binary());
     command
         .current_dir(bed.path(""))
@@ -186,7 +199,7 @@ fn command(step: &Step, bed: &TestBed) -> Ran {
         let _ = input.write_all(text.as_bytes());
     }
     let used = child.wait4().expect("it ends");
-    let read = |path: &std::path::Path| {
+    let read = |path: &Path| {
         let bytes = std::fs::read(path).expect("what it printed");
         let _ = std::fs::remove_file(path);
         String::from_utf8_lossy(&bytes).into_owned()
