@@ -377,6 +377,10 @@ fn files_that_are_no_submission_are_refused_or_judged() {
         assert!(plain.contains(words), "{ran:?}");
     }
     assert!(!ran.stderr.contains("UTF-8"), "{ran:?}");
+    bed.write("debug.wasm", "\0asm".repeat(1_000_000));
+    let ran = grade("debug.wasm");
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("`--release` in Rust"), "{ran:?}");
     bed.write("lab.toml", "points = 1.0");
     let ran = grade("lab.toml");
     assert_eq!(ran.code, Some(2), "{ran:?}");

@@ -204,7 +204,11 @@ pub(crate) fn read_of(
 ) -> Result<Vec<u8>, Failure> {
     bytes.map_err(|why| {
         if why == too_large(most) {
-            let help = format!("{what} has at most {most} bytes: is it the right file?");
+            let is_module = path.extension().is_some_and(|ending| ending == "wasm");
+            let help = match is_module {
+                true => "build it optimised: `--release` in Rust, -O2 in C".to_owned(),
+                false => format!("{what} has at most {most} bytes: is it the right file?"),
+            };
             return unread(path, what, &why, &help);
         }
         unread(path, what, &why, "check the file and its permissions")
