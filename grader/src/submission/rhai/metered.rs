@@ -150,7 +150,7 @@ fn register(engine: &mut Engine, meter: &Rc<Meter>, bodies: Vec<Expr>) -> Result
     hook(engine, meter, COPIED, |meter, context, inputs, _| {
         meter.uncount(1);
         let value = context.eval_expression_tree(&inputs[0])?;
-        charge(charge_for_copy(meter, &value))?;
+        charge(meter, charge_for_copy(meter, &value), inputs)?;
         Ok(value)
     })?;
     hook(engine, meter, WRITTEN_OUT, |meter, context, inputs, _| {
@@ -164,7 +164,8 @@ fn register(engine: &mut Engine, meter: &Rc<Meter>, bodies: Vec<Expr>) -> Result
         |meter, context, inputs, looks| {
             meter.uncount(1);
             let looks = looks.as_int().unwrap_or_default();
-            charge(meter.glance(usize::try_from(looks).unwrap_or_default()))?;
+            let looks = usize::try_from(looks).unwrap_or_default();
+            charge(meter, meter.glance(looks), inputs)?;
             context.eval_expression_tree(&inputs[0])
         },
     )?;
@@ -172,15 +173,15 @@ fn register(engine: &mut Engine, meter: &Rc<Meter>, bodies: Vec<Expr>) -> Result
         meter.uncount(1);
         let value = context.eval_expression_tree(&inputs[0])?;
         let kept = context.this_ptr().map_or(0, parts);
-        charge(meter.glance(kept))?;
+        charge(meter, meter.glance(kept), inputs)?;
         Ok(value)
     })?;
-    hook(engine, meter, CAUGHT, |meter, context, _, is_named| {
-        charge(meter.operations(OF_A_MISTAKE))?;
+    hook(engine, meter, CAUGHT, |meter, context, inputs, is_named| {
+        charge(meter, meter.operations(OF_A_MISTAKE), inputs)?;
         // the variable is the newest, and holds a copy of what was thrown
         let thrown = context.scope().iter_raw().next();
         if let (Ok(true), Some((_, _, thrown))) = (is_named.as_bool(), thrown) {
-            charge(charge_for_copy(meter, thrown))?;
+            charge(meter, charge_for_copy(meter, thrown), inputs)?;
         }
         Ok(Dynamic::UNIT)
     })
@@ -206,8 +207,15 @@ fn hook(
         .map(|_| ())
 }
 
-fn charge(charged: Result<(), Problem>) -> Result<(), Box<EvalAltResult>> {
-    charged.map_err(|problem| raise(problem, Position::NONE))
+/// What was charged, and where: the engine counts some operations without a position.
+fn charge(
+    meter: &Meter,
+    charged: Result<(), Problem>,
+    inputs: &[Expression<'_>],
+) -> Result<(), Box<EvalAltResult>> {
+    let position = inputs.first().map_or(Position::NONE, Expression::position);
+    meter.at(position);
+    charged.map_err(|problem| raise(problem, position))
 }
 
 /// What a chain of `.` and `[]` ends in.

@@ -183,7 +183,10 @@ impl Context<'_> {
             {
                 (
                     format!("the index of a list is an integer, got {}", type_words(got)),
-                    Some(WHOLE_INDEX.to_owned()),
+                    Some(match type_words(got).as_str() {
+                        "a range" => "slice(a, 0, 3) is the part from index 0 to before 3".to_owned(),
+                        _ => WHOLE_INDEX.to_owned(),
+                    }),
                 )
             }
             EvalAltResult::ErrorMismatchDataType(wanted, got, _)
@@ -364,6 +367,7 @@ fn type_words(kind: &str) -> String {
         "()" => "nothing `()`".to_owned(),
         "vector" => "a vector".to_owned(),
         "matrix" => "a matrix".to_owned(),
+        other if other.contains("range::Range") => "a range".to_owned(),
         other if other.contains("ImmutableString") => "a string".to_owned(),
         other if other.ends_with("Vector") => "a vector".to_owned(),
         other if other.ends_with("Matrix") => "a matrix".to_owned(),

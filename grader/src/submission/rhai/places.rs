@@ -1,5 +1,7 @@
 //! Where a script has its functions, loops and declarations, for messages about what the engine knows no position of.
 
+use std::collections::BTreeSet;
+
 use rhai::{AST, ASTNode, Expr, Position, Stmt};
 
 use super::budget::place;
@@ -11,8 +13,10 @@ use crate::submission::controller::SourcePosition;
 pub(super) struct Places {
     /// Names and numbers of parameters of functions, and where their bodies begin.
     functions: Vec<(String, usize, SourcePosition)>,
-    /// Loops; those without a number of rounds, if there are any.
+    /// Loops without a number of rounds.
     loops: Vec<SourcePosition>,
+    /// Loops over something.
+    counted_loops: Vec<SourcePosition>,
     /// Variables that are declared, and where.
     declared: Vec<(String, SourcePosition)>,
     /// Functions that are called, and where.
@@ -28,7 +32,6 @@ impl Places {
                 found.functions.push((name, function.params.len(), body));
             }
         }
-        let mut counted = Vec::new();
         let add = |list: &mut Vec<_>, name: &str, position: Position| {
             list.extend(place(position).map(|place| (name.to_owned(), place)));
         };
@@ -39,25 +42,23 @@ impl Places {
                 }
                 Some(ASTNode::Stmt(Stmt::For(names, position))) => {
                     add(&mut found.declared, names.0.as_str(), *position);
-                    counted.extend(place(*position));
+                    found.counted_loops.extend(place(*position));
                 }
                 Some(ASTNode::Stmt(Stmt::While(_, position) | Stmt::Do(_, _, position))) => {
                     found.loops.extend(place(*position));
                 }
                 Some(
-                    ASTNode::Expr(Expr::FnCall(call, position))
+                    ASTNode::Expr(Expr::FnCall(call, position) | Expr::MethodCall(call, position))
                     | ASTNode::Stmt(Stmt::FnCall(call, position)),
                 ) => add(&mut found.calls, &call.name, *position),
                 _ => {}
             }
             true
         });
-        if found.loops.is_empty() {
-            found.loops = counted;
-        }
         // the engine has its own order of functions
         found.functions.sort_by_key(|(_, _, at)| key(*at));
         found.loops.sort_by_key(|at| key(*at));
+        found.counted_loops.sort_by_key(|at| key(*at));
         found.calls.sort_by_key(|(_, at)| key(*at));
         found
     }
@@ -80,17 +81,44 @@ impl Places {
 
     /// The loop that can be the one without an end, or the function of all loops; `None` if it may be one of several functions.
     ///
-    /// Without any loop it is `called`, where the called function begins.
+    /// Only what the called function reaches counts, and what has a number of rounds only where nothing else loops. Without any loop it is
+    /// `called`, where the called function begins.
     pub(super) fn endless(&self, called: Option<SourcePosition>) -> Option<SourcePosition> {
-        let Some((first, others)) = self.loops.split_first() else {
+        let reached = called.and_then(|called| self.reached_from(called));
+        let is_reached = |at: &&SourcePosition| match (&reached, self.around(**at)) {
+            (Some(reached), Some((name, _))) => reached.contains(name),
+            _ => true,
+        };
+        let mut loops: Vec<_> = self.loops.iter().filter(is_reached).collect();
+        if loops.is_empty() {
+            loops.extend(self.counted_loops.iter().filter(is_reached));
+        }
+        let Some((first, others)) = loops.split_first() else {
             return called;
         };
         if others.is_empty() {
-            return Some(*first);
+            return Some(**first);
         }
-        let function = self.around(*first);
-        let same = others.iter().all(|other| self.around(*other) == function);
-        same.then(|| function.map_or(*first, |(_, body)| body))
+        let function = self.around(**first);
+        let same = others.iter().all(|other| self.around(**other) == function);
+        same.then(|| function.map_or(**first, |(_, body)| body))
+    }
+
+    /// The names of the functions that may run where the function whose body begins at a place is called; `None` if none begins there.
+    fn reached_from(&self, body: SourcePosition) -> Option<BTreeSet<&str>> {
+        let mut functions = self.functions.iter();
+        let (name, ..) = functions.find(|(_, _, begins)| *begins == body)?;
+        let mut reached = BTreeSet::new();
+        let mut next = vec![name.as_str()];
+        while let Some(name) = next.pop() {
+            if reached.insert(name) {
+                let called = self.calls.iter();
+                let called =
+                    called.filter(|(_, at)| self.around(*at).is_some_and(|(n, _)| n == name));
+                next.extend(called.map(|(called, _)| called.as_str()));
+            }
+        }
+        Some(reached)
     }
 
     /// The first call of a function by itself.

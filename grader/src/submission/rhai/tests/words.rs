@@ -88,6 +88,14 @@ fn mistakes_are_reported_with_names_values_and_a_way_out() {
             "let a = [1, 2]; let i = 0.5 + 0.5; a[i]",
             "the index of a list is an integer, got a number | round(i) makes it whole; a vector takes 2.0 for 2",
         ),
+        (
+            "let a = [1, 2]; a[0..1]",
+            "the index of a list is an integer, got a range | slice(a, 0, 3) is the part from index 0 to before 3",
+        ),
+        (
+            "let a = [1, 2]; a[0..=1]",
+            "the index of a list is an integer, got a range | slice(a, 0, 3) is the part from index 0 to before 3",
+        ),
         ("observation.tcp.w", "a vector has no `w`"),
         ("let x = 1.5; x[0]", "the number 1.5 has no elements"),
         (
@@ -327,6 +335,18 @@ fn a_call_without_end_is_reported_where_it_can_be() {
             Some(2),
         ),
         ("fn control(o) {\n loop { } }", Some(2)),
+        (
+            "fn other(x) {\n loop { } }\nfn control(o) {\n for i in 0..10000000 { } }",
+            Some(4),
+        ),
+        (
+            "fn spin(x) {\n loop { } }\nfn other(x) {\n loop { } }\nfn control(o) {\n spin(1) }",
+            Some(2),
+        ),
+        (
+            "fn control(o) {\n this.a = [1, 2, 3];\n loop {\n let copy = this;\n } }",
+            Some(4),
+        ),
     ] {
         let Stop::OverBudget { place, .. } = stop(source) else {
             panic!("{source}: it ends");
