@@ -22,21 +22,9 @@ pub(crate) struct Case {
     /// The lab that the submission is handed in for.
     #[serde(default = "lab_1")]
     pub(crate) lab: String,
-    /// The verdict of the whole grade, where it is graded without steps of its own.
-    pub(crate) verdict: Option<String>,
-    /// The verdicts of its tasks.
-    #[serde(default)]
-    pub(crate) tasks: BTreeMap<String, String>,
-    /// What is said, each somewhere in the output.
-    #[serde(default)]
-    pub(crate) says: Vec<String>,
-    /// What stands nowhere: not in the output, and in no file of the report.
-    #[serde(default)]
-    pub(crate) never: Vec<String>,
-    /// What stands in no page or drawing of the report as it is.
-    #[serde(default)]
-    pub(crate) never_in_pages: Vec<String>,
-    /// What is done in turn; by default the submission is graded with the course staff's part.
+    /// What it must come to where it has no steps that run something; then it is graded with the course staff's part.
+    pub(crate) expect: Option<Expect>,
+    /// What is done in turn.
     #[serde(default, rename = "step")]
     pub(crate) steps: Vec<Step>,
 }
@@ -123,13 +111,35 @@ pub(crate) struct Step {
     #[serde(default)]
     pub(crate) ask: Vec<Ask>,
 
+    #[serde(default)]
+    pub(crate) expect: Expect,
+}
+
+impl Step {
+    /// Whether it starts the program.
+    pub(crate) fn runs(&self) -> bool {
+        !self.run.is_empty() || !self.serve.is_empty()
+    }
+}
+
+/// What a grade or a command must come to.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Expect {
+    /// The verdict of the whole grade.
     pub(crate) verdict: Option<String>,
+    /// The verdicts of its tasks.
     #[serde(default)]
     pub(crate) tasks: BTreeMap<String, String>,
+    /// The line of the submission at which the first task that stops does so: that of the attack, and not of what prepares it.
+    pub(crate) line: Option<u64>,
+    /// What is said, each somewhere in the output.
     #[serde(default)]
     pub(crate) says: Vec<String>,
+    /// What stands nowhere: not in the output, and in no file of the report.
     #[serde(default)]
     pub(crate) never: Vec<String>,
+    /// What stands in no page or drawing of the report as it is.
     #[serde(default)]
     pub(crate) never_in_pages: Vec<String>,
 }
@@ -173,6 +183,12 @@ fn read(folder: &Path, name: String) -> Case {
     let path = folder.join("case.toml");
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let case: Case = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let runs = case.steps.iter().any(Step::runs);
+    assert!(
+        runs != case.expect.is_some(),
+        "{}: either steps that run something, or `expect`",
+        path.display()
+    );
     Case {
         name,
         folder: folder.to_owned(),

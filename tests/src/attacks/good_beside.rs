@@ -18,8 +18,8 @@ fn a_good_submission_among_attacks_keeps_its_record() {
     let mut roster = "id,name\ngood,Good\n".to_owned();
     let mut attackers = 0;
     for (name, case) in all_cases() {
-        let is_handed_in = case.lab == LAB && case.steps.iter().all(|step| step.run.is_empty());
-        if !is_handed_in || matches!(case.kind, Kind::Files | Kind::Server) {
+        let is_handed_in = case.lab == LAB && case.expect.is_some();
+        if !is_handed_in || case.kind == Kind::Files {
             continue;
         }
         let bed = TestBed::new();

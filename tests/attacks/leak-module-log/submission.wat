@@ -1,0 +1,10 @@
+(module
+  (import "kinemark" "log" (func $log (param i32 i32)))
+  (func (export "km_forward_kinematics") (param $robot i32) (param $q i32) (param $position i32)
+    (call $log (local.get $q) (i32.const 16))
+    (f64.store (local.get $position) (f64.load (local.get $q)))
+    (f64.store offset=8 (local.get $position) (f64.load offset=8 (local.get $q)))
+    (f64.store offset=16 (local.get $position) (f64.const 0)))
+  (memory (export "memory") 2)
+  (func (export "km_version") (result i32) (i32.const 1))
+  (func (export "km_buffer") (param i32) (result i32) (i32.const 1024)))
