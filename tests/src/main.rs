@@ -48,6 +48,7 @@ mod linkage_lab;
 mod mesh_labs;
 mod module_order;
 mod module_reports;
+mod module_sources;
 mod moments;
 mod named_submissions;
 mod own_lab;

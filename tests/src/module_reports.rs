@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::testbed::{CommandResult, TestBed};
 
 /// A module for lab 01 that answers nothing and stands still; `more` is a part of it.
-fn module(more: &str) -> Vec<u8> {
+pub(crate) fn module(more: &str) -> Vec<u8> {
     let text = format!(
         r#"(module
             (memory (export "memory") 2)

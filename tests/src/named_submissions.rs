@@ -63,7 +63,7 @@ fn what_is_no_script_is_graded_as_not_built_and_replaces_an_older_report() {
 }
 
 /// A ZIP archive of these files, stored.
-fn zip_of(files: &[(&str, &[u8])]) -> Vec<u8> {
+pub(crate) fn zip_of(files: &[(&str, &[u8])]) -> Vec<u8> {
     let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let stored =
         zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);

@@ -37,7 +37,7 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
         return Ok(match project.module(path)? {
             Ok(module) => {
                 project.warn_if_stale(&module);
-                SubmissionSource::new(&module.name(), &module.bytes)
+                SubmissionSource::new(&module.name(), &module.bytes).with_sources(project.sources())
             }
             Err(none) => missing(&none.what, &none.help),
         });
@@ -61,7 +61,7 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
             }
         };
         return Ok(match found {
-            Ok(file) => SubmissionSource::new(&file.name, &file.bytes),
+            Ok(file) => SubmissionSource::new(&file.name, &file.bytes).with_sources(file.sources),
             Err(Unclear { what, .. }) => missing(
                 &format!("`{name}`: {what}"),
                 "name the script itself, such as submission.rhai",
@@ -71,7 +71,8 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
     if has_ending(path, &["kinemark"]) {
         let bytes = typed_path::bytes(path, "a hand-in file", MOST_HAND_IN_BYTES)?;
         return Ok(match HandInFile::read(&bytes) {
-            Ok(file) => SubmissionSource::new(&file.statement.file, &file.submission),
+            Ok(file) => SubmissionSource::new(&file.statement.file, &file.submission)
+                .with_sources(file.sources),
             Err(error) => missing(
                 &format!("`{name}`: {error}"),
                 "run `kinemark submit` again, and name that file as it is",

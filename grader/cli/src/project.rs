@@ -1,4 +1,5 @@
-//! A submission that is compiled, in the folder of its project: which module is graded, what is newer than it, how it is built.
+//! A submission that is compiled, in the folder of its project: which module is graded, what is newer than it, how it is built, and its
+//! sources.
 //!
 //! A project is a folder with a `Cargo.toml`, a `submission.c`, or a module called `submission.wasm`. Its submission has the path
 //! `FOLDER/submission.wasm`, also where the module lies further down, because everything else of a student's folder lies beside it.
@@ -8,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use kinemark_course::language::{CARGO_OUTPUT, CARGO_TARGET, Language, MODULE_FILE};
-use kinemark_course::module_sources;
+use kinemark_course::module_sources::{self, SourceFile};
 use kinemark_course::selection::MOST_SUBMISSION_BYTES;
 use kinemark_course::tree::{Limits, Tree};
-use kinemark_course::working_folder::SUBMISSION_FILE;
+use kinemark_course::working_folder::{FOLDER_FILE, SUBMISSION_FILE};
 
 use crate::disk::plain;
 use crate::failure::{self, Failure};
@@ -95,7 +96,7 @@ impl Project {
 
     /// The path of the submission of a folder that somebody named, where it is a project and nothing else in it may be meant.
     pub(crate) fn submission_in(folder: &Path) -> Option<PathBuf> {
-        let project = Self::at(folder)?;
+        let project = Self::at(folder).filter(Self::is_of_one_submission)?;
         let entries = std::fs::read_dir(folder).ok()?;
         let mut names = entries.flatten().map(|entry| entry.file_name());
         let is_other = |name: std::ffi::OsString| {
@@ -222,6 +223,27 @@ impl Project {
                 lines.join("` or `")
             ),
         }
+    }
+
+    /// Its sources, as they are kept with a report. A folder that only has a module is none of a project: what else lies there may be
+    /// anything.
+    pub(crate) fn sources(&self) -> Vec<SourceFile> {
+        if !self.is_of_one_submission() {
+            return Vec::new();
+        }
+        let Ok(tree) = Tree::open(&self.folder_or_here(), &Limits::default()) else {
+            return Vec::new();
+        };
+        let entries = tree
+            .entries()
+            .iter()
+            .map(|entry| (entry.path.clone(), entry));
+        module_sources::sources(entries, |entry, most| tree.bytes(entry, most).ok())
+    }
+
+    /// Whether its files say that the folder is of a submission and nothing else.
+    fn is_of_one_submission(&self) -> bool {
+        !self.languages().is_empty() || self.has(FOLDER_FILE)
     }
 
     /// Whether a source was saved after the module was built, as far as the times of files say: good for a note, and for nothing else.

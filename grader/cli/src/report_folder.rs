@@ -4,6 +4,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use kinemark_course::module_sources::{MOST_FILE_BYTES, MOST_FILES, SourceFile, is_kept_path};
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::lab::{Lab, Variant};
@@ -14,7 +15,7 @@ use kinemark_grader::task::files::Files as _;
 use kinemark_grader::task::problem::LoadError;
 use kinemark_report::output::{
     self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, MODULE_FILE, Manifest, Material, OutFile,
-    OutputError, Pixels, RECORD_FILE, ReportRequest, SUBMISSION_FILE, Sources,
+    OutputError, Pixels, RECORD_FILE, ReportRequest, SOURCES_FOLDER, SUBMISSION_FILE, Sources,
 };
 use kinemark_report::visible::visible;
 use kinemark_sim::text::Source;
@@ -127,9 +128,15 @@ pub(crate) fn files(
     let lab_files: Vec<(String, Vec<u8>)> = copies
         .map(|(path, bytes)| (path.to_owned(), bytes.to_owned()))
         .collect();
+    let module_sources: Vec<(String, Vec<u8>)> = submission
+        .sources
+        .iter()
+        .map(|file| (file.path.clone(), file.bytes.clone()))
+        .collect();
     let sources = Sources {
         submission_file: copy,
         submission: &submission.bytes,
+        module_sources: &module_sources,
         lab: &lab.graded_text,
         robot: lab.robot_file.source().text(),
         lab_files: &lab_files,
@@ -194,11 +201,13 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
             "grade the submission again",
         )
     })?;
+    let sources = sources(folder, &manifest);
     Ok(Report {
         folder: folder.to_owned(),
         manifest,
         copy,
-        submission: SubmissionSource::new(&grade.submission.name, &submission),
+        submission: SubmissionSource::new(&grade.submission.name, &submission)
+            .with_sources(sources),
         grade,
     })
 }
@@ -238,6 +247,20 @@ impl Report {
     pub(crate) fn digest(&self, path: &str) -> Result<String, Unread> {
         beneath::digest(&self.folder, path, MOST_PAGE_BYTES)
     }
+}
+
+/// The sources of a module that a report lists. What cannot be read is left out: a comparison finds that it is missing.
+fn sources(folder: &Path, manifest: &Manifest) -> Vec<SourceFile> {
+    let below = manifest.files.keys().filter_map(|path| {
+        let path = path.strip_prefix(SOURCES_FOLDER)?.strip_prefix('/')?;
+        is_kept_path(path).then(|| path.to_owned())
+    });
+    let read = |path: String| {
+        let in_report = format!("{SOURCES_FOLDER}/{path}");
+        let bytes = beneath::bytes(folder, &in_report, MOST_FILE_BYTES).ok()?;
+        Some(SourceFile { path, bytes })
+    };
+    below.take(MOST_FILES + 1).filter_map(read).collect()
 }
 
 /// Reads a grade record, if it is of the format that this version writes.

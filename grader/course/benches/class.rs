@@ -59,6 +59,7 @@ fn index(criterion: &mut Criterion) {
             variant_of: None,
             file: "submission.rhai".to_owned(),
             submission: digest("submission"),
+            sources: None,
             lab_version: "lab".to_owned(),
             staff_version: None,
         };

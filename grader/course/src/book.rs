@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::durable;
 use crate::journal::{Journal, Writer};
+use crate::module_sources::SourceFile;
 use crate::private_files::{UNFINISHED, fill, fresh_folder, private_folder, put, sweep};
+use crate::sources_archive::{packed, unpacked};
 
 /// The format of records that this version writes.
 const FORMAT: &str = "kinemark-record/1";
@@ -56,6 +58,9 @@ pub struct Inputs {
     pub file: String,
     /// The submission.
     pub submission: String,
+    /// The archive of its sources, where it is a module with some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sources: Option<String>,
     /// The version of the lab's files in the book.
     pub lab_version: String,
     /// The version of the staff part's files in the book.
@@ -87,6 +92,11 @@ impl Inputs {
         }
         for scene in &self.scenes {
             add(scene);
+        }
+        // no scene is called so, and a script has the key that it always had
+        if let Some(sources) = &self.sources {
+            add("sources");
+            add(sources);
         }
         hasher.finalize().to_hex().to_string()
     }
@@ -325,6 +335,36 @@ impl Book {
         Ok(digest)
     }
 
+    /// Keeps the sources of a module, and gives the digest of their archive; none where there are none.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_sources(&self, sources: &[SourceFile]) -> Result<Option<String>, BookError> {
+        if sources.is_empty() {
+            return Ok(None);
+        }
+        let bytes = packed(sources).map_err(|error| BookError {
+            path: self.root.clone(),
+            why: error.to_string(),
+        })?;
+        self.put_submission(&bytes).map(Some)
+    }
+
+    /// The sources whose archive has this digest.
+    ///
+    /// # Errors
+    /// As [`Book::submission`].
+    pub fn sources(&self, digest: Option<&str>) -> Result<Vec<SourceFile>, BookError> {
+        let Some(digest) = digest else {
+            return Ok(Vec::new());
+        };
+        let bytes = self.submission(digest)?;
+        unpacked(&bytes).map_err(|error| BookError {
+            path: self.submission_path(digest),
+            why: error.to_string(),
+        })
+    }
+
     pub(crate) fn submission_path(&self, digest: &str) -> PathBuf {
         let shelf = digest.get(..2).unwrap_or("--");
         self.root.join("submissions").join(shelf).join(digest)
@@ -468,6 +508,7 @@ mod tests {
             variant_of: None,
             file: text("f"),
             submission: text("u"),
+            sources: None,
             lab_version: text("v"),
             staff_version: Some(text("w")),
         }
@@ -515,6 +556,7 @@ mod tests {
                 ..inputs()
             },
             Inputs {
+                sources: None,
                 lab_version: text("x"),
                 ..inputs()
             },

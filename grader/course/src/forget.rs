@@ -10,7 +10,7 @@ use crate::book::{Book, BookError};
 use crate::index::INDEX_FILE;
 use crate::journal::{Entry, Event};
 use crate::private_files::{replace, sweep};
-use crate::reports::page_path;
+use crate::reports::{page_path, sources_path};
 use crate::student::StudentId;
 
 /// What was removed.
@@ -51,7 +51,11 @@ impl Book {
         for (_, entry) in &all {
             match &entry.event {
                 Event::HandIn(hand_in) => {
-                    submissions.add(&hand_in.submission, hand_in.student == *student);
+                    let is_theirs = hand_in.student == *student;
+                    submissions.add(&hand_in.submission, is_theirs);
+                    if let Some(sources) = &hand_in.sources {
+                        submissions.add(sources, is_theirs);
+                    }
                     let is_left =
                         hand_in.student != *student && hand_in.variant_of.as_ref() == Some(student);
                     forgotten.left += usize::from(is_left);
@@ -69,6 +73,9 @@ impl Book {
             } else {
                 for candidate in &question.candidates {
                     submissions.add(&candidate.submission, false);
+                    if let Some(sources) = &candidate.sources {
+                        submissions.add(sources, false);
+                    }
                 }
             }
         }
@@ -94,6 +101,7 @@ impl Book {
                 || submissions.has_alone(&inputs.submission);
             if is_theirs {
                 removed(&self.root().join(page_path(&inputs.lab_name, &key)))?;
+                removed_folder(&self.root().join(sources_path(&inputs.lab_name, &key)))?;
                 forgotten.records += removed(&self.record_path(&key))?;
             }
         }
@@ -232,6 +240,14 @@ fn removed(path: &Path) -> Result<usize, BookError> {
     }
 }
 
+/// Removes a folder with everything in it, if it is there; a link is not followed.
+fn removed_folder(path: &Path) -> Result<(), BookError> {
+    match std::fs::remove_dir_all(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, &error)),
+        _ => Ok(()),
+    }
+}
+
 /// Writes a file again, whole; an empty one is removed.
 fn rewritten(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if bytes.is_empty() {
@@ -270,6 +286,7 @@ mod tests {
             variant_of: None,
             file: text("submission.rhai"),
             submission: text(submission),
+            sources: None,
             lab_version: text("v"),
             staff_version: None,
         };
@@ -283,6 +300,8 @@ mod tests {
             lab: "01".to_owned(),
             submission: submission.to_owned(),
             file: "submission.rhai".to_owned(),
+            sources: None,
+            is_without_sources: false,
             matched_by: "id".to_owned(),
             submitted_at: None,
             marked_late: None,

@@ -66,11 +66,12 @@ pub fn grade(
     pages: bool,
 ) -> Result<Outcome, GradingError> {
     let bytes = book.submission(&hand_in.submission)?;
-    let submission = SubmissionSource::new(&hand_in.file, &bytes);
+    let sources = book.sources(hand_in.sources.as_deref())?;
+    let submission = SubmissionSource::new(&hand_in.file, &bytes).with_sources(sources);
     let source = &submission.submission;
     let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
     let student_lab = lab.for_student(whose)?;
-    let inputs = lab.inputs(&student_lab, source, &hand_in.submission);
+    let inputs = lab.inputs(&student_lab, source, hand_in);
     let key = inputs.key();
     if let Some(record) = book.record(&key)? {
         return Ok(recorded(&record, true));
@@ -90,6 +91,7 @@ pub fn grade(
     if pages {
         // before the record: a record that is there has its page
         book.put_page(&key, &graded)?;
+        book.put_page_sources(&graded.grade.lab.name, &key, &submission.sources)?;
     }
     let record = Record::new(inputs, graded.grade);
     book.put_record(&record)?;
@@ -102,10 +104,11 @@ pub fn grade(
 /// A submission that the book has lost, or a lab with the student's numbers that cannot be loaded.
 pub fn key(lab: &StaffedLab, book: &Book, hand_in: &HandIn) -> Result<String, GradingError> {
     let bytes = book.submission(&hand_in.submission)?;
-    let submission = SubmissionSource::new(&hand_in.file, &bytes);
+    let sources = book.sources(hand_in.sources.as_deref())?;
+    let submission = SubmissionSource::new(&hand_in.file, &bytes).with_sources(sources);
     let whose = hand_in.variant_of.as_ref().unwrap_or(&hand_in.student);
     let student_lab = lab.for_student(whose)?;
-    let inputs = lab.inputs(&student_lab, &submission.submission, &hand_in.submission);
+    let inputs = lab.inputs(&student_lab, &submission.submission, hand_in);
     Ok(inputs.key())
 }
 
@@ -135,9 +138,10 @@ pub fn reopen(book: &Book, record: &Record) -> Result<Reopened, GradingError> {
     let salt = staff.and_then(|staff| staff.read(&format!("{name}/{SALT_FILE}")).ok().flatten());
     let has_variant = inputs.variant_of.is_some();
     let bytes = book.submission(&inputs.submission)?;
+    let sources = book.sources(inputs.sources.as_deref())?;
     Ok(Reopened {
         lab: StaffedLab::load(&files, staff, name, salt.as_deref(), has_variant)?,
-        submission: SubmissionSource::new(&inputs.file, &bytes),
+        submission: SubmissionSource::new(&inputs.file, &bytes).with_sources(sources),
     })
 }
 

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `hand-in.json` | the statement ([`Statement`]) |
 //! | `submission.rhai`, or `submission.wasm` | the submission's bytes |
+//! | `sources/...` | the sources of a module, where there are any |
 //! | `practice.json` | the grade record of visible cases, made on the student's machine |
 //!
 //! Everything in it is what the student's machine says. The course grades the submission again; whose it is, the LMS and the roster
 //! decide. The student's id inside is a claim, good for finding a mix-up.
 
+use std::collections::BTreeMap;
 use std::io::{Cursor, Read as _};
 
 use kinemark_grader::record::grade::Grade;
@@ -18,6 +20,7 @@ use zip::result::ZipError;
 
 use crate::fixed_zip::{ArchiveFile, archive};
 use crate::journal::MadeWith;
+use crate::module_sources::{MOST_BYTES, MOST_FILE_BYTES, MOST_FILES, SourceFile, is_kept_path};
 use crate::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use crate::student::StudentId;
 
@@ -33,6 +36,8 @@ const STATEMENT: &str = "hand-in.json";
 const PRACTICE: &str = "practice.json";
 const SCRIPT: &str = "submission.rhai";
 const PLUGIN: &str = "submission.wasm";
+/// What the names of sources begin with.
+const SOURCES: &str = "sources/";
 
 /// A record of every line that a submission may print is smaller.
 const MOST_PRACTICE_BYTES: u64 = 16 << 20;
@@ -62,6 +67,9 @@ pub struct Statement {
     pub file: String,
     /// BLAKE3 of the submission's bytes, in hexadecimal.
     pub submission: String,
+    /// The sources of a module by the digests (BLAKE3) of their texts, by path.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sources: BTreeMap<String, String>,
     /// Points in practice.
     pub points: f64,
     /// Maximum points.
@@ -79,6 +87,8 @@ pub struct HandedIn<'a> {
     pub file: &'a str,
     /// The submission's bytes.
     pub submission: &'a [u8],
+    /// The sources of a module.
+    pub sources: &'a [SourceFile],
     /// Its grade in practice.
     pub practice: &'a Grade,
 }
@@ -90,6 +100,8 @@ pub struct HandInFile {
     pub statement: Statement,
     /// The submission's bytes, which are those that the statement names.
     pub submission: Vec<u8>,
+    /// The sources of a module, which are those that the statement names.
+    pub sources: Vec<SourceFile>,
     practice: Vec<u8>,
 }
 
@@ -107,7 +119,7 @@ pub enum HandInFileError {
         why: String,
     },
     /// Other files in it than those of a hand-in file.
-    #[error("it holds {found}, and not the three files of a hand-in file")]
+    #[error("it holds {found}, and not the files of a hand-in file")]
     #[diagnostic(
         code(hand_in::entries),
         help("it was changed after `kinemark submit` wrote it: write it again")
@@ -175,6 +187,7 @@ impl HandInFile {
             student,
             file,
             submission,
+            sources,
             practice,
         } = handed_in;
         if submission.len() as u64 > MOST_SUBMISSION_BYTES {
@@ -194,7 +207,8 @@ impl HandInFile {
             student,
             variant_of: variant_of.and_then(|id| StudentId::new(id).ok()),
             file: shown_name(file),
-            submission: blake3::hash(submission).to_hex().to_string(),
+            submission: digest(submission),
+            sources: digests(sources),
             points: practice.points,
             max_points: practice.max_points,
         };
@@ -202,6 +216,7 @@ impl HandInFile {
         Ok(Self {
             statement,
             submission: submission.to_owned(),
+            sources: sources.to_owned(),
             practice: record,
         })
     }
@@ -219,11 +234,14 @@ impl HandInFile {
         }
         let mut statement = serde_json::to_vec_pretty(&self.statement).map_err(unwritten)?;
         statement.push(b'\n');
-        let files = [
+        let mut files = vec![
             ArchiveFile::new(STATEMENT, statement),
             ArchiveFile::new(entry_of(&self.statement.file), self.submission.as_slice()),
             ArchiveFile::new(PRACTICE, self.practice.as_slice()),
         ];
+        files.extend(self.sources.iter().map(|file| {
+            ArchiveFile::new(format!("{SOURCES}{}", file.path), file.bytes.as_slice())
+        }));
         archive(&files).map_err(unwritten)
     }
 
@@ -239,20 +257,24 @@ impl HandInFile {
             });
         }
         let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-        let script = submission_entry(bytes, &archive)?;
+        let (script, sources) = entries(bytes, &archive)?;
         let statement = entry(&mut archive, STATEMENT, MOST_STATEMENT_BYTES)?;
         let statement = statement_of(&statement)?;
         if entry_of(&statement.file) != script {
             return Err(HandInFileError::OtherSubmission);
         }
         let submission = entry(&mut archive, script, MOST_SUBMISSION_BYTES)?;
-        if blake3::hash(&submission).to_hex().as_str() != statement.submission {
+        let sources = sources_in(&mut archive, sources)?;
+        let is_stated =
+            digest(&submission) == statement.submission && digests(&sources) == statement.sources;
+        if !is_stated {
             return Err(HandInFileError::OtherSubmission);
         }
         let practice = entry(&mut archive, PRACTICE, MOST_PRACTICE_BYTES)?;
         Ok(Self {
             statement,
             submission,
+            sources,
             practice,
         })
     }
@@ -317,17 +339,62 @@ fn plain_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// The name of the submission's entry, where the archive has that, the statement and the record, and nothing else.
-fn submission_entry(
+fn digest(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
+fn digests(sources: &[SourceFile]) -> BTreeMap<String, String> {
+    let named = sources.iter();
+    named
+        .map(|file| (file.path.clone(), digest(&file.bytes)))
+        .collect()
+}
+
+/// The sources at these paths, in their order.
+fn sources_in(
+    archive: &mut ZipArchive<Cursor<&[u8]>>,
+    paths: Vec<String>,
+) -> Result<Vec<SourceFile>, HandInFileError> {
+    let mut left = MOST_BYTES + MOST_FILE_BYTES;
+    let mut sources = Vec::new();
+    for path in paths {
+        let bytes = entry(
+            archive,
+            &format!("{SOURCES}{path}"),
+            left.min(MOST_FILE_BYTES),
+        )?;
+        left -= bytes.len() as u64;
+        sources.push(SourceFile { path, bytes });
+    }
+    Ok(sources)
+}
+
+/// The name of the submission's entry and the paths of the sources, where the archive has these, the statement and the record, and
+/// nothing else.
+fn entries(
     bytes: &[u8],
     archive: &ZipArchive<Cursor<&[u8]>>,
-) -> Result<&'static str, HandInFileError> {
+) -> Result<(&'static str, Vec<String>), HandInFileError> {
     let has = |name: &str| archive.index_for_name(name).is_some();
+    let names = archive.file_names_raw().map(String::from_utf8_lossy);
+    let sources: Vec<String> = names
+        .filter_map(|name| Some(name.strip_prefix(SOURCES)?.to_owned()))
+        .filter(|path| is_kept_path(path))
+        .collect();
     // a name twice is one entry to the reader, and two to the directory's end
-    let has_three = archive.len() == 3 && listed_entries(bytes) == Some(3);
+    let count = 3 + sources.len();
+    let is_whole = archive.len() == count && listed_entries(bytes).map(usize::from) == Some(count);
     let script = [SCRIPT, PLUGIN].into_iter().find(|name| has(name));
     match script {
-        Some(script) if has_three && has(STATEMENT) && has(PRACTICE) => Ok(script),
+        Some(script)
+            if is_whole
+                && has(STATEMENT)
+                && has(PRACTICE)
+                && sources.len() <= MOST_FILES + 1
+                && (script == PLUGIN || sources.is_empty()) =>
+        {
+            Ok((script, sources))
+        }
         _ => {
             let names = archive.file_names_raw().take(5);
             let names: Vec<String> = names

@@ -164,6 +164,8 @@ impl History {
         {
             let theirs = HandIn {
                 student: student.clone(),
+                sources: None,
+                is_without_sources: false,
                 matched_by: "fixes".to_owned(),
                 variant_of: None,
                 ..hand_in.clone()
@@ -296,6 +298,8 @@ mod tests {
             lab: "01".to_owned(),
             submission: submission.to_owned(),
             file: "submission.rhai".to_owned(),
+            sources: None,
+            is_without_sources: false,
             matched_by: "id".to_owned(),
             submitted_at: submitted.map(at),
             marked_late: None,

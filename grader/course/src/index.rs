@@ -20,7 +20,7 @@ use crate::standing::{Standing, Summary};
 pub const INDEX_FILE: &str = "course.sqlite";
 
 /// The version of the tables; docs/book.md describes them.
-const SCHEMA: i64 = 1;
+const SCHEMA: i64 = 2;
 
 const TABLES: &str = include_str!("index.sql");
 
@@ -472,7 +472,7 @@ fn write_standings(
     for standing in standings {
         change
             .prepare_cached(
-                "INSERT INTO standings VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+                "INSERT INTO standings VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
             )?
             .execute(params![
                 standing.student.as_str(),
@@ -486,6 +486,7 @@ fn write_standings(
                 standing.max_points,
                 standing.late_s,
                 standing.by_hand.iter().any(|fix| fix.is_stale),
+                standing.is_without_sources,
             ])?;
     }
     change.execute(
@@ -516,6 +517,7 @@ mod tests {
             variant_of: None,
             file: text("submission.rhai"),
             submission: text(submission),
+            sources: None,
             lab_version: text("v"),
             staff_version: None,
         };
@@ -607,6 +609,8 @@ mod tests {
             lab: "01".to_owned(),
             submission: "aa".to_owned(),
             file: "submission.rhai".to_owned(),
+            sources: None,
+            is_without_sources: false,
             matched_by: "id".to_owned(),
             submitted_at: None,
             marked_late: None,

@@ -84,5 +84,6 @@ CREATE TABLE standings (
     max_points REAL,
     late_s INTEGER,
     has_stale_fix INTEGER NOT NULL,
+    is_without_sources INTEGER NOT NULL,
     PRIMARY KEY (student, lab)
 ) STRICT;

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use kinemark_grader::submission::handed_in::Submission;
+
 use crate::book::{Book, BookError};
 use crate::fixes::{FileFix, Fixes};
 use crate::journal::HandIn;
@@ -90,6 +92,8 @@ fn decided(
         file: name
             .unwrap_or_else(|| file.path.rsplit('/').next().unwrap_or(&file.path))
             .to_owned(),
+        sources: file.sources.clone(),
+        is_without_sources: file.is_without_sources,
         matched_by: "fixes".to_owned(),
         submitted_at: question.submitted_at,
         marked_late: question.marked_late,
@@ -289,6 +293,9 @@ impl Reading<'_> {
             path: file.path.clone(),
             submission: self.book.put_submission(&file.bytes)?,
             file: Some(file.name.clone()),
+            sources: self.book.put_sources(&file.sources)?,
+            is_without_sources: file.sources.is_empty()
+                && file.bytes.starts_with(Submission::MODULE_MAGIC),
             made_with: file.made_with.clone(),
             numbers: file.numbers.clone(),
         })

@@ -73,6 +73,12 @@ pub struct HandIn {
     pub submission: String,
     /// The name of the submission's file.
     pub file: String,
+    /// Digest of the archive of its sources in the book, where it is a module with some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sources: Option<String>,
+    /// Whether it is a module of which no source was handed in.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_without_sources: bool,
     /// How it was found to be theirs: `id`, `lms_id`, `username`, `name`, `email`, `repository`, `group`, `hand-in file`, `fixes`.
     pub matched_by: String,
     /// When it was handed in, where that is known.
@@ -126,7 +132,8 @@ impl HandIn {
             &self.attempt.map(|n| n.to_string()).unwrap_or_default(),
         ];
         let mut hasher = blake3::Hasher::new();
-        for part in parts {
+        // a script has the id that it always had
+        for part in parts.into_iter().chain(self.sources.as_deref()) {
             hasher.update(&(part.len() as u64).to_le_bytes());
             hasher.update(part.as_bytes());
         }
@@ -342,6 +349,8 @@ mod tests {
             lab: "01-kinematics".to_owned(),
             submission: "aa".to_owned(),
             file: "submission.rhai".to_owned(),
+            sources: None,
+            is_without_sources: false,
             matched_by: "id".to_owned(),
             submitted_at: None,
             marked_late: None,
@@ -443,6 +452,8 @@ mod tests {
     fn the_id_of_a_hand_in_is_that_of_the_attempt() {
         let one = hand_in("s1");
         let again = HandIn {
+            sources: None,
+            is_without_sources: false,
             matched_by: "name".to_owned(),
             ..one.clone()
         }

@@ -26,6 +26,7 @@
 //! | [`standing_rows`] | how everybody stands, as the index has it |
 //! | [`release`] | what goes back: grades and feedback in the forms that LMSs and programs read |
 //! | [`fixed_zip`] | archives whose bytes follow from their files alone |
+//! | `sources_archive` | the sources of a module as one file |
 //! | [`hand_in_file`] | the one file that a student uploads |
 //! | [`submission_file`] | the submission among a person's files, with what says whose it is |
 //! | [`question`] | what waits for a person |
@@ -98,6 +99,7 @@ pub mod reports;
 pub mod roster;
 pub mod selection;
 pub mod similarity;
+mod sources_archive;
 pub mod staffed_lab;
 pub mod standing;
 pub mod standing_rows;

@@ -80,6 +80,7 @@ impl MadeUpStudent {
             variant_of: self.has_variant.then(|| self.id.clone()),
             file: text("submission.rhai"),
             submission: self.file.clone(),
+            sources: None,
             lab_version: text("0123456789abcdef"),
             staff_version: None,
         };
@@ -97,6 +98,7 @@ impl MadeUpStudent {
             hand_in: None,
             made_with: None,
             has_other_numbers: false,
+            is_without_sources: false,
             submitted_at: None,
             late_s: self.late_s,
             marked_late: false,
@@ -155,6 +157,7 @@ fn grade(tasks: Vec<TaskGrade>) -> Grade {
         variant: None,
         robot: part("rrbot"),
         scenes: Vec::new(),
+        sources: None,
         submission: part("submission.rhai"),
         reference: Some(part(LAB)),
         verdict: tasks

@@ -23,6 +23,8 @@ const MOST_LOOKS: usize = 400;
 const MOST_LEVELS: usize = 8;
 /// The characters of a name of a file or folder that are kept.
 const MOST_CHARACTERS: usize = 80;
+/// The bytes of a character that is written out, at most.
+const LONGEST_SIGN: usize = 8;
 /// Names that are listed where files are left out.
 const MOST_LISTED: usize = 20;
 
@@ -163,6 +165,21 @@ impl<'p> Kept<'p> {
     }
 }
 
+/// Whether a path is one under which a source may be kept: what [`sources`] gives, and nothing that leads elsewhere.
+pub fn is_kept_path(path: &str) -> bool {
+    let is_plain = |name: &str| {
+        let is_known = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '+' | '~' | '.');
+        let longest = MOST_CHARACTERS * LONGEST_SIGN;
+        !name.is_empty()
+            && name.len() <= longest
+            && name.chars().all(is_known)
+            && !name.starts_with('.')
+            && !name.ends_with('.')
+            && !is_device(name.split('.').next().unwrap_or_default())
+    };
+    path.matches('/').count() <= MOST_LEVELS && path.split('/').all(is_plain)
+}
+
 /// Whether a file may be a part of a program, by its path: a source, or what says how it is built.
 pub fn may_be_program(path: &str) -> bool {
     let ends_so = |ending: &str| path.ends_with(ending);
@@ -293,6 +310,35 @@ mod tests {
             kept(files),
             ["A.c", "a.c-2", "a~202e~b.c", "~con.c", "Übung~20~1/x~3f~.c"]
         );
+    }
+
+    #[test]
+    fn a_path_that_leads_elsewhere_is_none_of_a_source() {
+        for path in [
+            "a.c",
+            "src/lib.rs",
+            "~2e~cargo/config.toml",
+            "a~202e~b.c-2",
+            "Übung~20~1/x.c",
+        ] {
+            assert!(is_kept_path(path), "{path}");
+        }
+        for path in [
+            "",
+            "/a",
+            "a//b",
+            "../a",
+            "a/..",
+            ".env",
+            "a\\b",
+            "a:b",
+            "con.c",
+            "a\u{202e}",
+            "a b",
+            "1/2/3/4/5/6/7/8/9/a.c",
+        ] {
+            assert!(!is_kept_path(path), "{path}");
+        }
     }
 
     #[test]

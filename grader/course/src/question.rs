@@ -57,6 +57,12 @@ pub struct Candidate {
     /// The name of the submission's file, where it is in a hand-in file or an archive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// Digest of the archive of its sources in the book, where it is a module with some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sources: Option<String>,
+    /// Whether it is a module of which no source was handed in.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_without_sources: bool,
     /// What the hand-in file says of itself, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_with: Option<MadeWith>,
@@ -231,6 +237,8 @@ mod tests {
             path: format!("Müller \"x\"/{name}"),
             submission: name.to_owned(),
             file: None,
+            sources: None,
+            is_without_sources: false,
             made_with: None,
             numbers: Vec::new(),
         };

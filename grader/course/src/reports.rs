@@ -7,9 +7,12 @@ use kinemark_report::html::{ViewerCode, html_with, whole};
 use kinemark_report::plot::plots;
 
 use crate::book::{Book, BookError};
+use crate::module_sources::SourceFile;
 
 /// The folder of the pages, in the book's.
 pub const REPORTS: &str = "reports";
+/// How the folder of a module's sources is called, beside the page of its record.
+pub const SOURCES_ENDING: &str = "-sources";
 
 /// The address of the viewer's code, seen from a page. Another version of the viewer has another file.
 fn address() -> String {
@@ -38,6 +41,11 @@ pub fn page_path(lab: &str, key: &str) -> String {
     format!("{REPORTS}/{lab}/{key}.html")
 }
 
+/// The folder of the sources of a record that is one of a module, seen from the book's folder.
+pub fn sources_path(lab: &str, key: &str) -> String {
+    format!("{REPORTS}/{lab}/{key}{SOURCES_ENDING}")
+}
+
 impl Book {
     fn in_root(&self, path: &str) -> PathBuf {
         self.root().join(path)
@@ -58,6 +66,27 @@ impl Book {
                     path,
                     why: error.to_string(),
                 })?;
+        }
+        Ok(())
+    }
+
+    /// Writes the sources of a module beside the page of its record, for a person to read.
+    ///
+    /// # Errors
+    /// A full disk.
+    pub fn put_page_sources(
+        &self,
+        lab: &str,
+        key: &str,
+        sources: &[SourceFile],
+    ) -> Result<(), BookError> {
+        let folder = self.in_root(&sources_path(lab, key));
+        for file in sources {
+            let path = folder.join(&file.path);
+            self.put(&path, &file.bytes).map_err(|error| BookError {
+                path,
+                why: error.to_string(),
+            })?;
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
 
 use crate::book::{Inputs, version_of};
+use crate::journal::HandIn;
 use crate::student::StudentId;
 use crate::submission_file::numbers;
 
@@ -165,7 +166,7 @@ impl StaffedLab {
         &self,
         student_lab: &StudentLab<'_>,
         submission: &Submission,
-        digest: &str,
+        hand_in: &HandIn,
     ) -> Inputs {
         let (lab, staff) = (student_lab.lab(), student_lab.staff());
         let parts = parts(lab, staff, submission);
@@ -179,7 +180,8 @@ impl StaffedLab {
             staff: parts.reference.map(|staff| staff.digest),
             variant_of: variant.and_then(|variant| variant.student().map(str::to_owned)),
             file: submission.name().to_owned(),
-            submission: digest.to_owned(),
+            submission: hand_in.submission.clone(),
+            sources: hand_in.sources.clone(),
             lab_version: self.lab_version.clone(),
             staff_version: self.staff_version.clone(),
         }

@@ -128,6 +128,8 @@ pub struct Standing {
     pub made_with: Option<MadeWith>,
     /// Whether the variant that came with it has other numbers than the course's.
     pub has_other_numbers: bool,
+    /// Whether it is a module of which no source was handed in.
+    pub is_without_sources: bool,
     /// When it was handed in, where that is known.
     pub submitted_at: Option<Timestamp>,
     /// How late \[s\]: 0 in time, absent where it is not known.
@@ -212,11 +214,8 @@ fn of_person(
     if excuse.is_some() {
         status = Status::Excused;
     }
-    let mut of_student = fixes.points.iter();
-    let fixed: Vec<&PointsFix> = of_student
-        .by_ref()
-        .filter(|fix| fix.lab == lab.name && fix.student == *student)
-        .collect();
+    let of_student = |fix: &&PointsFix| fix.lab == lab.name && fix.student == *student;
+    let fixed: Vec<&PointsFix> = fixes.points.iter().filter(of_student).collect();
     let key = attempt.and_then(Attempt::record);
     let (points, by_hand) = match (status, &record) {
         (Status::Graded, Some(record)) => with_fixes(Some(record), &fixed, key),
@@ -229,12 +228,7 @@ fn of_person(
     if points.is_some() {
         status = Status::Graded;
     }
-    let due = fixes
-        .extensions
-        .iter()
-        .find(|more| more.lab == lab.name && more.student == *student)
-        .map(|more| more.due)
-        .or(lab.due);
+    let due = due(lab, student, fixes);
     Standing {
         student: student.clone(),
         lab: lab.name.clone(),
@@ -244,6 +238,7 @@ fn of_person(
         hand_in: attempt.map(|attempt| attempt.hand_in.id.clone()),
         made_with: attempt.and_then(|attempt| attempt.hand_in.made_with.clone()),
         has_other_numbers: attempt.is_some_and(|attempt| attempt.hand_in.has_other_numbers),
+        is_without_sources: attempt.is_some_and(|attempt| attempt.hand_in.is_without_sources),
         submitted_at: attempt.and_then(|attempt| attempt.hand_in.submitted_at),
         late_s: attempt.and_then(|attempt| late_s(attempt, due)),
         marked_late: attempt.is_some_and(|attempt| attempt.hand_in.marked_late == Some(true)),
@@ -256,6 +251,13 @@ fn of_person(
         excuse: excuse.map(|excuse| excuse.why.clone()),
         failure: failure.map(|failure| failure.what.clone()),
     }
+}
+
+/// When a student's work is due: more time that was given counts.
+fn due(lab: &CourseLab, student: &StudentId, fixes: &Fixes) -> Option<Timestamp> {
+    let mut extensions = fixes.extensions.iter();
+    let more = extensions.find(|more| more.lab == lab.name && more.student == *student);
+    more.map(|more| more.due).or(lab.due)
 }
 
 /// The attempt that counts. Where the best one counts, an attempt without a decided grade counts only if there is no other.

@@ -25,6 +25,8 @@ pub struct StandingRow {
     pub late_s: Option<i64>,
     /// Whether points by hand were decided on another record.
     pub has_stale_fix: bool,
+    /// Whether it is a module of which no source was handed in.
+    pub is_without_sources: bool,
 }
 
 impl From<&Standing> for StandingRow {
@@ -39,6 +41,7 @@ impl From<&Standing> for StandingRow {
             max_points: standing.max_points,
             late_s: standing.late_s,
             has_stale_fix: standing.by_hand.iter().any(|fix| fix.is_stale),
+            is_without_sources: standing.is_without_sources,
         }
     }
 }
@@ -48,7 +51,7 @@ impl From<&Standing> for StandingRow {
 /// # Errors
 /// An index that cannot be read.
 pub fn standing_rows(index: &Index) -> Result<Vec<StandingRow>, IndexError> {
-    let query = "SELECT student, lab, status, attempts, record, points, max_points, late_s, has_stale_fix \
+    let query = "SELECT student, lab, status, attempts, record, points, max_points, late_s, has_stale_fix, is_without_sources \
         FROM standings ORDER BY rowid";
     let rows = index.rows(query, [], |row| {
         let (student, status): (String, String) = (row.get(0)?, row.get(2)?);
@@ -68,6 +71,7 @@ pub fn standing_rows(index: &Index) -> Result<Vec<StandingRow>, IndexError> {
             max_points: row.get(6)?,
             late_s: row.get(7)?,
             has_stale_fix: row.get(8)?,
+            is_without_sources: row.get(9)?,
         }))
     })?;
     Ok(rows.into_iter().flatten().collect())

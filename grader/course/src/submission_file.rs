@@ -11,6 +11,7 @@ use kinemark_sim::text::{Dimension, Source};
 use crate::hand_in_file::{HandInFile, HandInFileError};
 use crate::journal::MadeWith;
 use crate::layout::PersonFiles;
+use crate::module_sources::SourceFile;
 use crate::selection::{Found, Unselected, select};
 use crate::student::StudentId;
 use crate::tree::Tree;
@@ -24,6 +25,8 @@ pub struct SubmissionFile {
     pub name: String,
     /// The submission's bytes.
     pub bytes: Vec<u8>,
+    /// The sources beside it, where it is a module.
+    pub sources: Vec<SourceFile>,
     /// Who handed it in, where a hand-in file says so.
     pub student: Option<StudentId>,
     /// Whose variant it was made with: as the hand-in file says, or a `variant.toml` in the folder of the submission.
@@ -75,6 +78,7 @@ impl SubmissionFile {
                 path: found.path.clone(),
                 name: found.name.clone(),
                 bytes: found.bytes.clone(),
+                sources: found.sources.clone(),
                 student: None,
                 variant_of: variant.as_ref().and_then(owner),
                 numbers: variant
@@ -91,6 +95,7 @@ impl SubmissionFile {
             made_with: Some(file.made_with()),
             name: file.statement.file,
             bytes: file.submission,
+            sources: file.sources,
             student: file.statement.student,
             variant_of: file.statement.variant_of,
         })
@@ -216,6 +221,7 @@ mod tests {
             student: None,
             file: "work.rhai",
             submission,
+            sources: &[],
             practice: &practice,
         });
         file.and_then(|file| file.write()).unwrap()

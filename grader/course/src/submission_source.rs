@@ -9,6 +9,8 @@ use kinemark_grader::submission::host::Host;
 use kinemark_grader::submission::not_text::NotText;
 use kinemark_sim::text::Source;
 
+use crate::module_sources::SourceFile;
+
 /// A submission to grade.
 #[derive(Debug, Clone)]
 pub struct SubmissionSource {
@@ -16,6 +18,8 @@ pub struct SubmissionSource {
     pub submission: Submission,
     /// Its bytes as they are.
     pub bytes: Vec<u8>,
+    /// The sources beside a module, for people to read.
+    pub sources: Vec<SourceFile>,
     not_text: Option<NotText>,
 }
 
@@ -33,7 +37,23 @@ impl SubmissionSource {
         Self {
             submission,
             bytes: bytes.to_owned(),
+            sources: Vec::new(),
             not_text,
+        }
+    }
+
+    /// The same with the sources that were handed in beside it, where it is a module.
+    #[must_use]
+    pub fn with_sources(self, sources: Vec<SourceFile>) -> Self {
+        if self.submission.sources().is_none() {
+            return self;
+        }
+        let named = sources.iter();
+        let named = named.map(|file| (file.path.as_str(), file.bytes.as_slice()));
+        Self {
+            submission: self.submission.with_sources(named),
+            sources,
+            ..self
         }
     }
 
@@ -42,6 +62,7 @@ impl SubmissionSource {
         Self {
             bytes: source.text().as_bytes().to_owned(),
             submission: source.into(),
+            sources: Vec::new(),
             not_text: None,
         }
     }

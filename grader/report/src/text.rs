@@ -19,6 +19,10 @@ use kinemark_grader::record::hints;
 use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::record::verdict::Verdict;
 
+/// What is said of a module that nobody can read.
+const NO_SOURCES: &str =
+    "sources: none beside this module; hand in the files that it is built from with it";
+
 /// Renders `grade`.
 pub fn text(grade: &Grade) -> String {
     let mut out = String::new();
@@ -37,6 +41,9 @@ pub fn text(grade: &Grade) -> String {
     line(&mut out, &mode.dimmed().to_string());
     if let Some(variant) = &grade.variant {
         line(&mut out, &visible(&variant.words()).dimmed().to_string());
+    }
+    if grade.is_without_sources() {
+        line(&mut out, &NO_SOURCES.dimmed().to_string());
     }
     if let Some(stopped) = stop_of_whole_file(grade) {
         // the same in all tasks: said once

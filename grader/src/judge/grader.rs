@@ -71,6 +71,7 @@ fn record(
         robot: parts.robot,
         scenes: parts.scenes,
         submission: parts.submission,
+        sources: submission.sources().map(<[Part]>::to_vec),
         reference: parts.reference,
         verdict: verdicts.min().unwrap_or(Verdict::Passed),
         points: sum_of_points(tasks.iter().map(|task| task.points)),

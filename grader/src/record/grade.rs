@@ -35,6 +35,10 @@ pub struct Grade {
     pub scenes: Vec<Part>,
     /// The submission; `name` is its file name.
     pub submission: Part,
+    /// The sources that were handed in beside a compiled module, which a person can read and nothing runs: an empty list where there were
+    /// none. Absent for a script.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sources: Option<Vec<Part>>,
     /// The course staff's reference folder, if it took part.
     pub reference: Option<Part>,
     /// The worst verdict of the tasks.
@@ -77,6 +81,13 @@ pub enum ParameterValue {
     Number(f64),
     /// A list.
     List(Vec<f64>),
+}
+
+impl Grade {
+    /// Whether it is of a compiled module, of which no source was handed in.
+    pub fn is_without_sources(&self) -> bool {
+        self.sources.as_ref().is_some_and(Vec::is_empty)
+    }
 }
 
 impl VariantRecord {

@@ -633,6 +633,7 @@ pub fn graded() -> GradedRun {
             robot: part("rrbot", 2),
             scenes: Vec::new(),
             submission: part("submission.rhai", 3),
+            sources: None,
             reference: None,
             verdict: Verdict::Crashed,
             points: tasks.iter().map(|task| task.points).sum(),

@@ -3,6 +3,8 @@
 use kinemark_sim::text::Source;
 use serde::{Deserialize, Serialize};
 
+use crate::record::grade::Part;
+
 /// The code of a submission, in one of the forms that run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Program {
@@ -35,18 +37,41 @@ impl Program {
 pub struct Submission {
     name: String,
     program: Program,
+    sources: Option<Vec<Part>>,
 }
 
 impl Submission {
     /// The first bytes of every WebAssembly module.
     pub const MODULE_MAGIC: &[u8] = b"\0asm";
 
-    /// A compiled module; `name` is that of its file.
+    /// A compiled module without sources; `name` is that of its file.
     pub fn module(name: &str, bytes: &[u8]) -> Self {
         Self {
             name: name.to_owned(),
             program: Program::Module(bytes.to_owned()),
+            sources: Some(Vec::new()),
         }
+    }
+
+    /// The same module with the sources that were handed in beside it, each by its name and its text, in any order; of a script
+    /// nothing changes.
+    #[must_use]
+    pub fn with_sources<'s>(self, sources: impl IntoIterator<Item = (&'s str, &'s [u8])>) -> Self {
+        let part = |(name, text): (&str, &[u8])| Part {
+            name: name.to_owned(),
+            digest: blake3::hash(text).to_hex().to_string(),
+        };
+        let sources = self.sources.map(|_| {
+            let mut parts: Vec<Part> = sources.into_iter().map(part).collect();
+            parts.sort_by(|one, other| one.name.cmp(&other.name));
+            parts
+        });
+        Self { sources, ..self }
+    }
+
+    /// The sources beside a module, which say what it was made from as far as its author says; none for a script.
+    pub fn sources(&self) -> Option<&[Part]> {
+        self.sources.as_deref()
     }
 
     /// The name of its file.
@@ -81,6 +106,7 @@ impl From<&Source> for Submission {
         Self {
             name: script.name().to_owned(),
             program: Program::Script(script.text().to_owned()),
+            sources: None,
         }
     }
 }

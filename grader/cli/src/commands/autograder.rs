@@ -261,7 +261,7 @@ fn uploaded(folder: &Path, lab: &StaffedLab) -> Result<Uploaded, NotGraded> {
         }
     }
     Ok(Uploaded {
-        source: SubmissionSource::new(&file.name, &file.bytes),
+        source: SubmissionSource::new(&file.name, &file.bytes).with_sources(file.sources),
         variant_of: file.variant_of,
         notes,
     })

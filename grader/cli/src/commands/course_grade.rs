@@ -360,6 +360,7 @@ fn summary(
     } else {
         output::print(&text(rules, &of_lab, &open))?;
         output::print(&made_otherwise(lab, &of_lab))?;
+        output::print(&without_sources(&of_lab))?;
     }
     let has_failed =
         |standing: &Standing| matches!(standing.status, Status::HostLimit | Status::GraderFault);
@@ -380,6 +381,31 @@ fn text(rules: &CourseLab, standings: &[Standing], questions: &[Question]) -> St
         out += &format!("{} kinemark course status {}\n", "next:".cyan(), rules.name);
     }
     out
+}
+
+/// Who handed in a module that nobody can read, in a line; it is graded as all others.
+fn without_sources(standings: &[Standing]) -> String {
+    let students = standings
+        .iter()
+        .filter(|standing| standing.is_without_sources);
+    let students: Vec<&str> = students.map(|standing| standing.student.as_str()).collect();
+    match students.len() {
+        0 => String::new(),
+        count => format!(
+            "{count} handed in a module without its sources: {}\n",
+            named(&students)
+        ),
+    }
+}
+
+/// Ids in a line.
+fn named(students: &[&str]) -> String {
+    let more = match students.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let named: Vec<&str> = students.iter().take(MOST_NAMED).copied().collect();
+    format!("{}{more}", named.join(", "))
 }
 
 /// Who practised with another lab or engine than the course's, in lines; such work is graded as all others.
@@ -408,16 +434,10 @@ fn made_otherwise(lab: &StaffedLab, standings: &[Standing]) -> String {
         if students.is_empty() {
             continue;
         }
-        let named = students.iter().take(MOST_NAMED).copied();
-        let more = students.len().saturating_sub(MOST_NAMED);
-        let more = match more {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
         out += &format!(
-            "{} practised with {what} than the course's: {}{more}\n",
+            "{} practised with {what} than the course's: {}\n",
             students.len(),
-            named.collect::<Vec<_>>().join(", ")
+            named(&students)
         );
     }
     out

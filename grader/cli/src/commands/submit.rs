@@ -90,7 +90,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     refuse_foreign(&out)?;
 
     let shown = path.file_name().unwrap_or(path.as_os_str());
+    let sources = Project::of(&path).map(|project| project.sources());
     let source = SubmissionSource::new(&shown.to_string_lossy(), &bytes);
+    let source = source.with_sources(sources.unwrap_or_default());
     let mut workers = WorkerHost::new(Some(progress(lab.tasks.len())));
     let graded = source.grade(&lab, None, &mut workers);
     workers.finish();
@@ -112,6 +114,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         student,
         file: source.submission.name(),
         submission: &bytes,
+        sources: &source.sources,
         practice: &grade,
     };
     let hand_in = HandInFile::new(handed_in)
@@ -233,6 +236,14 @@ fn text(out: &Path, statement: &Statement) -> String {
             ),
         ),
     ];
+    if statement.file.ends_with(".wasm") {
+        let count = match statement.sources.len() {
+            0 => "none beside this module: course staff cannot read it".to_owned(),
+            1 => "1 file".to_owned(),
+            count => format!("{count} files"),
+        };
+        rows.push(("sources", count));
+    }
     rows.extend(id(&statement.student).map(|id| ("student", id)));
     rows.extend(id(&statement.variant_of).map(|id| ("variant", format!("of {id}"))));
     rows.push(("made with", statement.engine.clone()));

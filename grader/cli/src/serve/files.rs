@@ -4,10 +4,15 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use kinemark_course::reports::SOURCES_ENDING;
+use kinemark_report::output::SOURCES_FOLDER;
+
 use crate::beneath;
 
 /// A page.
 pub(super) const HTML: &str = "text/html; charset=utf-8";
+/// What nothing makes more of than letters.
+const TEXT: &str = "text/plain; charset=utf-8";
 /// A picture of lines.
 pub(super) const SVG: &str = "image/svg+xml";
 
@@ -69,8 +74,16 @@ fn is_served(path: &str) -> bool {
     path.split('/').all(is_plain)
 }
 
-/// The media type of a file by its name. What could run and is no page of ours is text.
+/// Whether a folder holds sources of a module, in a report or beside the pages of a book.
+fn is_of_sources(folder: &str) -> bool {
+    folder == SOURCES_FOLDER || folder.ends_with(SOURCES_ENDING)
+}
+
+/// The media type of a file by its name. What could run and is no page of ours is text, and so is every source of a module.
 pub(super) fn media_type(path: &str) -> &'static str {
+    if path.split('/').any(is_of_sources) {
+        return TEXT;
+    }
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
     match ending.to_ascii_lowercase().as_str() {
         "html" => HTML,
@@ -79,7 +92,7 @@ pub(super) fn media_type(path: &str) -> &'static str {
         "webp" => "image/webp",
         "json" => "application/json",
         "csv" => "text/csv; charset=utf-8",
-        "rhai" | "toml" | "md" | "txt" | "urdf" | "js" | "css" => "text/plain; charset=utf-8",
+        "rhai" | "toml" | "md" | "txt" | "urdf" | "js" | "css" => TEXT,
         _ => "application/octet-stream",
     }
 }

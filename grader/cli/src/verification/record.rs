@@ -1,10 +1,14 @@
 //! The record of a report: compared with itself, and with the submission graded again.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use kinemark_grader::record::difference::first_difference;
 use kinemark_grader::record::grade::{Digests, Grade, Outcome, TaskGrade, TaskKind};
 use kinemark_grader::record::sums::{self, Contradiction};
 use kinemark_grader::record::visible_part;
+use kinemark_report::output::SOURCES_FOLDER;
 
+use super::files::MISSING;
 use super::findings::{Difference, Findings, Subject};
 
 /// Sums, outcomes and verdicts, which follow from the rest of the record.
@@ -19,6 +23,7 @@ pub(super) fn compare(recorded: &Grade, now: &Grade, findings: &mut Findings) ->
     findings.compare(Subject::Engine, "engine", &recorded.engine, &now.engine);
     let [was, is] = [&recorded.submission, &now.submission];
     findings.compare(Subject::Submission, "submission", &was.digest, &is.digest);
+    compare_sources(recorded, now, findings);
     let is_whole = recorded.mode == now.mode;
     if is_whole {
         let digest = |grade: &Grade| {
@@ -60,6 +65,24 @@ pub(super) fn compare(recorded: &Grade, now: &Grade, findings: &mut Findings) ->
         with_itself(recorded, findings);
     }
     (recorded.tasks.len() - in_part, in_part)
+}
+
+/// The sources of a module, each by its name.
+fn compare_sources(recorded: &Grade, now: &Grade, findings: &mut Findings) {
+    let by_name = |grade: &Grade| -> BTreeMap<String, String> {
+        let sources = grade.sources.iter().flatten();
+        sources
+            .map(|source| (source.name.clone(), source.digest.clone()))
+            .collect()
+    };
+    let [was, is] = [recorded, now].map(by_name);
+    let names: BTreeSet<&String> = was.keys().chain(is.keys()).collect();
+    for name in names {
+        let [was, is] =
+            [&was, &is].map(|sources| sources.get(name).map_or(MISSING, String::as_str));
+        let place = format!("{SOURCES_FOLDER}/{name}");
+        findings.compare(Subject::Submission, &place, was, is);
+    }
 }
 
 fn add(found: Vec<Contradiction>, findings: &mut Findings) {

@@ -22,6 +22,7 @@ fn hand_in() -> HandInFile {
         student: None,
         file: "work/mine.rhai",
         submission: TEXT,
+        sources: &[],
         practice: &practice,
     };
     HandInFile::new(handed_in).unwrap()
@@ -69,6 +70,7 @@ fn a_variant_and_whoever_hands_in_are_named() {
         student: Some(student.clone()),
         file: "mine.WASM",
         submission: b"\0asm",
+        sources: &[],
         practice: &practice,
     };
     let bytes = HandInFile::new(handed_in).unwrap().write().unwrap();
@@ -139,6 +141,111 @@ fn entries_of_others_are_refused() {
     let mut longer = edited(|_| {}, WHOLE);
     longer.push(0);
     assert!(HandInFile::read(&longer).is_err());
+}
+
+fn source(path: &str, text: &str) -> SourceFile {
+    SourceFile {
+        path: path.to_owned(),
+        bytes: text.as_bytes().to_vec(),
+    }
+}
+
+/// A hand-in of a module with these sources.
+fn of_module(sources: &[SourceFile]) -> HandInFile {
+    let practice = sample::graded().grade;
+    let handed_in = HandedIn {
+        made_with: made_with(),
+        student: None,
+        file: "submission.wasm",
+        submission: b"\0asm",
+        sources,
+        practice: &practice,
+    };
+    HandInFile::new(handed_in).unwrap()
+}
+
+#[test]
+fn the_sources_of_a_module_come_back() {
+    let sources = [
+        source("Cargo.toml", "[package]"),
+        source("src/lib.rs", "mod arm;"),
+    ];
+    let written = of_module(&sources);
+    let read = HandInFile::read(&written.write().unwrap()).unwrap();
+    assert_eq!(read.sources, sources);
+    assert_eq!(read, written);
+    assert!(of_module(&[]).statement.sources.is_empty());
+}
+
+/// The bytes of a hand-in whose archive has these sources, whatever its statement says.
+fn with_sources(stated: &[SourceFile], there: &[(&str, &[u8])]) -> Vec<u8> {
+    let statement = serde_json::to_vec(&of_module(stated).statement).unwrap();
+    let mut files = vec![
+        ArchiveFile::new(STATEMENT, statement),
+        ArchiveFile::new(PLUGIN, &b"\0asm"[..]),
+        ArchiveFile::new(PRACTICE, &b"{}"[..]),
+    ];
+    let there = there.iter();
+    files.extend(there.map(|(name, bytes)| ArchiveFile::new(*name, *bytes)));
+    archive(&files).unwrap()
+}
+
+#[test]
+fn other_sources_than_those_that_are_named_are_refused() {
+    let stated = [source("a.c", "1")];
+    assert!(HandInFile::read(&with_sources(&stated, &[("sources/a.c", b"1")])).is_ok());
+    for there in [
+        &[][..],
+        &[("sources/a.c", &b"2"[..])],
+        &[("sources/b.c", b"1")],
+        &[("sources/a.c", b"1"), ("sources/b.c", b"1")],
+    ] {
+        let error = HandInFile::read(&with_sources(&stated, there)).unwrap_err();
+        assert_eq!(error, HandInFileError::OtherSubmission);
+    }
+    // names that lead elsewhere, or that no disk takes
+    for name in [
+        "sources/../a.c",
+        "sources//a.c",
+        "sources/",
+        "sources/.env",
+        "sources/a\\b.c",
+        "sources/con.c",
+        "sources/a\u{202e}.c",
+    ] {
+        let error = HandInFile::read(&with_sources(&[], &[(name, b"1")])).unwrap_err();
+        assert!(
+            matches!(error, HandInFileError::Entries { .. }),
+            "{name}: {error:?}"
+        );
+    }
+    // sources of a script
+    let error = edited(
+        |_| {},
+        &[(SCRIPT, TEXT), (PRACTICE, b"{}"), ("sources/a.c", b"1")],
+    );
+    assert!(HandInFile::read(&error).is_err());
+}
+
+#[test]
+fn sources_that_unpack_to_more_than_is_kept_are_refused() {
+    let large = vec![b' '; MOST_FILE_BYTES as usize + 1];
+    let bomb = with_sources(&[], &[("sources/a.c", &large)]);
+    assert!(bomb.len() < 1 << 16);
+    let error = HandInFile::read(&bomb).unwrap_err();
+    assert!(
+        matches!(error, HandInFileError::TooLarge { .. }),
+        "{error:?}"
+    );
+    let whole = vec![b' '; MOST_FILE_BYTES as usize];
+    let names: Vec<String> = (0..6).map(|i| format!("sources/{i}.c")).collect();
+    let files: Vec<(&str, &[u8])> = names.iter().map(|n| (n.as_str(), &whole[..])).collect();
+    assert!(HandInFile::read(&with_sources(&[], &files)).is_err());
+    let names: Vec<String> = (0..MOST_FILES + 2)
+        .map(|i| format!("sources/{i}.c"))
+        .collect();
+    let files: Vec<(&str, &[u8])> = names.iter().map(|n| (n.as_str(), &b"x"[..])).collect();
+    assert!(HandInFile::read(&with_sources(&[], &files)).is_err());
 }
 
 #[test]

@@ -106,6 +106,7 @@ mod tests {
                 max_points: Some(24.0),
                 late_s: Some(60),
                 has_stale_fix: true,
+                is_without_sources: true,
             },
             report: Some("reports/01-kinematics/ab.html".to_owned()),
         };

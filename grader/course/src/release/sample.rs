@@ -191,6 +191,7 @@ fn missing(student: &StudentId) -> Standing {
         hand_in: None,
         made_with: None,
         has_other_numbers: false,
+        is_without_sources: false,
         submitted_at: None,
         late_s: None,
         marked_late: false,
@@ -216,6 +217,7 @@ fn inputs() -> Inputs {
         variant_of: None,
         file: "submission.rhai".to_owned(),
         submission: "u".to_owned(),
+        sources: None,
         lab_version: "v".to_owned(),
         staff_version: None,
     }

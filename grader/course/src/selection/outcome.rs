@@ -1,5 +1,6 @@
 //! What a search for a submission ends in: a file, or what a person has to decide.
 
+use crate::module_sources::SourceFile;
 use crate::tree::EntryProblem;
 
 /// The largest submission that is read \[bytes\].
@@ -21,6 +22,8 @@ pub struct Found {
     pub is_hand_in: bool,
     /// The `variant.toml` in its folder, where there is one that can be read.
     pub variant: Option<Vec<u8>>,
+    /// The sources beside it, where it is a module.
+    pub sources: Vec<SourceFile>,
 }
 
 /// Why nobody but a person can say which file it is.

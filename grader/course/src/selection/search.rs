@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 
 use kinemark_grader::lab::variant::VARIANT_FILE;
+use kinemark_grader::submission::handed_in::Submission;
 
 use super::outcome::{Found, MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES, Unselected};
 use super::what_is_there::in_words;
 use crate::layout::PersonFiles;
+use crate::module_sources::{SourceFile, project_folder, sources};
 use crate::submission_name::NameKind;
 use crate::tree::{Entry, EntryProblem, Tree, file_kind};
 
@@ -51,6 +53,8 @@ pub(super) struct Node {
     tree: usize,
     /// Its number among the entries of that tree; `None` where its name gives it no place.
     entry: Option<usize>,
+    /// Its path inside its tree, as the person arranged it.
+    inside: String,
     /// Its path in the source, through archives.
     pub(super) shown: String,
     /// Its name as the person gave it.
@@ -187,6 +191,9 @@ impl<'s> Search<'s> {
             if let Some((_, path, problem)) = self.closed.first().cloned() {
                 return Some(Err(Unselected::Unusable { path, problem }));
             }
+            for found in &mut found {
+                found.sources = self.sources_of(found);
+            }
             return Some(match found.len() {
                 1 => Ok(found.swap_remove(0)),
                 _ => Err(Unselected::Ambiguous(found)),
@@ -215,7 +222,35 @@ impl<'s> Search<'s> {
             variant: self.variant_beside(node),
             bytes,
             is_hand_in,
+            sources: Vec::new(),
         }))
+    }
+
+    /// The sources in the folder of a module; a script is its own, and a hand-in file has them inside.
+    fn sources_of(&mut self, found: &Found) -> Vec<SourceFile> {
+        if found.is_hand_in || !found.bytes.starts_with(Submission::MODULE_MAGIC) {
+            return Vec::new();
+        }
+        let Some(module) = self
+            .nodes
+            .iter()
+            .find(|node| node.shown == found.path)
+            .cloned()
+        else {
+            return Vec::new();
+        };
+        let folder = project_folder(&module.inside).to_owned();
+        let beside = self
+            .nodes
+            .iter()
+            .filter(|node| node.tree == module.tree && !node.in_report);
+        let beside: Vec<(String, Node)> = beside
+            .filter_map(|node| {
+                let inside = node.inside.strip_prefix(folder.as_str())?;
+                node.entry.map(|_| (inside.to_owned(), node.clone()))
+            })
+            .collect();
+        sources(beside, |node, most| self.bytes(node, most).ok())
     }
 
     /// The `variant.toml` in the folder of a file.
@@ -292,6 +327,7 @@ impl<'s> Search<'s> {
             nodes.push(Node {
                 tree: number,
                 entry: None,
+                inside: String::new(),
                 shown: format!("{shown}/{}", entry.original),
                 name: entry.name().to_owned(),
                 level,
@@ -334,6 +370,7 @@ fn nodes(
         Node {
             tree,
             entry: *entry,
+            inside: (*path).to_owned(),
             shown: (*shown).to_owned(),
             name: name.to_owned(),
             level: level + path.matches('/').count(),

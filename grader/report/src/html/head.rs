@@ -80,7 +80,10 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
         header class={ "head" @if has_full_marks(grade) { " won" } } {
             p class="eyebrow" { "Kinemark report" }
             h1 { (foreign(title)) }
-            p class="by" { (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name)) }
+            p class="by" {
+                (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name))
+                @if grade.is_without_sources() { " · no sources beside this module" }
+            }
             @if let Some(variant) = &grade.variant { p class="by" { (foreign(&variant.words())) } }
             div class="first" {
                 div class="result" {
@@ -207,6 +210,10 @@ pub(super) fn facts(grade: &Grade) -> Markup {
                         (part("Lab", &grade.lab))
                         (part("Robot", &grade.robot))
                         (part("Submission", &grade.submission))
+                        @for source in grade.sources.iter().flatten() { (part("Source", source)) }
+                        @if grade.is_without_sources() {
+                            tr { th scope="row" { "Sources" } td colspan="2" { "none beside this module" } }
+                        }
                         @if let Some(reference) = &grade.reference { (part("Reference", reference)) }
                         @for task in &grade.tasks {
                             tr {

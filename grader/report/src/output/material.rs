@@ -12,6 +12,8 @@ pub struct Sources<'a> {
     pub submission_file: &'a str,
     /// The submission.
     pub submission: &'a [u8],
+    /// The sources beside a module, by their paths.
+    pub module_sources: &'a [(String, Vec<u8>)],
     /// `lab.toml`.
     pub lab: &'a str,
     /// The robot's file.

@@ -16,6 +16,8 @@ pub const SUBMISSION_FILE: &str = "submission.rhai";
 pub const MODULE_FILE: &str = "submission.wasm";
 /// The folder of the copies of lab, robot and scenes.
 pub const LAB_FOLDER: &str = "lab";
+/// The folder of the sources that were handed in beside a module.
+pub const SOURCES_FOLDER: &str = "sources";
 /// The folder of the plots.
 const PLOT_FOLDER: &str = "plots";
 
@@ -58,6 +60,18 @@ pub const OUTPUTS: &[Output] = &[
                 ..
             } = material.sources;
             Ok(vec![OutFile::new(submission_file, submission)])
+        },
+    },
+    Output {
+        // for a person to read: nothing is made from them
+        name: "sources",
+        is_requested: always,
+        files: |material| {
+            let sources = material.sources.module_sources.iter();
+            let sources = sources.map(|(path, bytes)| {
+                OutFile::new(format!("{SOURCES_FOLDER}/{path}"), bytes.as_slice())
+            });
+            Ok(sources.collect())
         },
     },
     Output {
@@ -136,6 +150,7 @@ mod tests {
         let sources = Sources {
             submission_file: SUBMISSION_FILE,
             submission: b"",
+            module_sources: &[("src/lib.rs".to_owned(), b"mod arm;".to_vec())],
             lab: "",
             robot: "",
             lab_files: &lab_files,
@@ -169,6 +184,7 @@ mod tests {
             "grade.json",
             "report.html",
             "submission.rhai",
+            "sources/src/lib.rs",
             "lab/one/lab.toml",
         ] {
             assert!(plain.iter().any(|known| known == path), "no {path}");
