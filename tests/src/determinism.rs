@@ -15,8 +15,11 @@ use crate::exact::is_asked_for;
 use crate::golden::are_current;
 use crate::testbed::{Folder, TestBed, binary, build, files_below, grade, lab, root, staff};
 
+/// A submission of each lab, by the lab's name.
+pub(crate) type Submissions = Vec<(String, PathBuf)>;
+
 /// Every lab with its good submission: a lab without one fails here.
-pub(crate) fn good_submissions() -> Vec<(String, PathBuf)> {
+pub(crate) fn good_submissions() -> Submissions {
     let labs = lab_names(&Folder(root().join("labs")));
     assert!(!labs.is_empty());
     let good = labs.into_iter().map(|lab| {
@@ -28,18 +31,25 @@ pub(crate) fn good_submissions() -> Vec<(String, PathBuf)> {
 }
 
 /// Below its lab's name, each by its path.
-type Files = Vec<(String, Vec<u8>)>;
+pub(crate) type Files = Vec<(String, Vec<u8>)>;
 
 /// The files of every good submission's report.
 fn files(binary: &Path, flags: &[&str]) -> Files {
+    files_of(&good_submissions(), binary, flags)
+}
+
+/// The files of the reports of submissions that have full marks.
+pub(crate) fn files_of(submissions: &Submissions, binary: &Path, flags: &[&str]) -> Files {
     let bed = TestBed::new();
-    let good = good_submissions().into_iter();
-    let cases: Vec<_> = good.map(|(lab, path)| (lab.clone(), (lab, path))).collect();
+    let cases: Vec<_> = submissions
+        .iter()
+        .map(|(lab, path)| (lab.clone(), (lab, path)))
+        .collect();
     every_case(&cases, |(lab, submission)| {
         let output = Command::new(binary)
             .current_dir(root())
             .args(["grade", lab])
-            .arg(submission)
+            .arg(submission.as_path())
             .arg("--out")
             .arg(bed.path("out").join(lab))
             .args(flags)
@@ -66,7 +76,7 @@ pub(crate) fn tested_record(lab: &str) -> &'static str {
     std::str::from_utf8(&found.expect("a record").1).expect("UTF-8")
 }
 
-fn assert_same(a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]) {
+pub(crate) fn assert_same(a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]) {
     let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
         files.iter().map(|(name, _)| name.clone()).collect()
     };

@@ -12,6 +12,7 @@ mod case_evidence;
 mod class_page;
 mod commands;
 mod compare;
+mod compiled_solutions;
 mod course;
 mod course_class;
 mod course_explain;

@@ -3,28 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::determinism::{digests, good_submissions, tested_record};
+use crate::compiled_solutions::{compiled, missing_target};
+use crate::determinism::{digests, files_of, good_submissions, tested_record};
 use crate::every_case::every_case;
 use crate::exact::{cannot_run, is_asked_for};
-use crate::testbed::{cargo, root};
+use crate::testbed::{binary, cargo, root};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
 /// A tool that the test needs and this machine lacks, with how to get it.
 fn missing() -> Vec<String> {
-    let mut missing = Vec::new();
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let library = Command::new(rustc)
-        .current_dir(root())
-        .args(["--print", "target-libdir", "--target", TARGET])
-        .output();
-    let has_target = library.is_ok_and(|library| {
-        let folder = String::from_utf8_lossy(&library.stdout).trim().to_owned();
-        library.status.success() && Path::new(&folder).is_dir()
-    });
-    if !has_target {
-        missing.push(format!("the Rust target (`rustup target add {TARGET}`)"));
-    }
+    let mut missing = missing_target();
     let node = Command::new("node").arg("--version").output();
     if !node.is_ok_and(|node| node.status.success()) {
         missing.push("Node (`apt-get install nodejs`)".to_owned());
@@ -75,14 +64,30 @@ fn webassembly_gives_the_same_grades_and_the_same_contact() {
     let module = module();
     let contact = node(&module, &["contact"]);
     assert_eq!(contact, kinemark_tests_wasm::CONTACT_DIGEST);
-    let good = good_submissions().into_iter();
-    let cases: Vec<_> = good.map(|(lab, path)| (lab.clone(), (lab, path))).collect();
-    every_case(&cases, |(lab, submission)| {
+    let compiled = compiled(what).expect("its target is there");
+    let native_modules = files_of(&compiled.modules, binary(), &[]);
+    let record = |lab: &str| {
+        let name = format!("{lab}/grade.json");
+        let found = native_modules.iter().find(|(path, _)| *path == name);
+        String::from_utf8(found.expect("a record").1.clone()).expect("UTF-8")
+    };
+    let scripts = good_submissions().into_iter();
+    let scripts = scripts.map(|(lab, path)| {
+        let native = tested_record(&lab).to_owned();
+        (format!("{lab} as a script"), (lab, path, native))
+    });
+    let modules = compiled.modules.iter().cloned();
+    // a machine of WebAssembly inside another one
+    let modules = modules.map(|(lab, path)| {
+        let native = record(&lab);
+        (format!("{lab} as a module"), (lab, path, native))
+    });
+    let cases: Vec<_> = scripts.chain(modules).collect();
+    every_case(&cases, |(lab, submission, native)| {
         let submission = submission.to_str().expect("UTF-8");
         let record = node(&module, &["grade", lab, submission]);
-        let native = tested_record(lab);
         // the digests first: they show which task differs
         assert_eq!(digests(&record), digests(native));
-        assert_eq!(record, native);
+        assert_eq!(record, *native);
     });
 }

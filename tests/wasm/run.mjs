@@ -48,7 +48,7 @@ handInFolder("labs");
 let done;
 if (what === "grade") {
   handInFolder("reference");
-  handIn("submission.rhai", submission);
+  handIn(submission.endsWith(".wasm") ? "submission.wasm" : "submission.rhai", submission);
   put(Buffer.from(lab));
   done = grader.grade();
 } else {

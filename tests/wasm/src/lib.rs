@@ -18,6 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use kinemark_grader::judge;
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::submission::handed_in::Submission;
 use kinemark_grader::submission::host::InProcess;
 use kinemark_grader::task::files::Files;
 use kinemark_sim::format::RobotFile;
@@ -37,7 +38,12 @@ pub fn contact_digest(robot_toml: &str) -> Result<String, String> {
     Ok(contact_run::digest(&robot, |_| {}))
 }
 
-/// Files by path, of which `labs/`, `reference/` and `submission.rhai` count.
+/// A script that is handed in.
+const SCRIPT: &str = "submission.rhai";
+/// A module that is handed in.
+const MODULE: &str = "submission.wasm";
+
+/// Files by path, of which `labs/`, `reference/` and the submission count.
 type Handed = BTreeMap<String, Vec<u8>>;
 
 /// Grades what was handed in; returns the record as `kinemark grade --json` prints it.
@@ -45,8 +51,11 @@ fn record(files: &Handed, lab: &str) -> Result<String, String> {
     let folder = |top| Folder { files, top };
     let lab = Lab::load(&folder("labs"), lab).map_err(|error| error.to_string())?;
     let staff = Staff::load(&folder("reference"), &lab, None).map_err(|error| error.to_string())?;
-    let submission = Source::new("submission.rhai", text(files, "submission.rhai")?);
-    let graded = judge::grade(&lab, staff.as_ref(), &submission.into(), &mut InProcess)
+    let submission = match files.get(MODULE) {
+        Some(module) => Submission::module(MODULE, module),
+        None => Source::new(SCRIPT, text(files, SCRIPT)?).into(),
+    };
+    let graded = judge::grade(&lab, staff.as_ref(), &submission, &mut InProcess)
         .map_err(|error| error.to_string())?;
     let json = serde_json::to_string_pretty(&graded.grade).map_err(|error| error.to_string())?;
     Ok(json + "\n")
@@ -136,7 +145,7 @@ pub extern "C" fn end_file() {
     });
 }
 
-/// Grades `submission.rhai` in the lab whose name was put; whether there is a grade. It, or the reason, is then there to take.
+/// Grades the submission in the lab whose name was put; whether there is a grade. It, or the reason, is then there to take.
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn grade() -> bool {
     EXCHANGE.with_borrow_mut(|exchange| {
