@@ -192,8 +192,10 @@ impl Worker {
             };
         }
         let broke_the_rules = error.kind() == std::io::ErrorKind::InvalidData;
-        let status = {
+        let (status, is_out_of_time) = {
             let mut child = self.child.lock().unwrap_or_else(PoisonError::into_inner);
+            // nobody can say so once it has been waited for
+            let is_out_of_time = is_out_of_cpu_time(child.id());
             let status = if broke_the_rules {
                 None
             } else {
@@ -202,7 +204,7 @@ impl Worker {
             // a worker that broke the rules, or closed its output, may still be alive
             let _ = child.kill();
             let _ = child.wait();
-            status
+            (status, is_out_of_time)
         };
         let words = self.last_words.take().and_then(|thread| thread.join().ok());
         let words = words.unwrap_or_default();
@@ -211,7 +213,7 @@ impl Worker {
                 "the worker process sent {error}: look at the submission before you grade it again"
             ));
         };
-        if let Some(limit) = limit_of(status, &words) {
+        if let Some(limit) = limit_of(status, is_out_of_time, &words) {
             return Stop::HostLimit(limit);
         }
         let first = words.lines().find(|line| !line.is_empty());
@@ -280,15 +282,52 @@ fn ended_soon(child: &mut Child) -> Option<ExitStatus> {
     None
 }
 
+/// Whether a process that was not waited for has used the CPU time that it may have, as the system says: nearly all of it, since what the
+/// limit counts by ticks of the clock, and what the system says of it, differ a little.
+#[cfg(target_os = "linux")]
+fn is_out_of_cpu_time(id: u32) -> bool {
+    let read = |name: &str| std::fs::read_to_string(format!("/proc/{id}/{name}")).ok();
+    let ticks = || {
+        let stat = read("stat")?;
+        // the name of the program is in brackets, and may hold any character
+        let (_, after) = stat.rsplit_once(')')?;
+        let mut columns = after.split_whitespace().skip(11);
+        let mut ticks = || columns.next()?.parse::<u64>().ok();
+        ticks()?.checked_add(ticks()?)
+    };
+    let seconds = || {
+        let limits = read("limits")?;
+        let limit = limits
+            .lines()
+            .find_map(|line| line.strip_prefix("Max cpu time"))?;
+        limit.split_whitespace().next()?.parse::<u64>().ok()
+    };
+    let (Some(used), Some(most)) = (ticks(), seconds()) else {
+        return false;
+    };
+    let most = most.saturating_mul(rustix::param::clock_ticks_per_second());
+    used >= most - most / 10
+}
+
+/// Nobody knows on this system.
+#[cfg(not(target_os = "linux"))]
+fn is_out_of_cpu_time(_id: u32) -> bool {
+    false
+}
+
 /// The limit of this machine that ended a worker.
 #[cfg(unix)]
-fn limit_of(status: ExitStatus, words: &str) -> Option<HostLimit> {
+fn limit_of(status: ExitStatus, is_out_of_time: bool, words: &str) -> Option<HostLimit> {
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt as _;
     let signal = status.signal()?;
     let is = |of: Signal| signal == of.as_raw();
     // the limit on CPU time: first a signal that can be refused, then one that cannot
     if is(Signal::XCPU) {
+        return Some(HostLimit::Time);
+    }
+    // the second comes alone where both are the same, as `ulimit -t` sets them
+    if is(Signal::KILL) && is_out_of_time {
         return Some(HostLimit::Time);
     }
     // not by this process: the system had no memory left for it, or somebody ended it
@@ -302,7 +341,7 @@ fn limit_of(status: ExitStatus, words: &str) -> Option<HostLimit> {
 
 /// The same without signals.
 #[cfg(not(unix))]
-fn limit_of(status: ExitStatus, words: &str) -> Option<HostLimit> {
+fn limit_of(status: ExitStatus, _is_out_of_time: bool, words: &str) -> Option<HostLimit> {
     (!status.success() && words.contains(OUT_OF_MEMORY)).then_some(HostLimit::Memory)
 }
 
