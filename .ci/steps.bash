@@ -182,20 +182,25 @@ step_test() { # the README's command
   $command --locked
 }
 
-# The corpus again as a user without privileges, where the gate runs as root: what seals a worker must not need any.
+# The corpus and hostile workers again as a user without privileges, where the gate runs as root: what seals a worker must not need any.
 step_attacks() {
   [ "$(id -u)" = 0 ] || { echo "the tests ran as an ordinary user"; return; }
-  local binaries folder test
-  binaries=$(cargo test --workspace --locked --test attacks --no-run 2>&1 | sed -n 's/.*(\(.*attacks-[0-9a-f]*\)).*/\1/p')
+  local built folder binary test
+  built=$(cargo test --workspace --locked --test attacks --test hostile-worker --no-run 2>&1 |
+    sed -nE 's/.*\((.*(attacks|hostile_worker)-[0-9a-f]+)\).*/\1/p')
   folder=$(mktemp -d)
   # where a user without privileges can read it
-  cp "$binaries" "$folder/attacks"
+  for binary in $built; do
+    cp "$binary" "$folder/$(basename "${binary%-*}")"
+  done
   cp "$target/debug/kinemark" "$folder/kinemark"
   mkdir "$folder/tests" && cp -r tests/attacks tests/submissions "$folder/tests"
   cp -r labs reference "$folder"
   chmod -R a+rX "$folder"
-  (cd "$folder" && setpriv --reuid=65534 --regid=65534 --clear-groups \
-    env HOME=/nonexistent KINEMARK_CHECKOUT="$folder" KINEMARK_BINARY="$folder/kinemark" ./attacks)
+  for test in attacks hostile_worker; do
+    (cd "$folder" && setpriv --reuid=65534 --regid=65534 --clear-groups \
+      env HOME=/nonexistent KINEMARK_CHECKOUT="$folder" KINEMARK_BINARY="$folder/kinemark" "./$test")
+  done
   rm -rf "$folder"
 }
 

@@ -24,6 +24,8 @@ pub(crate) struct Case {
     pub(crate) lab: String,
     /// What it must come to where it has no steps that run something; then it is graded with the course staff's part.
     pub(crate) expect: Option<Expect>,
+    /// What a worker sends instead of what it is asked for: `tests/src/hostile_worker` runs such a case.
+    pub(crate) lie: Option<Lie>,
     /// What is done in turn.
     #[serde(default, rename = "step")]
     pub(crate) steps: Vec<Step>,
@@ -57,6 +59,67 @@ pub(crate) enum Kind {
     Leak,
     /// Reports that were changed.
     Report,
+    /// Messages of a worker that nobody sealed, or that got around its own code.
+    Frames,
+}
+
+/// What a worker sends, again and again until it ends.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Lie {
+    /// In place of which message.
+    pub(crate) at: At,
+    /// Bytes as they are.
+    hex: Option<String>,
+    /// A message of these bytes, then `repeat_hex` so many `times`, then `after_hex`; its length is put before it.
+    frame: Option<String>,
+    repeat_hex: Option<String>,
+    #[serde(default)]
+    times: usize,
+    after_hex: Option<String>,
+    /// Whether it does not wait to be asked again.
+    #[serde(default)]
+    pub(crate) forever: bool,
+    /// Whether it says nothing more.
+    #[serde(default)]
+    pub(crate) silent: bool,
+    /// What it says on its standard error before it ends.
+    pub(crate) says: Option<String>,
+    /// The signal that ends or stops it, without `SIG`.
+    pub(crate) signal: Option<String>,
+    /// The code with which it exits.
+    pub(crate) exit: Option<i32>,
+}
+
+/// A message of a worker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum At {
+    /// The first one: which layers are on.
+    Ready,
+    /// That a submission is open.
+    Open,
+    /// The answer to a call.
+    Call,
+}
+
+impl Lie {
+    /// The bytes that are sent.
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let mut bytes = of_hex(&self.hex);
+        if self.frame.is_some() {
+            let frame = [
+                of_hex(&self.frame),
+                of_hex(&self.repeat_hex).repeat(self.times),
+                of_hex(&self.after_hex),
+            ]
+            .concat();
+            let length = u32::try_from(frame.len()).expect("a length");
+            bytes.extend(length.to_le_bytes());
+            bytes.extend(frame);
+        }
+        bytes
+    }
 }
 
 /// One step: something is made, or the program is run, or a server is asked.
@@ -194,4 +257,15 @@ fn read(folder: &Path, name: String) -> Case {
         folder: folder.to_owned(),
         ..case
     }
+}
+
+/// The bytes that hexadecimal digits stand for.
+pub(crate) fn of_hex(digits: &Option<String>) -> Vec<u8> {
+    let digits = digits.iter().flat_map(|text| text.bytes());
+    let digits: Vec<u8> = digits.filter(u8::is_ascii_hexdigit).collect();
+    let (pairs, _) = digits.as_chunks::<2>();
+    let pairs = pairs.iter().map(|pair| std::str::from_utf8(pair));
+    pairs
+        .map(|pair| u8::from_str_radix(pair.expect("ASCII"), 16).expect("a byte"))
+        .collect()
 }

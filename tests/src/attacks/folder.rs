@@ -4,7 +4,7 @@ use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::process::Command;
 
-use crate::case::{Case, Step};
+use crate::case::{Case, Step, of_hex};
 use crate::testbed::{TestBed, root};
 
 /// Words of a case with the places that only the machine knows.
@@ -106,15 +106,4 @@ fn append(path: &Path, step: &Step) {
     write(&text(&step.repeat), step.times);
     write(&text(&step.after), 1);
     file.flush().expect("written");
-}
-
-/// The bytes that hexadecimal digits stand for.
-fn of_hex(digits: &Option<String>) -> Vec<u8> {
-    let digits = digits.iter().flat_map(|text| text.bytes());
-    let digits: Vec<u8> = digits.filter(u8::is_ascii_hexdigit).collect();
-    let (pairs, _) = digits.as_chunks::<2>();
-    let pairs = pairs.iter().map(|pair| std::str::from_utf8(pair));
-    pairs
-        .map(|pair| u8::from_str_radix(pair.expect("ASCII"), 16).expect("a byte"))
-        .collect()
 }

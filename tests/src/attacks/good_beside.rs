@@ -19,7 +19,7 @@ fn a_good_submission_among_attacks_keeps_its_record() {
     let mut attackers = 0;
     for (name, case) in all_cases() {
         let is_handed_in = case.lab == LAB && case.expect.is_some();
-        if !is_handed_in || case.kind == Kind::Files {
+        if !is_handed_in || matches!(case.kind, Kind::Files | Kind::Frames) {
             continue;
         }
         let bed = TestBed::new();

@@ -2,13 +2,12 @@
 
 use std::io::{BufReader, BufWriter, ErrorKind, Read, Write};
 use std::process::ExitCode;
-use std::sync::mpsc::channel;
 
 use kinemark_grader::submission::controller::{Controller, Said, Stop};
 use kinemark_grader::submission::host::open_here;
 use kinemark_grader::submission::rhai::STACK_BYTES;
 
-use super::seal::{seal, seal_threads};
+use super::seal::{Sealed, in_sealed_thread};
 use super::wire::{
     Attempt, Received, Reply, WireAnswer, WireSaid, WireStop, receive_request, send,
 };
@@ -23,41 +22,27 @@ pub(crate) struct Args {
 
 /// Serves until the input ends.
 pub(crate) fn serve(args: &Args) -> ExitCode {
-    let Some(mut sealed) = seal(args.parent) else {
-        return ExitCode::SUCCESS;
-    };
-    let (started, has_started) = channel();
-    let (ready, begin) = channel();
     let parent = args.parent;
-    let thread = std::thread::Builder::new()
-        .stack_size(STACK_BYTES)
-        .spawn(move || {
-            // a thread begins with system calls that it may not make later
-            let _ = started.send(());
-            // nothing is read before every layer is on
-            let sealed = begin.recv().map_err(std::io::Error::other)?;
-            let mut input = BufReader::new(std::io::stdin());
-            let mut output = BufWriter::new(std::io::stdout());
-            answer_calls((sealed, parent), &mut input, &mut output)
-        });
-    let Ok(thread) = thread else {
-        return ExitCode::FAILURE;
-    };
-    let _ = has_started.recv();
-    seal_threads(&mut sealed);
-    match (ready.send(sealed.bits()), thread.join()) {
+    let served = in_sealed_thread(parent, STACK_BYTES, move |sealed| {
+        let mut input = BufReader::new(std::io::stdin());
+        let mut output = BufWriter::new(std::io::stdout());
+        answer_calls((sealed, parent), &mut input, &mut output)
+    });
+    match served {
+        Ok(None) => ExitCode::SUCCESS,
         // the parent going away is the normal end
-        (Ok(()), Ok(Err(error))) if error.kind() == ErrorKind::UnexpectedEof => ExitCode::SUCCESS,
+        Ok(Some(Err(error))) if error.kind() == ErrorKind::UnexpectedEof => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     }
 }
 
-fn answer_calls(
-    (sealed, parent): (u8, Option<i32>),
+/// Answers requests until there are no more.
+pub(super) fn answer_calls(
+    (sealed, parent): (Sealed, Option<i32>),
     input: &mut impl Read,
     output: &mut impl Write,
 ) -> std::io::Result<()> {
-    send(output, &Reply::Ready(sealed))?;
+    send(output, &Reply::Ready(sealed.bits()))?;
     let mut controller: Option<Box<dyn Controller>> = None;
     loop {
         let reply = match receive_request(input)? {

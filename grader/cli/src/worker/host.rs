@@ -4,6 +4,7 @@
 //! next task or hidden run of the same file, where the code is opened anew. Never is it kept for another file, nor after a stop.
 
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use kinemark_grader::submission::controller::{
     Answer, Budgets, Call, Controller, Opening, Said, Stop,
@@ -11,7 +12,7 @@ use kinemark_grader::submission::controller::{
 use kinemark_grader::submission::handed_in::Program;
 use kinemark_grader::submission::host::Host;
 
-use super::process::{Spent, Worker};
+use super::process::{Spent, WALL_CLOCK, Worker};
 use super::wire::{Reply, Request};
 use crate::interrupt;
 use crate::one_processor::OneProcessor;
@@ -23,6 +24,8 @@ pub(crate) struct WorkerHost {
     kept: Kept,
     /// The submission at work, and the time that its workers have taken.
     spent: Option<(blake3::Hash, Spent)>,
+    /// How long the workers of one submission may take together.
+    pub(crate) longest: Duration,
 }
 
 /// Where a worker waits for the next task of its submission.
@@ -35,6 +38,7 @@ impl WorkerHost {
             processor: OneProcessor::default(),
             kept: Kept::default(),
             spent: None,
+            longest: WALL_CLOCK,
         }
     }
 
@@ -58,7 +62,7 @@ impl WorkerHost {
         match &self.spent {
             Some((known, spent)) if *known == submission => spent.clone(),
             _ => {
-                let spent = Spent::default();
+                let spent = Spent::none_of(self.longest);
                 self.spent = Some((submission, spent.clone()));
                 spent
             }

@@ -17,7 +17,7 @@ use crate::interrupt;
 
 /// How long the workers of one submission may take together while they are waited for: far above what the counted budgets allow, so
 /// that it speaks of the machine alone.
-const WALL_CLOCK: Duration = Duration::from_secs(60);
+pub(super) const WALL_CLOCK: Duration = Duration::from_secs(60);
 /// How often the watchdog looks whether that is over.
 const LOOK: Duration = Duration::from_millis(50);
 /// A worker that was waited for at fewer looks has most of its time before it: 2 s.
@@ -28,13 +28,26 @@ const SMALL_BYTES: usize = 24 << 20;
 /// Says that a worker has come to the end of its address space; the language's runtime writes it.
 const OUT_OF_MEMORY: &str = "memory allocation of";
 
-/// The time of all workers of one submission: at how many looks one of them was waited for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Spent(Arc<AtomicU32>);
+/// The time of all workers of one submission.
+#[derive(Debug, Clone)]
+pub(super) struct Spent {
+    /// At how many looks one of them was waited for.
+    looks: Arc<AtomicU32>,
+    /// The most time.
+    most: Duration,
+}
 
 impl Spent {
-    fn time(&self) -> Duration {
-        LOOK * self.0.load(Ordering::Relaxed)
+    /// None of `most`.
+    pub(super) fn none_of(most: Duration) -> Self {
+        Self {
+            looks: Arc::default(),
+            most,
+        }
+    }
+
+    fn is_all(&self) -> bool {
+        LOOK * self.looks.load(Ordering::Relaxed) >= self.most
     }
 }
 
@@ -88,9 +101,9 @@ impl Worker {
                 }
                 if is_awaited.load(Ordering::Relaxed) {
                     looks.fetch_add(1, Ordering::Relaxed);
-                    spent.0.fetch_add(1, Ordering::Relaxed);
+                    spent.looks.fetch_add(1, Ordering::Relaxed);
                 }
-                if spent.time() >= WALL_CLOCK || interrupt::asked() {
+                if spent.is_all() || interrupt::asked() {
                     // gone already is as good
                     let _ = child.lock().unwrap_or_else(PoisonError::into_inner).kill();
                     return true;
@@ -362,7 +375,7 @@ pub(crate) fn probe() -> Result<Probe, String> {
         Stop::GraderFault(words) => words,
         other => format!("{other:?}"),
     };
-    let mut worker = Worker::start(blake3::hash(b""), Spent::default())
+    let mut worker = Worker::start(blake3::hash(b""), Spent::none_of(WALL_CLOCK))
         .map_err(|error| format!("a worker process could not be started: {error}"))?;
     let reply = worker.exchange(&Request::Try).map_err(words)?;
     let Reply::Tried(tried) = reply else {

@@ -4,6 +4,8 @@
 //! It uses nothing of the rest of this crate: a test seals a process of its own with it, which then tries to get out.
 
 use std::fmt;
+use std::io;
+use std::sync::mpsc::channel;
 
 /// One thing that a worker gives up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,14 +109,43 @@ const CPU_GRACE_SECONDS: u64 = 5;
 #[cfg(unix)]
 const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 
-/// Puts on every layer that does not depend on the threads of the process. Call it before any other thread starts; `parent` is the
-/// process that this one must not outlive, and without which there is nothing to seal for.
+/// Seals this process, and does `work` in a thread of its own, which begins once every layer is on. Call it in the first thread, with no
+/// other beside it; `parent` is the process that this one must not outlive. `None` if that is gone: there is nothing to seal for.
+///
+/// # Errors
+/// If no thread starts, or `work` panics.
+pub(crate) fn in_sealed_thread<T: Send + 'static>(
+    parent: Option<i32>,
+    stack_bytes: usize,
+    work: impl FnOnce(Sealed) -> T + Send + 'static,
+) -> io::Result<Option<T>> {
+    let Some(mut sealed) = seal(parent) else {
+        return Ok(None);
+    };
+    let (started, has_started) = channel();
+    let (ready, begin) = channel();
+    let thread = std::thread::Builder::new()
+        .stack_size(stack_bytes)
+        .spawn(move || {
+            // a thread begins with system calls that it may not make later
+            let _ = started.send(());
+            // nothing is read before every layer is on
+            begin.recv().map(work)
+        })?;
+    let _ = has_started.recv();
+    seal_threads(&mut sealed);
+    ready.send(sealed).map_err(io::Error::other)?;
+    let ended = thread.join().map_err(|_| io::Error::other("a panic"))?;
+    ended.map(Some).map_err(io::Error::other)
+}
+
+/// Puts on every layer that does not depend on the threads of the process.
 #[cfg(unix)]
 #[cfg_attr(
     not(target_os = "linux"),
     expect(unused_variables, reason = "only Linux says that a parent is gone")
 )]
-pub(crate) fn seal(parent: Option<i32>) -> Option<Sealed> {
+fn seal(parent: Option<i32>) -> Option<Sealed> {
     let mut sealed = Sealed::default();
     sealed.note(Layer::Descriptors, close_inherited());
     #[cfg(target_os = "linux")]
@@ -130,13 +161,13 @@ pub(crate) fn seal(parent: Option<i32>) -> Option<Sealed> {
 
 /// This system has no layers: budgets and a process of its own are all there is.
 #[cfg(not(unix))]
-pub(crate) fn seal(_parent: Option<i32>) -> Option<Sealed> {
+fn seal(_parent: Option<i32>) -> Option<Sealed> {
     Some(Sealed::default())
 }
 
 /// Puts on the layers of all threads, when all of them have started: from here on no thread and no process can.
 #[cfg(target_os = "linux")]
-pub(crate) fn seal_threads(sealed: &mut Sealed) {
+fn seal_threads(sealed: &mut Sealed) {
     let is_on = linux::no_more_processes();
     if !is_on {
         sealed.0 &= !Layer::Limits.bit();
@@ -146,14 +177,15 @@ pub(crate) fn seal_threads(sealed: &mut Sealed) {
 
 /// This system has none.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn seal_threads(_sealed: &mut Sealed) {}
+fn seal_threads(_sealed: &mut Sealed) {}
 
+/// Closes every descriptor but the three that every program has.
 #[cfg(unix)]
 #[expect(
     unsafe_code,
     reason = "whatever owned these descriptors ran in another program, before this one began"
 )]
-fn close_inherited() -> bool {
+pub(crate) fn close_inherited() -> bool {
     // SAFETY: nothing in this process has opened a file yet, so that no owner of a descriptor is left with a closed one
     unsafe { close_fds::close_open_fds(3, &[]) };
     true
@@ -161,7 +193,7 @@ fn close_inherited() -> bool {
 
 /// Limits of the system, soft and hard; none can be raised again.
 #[cfg(unix)]
-fn limits() -> bool {
+pub(crate) fn limits() -> bool {
     use rustix::process::{Resource, Rlimit, setrlimit};
     let limits = [
         (Resource::As, ADDRESS_SPACE_BYTES, ADDRESS_SPACE_BYTES),
@@ -183,8 +215,9 @@ fn limits() -> bool {
     all
 }
 
+/// The layers that only Linux has.
 #[cfg(target_os = "linux")]
-mod linux {
+pub(crate) mod linux {
     use std::collections::BTreeMap;
 
     use landlock::{
@@ -199,7 +232,7 @@ mod linux {
 
     /// Leaves the terminal and the group of the grader, ends with it, and closes itself to other processes of the same user. `None`
     /// if the grader went away before this process could ask to go with it.
-    pub(super) fn leave_session(parent: Option<i32>) -> Option<bool> {
+    pub(crate) fn leave_session(parent: Option<i32>) -> Option<bool> {
         // it leads no group yet, so that this cannot fail; a terminal's signals go to the grader alone
         let own = rustix::process::setsid().is_ok();
         let root = std::env::set_current_dir("/").is_ok();
@@ -213,7 +246,7 @@ mod linux {
     }
 
     /// Whether no file is left, and no network.
-    pub(super) fn landlock() -> (bool, bool) {
+    pub(crate) fn landlock() -> (bool, bool) {
         let files = AccessFs::from_all(ABI::V5);
         let restrict = |network: bool| {
             let rules = Ruleset::default().set_compatibility(CompatLevel::BestEffort);
@@ -237,7 +270,7 @@ mod linux {
     }
 
     /// No process and no thread can be started; as root the system does not count, and the filter of system calls stands alone.
-    pub(super) fn no_more_processes() -> bool {
+    pub(crate) fn no_more_processes() -> bool {
         let none = Rlimit {
             current: Some(0),
             maximum: Some(0),
@@ -246,7 +279,7 @@ mod linux {
     }
 
     /// Lets through what computing, answering and ending take. Everything else fails with "operation not permitted".
-    pub(super) fn filter_system_calls() -> bool {
+    pub(crate) fn filter_system_calls() -> bool {
         program().is_some_and(|program| seccompiler::apply_filter_all_threads(&program).is_ok())
     }
 
