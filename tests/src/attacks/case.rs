@@ -173,6 +173,9 @@ pub(crate) struct Step {
     pub(crate) serve: Vec<String>,
     #[serde(default)]
     pub(crate) ask: Vec<Ask>,
+    /// Clients that have come before whoever asks, and stay.
+    #[serde(default)]
+    pub(crate) wait: Vec<Waiting>,
 
     #[serde(default)]
     pub(crate) expect: Expect,
@@ -213,12 +216,26 @@ pub(crate) struct Expect {
 pub(crate) struct Ask {
     /// The request without its end; `{host}` and `{path}` are those of the address that was printed.
     pub(crate) send: String,
+    /// Whether each byte is sent by itself.
+    #[serde(default)]
+    pub(crate) by_byte: bool,
     /// The code of the answer; 0 where the connection is closed without one.
     pub(crate) code: u16,
     #[serde(default)]
     pub(crate) says: Vec<String>,
     #[serde(default)]
     pub(crate) never: Vec<String>,
+}
+
+/// Clients of a server that read nothing.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Waiting {
+    /// How many.
+    pub(crate) clients: usize,
+    /// What each of them sends, and no more; places as in [`Ask`].
+    #[serde(default)]
+    pub(crate) send: String,
 }
 
 fn lab_1() -> String {
