@@ -338,6 +338,16 @@ impl<'n> Rewriting<'n> {
 
     /// The same where messages about the value give the position of its beginning.
     fn value_from_its_beginning(&mut self, expr: &mut Expr) {
+        if let Expr::And(parts, _) | Expr::Or(parts, _) | Expr::Coalesce(parts, _) = expr {
+            // it begins where its first part does
+            for (index, part) in parts.iter_mut().enumerate() {
+                match index {
+                    0 => self.value_from_its_beginning(part),
+                    _ => self.value(part),
+                }
+            }
+            return;
+        }
         let begins = expr.start_position();
         self.value(expr);
         if let Expr::Custom(_, position) = expr {

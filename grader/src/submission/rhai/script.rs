@@ -83,6 +83,9 @@ impl CachedRobot {
     }
 }
 
+/// What a script becomes before it runs: [`metered()`].
+pub(super) type Rewrite = fn(&mut Engine, &Rc<Meter>, &AST, &Names) -> Result<AST, Stop>;
+
 impl ScriptController {
     /// Compiles a script and runs its statements outside of functions.
     ///
@@ -90,6 +93,11 @@ impl ScriptController {
     /// [`Stop::DidNotBuild`] if it does not compile, [`Stop::OverBudget`] if it is too long or too deep, and any stop of its top-level
     /// statements.
     pub fn open(opening: &Opening) -> Result<Self, Stop> {
+        Self::rewritten(opening, metered)
+    }
+
+    /// The same with another rewriting: a test runs the script as it was read.
+    pub(super) fn rewritten(opening: &Opening, rewrite: Rewrite) -> Result<Self, Stop> {
         let source = opening.program.text();
         let budgets = &opening.budgets;
         if source.len() as u64 > budgets.source_bytes {
@@ -131,7 +139,7 @@ impl ScriptController {
         refuse_known_slips(&ast)?;
         collect_names(&ast, &mut names, opening.function.as_deref());
         globals.functions.set(names.functions.len());
-        let ast = metered(&mut engine, &meter, &ast, &names)?;
+        let ast = rewrite(&mut engine, &meter, &ast, &names)?;
 
         let mut global = engine.new_global_runtime_state();
         global.lib.push(ast.shared_lib().clone());

@@ -9,6 +9,7 @@ use crate::submission::handed_in::Program;
 mod budgets;
 mod calls;
 mod definitions;
+mod metered;
 mod reference;
 mod slips;
 mod values;

@@ -1,0 +1,137 @@
+//! A script gives with its charges what it gives without: values, output, mistakes and their places, in scripts that nobody wrote.
+
+use std::fmt::Write as _;
+
+use proptest::prelude::*;
+
+use super::{observation, opening};
+use crate::submission::controller::{Answer, Call, Controller, Said, Stop};
+use crate::submission::rhai::ScriptController;
+
+/// What two calls come to, one after another: state stays in between.
+fn outcome(source: &str, has_charges: bool) -> (Vec<Result<Answer, Stop>>, Said) {
+    let mut opening = opening(source);
+    opening.budgets.operations_per_call = 10_000_000;
+    let opened = match has_charges {
+        true => ScriptController::open(&opening),
+        false => ScriptController::rewritten(&opening, |_, _, ast, _| Ok(ast.clone())),
+    };
+    let mut script = match opened {
+        Ok(script) => script,
+        Err(stop) => return (vec![Err(stop)], Said::default()),
+    };
+    let mut call = || {
+        let answer = script.call(&Call::Control(observation()));
+        // what is counted is the difference
+        answer.map(|answer| Answer {
+            operations: 0,
+            ..answer
+        })
+    };
+    let answers = vec![call(), call()];
+    (answers, script.unanswered())
+}
+
+/// Expressions; `x` and `n` are variables, `this` has what statements before gave it.
+fn expression() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        3 => prop::sample::select(vec![
+            "x", "n", "this", "this.a", "this.m", "this.m.k", "this.a[0]", "this.a[n]", "this.m[\"k\"]", "o.q", "o.q[1]", "o.tick",
+        ])
+        .prop_map(str::to_owned),
+        1 => (-3_i64..20).prop_map(|number| number.to_string()),
+        1 => prop::sample::select(vec!["1.5", "\"ab\"", "true", "()", "[]", "#{}", "this.none", "this.a[99]"]).prop_map(str::to_owned),
+        // a list of constants that is written out
+        1 => (14_usize..20).prop_map(|count| format!("[{}]", vec!["7"; count].join(", "))),
+    ];
+    leaf.prop_recursive(4, 24, 4, |inner| {
+        let pair = (inner.clone(), inner.clone());
+        prop_oneof![
+            pair.clone().prop_map(|(a, b)| format!("[{a}, {b}]")),
+            pair.clone()
+                .prop_map(|(a, b)| format!("#{{k: {a}, l: {b}}}")),
+            pair.clone().prop_map(|(a, b)| format!("({a}) + ({b})")),
+            pair.clone().prop_map(|(a, b)| format!("({a}) == ({b})")),
+            inner.clone().prop_map(|a| format!("[{a}, n][n]")),
+            inner.clone().prop_map(|a| format!("this.a[len([{a}])]")),
+            pair.clone().prop_map(|(a, b)| format!("(({a}) ?? ({b}))")),
+            pair.clone().prop_map(|(a, b)| format!("f({a}, {b})")),
+            pair.clone()
+                .prop_map(|(a, b)| format!("g({a}, {b}, 1, 2, 3)")),
+            pair.clone()
+                .prop_map(|(a, b)| format!("if ({a}) == ({b}) {{ {a} }} else {{ {b} }}")),
+            pair.prop_map(|(a, b)| format!(
+                "switch {a} {{ 1 => {b}, 2..9 => {a}, \"ab\" => 3, _ => [{a}] }}"
+            )),
+            inner.clone().prop_map(|a| format!("len({a})")),
+            inner.clone().prop_map(|a| format!("({a}).k")),
+            inner.clone().prop_map(|a| format!("`<${{{a}}}>`")),
+            inner
+                .clone()
+                .prop_map(|a| format!("({{ let y = {a}; y }})")),
+            inner.prop_map(|a| format!("(({a}) == 1 && true)")),
+        ]
+    })
+}
+
+/// Statements that set state and variables, loop, and catch what goes wrong.
+fn statement() -> impl Strategy<Value = String> {
+    let simple = prop_oneof![
+        expression().prop_map(|a| format!("x = {a};")),
+        expression().prop_map(|a| format!("this.a = {a};")),
+        expression().prop_map(|a| format!("this.m = #{{k: {a}}};")),
+        (expression(), expression()).prop_map(|(a, b)| format!("this.a[{a}] = {b};")),
+        expression().prop_map(|a| format!("this.m.k = {a};")),
+        expression().prop_map(|a| format!("this.a += {a};")),
+        expression().prop_map(|a| format!("print({a});")),
+        expression().prop_map(|a| format!("this.a.push({a});")),
+        expression().prop_map(|a| format!("if n > 2 {{ throw {a}; }}")),
+    ];
+    simple.prop_recursive(3, 12, 3, |inner| {
+        let block = prop::collection::vec(inner, 1..3).prop_map(|lines| lines.join(" "));
+        prop_oneof![
+            (block.clone(), block.clone())
+                .prop_map(|(a, b)| format!("try {{ {a} }} catch {{ {b} }}")),
+            (block.clone(), block.clone())
+                .prop_map(|(a, b)| format!("try {{ {a} }} catch (wrong) {{ x = wrong; {b} }}")),
+            block
+                .clone()
+                .prop_map(|a| format!("for v in 0..3 {{ n = v; {a} }}")),
+            (expression(), block.clone())
+                .prop_map(|(e, a)| format!("for v in [{e}, n] {{ x = v; {a} }}")),
+            block.prop_map(|a| format!("{{ let c = 0; while c < 3 {{ c += 1; {a} }} }}")),
+        ]
+    })
+}
+
+fn script() -> impl Strategy<Value = String> {
+    // what nobody catches ends all that would follow
+    let statements = prop::collection::vec((statement(), prop::bool::weighted(0.9)), 1..8);
+    (statements, expression()).prop_map(|(statements, last)| {
+        let mut text = "fn f(a, b) { if len([a]) == 1 { [b, a] } else { a } }\n".to_owned();
+        text += "fn g(a, b, c, d, e) { a }\n";
+        text += "fn control(o) {\n let x = 1; let n = 0;\n";
+        text += " if !(\"a\" in this) { this.a = [1, 2, [3]]; this.m = #{k: 4}; }\n";
+        for (statement, is_caught) in statements {
+            // into a string: nothing can fail
+            let _ = match is_caught {
+                true => writeln!(text, " try {{ {statement} }} catch (w) {{ print(w); }}"),
+                false => writeln!(text, " {statement}"),
+            };
+        }
+        format!("{text} {last}\n}}\n")
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn charges_change_nothing_but_the_count(source in script()) {
+        let charged = outcome(&source, true);
+        // values that grow without end reach a budget, with charges sooner
+        let is_over = |outcome: &Result<Answer, Stop>| matches!(outcome, Err(Stop::OverBudget { .. }));
+        prop_assume!(!charged.0.iter().any(is_over));
+        prop_assert_eq!(charged, outcome(&source, false), "{}", source);
+    }
+}
