@@ -100,7 +100,6 @@ pub(crate) enum LogCommand {
 pub(crate) enum LabCommand {
     Check(lab_check::Args),
     Draws(lab_draws::Args),
-    /// Fill
     Fill(lab_fill::Args),
     Variant(lab_variant::Args),
     Pack(lab_pack::Args),
