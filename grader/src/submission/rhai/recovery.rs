@@ -170,18 +170,49 @@ fn without_statements(code: &str) -> String {
     left
 }
 
-/// The header of the function that a line of code defines, its parameters as names alone.
+/// The header of the function that a line of code defines, its name and its parameters as names alone. With a brace in it, a line would
+/// be longer after every repair.
 fn header(code: &str) -> Option<String> {
     let (before, rest) = code.split_once("fn ")?;
     let is_of_rust = before.trim().is_empty() || before.trim() == "pub";
     let (name, rest) = rest.split_once('(').filter(|_| is_of_rust)?;
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let name = Some(name.trim()).filter(|name| name.chars().all(is_name))?;
     let (parameters, _) = rest.split_once(')')?;
     let name_of = |parameter: &str| {
         let name = parameter.split([':', '=']).next().unwrap_or_default();
-        let mut words = name.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let mut words = name.split(|c: char| !is_name(c));
         let word = words.rfind(|word| !word.is_empty() && !["mut", "self"].contains(word));
         word.map(str::to_owned)
     };
     let parameters: Vec<String> = parameters.split(',').filter_map(name_of).collect();
-    Some(format!("fn {}({})", name.trim(), parameters.join(", ")))
+    Some(format!("fn {name}({})", parameters.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_of_a_line_stays_as_it_is() {
+        for code in [
+            "fn f(a, b) { let x = ; } }",
+            "fn f == b { 2 } else { c } d(row); }",
+            "fn { } { } (",
+            "fn {{{( } { })",
+            "pub fn f(mut a: f64) -> f64 { a } fn g() { { } }",
+        ] {
+            let once = without_statements(code);
+            assert_eq!(without_statements(&once), once, "{code}");
+        }
+    }
+
+    #[test]
+    fn a_header_is_of_a_function_with_a_name() {
+        assert_eq!(
+            header("pub fn f(&mut a: f64, b) {").as_deref(),
+            Some("fn f(a, b)")
+        );
+        assert_eq!(header("fn f == b { 2 } (c)"), None);
+    }
 }
