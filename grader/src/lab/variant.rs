@@ -418,6 +418,11 @@ fn not_steps(from: f64, to: f64, step: f64) -> RuleProblem {
     let (what, help) = if from > to {
         let what = format!("`from` {from} is above `to` {to}");
         (what, format!("write from = {to}, to = {from}"))
+    } else if step > 0.0 && is_lost(from, to, step) {
+        let what = format!(
+            "a step of {step} does not show in numbers such as {from} and {to}: a student's number has 12 digits"
+        );
+        (what, "choose a longer step".to_owned())
     } else if step > 0.0 && steps.is_finite() && steps <= MOST_STEPS {
         let count = trimmed(steps, 2);
         // rounded, it would read as an integer
@@ -439,6 +444,11 @@ fn not_steps(from: f64, to: f64, step: f64) -> RuleProblem {
         (what, help.to_owned())
     };
     RuleProblem::Steps { what, help }
+}
+
+/// Whether a step is lost where a drawn number is written with 12 digits.
+fn is_lost(from: f64, to: f64, step: f64) -> bool {
+    step < 1e-11 * from.abs().max(to.abs())
 }
 
 /// A step of which `way` is a multiple, near the one of which it is `steps`: with few digits where there is such a one.
@@ -487,6 +497,7 @@ pub(super) fn rules(
         for StepsTable { from, to, step } in tables {
             let whole = ((to - from) / step).round();
             let fits = step > 0.0
+                && !is_lost(from, to, step)
                 && (0.0..=MOST_STEPS).contains(&whole)
                 && (from + whole * step - to).abs() <= 1e-6 * step;
             if !fits {
@@ -583,6 +594,16 @@ mod tests {
             let k = chosen("salt", "lab", &format!("s{student}"), "x", None, 21);
             seen[k as usize] += 1;
         }
+        // however many digits the first has
+        for (from, step) in [(123_456.789_123_4, 1e-3), (99_999.500_000_01, 1e-5)] {
+            assert!(!is_lost(from, from + 20.0 * step, step));
+            let steps = Steps {
+                from,
+                step,
+                ..steps
+            };
+            assert!((0..21).all(|k| steps.gives(steps.value(k))), "{from}");
+        }
         // 100 are expected of each, with a standard deviation of 10
         assert!(seen.iter().all(|&n| (50..150).contains(&n)), "{seen:?}");
     }
@@ -604,6 +625,11 @@ mod tests {
                 [0.0, 1.0, -0.1],
                 "from 0 to 1 is not 1 to 1000000 steps of -0.1",
                 "write such as { from = 2.9, to = 3.1, step = 0.01 }",
+            ),
+            (
+                [1_000_000_000_000_001.0, 1_000_000_000_000_005.0, 1.0],
+                "a step of 1 does not show in numbers such as 1000000000000001 and 1000000000000005: a student's number has 12 digits",
+                "choose a longer step",
             ),
         ] {
             let [from, to, step] = numbers;
