@@ -210,7 +210,14 @@ pub(super) struct WireMistake {
     message: String,
     place: Option<SourcePosition>,
     help: Option<String>,
-    further: Bounded<FurtherMistake>,
+    further: Bounded<WireFurther>,
+}
+
+/// A [`FurtherMistake`].
+#[derive(Serialize, Deserialize)]
+struct WireFurther {
+    lines: Bounded<usize>,
+    help: String,
 }
 
 impl WireAnswer {
@@ -368,11 +375,16 @@ const MOST_FURTHER: usize = 100;
 
 impl WireMistake {
     fn of(mistake: Mistake) -> Self {
+        let further = mistake.further.into_iter();
+        let further = further.map(|FurtherMistake { lines, help }| WireFurther {
+            lines: Bounded(lines),
+            help,
+        });
         Self {
             message: mistake.message,
             place: mistake.place,
             help: mistake.help,
-            further: Bounded(mistake.further),
+            further: Bounded(further.collect()),
         }
     }
 
@@ -382,7 +394,12 @@ impl WireMistake {
             message: short(self.message),
             place: self.place,
             help: self.help.map(short),
-            further: further.collect(),
+            further: further
+                .map(|WireFurther { lines, help }| FurtherMistake {
+                    lines: lines.0,
+                    help: short(help),
+                })
+                .collect(),
         }
     }
 }
@@ -500,15 +517,25 @@ mod tests {
     fn a_worker_has_no_word_for_what_is_not_its_to_say() {
         assert!(WireStop::of(Stop::Interrupted).is_err());
         assert!(WireStop::of(Stop::GraderFault("x".to_owned())).is_err());
+        let long = "é".repeat(100_000);
+        let further = FurtherMistake {
+            lines: vec![3, 5],
+            help: long.clone(),
+        };
         let long = Stop::Crashed(Mistake {
-            message: "é".repeat(100_000),
+            message: long.clone(),
             place: None,
-            help: None,
-            further: Vec::new(),
+            help: Some(long),
+            further: vec![further; 1_000],
         });
         let Ok(Stop::Crashed(mistake)) = WireStop::of(long).map(WireStop::stop) else {
             panic!("no crash");
         };
-        assert_eq!(mistake.message.chars().count(), 8_001);
+        let is_short = |text: &str| text.chars().count() == 8_001;
+        assert!(is_short(&mistake.message) && mistake.help.is_some_and(|help| is_short(&help)));
+        assert_eq!(mistake.further.len(), MOST_FURTHER);
+        for further in mistake.further {
+            assert!(is_short(&further.help) && further.lines == [3, 5]);
+        }
     }
 }
