@@ -2,10 +2,11 @@
 
 mod chunks;
 mod sums;
+mod texts;
 
 use std::sync::Arc;
 
-use ::mcap::records::Record;
+use ::mcap::records::{Record, op};
 use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use ::mcap::{Channel, McapError, parse_record};
 
@@ -231,6 +232,19 @@ fn stream(
         };
         let size = data.len();
         taken.unpack(size)?;
+        // of the others nothing is needed, not even a checksum
+        if !matches!(
+            opcode,
+            op::SCHEMA | op::CHANNEL | op::MESSAGE | op::ATTACHMENT
+        ) {
+            continue;
+        }
+        if !texts::lie_in(opcode, data) {
+            return Err(ReadError::Damaged {
+                messages: *count,
+                why: "a text is longer than its record".to_owned(),
+            });
+        }
         let record = parse_record(opcode, data).map_err(|error| read_error(error, *count))?;
         if matches!(record, Record::Schema { .. } | Record::Channel(_)) {
             taken.keep(size)?;

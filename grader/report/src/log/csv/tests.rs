@@ -250,6 +250,46 @@ fn a_chunk_that_is_shorter_than_its_records_is_damage() {
     }
 }
 
+/// A log of these records, without a checksum.
+fn log_of_records(records: &[(u8, Vec<u8>)]) -> Vec<u8> {
+    let mut log = ::mcap::MAGIC.to_vec();
+    let end = [(0x0f, vec![0; 4]), (0x02, vec![0; 20])];
+    for (opcode, record) in records.iter().chain(&end) {
+        log.push(*opcode);
+        log.extend((record.len() as u64).to_le_bytes());
+        log.extend(record);
+    }
+    log.extend(::mcap::MAGIC);
+    log
+}
+
+/// The parser of records makes room for a text as long as it says, and takes an attachment to be as long as its head.
+#[test]
+fn a_text_that_is_longer_than_its_record_is_damage() {
+    let lying = u32::MAX.to_le_bytes();
+    let schema = [&[1, 0][..], &lying, &lying].concat();
+    let channel = [&[1, 0, 0, 0][..], &lying, &lying].concat();
+    let map = [&[1, 0, 0, 0][..], &[0; 8], &[8, 0, 0, 0], &lying, &lying].concat();
+    let attachment = [&[0; 16][..], &lying, &lying].concat();
+    let mut records = vec![(3, schema), (4, channel), (4, map), (9, attachment)];
+    for opcode in [3, 4, 9] {
+        records.extend((0..40).map(|length| (opcode, vec![0; length])));
+    }
+    for (opcode, record) in records {
+        let length = record.len();
+        match tables(&log_of_records(&[(opcode, record)])).unwrap_err() {
+            // all of its texts are empty
+            ReadError::NoMessages => assert!(length >= 2 + 8, "{opcode} {length}"),
+            ReadError::Damaged { .. } => {}
+            other => panic!("{opcode} {length}: {other}"),
+        }
+    }
+    // of other records nothing is needed
+    let header = [&lying[..], &lying].concat();
+    let error = tables(&log_of_records(&[(1, header)])).unwrap_err();
+    assert!(matches!(error, ReadError::NoMessages), "{error}");
+}
+
 /// A few kilobytes that would unpack to much, or become much.
 #[test]
 fn small_logs_cost_little() {
