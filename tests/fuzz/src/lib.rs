@@ -1,5 +1,6 @@
 //! What every target does with a robot or an error it gets: walk through all of it, so that whatever loads can be worked with.
 
+pub mod labs;
 mod opening;
 
 pub use opening::opening;
@@ -8,7 +9,6 @@ use kinemark_sim::dynamics::{
     GRAVITY_M_S2, driven_efforts, energy, forward_dynamics, gravity_effort, inverse_dynamics,
     mass_matrix,
 };
-use kinemark_sim::format::RobotError;
 use kinemark_sim::joint_space::{
     JointAccelerations, JointEfforts, JointPositions, JointVelocities,
 };
@@ -17,7 +17,8 @@ use kinemark_sim::kinematics::inverse::{IkSettings, Target, inverse_kinematics};
 use kinemark_sim::kinematics::manipulability::{Manipulability, TWIST};
 use kinemark_sim::kinematics::{forward_kinematics, geometric_jacobian};
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Problem as _;
+use kinemark_sim::text::{Located, Problem};
+use miette::{Diagnostic as _, SourceCode as _};
 
 /// Robots with more joints are only loaded: the algorithms' time grows with the square of it.
 const MOST_JOINTS: usize = 50;
@@ -70,11 +71,21 @@ pub fn exercise(robot: &Robot) {
 }
 
 /// Reads all that a person would see of an error; its place must lie in the text.
-pub fn explain(error: &RobotError) {
+pub fn explain<P: Problem>(error: &Located<P>) {
     let (line, column) = error.line_and_column();
     assert!(line >= 1 && column >= 1);
-    let lines = error.source().text().split('\n').count();
+    let text = error.source().text();
+    let lines = text.split('\n').count();
     assert!(line <= lines, "line {line} of {lines}");
+    for label in error.labels().into_iter().flatten() {
+        let excerpt = text.read_span(label.inner(), 0, 0);
+        assert!(
+            excerpt.is_ok(),
+            "{:?} of {} bytes",
+            label.inner(),
+            text.len()
+        );
+    }
     assert!(!error.to_string().is_empty());
     assert!(!error.problem.code().is_empty());
     error.problem.label();
