@@ -232,20 +232,9 @@ fn stream(
         };
         let size = data.len();
         taken.unpack(size)?;
-        // of the others nothing is needed, not even a checksum
-        if !matches!(
-            opcode,
-            op::SCHEMA | op::CHANNEL | op::MESSAGE | op::ATTACHMENT
-        ) {
+        let Some(record) = parsed(opcode, data, *count)? else {
             continue;
-        }
-        if !texts::lie_in(opcode, data) {
-            return Err(ReadError::Damaged {
-                messages: *count,
-                why: "a text is longer than its record".to_owned(),
-            });
-        }
-        let record = parse_record(opcode, data).map_err(|error| read_error(error, *count))?;
+        };
         if matches!(record, Record::Schema { .. } | Record::Channel(_)) {
             taken.keep(size)?;
         }
@@ -275,6 +264,24 @@ fn stream(
         known.map_err(|error| read_error(error, *count))?;
     }
     Ok(())
+}
+
+/// A record of a kind that tables need; of the others nothing is, not even a checksum.
+fn parsed(opcode: u8, data: &[u8], messages: u64) -> Result<Option<Record<'_>>, ReadError> {
+    if !matches!(
+        opcode,
+        op::SCHEMA | op::CHANNEL | op::MESSAGE | op::ATTACHMENT
+    ) {
+        return Ok(None);
+    }
+    if !texts::lie_in(opcode, data) {
+        return Err(ReadError::Damaged {
+            messages,
+            why: "a text is longer than its record".to_owned(),
+        });
+    }
+    let record = parse_record(opcode, data).map_err(|error| read_error(error, messages))?;
+    Ok(Some(record))
 }
 
 /// The reader's errors, in words.
