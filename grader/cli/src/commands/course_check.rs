@@ -108,9 +108,13 @@ fn roster(course: &Course) -> Row {
         1 => ", 1 section".to_owned(),
         count => format!(", {count} sections"),
     };
+    let students = match people.len() {
+        1 => "1 student".to_owned(),
+        count => format!("{count} students"),
+    };
     Row {
         what: "roster".to_owned(),
-        found: format!("{} students{of_sections}", people.len()),
+        found: format!("{students}{of_sections}"),
         problem: None,
         help: None,
     }

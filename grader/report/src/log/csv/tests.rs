@@ -250,6 +250,45 @@ fn a_chunk_that_is_shorter_than_its_records_is_damage() {
     }
 }
 
+/// A chunk whose only record is longer than its packed size, of this many bytes.
+fn torn_chunk(bytes: usize) -> Vec<u8> {
+    let record = [
+        &[0x05][..],
+        &[bytes as u8, 0, 0, 0, 0, 0, 0, 0],
+        &vec![0; bytes],
+    ]
+    .concat();
+    let packed = (record.len() as u64 - 1).to_le_bytes();
+    [&[0; 32][..], &packed, &record].concat()
+}
+
+/// The reader looks at what there is of a chunk, and for chunks behind the end of the data.
+#[test]
+fn a_torn_chunk_is_damage_where_it_is_cut_off_and_behind_the_data() {
+    let whole = log_of_records(&[(0x06, torn_chunk(30))]);
+    let content = ::mcap::MAGIC.len() + 9;
+    for end in content..=whole.len() {
+        let error = tables(&whole[..end]).unwrap_err();
+        let seen = end >= content + 40 + 9;
+        assert_eq!(
+            matches!(error, ReadError::Damaged { .. }),
+            seen,
+            "{end}: {error}"
+        );
+    }
+    let behind = log_of_records(&[(0x0f, vec![0; 4]), (0x06, torn_chunk(30))]);
+    let error = tables(&behind).unwrap_err();
+    assert!(matches!(error, ReadError::Damaged { .. }), "{error}");
+    // all that is missing is the end
+    let mut sound = torn_chunk(30);
+    sound[32] += 1;
+    let sound = log_of_records(&[(0x06, sound)]);
+    for end in content..content + 40 + 9 + 30 {
+        let error = tables(&sound[..end]).unwrap_err();
+        assert!(matches!(error, ReadError::CutOff { .. }), "{end}: {error}");
+    }
+}
+
 /// A log of these records, without a checksum.
 fn log_of_records(records: &[(u8, Vec<u8>)]) -> Vec<u8> {
     let mut log = ::mcap::MAGIC.to_vec();
