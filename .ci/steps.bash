@@ -309,7 +309,7 @@ check_labs() { # VARIANTS: starter, reference solution in so many variants, muta
     release lab check "$(basename "$lab")" --variants "$1"
   done
 }
-step_labs() { check_labs 10; }
+step_labs() { check_labs 5; }
 
 # --- how steps are run -----------------------------------------------------------------------------------------------------------
 
