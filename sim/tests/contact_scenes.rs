@@ -40,6 +40,7 @@ pub(crate) fn part(
         contact: Contact {
             friction: 0.4,
             restitution: 0.0,
+            rolling_m: 0.0,
         },
         world_from_body: start,
         twist: STILL,
@@ -56,6 +57,7 @@ pub(crate) fn scene(bodies: Vec<SceneBody>) -> Scene {
             ground: Some(Contact {
                 friction: 0.4,
                 restitution: 0.0,
+                rolling_m: 0.0,
             }),
         },
         bodies,

@@ -100,13 +100,25 @@ impl ForwardDynamics {
 
     /// The inverse mass matrix, constraints included: accelerations per unit effort, shape `(n, n)`; `None` if it is singular.
     pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
+        self.inverse_inertia_with(robot, q, &[])
+    }
+
+    /// As [`Self::inverse_inertia`], with `added` on the diagonal of the mass matrix \[kg m² or kg\].
+    pub(crate) fn inverse_inertia_with(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        added: &[f64],
+    ) -> Option<DMatrix<f64>> {
         match &mut self.0 {
-            Algorithm::Coupled(coupled) => coupled.inverse_inertia(robot, q),
+            Algorithm::Coupled(coupled) => coupled.inverse_inertia(robot, q, added),
             Algorithm::Tree(_) => {
                 let q = JointPositions::new(q.iter().copied());
-                super::mass_matrix(robot, &q)
-                    .cholesky()
-                    .map(|c| c.inverse())
+                let mut matrix = super::mass_matrix(robot, &q);
+                for (i, added) in added.iter().enumerate() {
+                    matrix[(i, i)] += added;
+                }
+                matrix.cholesky().map(|c| c.inverse())
             }
         }
     }

@@ -86,9 +86,19 @@ impl Constrained {
         Ok(())
     }
 
-    /// Accelerations per unit effort, shape `(n, n)`: the inverse mass matrix projected on the constraints.
-    pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
-        let factor = self.factor(robot, q).ok()?;
+    /// Accelerations per unit effort, shape `(n, n)`: the inverse mass matrix, with `added` on its diagonal, projected on the
+    /// constraints.
+    pub(crate) fn inverse_inertia(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        added: &[f64],
+    ) -> Option<DMatrix<f64>> {
+        self.crba.fill(robot, q, &mut self.matrix);
+        for (i, added) in added.iter().enumerate() {
+            self.matrix[(i, i)] += added;
+        }
+        let factor = self.matrix.clone().cholesky()?;
         let mut inverse = factor.inverse();
         if !robot.loops().is_empty() {
             self.closure.update(robot, q, &self.still);

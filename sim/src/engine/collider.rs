@@ -1,28 +1,26 @@
-//! Colliders: our solids as shapes of the engine, with the same frames.
+//! Our solids as shapes of the collision library, with the same frames.
 
 use nalgebra::Vector3;
-use rapier3d_f64::geometry::{ColliderBuilder, SharedShape, TriMeshFlags};
-use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use parry3d_f64::math::{Pose as EnginePose, Vector};
+use parry3d_f64::shape::{SharedShape, TriMeshFlags};
 
 use super::convert::engine_pose;
 use super::engine_error::EngineError;
-use super::engine_settings::COMBINE;
 use crate::model::inertia::Solid;
 use crate::model::mesh::surface::Mesh;
-use crate::model::robot::{Contact, Shape};
+use crate::model::robot::Shape;
 use crate::spatial::{Pose, rotation_about_axis_deg};
 
-/// A collider of `shape` for a body; `body_from_owner` is the pose of the shape's owner on it. A mesh becomes its convex hull, or its
-/// own surface if the description says so.
+/// `shape` and its pose on a body; `body_from_owner` is the pose of the shape's owner on it. A mesh becomes its convex hull, or its own
+/// surface if the description says so.
 ///
 /// # Errors
 /// A mesh without a volume, or without a usable surface.
-pub(super) fn collider(
+pub(super) fn shape_of(
     owner: &str,
     shape: &Shape,
     body_from_owner: &Pose,
-    contact: Contact,
-) -> Result<ColliderBuilder, EngineError> {
+) -> Result<(SharedShape, EnginePose), EngineError> {
     let mut place = engine_pose(&(body_from_owner * shape.link_from_shape));
     let shared = match &shape.solid {
         Solid::Box {
@@ -48,12 +46,7 @@ pub(super) fn collider(
             file: solid.file.to_string(),
         })?,
     };
-    Ok(ColliderBuilder::new(shared)
-        .position(place)
-        // the masses come from the description, not from the shapes
-        .density(0.0)
-        .friction(contact.friction)
-        .friction_combine_rule(COMBINE))
+    Ok((shared, place))
 }
 
 fn points(mesh: &Mesh) -> Vec<Vector> {

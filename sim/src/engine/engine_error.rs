@@ -1,7 +1,5 @@
 //! Why a robot or a scene cannot be simulated with contact.
 
-use crate::model::robot::JointKind;
-
 /// A scene that cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EngineError {
@@ -36,13 +34,5 @@ pub enum EngineError {
         mass_kg: f64,
         /// Its least principal moment \[kg m²\].
         least_kg_m2: f64,
-    },
-    /// A joint that the engine's multibody does not support.
-    #[error("{} joint `{joint}` cannot be part of a robot in contact", .kind.name())]
-    Joint {
-        /// The joint.
-        joint: String,
-        /// How it moves.
-        kind: JointKind,
     },
 }

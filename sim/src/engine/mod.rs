@@ -1,13 +1,17 @@
-//! Contact: robot and scene as bodies of a physics engine. The only module that names rapier; none of its types leave it.
+//! Contact: the robot's links and the scene's bodies in one world. The only module that names parry; none of its types leave it.
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `world` | holds all bodies and steps them |
-//! | `arm` | adds the robot as a reduced-coordinate multibody |
-//! | `collider` | makes colliders from shapes |
-//! | `fresh` | recomputes contact points |
-//! | `bounce` | applies restitution |
+//! | `world` | holds everything and steps it |
+//! | `arm` | says how the robot's joints see and answer to impulses |
+//! | `free_body`, `rotation` | a dynamic body, its flight and its free rotation |
+//! | `collider` | makes shapes |
+//! | `pairs` | finds what is near, and the contact points |
+//! | `contacts` | makes the constraints of a step and moves everything |
+//! | `rows`, `settle` | constraint rows, and the impulses along them |
+//! | `press`, `disk` | normal impulses of a patch, friction of a point |
 //! | `contact_facts` | reads the contacts of a step |
+//! | `rest` | lets what rests sleep |
 //! | `clearance` | says when no link can touch anything |
 //! | `overlap` | finds overlaps without a step |
 //! | `ray` | casts rays |
@@ -16,16 +20,23 @@
 //! | `work` | counts what all this costs |
 
 mod arm;
-mod bounce;
 mod clearance;
 mod collider;
 mod contact_facts;
+mod contacts;
 mod convert;
+mod disk;
 mod engine_error;
 mod engine_settings;
-mod fresh;
+mod free_body;
 pub mod overlap;
+mod pairs;
+mod press;
 mod ray;
+mod rest;
+mod rotation;
+mod rows;
+mod settle;
 mod wind;
 pub(crate) mod work;
 mod world;
@@ -37,4 +48,4 @@ pub use overlap::{Layout, Overlap};
 pub(crate) use ray::{LinkShapes, Ray};
 pub use work::WorkBudget;
 pub use world::BodyState;
-pub(crate) use world::{StepFault, World};
+pub(crate) use world::{ArmStep, StepFault, World};

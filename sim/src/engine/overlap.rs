@@ -5,21 +5,20 @@
 use std::cmp::Ordering;
 
 use nalgebra::Vector3;
-use rapier3d_f64::geometry::SharedShape;
-use rapier3d_f64::math::{Pose as EnginePose, Vector};
-use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume as _};
-use rapier3d_f64::parry::partitioning::{Bvh, BvhBuildStrategy};
-use rapier3d_f64::parry::query::{Ray, RayCast as _, contact, intersection_test};
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume as _};
+use parry3d_f64::math::{Pose as EnginePose, Vector};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::query::{Ray, RayCast as _, contact, intersection_test};
+use parry3d_f64::shape::SharedShape;
 
-use super::collider::collider;
+use super::collider::shape_of;
 use super::convert::{engine_pose, from_vector, vector};
 use super::engine_error::EngineError;
-use super::engine_settings::SURFACE;
+use super::pairs::vertices;
 use super::work::{self, WorkBudget};
-use super::world::vertices;
 use crate::kinematics::FramePoses;
 use crate::model::contact::Party;
-use crate::model::robot::{Contact, Robot, Shape};
+use crate::model::robot::{Robot, Shape};
 use crate::model::scene::{BodyKind, Scene};
 use crate::spatial::Pose;
 
@@ -91,7 +90,7 @@ impl Layout {
                 BodyKind::Kinematic(_) => Mobility::Driven,
                 BodyKind::Free => Mobility::Moves,
             };
-            let solids = solids(&body.name, &body.shapes, body.contact)?;
+            let solids = solids(&body.name, &body.shapes)?;
             let mut part = Part {
                 party: Party::Body(index),
                 mobility,
@@ -117,7 +116,7 @@ impl Layout {
                     Some(_) => Mobility::Moves,
                     None => Mobility::Stands,
                 },
-                solids: solids(&link.name, &link.shapes, link.contact.unwrap_or(SURFACE))?,
+                solids: solids(&link.name, &link.shapes)?,
             });
         }
         let mut layout = Self { parts, index: None };
@@ -273,10 +272,10 @@ fn first_hit<'p>(
     first
 }
 
-fn solids(owner: &str, shapes: &[Shape], contact: Contact) -> Result<Vec<Solid>, EngineError> {
+fn solids(owner: &str, shapes: &[Shape]) -> Result<Vec<Solid>, EngineError> {
     let solid = |shape| {
-        let built = collider(owner, shape, &Pose::identity(), contact)?;
-        Ok(Solid::new(built.shape, built.position))
+        let (shape, place) = shape_of(owner, shape, &Pose::identity())?;
+        Ok(Solid::new(shape, place))
     };
     shapes.iter().map(solid).collect()
 }

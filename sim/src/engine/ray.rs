@@ -1,14 +1,14 @@
 //! Rays: how far it is along one to a shape, whatever the engine has stepped or left out.
 
 use nalgebra::Vector3;
-use rapier3d_f64::geometry::{Collider, Ray as EngineRay, Shape as EngineShape, SharedShape};
-use rapier3d_f64::math::Pose as EnginePose;
+use parry3d_f64::math::Pose as EnginePose;
+use parry3d_f64::query::Ray as EngineRay;
+use parry3d_f64::shape::{Shape as EngineShape, SharedShape};
 
-use super::collider::collider;
-use super::contact_facts::from_user_data;
+use super::collider::shape_of;
 use super::convert::vector;
 use super::engine_error::EngineError;
-use super::engine_settings::SURFACE;
+use super::pairs::Collider;
 use crate::kinematics::FramePoses;
 use crate::kinematics::forward::BodyPose;
 use crate::model::contact::Party;
@@ -57,15 +57,17 @@ impl Ray {
         }
     }
 
-    /// Tests the ray against a collider of a body at `world_from_body`.
-    pub(super) fn meet_collider(&mut self, world_from_body: &EnginePose, collider: &Collider) {
-        let party = from_user_data(collider.user_data);
-        let place = match collider.position_wrt_parent() {
-            Some(body_from_collider) => *world_from_body * *body_from_collider,
-            None => *collider.position(),
-        };
+    /// Tests the ray against a shape in the world.
+    pub(super) fn meet_collider(&mut self, collider: &Collider) {
         let (from, direction) = (self.from, self.direction);
-        self.meet(party, collider.shape(), &place, &from, &direction);
+        let place = &collider.world_from_shape;
+        self.meet(
+            collider.party,
+            collider.shape.as_ref(),
+            place,
+            &from,
+            &direction,
+        );
     }
 
     /// Tests the ray against a shape, in a frame in which the ray starts at `from` along `direction`.
@@ -107,12 +109,12 @@ impl LinkShapes {
         for (index, link) in robot.links().iter().enumerate() {
             for shape in &link.shapes {
                 let place = &link.attachment.body_from_here;
-                let built = collider(&link.name, shape, place, SURFACE)?;
+                let (shape, body_from_shape) = shape_of(&link.name, shape, place)?;
                 shapes.push(LinkShape {
                     link: index,
                     body: link.attachment.body,
-                    body_from_shape: built.position,
-                    shape: built.shape,
+                    body_from_shape,
+                    shape,
                 });
             }
         }

@@ -10,15 +10,14 @@ pub(crate) const LOOK: u64 = 1;
 pub(super) const BODY: u64 = 50;
 /// A pair of shapes that are near each other in a step of the engine.
 pub(super) const PAIR: u64 = 30;
-/// A patch at which a pair touches, or soon may: its points, and its constraints in four substeps.
-pub(super) const PATCH: u64 = 270;
+/// A patch at which a pair touches, or soon may: its points and their constraints.
+pub(super) const PATCH: u64 = 100;
+/// A visit of a point while impulses are settled.
+pub(super) const VISIT: u64 = 5;
 /// A pair of shapes whose contact is looked at without a step.
 pub(super) const CONTACT: u64 = 100;
 /// A hull with so many vertices makes a pair cost as much again: each is looked at for each support point.
 pub(super) const HULL_VERTICES: usize = 256;
-/// Of the pairs of shapes of one body, the engine looks at so many for one unit.
-pub(super) const OWN_PAIRS: u64 = 8;
-
 /// An amount of work that may be done.
 #[derive(Debug, Clone)]
 pub struct WorkBudget {

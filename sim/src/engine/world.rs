@@ -1,25 +1,27 @@
-//! The world of one run: the scene's bodies and the robot's multibody, stepped together.
+//! The world of one run: the scene's bodies and the robot's links, stepped together.
+//!
+//! A step is a drift, a kick and a drift: everything moves freely, impulses act at one time within the step, everything moves on. The
+//! robot's free motion comes from the smooth step; that of a body is exact for constant forces and conserves its momentum. The kick is
+//! in the middle of the step, or when the first surfaces meet that were apart.
 
 use nalgebra::Vector3;
-use rapier3d_f64::dynamics::{MassProperties, RigidBody, RigidBodyBuilder, RigidBodyHandle};
-use rapier3d_f64::geometry::{
-    Collider, ColliderBuilder, ColliderHandle, ContactManifold, NarrowPhase, Shape, SharedShape,
-};
-use rapier3d_f64::math::Vector;
-use rapier3d_f64::parry::bounding_volume::BoundingVolume as _;
-use rapier3d_f64::pipeline::PhysicsWorld;
+use parry3d_f64::bounding_volume::BoundingVolume as _;
+use parry3d_f64::math::Vector;
+use parry3d_f64::shape::SharedShape;
 
-use super::arm::{Arm, insert_base};
-use super::bounce::{ArmAfter, Bounce};
+use super::arm::Arm;
 use super::clearance::Obstacle;
-use super::collider::collider;
-use super::contact_facts::to_user_data;
-use super::convert::{engine_pose, from_engine_pose, from_vector, matrix, vector};
+use super::collider::shape_of;
+use super::contacts::{Contacts, Movers};
+use super::convert::{engine_pose, from_vector};
 use super::engine_error::EngineError;
-use super::engine_settings::COMBINE;
+use super::engine_settings::{self, SURFACE};
+use super::free_body::FreeBody;
+use super::pairs::{Carrier, Collider, Pairs, vertices};
 use super::ray::Ray;
+use super::rest;
 use super::wind::Air;
-use super::{contact_facts, engine_settings, fresh, work};
+use super::{contact_facts, work};
 use crate::model::air::{AirNow, Drag};
 use crate::model::contact::{ContactFact, Party};
 use crate::model::prescribed_motion::Motion;
@@ -38,7 +40,7 @@ pub struct BodyState {
     pub sleeps: bool,
 }
 
-/// Triangles of surfaces that may be near moving shapes at once: the engine keeps 200 bytes for each.
+/// Triangles of surfaces that may be near moving shapes at once: more would need gigabytes.
 const MOST_TRIANGLES_NEAR: usize = 500_000;
 
 /// A step that was not done.
@@ -50,35 +52,68 @@ pub(crate) enum StepFault {
     TooManyTriangles,
 }
 
-/// A dynamic body.
-#[derive(Clone, Copy)]
-struct FreeBody {
-    /// Its index in the scene.
-    index: usize,
-    handle: RigidBodyHandle,
-    /// Radius of a sphere about its centre of mass that contains it \[m\].
-    radius_m: f64,
-    /// What it costs in a step by itself ([`super::work`]).
-    work: u64,
+/// A body that follows a prescribed motion.
+pub(super) struct Driven {
+    motion: Motion,
+    /// Its pose now, and at the end of the step.
+    pub(super) now: Pose,
+    pub(super) next: Pose,
+    pub(super) twist: Twist,
+}
+
+impl Driven {
+    pub(super) fn moves(&self) -> bool {
+        self.next != self.now
+    }
+
+    /// Displacement in the step of its matter at `p`, world axes \[m\].
+    pub(super) fn displacement(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        let here = self.now.inverse_transform_point(&(*p).into());
+        (self.next * here).coords - p
+    }
+
+    /// Velocity of its matter at `p` at the end of the step, world axes \[m/s\].
+    pub(super) fn velocity(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        let origin = self.next.translation.vector;
+        self.twist.linear + self.twist.angular.cross(&(p - origin))
+    }
+}
+
+/// What a body of the scene is here.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Fixed(Pose),
+    Driven(usize),
+    Free(usize),
+}
+
+/// The free motion of the robot in a step, which contact changes; all slices have shape `(n)`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ArmStep<'a> {
+    pub(crate) q: &'a [f64],
+    pub(crate) qd: &'a [f64],
+    /// The state at the end of the step without contact, dry friction and joint limits.
+    pub(crate) next_q: &'a [f64],
+    pub(crate) next_qd: &'a [f64],
+    /// No link travels farther than about this \[m\].
+    pub(crate) travel_m: f64,
 }
 
 /// All bodies of one run.
 pub(crate) struct World {
-    physics: PhysicsWorld,
+    gravity_m_s2: Vector3<f64>,
     arm: Option<Arm>,
-    bodies: Vec<RigidBodyHandle>,
+    colliders: Vec<Collider>,
+    pairs: Pairs,
+    places: Vec<Place>,
     free: Vec<FreeBody>,
-    driven: Vec<(RigidBodyHandle, Motion)>,
-    blown: Vec<(RigidBodyHandle, Drag)>,
-    obstacles: Vec<ColliderHandle>,
-    /// The obstacles that are surfaces of triangles, where so many triangles could be near moving shapes that memory would not do.
-    surfaces: Vec<ColliderHandle>,
-    ground: bool,
+    driven: Vec<Driven>,
+    /// The dynamic bodies with drag.
+    blown: Vec<(usize, Drag)>,
+    /// The shapes that are surfaces of triangles, where so many triangles could be near moving shapes that memory would not do.
+    surfaces: Vec<usize>,
+    contacts: Contacts,
     air: Option<Air>,
-    /// Present if any party has a restitution.
-    bounce: Option<Bounce>,
-    /// Joint rates after a bounce, if the arm took part in the step.
-    bounced_qd: Option<Vec<f64>>,
     dt_s: f64,
     tick: u64,
     /// What all steps cost so far ([`super::work`]).
@@ -86,7 +121,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// Puts `scene` and, if `with_arm`, the moving part of `robot` into a world with steps of `dt_s`.
+    /// Puts `scene` and `robot`, its moving part only if `with_arm`, into a world with steps of `dt_s`.
     ///
     /// # Errors
     /// Shapes or masses that the engine cannot use.
@@ -97,93 +132,123 @@ impl World {
         dt_s: f64,
         with_arm: bool,
     ) -> Result<Self, EngineError> {
-        let mut physics = PhysicsWorld {
-            gravity: vector(gravity_m_s2),
-            integration_parameters: engine_settings::parameters(dt_s),
-            narrow_phase: NarrowPhase::with_query_dispatcher(fresh::queries()),
-            ..PhysicsWorld::default()
-        };
-        let root = insert_base(robot, &mut physics)?;
-        let arm = if with_arm {
-            Arm::insert(robot, root, &mut physics)?
-        } else {
-            None
-        };
         let air = scene
             .environment
             .wind
             .as_ref()
             .map(|wind| Air::new(wind, dt_s));
         let mut world = Self {
-            physics,
-            arm,
-            bodies: Vec::new(),
+            gravity_m_s2: *gravity_m_s2,
+            arm: (with_arm && robot.n() > 0).then(|| Arm::new(robot, dt_s)),
+            colliders: links(robot, with_arm)?,
+            pairs: Pairs::default(),
+            places: Vec::new(),
             free: Vec::new(),
             driven: Vec::new(),
             blown: Vec::new(),
-            obstacles: Vec::new(),
             surfaces: Vec::new(),
-            ground: scene.environment.ground.is_some(),
+            contacts: Contacts::new(robot, dt_s),
             air,
-            bounce: Bounce::new(robot, scene),
-            bounced_qd: None,
             dt_s,
             tick: 0,
             work: 0,
         };
         if let Some(surface) = scene.environment.ground {
-            let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
-                .friction(surface.friction)
-                .friction_combine_rule(COMBINE)
-                .user_data(to_user_data(Party::Ground));
-            world.physics.insert_collider(ground, None);
+            let ground = (
+                SharedShape::halfspace(Vector::Z),
+                engine_pose(&Pose::identity()),
+            );
+            let ground = Collider::new(Party::Ground, Carrier::World, surface, ground);
+            world.colliders.push(ground);
         }
         for (index, body) in scene.bodies.iter().enumerate() {
             world.insert(index, body)?;
         }
+        world.pairs = Pairs::new(&world.colliders);
         world.list_surfaces();
         Ok(world)
     }
 
+    fn insert(&mut self, index: usize, body: &SceneBody) -> Result<(), EngineError> {
+        let pose = body.world_from_body;
+        let (place, carrier) = match &body.kind {
+            BodyKind::Fixed => (Place::Fixed(pose), Carrier::World),
+            BodyKind::Kinematic(motion) => {
+                let (now, twist) = motion.at(0.0);
+                self.driven.push(Driven {
+                    motion: motion.clone(),
+                    now,
+                    next: now,
+                    twist,
+                });
+                let index = self.driven.len() - 1;
+                (Place::Driven(index), Carrier::Driven(index))
+            }
+            BodyKind::Free => {
+                // a body in gusts must not sleep: it would not react to the next gust
+                let gusts = self.air.as_ref().is_some_and(Air::gusts);
+                let restless = body.drag.is_some() && gusts;
+                self.free.push(FreeBody::new(index, body, restless)?);
+                let free = self.free.len() - 1;
+                self.blown.extend(body.drag.map(|drag| (free, drag)));
+                (Place::Free(free), Carrier::Free(free))
+            }
+        };
+        self.places.push(place);
+        let now = match place {
+            Place::Driven(driven) => self.driven[driven].now,
+            _ => pose,
+        };
+        for shape in &body.shapes {
+            let shape = shape_of(&body.name, shape, &Pose::identity())?;
+            let party = Party::Body(index);
+            let mut collider = Collider::new(party, carrier, body.contact, shape);
+            collider.place(&engine_pose(&now));
+            if let Place::Free(free) = place {
+                self.free[free].cover(&collider.bounds);
+            }
+            self.colliders.push(collider);
+        }
+        Ok(())
+    }
+
     /// Lists the surfaces, unless what moves can never be near too many of their triangles.
     fn list_surfaces(&mut self) {
-        let colliders = &self.physics.colliders;
-        let triangles = |handle: &ColliderHandle| {
-            let surface = colliders[*handle].shape().as_trimesh();
+        let triangles = |collider: &Collider| {
+            let surface = collider.shape.as_trimesh();
             surface.map_or(0, |surface| surface.indices().len())
         };
-        let all: usize = self.obstacles.iter().map(triangles).sum();
-        let moving = self.moving_colliders().count();
-        if all.saturating_mul(moving) > MOST_TRIANGLES_NEAR {
-            let surfaces = self.obstacles.iter().filter(|one| triangles(one) > 0);
-            self.surfaces = surfaces.copied().collect();
+        let all: usize = self.colliders.iter().map(triangles).sum();
+        let moving = self
+            .colliders
+            .iter()
+            .filter(|one| matches!(one.carrier, Carrier::Free(_) | Carrier::Arm(_)));
+        if all.saturating_mul(moving.count()) > MOST_TRIANGLES_NEAR {
+            let surfaces = self.colliders.iter().enumerate();
+            let surfaces = surfaces.filter(|(_, one)| triangles(one) > 0);
+            self.surfaces = surfaces.map(|(index, _)| index).collect();
         }
     }
 
-    /// What can touch a surface: the shapes of dynamic bodies and of the arm.
-    fn moving_colliders(&self) -> impl Iterator<Item = &Collider> {
-        let arm = self.arm.iter().flat_map(Arm::handles);
-        let free = self.free.iter().map(|body| &body.handle);
-        let bodies = arm.chain(free).map(|handle| &self.physics.bodies[*handle]);
-        let awake = bodies.filter(|body| body.is_enabled() && !body.is_sleeping());
-        let colliders = awake.flat_map(|body| body.colliders());
-        colliders.map(|collider| &self.physics.colliders[*collider])
-    }
-
     /// Whether more triangles of surfaces are near what moves than memory would do for.
-    fn has_too_many_triangles_near(&self) -> bool {
-        let margin_m = self.physics.integration_parameters.prediction_distance();
+    fn has_too_many_triangles_near(&self, with_arm: bool, ahead_m: f64) -> bool {
         let mut near = 0;
-        for handle in &self.surfaces {
-            let surface = &self.physics.colliders[*handle];
-            let Some(mesh) = surface.shape().as_trimesh() else {
+        for surface in self.surfaces.iter().map(|index| &self.colliders[*index]) {
+            let Some(mesh) = surface.shape.as_trimesh() else {
                 continue;
             };
-            let here_from_world = surface.position().inverse();
-            for moving in self.moving_colliders() {
-                let here_from_moving = here_from_world * *moving.position();
-                let bounds = moving.shape().compute_aabb(&here_from_moving);
-                let bounds = bounds.loosened(margin_m);
+            for moving in &self.colliders {
+                let moves = match moving.carrier {
+                    Carrier::Free(index) => !self.free[index].sleeps,
+                    Carrier::Arm(_) => with_arm,
+                    Carrier::World | Carrier::Driven(_) => false,
+                };
+                if !moves {
+                    continue;
+                }
+                let here_from_moving = surface.world_from_shape.inv_mul(&moving.world_from_shape);
+                let bounds = moving.shape.compute_aabb(&here_from_moving);
+                let bounds = bounds.loosened(ahead_m);
                 // one more shows that there are too many
                 let left = MOST_TRIANGLES_NEAR + 1 - near;
                 near += mesh.bvh().intersect_aabb(&bounds).take(left).count();
@@ -195,93 +260,22 @@ impl World {
         false
     }
 
-    fn insert(&mut self, index: usize, body: &SceneBody) -> Result<(), EngineError> {
-        let builder = match &body.kind {
-            BodyKind::Fixed => RigidBodyBuilder::fixed(),
-            BodyKind::Kinematic(_) => RigidBodyBuilder::kinematic_position_based(),
-            BodyKind::Free => {
-                RigidBodyBuilder::dynamic().additional_mass_properties(mass_properties(body)?)
-            }
-        };
-        // a body in gusts must not sleep: it would not react to the next gust
-        let restless = body.drag.is_some() && self.air.as_ref().is_some_and(Air::gusts);
-        let mut rigid: RigidBody = builder
-            .pose(engine_pose(&body.world_from_body))
-            .gyroscopic_forces_enabled(true)
-            .can_sleep(!restless)
-            .build();
-        if !restless {
-            let rest = rigid.activation_mut();
-            rest.normalized_linear_threshold = engine_settings::REST_SPEED_M_S;
-            rest.time_until_sleep = engine_settings::REST_TIME_S;
-        }
-        let handle = self.physics.insert_body(rigid);
-        for shape in &body.shapes {
-            let built = collider(&body.name, shape, &Pose::identity(), body.contact)?
-                .user_data(to_user_data(Party::Body(index)));
-            let collider = self.physics.insert_collider(built, Some(handle));
-            self.obstacles.push(collider);
-        }
-        match &body.kind {
-            BodyKind::Fixed => {}
-            BodyKind::Kinematic(motion) => {
-                self.driven.push((handle, motion.clone()));
-            }
-            BodyKind::Free => {
-                if let Some(drag) = body.drag {
-                    self.blown.push((handle, drag));
-                }
-                let rigid = &mut self.physics.bodies[handle];
-                // the engine's velocity is that of the centre of mass
-                let com =
-                    from_vector(rigid.center_of_mass()) - body.world_from_body.translation.vector;
-                let linear = body.twist.linear + body.twist.angular.cross(&com);
-                rigid.set_linvel(vector(&linear), true);
-                rigid.set_angvel(vector(&body.twist.angular), true);
-                let com = rigid.center_of_mass();
-                let radius_m = rigid
-                    .colliders()
-                    .iter()
-                    .map(|collider| {
-                        let ball = self.physics.colliders[*collider]
-                            .compute_aabb()
-                            .bounding_sphere();
-                        (ball.center() - com).length() + ball.radius()
-                    })
-                    .fold(0.0, f64::max);
-                let shapes = body.shapes.len() as u64;
-                self.free.push(FreeBody {
-                    index,
-                    handle,
-                    radius_m,
-                    work: work::BODY + shapes * shapes / work::OWN_PAIRS,
-                });
-            }
-        }
-        self.bodies.push(handle);
-        Ok(())
-    }
-
     /// Whether something in the scene moves, or has not rested long enough to be left alone.
     pub(crate) fn is_awake(&self) -> bool {
-        !self.driven.is_empty()
-            || self
-                .free
-                .iter()
-                .any(|body| !self.physics.bodies[body.handle].is_sleeping())
+        !self.driven.is_empty() || self.free.iter().any(|body| !body.sleeps)
     }
 
     /// Lists the obstacles that a link could touch, at their current poses.
     pub(crate) fn obstacles(&self, list: &mut Vec<Obstacle>) {
-        if self.ground {
-            list.push(Obstacle::Ground);
-        }
-        for handle in &self.obstacles {
-            let bounds = self.physics.colliders[*handle].compute_aabb();
-            list.push(Obstacle::Box([
-                from_vector(bounds.mins),
-                from_vector(bounds.maxs),
-            ]));
+        for collider in &self.colliders {
+            match collider.party {
+                Party::Link(_) => {}
+                Party::Ground => list.push(Obstacle::Ground),
+                Party::Body(_) => list.push(Obstacle::Box([
+                    from_vector(collider.bounds.mins),
+                    from_vector(collider.bounds.maxs),
+                ])),
+            }
         }
     }
 
@@ -298,128 +292,200 @@ impl World {
         }
     }
 
-    /// Steps all bodies, the robot from `(q, qd)` under `effort`, all finite and of shape `(n)`, and writes the contacts.
-    ///
-    /// No link travels farther than about `travel_m` in the step; if `None`, the robot can touch nothing and is left out.
+    /// Steps all bodies and the robot, whose free motion is `arm`, and writes the contacts; without `arm` the robot can touch nothing.
     ///
     /// # Errors
     /// [`StepFault`].
     pub(crate) fn step(
         &mut self,
         robot: &Robot,
-        effort: &[f64],
-        q: &[f64],
-        qd: &[f64],
-        travel_m: Option<f64>,
+        arm: Option<ArmStep<'_>>,
         facts: &mut Vec<ContactFact>,
     ) -> Result<(), StepFault> {
-        self.foresee(travel_m.unwrap_or(0.0));
-        if let Some(arm) = &mut self.arm {
-            arm.set_present(&mut self.physics, travel_m.is_some());
-            if travel_m.is_some() {
-                arm.write(robot, &mut self.physics, effort, q, qd);
-            }
-        }
-        if let Some(air) = self.air_now() {
-            for (handle, drag) in &self.blown {
-                let body = &mut self.physics.bodies[*handle];
-                let past = air.velocity_m_s - from_vector(body.linvel());
-                let force = air.drag_n(drag, &from_vector(body.linvel()));
-                // drag strong enough to stop a body within a step would throw it back
-                let most_n = body.mass() * past.norm() / self.dt_s;
-                let force = force * (most_n / force.norm().max(most_n).max(f64::MIN_POSITIVE));
-                body.reset_forces(false);
-                body.add_force(vector(&force), false);
-            }
-        }
+        let arm = arm.filter(|_| self.arm.is_some());
         let end_s = (self.tick + 1) as f64 * self.dt_s;
-        for (handle, motion) in &self.driven {
-            let (pose, _) = motion.at(end_s);
-            let pose = engine_pose(&pose);
-            self.physics.bodies[*handle].set_next_kinematic_position(pose);
+        for driven in &mut self.driven {
+            (driven.next, driven.twist) = driven.motion.at(end_s);
         }
-        if !self.surfaces.is_empty() && self.has_too_many_triangles_near() {
-            return Err(StepFault::TooManyTriangles);
+        if let (Some(arm), Some(links)) = (&arm, &mut self.arm) {
+            links.place(robot, arm.q, arm.qd);
         }
-        if let Some(bounce) = &mut self.bounce {
-            bounce.remember(robot, q, qd, &self.physics.bodies, &self.bodies);
-        }
-        self.physics.step();
-        self.rest();
-        self.work += self.work_of_step();
-        if let Some(lost) = self.physics.quarantine().bodies().first() {
-            let index = self.bodies.iter().position(|handle| handle == lost);
-            return Err(StepFault::Lost(index));
-        }
-        contact_facts::read(
-            &self.physics.narrow_phase,
-            &self.physics.colliders,
-            &self.physics.bodies,
-            self.dt_s,
-            facts,
-        );
-        self.let_bounce(robot, travel_m.is_some(), facts);
-        Ok(())
-    }
-
-    fn let_bounce(&mut self, robot: &Robot, with_arm: bool, facts: &mut [ContactFact]) {
-        let Some(bounce) = &mut self.bounce else {
-            return;
-        };
-        let mut after = None;
-        if let Some(arm) = self.arm.as_ref().filter(|_| with_arm) {
-            let (mut q, mut qd) = (vec![0.0; robot.n()], vec![0.0; robot.n()]);
-            arm.read(&self.physics, &mut q, &mut qd);
-            after = Some((q, qd));
-        }
-        let physics = &mut self.physics;
-        bounce.apply(
-            robot,
-            after.as_mut().map(|(q, qd)| ArmAfter { q, qd }),
-            &physics.narrow_phase,
-            &physics.colliders,
-            &mut physics.bodies,
-            &self.bodies,
-            self.dt_s,
-            facts,
-        );
-        self.bounced_qd = after.map(|(_, qd)| qd);
-    }
-
-    /// Sets the prediction distance of contacts to the travel of the fastest body in a step.
-    fn foresee(&mut self, travel_m: f64) {
-        let farthest = self.travel_m().max(travel_m) * engine_settings::PREDICTION_OF_TRAVEL;
-        self.physics
-            .integration_parameters
-            .normalized_prediction_distance = farthest.clamp(
+        let travel_m = self.travel_m().max(arm.map_or(0.0, |arm| arm.travel_m));
+        let ahead_m = (travel_m * engine_settings::PREDICTION_OF_TRAVEL).clamp(
             engine_settings::PREDICTION_M,
             engine_settings::PREDICTION_MOST_M,
         );
+        self.place_links(arm.is_some());
+        if !self.surfaces.is_empty() && self.has_too_many_triangles_near(arm.is_some(), ahead_m) {
+            return Err(StepFault::TooManyTriangles);
+        }
+        self.load();
+        loop {
+            self.look(arm.is_some(), ahead_m);
+            if !self.wake() {
+                break;
+            }
+        }
+        let mut movers = Movers {
+            robot,
+            arm: self.arm.as_mut().filter(|_| arm.is_some()),
+            free: &mut self.free,
+            driven: &self.driven,
+        };
+        self.contacts.solve(
+            &mut movers,
+            arm.as_ref(),
+            &self.colliders,
+            &mut self.pairs,
+            travel_m,
+        );
+        self.work += self.work_of_step();
+        contact_facts::read(&self.pairs, &self.colliders, self.dt_s, facts);
+        self.finish()
+    }
+
+    /// Sets the accelerations of the dynamic bodies: gravity and drag.
+    fn load(&mut self) {
+        for body in &mut self.free {
+            body.acceleration_m_s2 = self.gravity_m_s2;
+        }
+        if let Some(air) = self.air_now() {
+            for (index, drag) in &self.blown {
+                let body = &mut self.free[*index];
+                let past = air.velocity_m_s - body.v;
+                let force = air.drag_n(drag, &body.v);
+                // drag strong enough to stop a body within a step would throw it back
+                let most_n = body.mass_kg * past.norm() / self.dt_s;
+                let force = force * (most_n / force.norm().max(most_n).max(f64::MIN_POSITIVE));
+                body.acceleration_m_s2 += force / body.mass_kg;
+            }
+        }
+    }
+
+    fn place_links(&mut self, with_arm: bool) {
+        let Some(arm) = self.arm.as_ref().filter(|_| with_arm) else {
+            return;
+        };
+        for collider in &mut self.colliders {
+            if let Carrier::Arm(body) = collider.carrier {
+                let placed = &arm.motion(body).placed;
+                let pose = crate::spatial::pose(placed.world_from_body, placed.position);
+                collider.place(&engine_pose(&pose));
+            }
+        }
+        let of_arm = |index: &usize| matches!(self.colliders[*index].carrier, Carrier::Arm(_));
+        let moved = (0..self.colliders.len()).filter(of_arm);
+        self.pairs.sort(&self.colliders, moved);
+    }
+
+    /// Finds all contact points of what moves.
+    fn look(&mut self, with_arm: bool, ahead_m: f64) {
+        let (free, driven) = (&self.free, &self.driven);
+        let moves = |collider: &Collider| match collider.carrier {
+            Carrier::World => false,
+            Carrier::Driven(index) => driven[index].moves(),
+            Carrier::Free(index) => !free[index].sleeps,
+            Carrier::Arm(_) => with_arm,
+        };
+        let meet = |first: &Collider, second: &Collider| {
+            let is_link = |one: &Collider| matches!(one.party, Party::Link(_));
+            let absent = |one: &Collider| matches!(one.carrier, Carrier::Arm(_)) && !with_arm;
+            let gives = |one: &Collider| matches!(one.carrier, Carrier::Free(_) | Carrier::Arm(_));
+            first.carrier != second.carrier
+                && !(is_link(first) && is_link(second))
+                && !(absent(first) || absent(second))
+                && (gives(first) || gives(second))
+        };
+        self.pairs.find(&self.colliders, ahead_m, moves, meet);
+    }
+
+    /// Wakes what sleeps and is hit, or loses its support; whether anything woke.
+    fn wake(&mut self) -> bool {
+        let mut woken = Vec::new();
+        for pair in self.pairs.as_slice().iter().filter(|pair| pair.is_fresh) {
+            for (this, other) in [(0, 1), (1, 0)] {
+                let [this, other] =
+                    [this, other].map(|side| self.colliders[pair.colliders[side]].carrier);
+                let Carrier::Free(index) = this else {
+                    continue;
+                };
+                if !self.free[index].sleeps {
+                    continue;
+                }
+                // how far the other one can come in this step
+                let reach_m = match other {
+                    Carrier::World => continue,
+                    Carrier::Free(other) => self.free[other].travel_m(self.dt_s),
+                    Carrier::Driven(_) | Carrier::Arm(_) => engine_settings::PREDICTION_M,
+                };
+                let mut points = pair.manifolds.iter().flat_map(|manifold| &manifold.points);
+                if points.any(|point| point.dist <= reach_m) {
+                    woken.push(self.free[index].island);
+                }
+            }
+        }
+        for body in &mut self.free {
+            if body.sleeps && woken.contains(&body.island) {
+                body.wake();
+            }
+        }
+        !woken.is_empty()
+    }
+
+    /// Moves the shapes to the end of the step, and lets rest what rests.
+    fn finish(&mut self) -> Result<(), StepFault> {
+        self.rest();
+        if let Some(lost) = self.free.iter().find(|body| !body.is_finite()) {
+            return Err(StepFault::Lost(Some(lost.index)));
+        }
+        rest::settle(
+            &mut self.free,
+            &self.driven,
+            &self.colliders,
+            &self.pairs,
+            self.dt_s,
+        );
+        let moved = |collider: &Collider| match collider.carrier {
+            Carrier::World | Carrier::Arm(_) => None,
+            Carrier::Driven(index) => {
+                let driven = &self.driven[index];
+                driven.moves().then(|| engine_pose(&driven.next))
+            }
+            Carrier::Free(index) => {
+                let body = &self.free[index];
+                (!body.sleeps).then(|| engine_pose(&body.pose()))
+            }
+        };
+        let mut list = Vec::new();
+        for (index, collider) in self.colliders.iter_mut().enumerate() {
+            if let Some(pose) = moved(collider) {
+                collider.place(&pose);
+                list.push(index);
+            }
+        }
+        self.pairs.sort(&self.colliders, list.into_iter());
+        for driven in &mut self.driven {
+            driven.now = driven.next;
+        }
+        Ok(())
     }
 
     /// Approximate travel of the fastest point of a dynamic body, or of the origin of a kinematic one, in a step \[m\].
     pub(crate) fn travel_m(&self) -> f64 {
         let mut farthest = 0.0_f64;
-        for body in &self.free {
-            let rigid = &self.physics.bodies[body.handle];
-            if !rigid.is_sleeping() {
-                let speed = rigid.linvel().length() + rigid.angvel().length() * body.radius_m;
-                farthest = farthest.max(speed * self.dt_s);
-            }
+        for body in self.free.iter().filter(|body| !body.sleeps) {
+            farthest = farthest.max(body.travel_m(self.dt_s));
         }
-        for (handle, ..) in &self.driven {
-            let rigid = &self.physics.bodies[*handle];
-            farthest = farthest.max(rigid.linvel().length() * self.dt_s);
+        for driven in &self.driven {
+            farthest = farthest.max(driven.twist.linear.norm() * self.dt_s);
         }
         farthest
     }
 
     /// The dynamic body whose centre of mass is fastest, with its speed \[m/s\]; `None` if all sleep.
     pub(crate) fn fastest_body(&self) -> Option<(usize, f64)> {
-        let speeds = self.free.iter().filter_map(|body| {
-            let rigid = &self.physics.bodies[body.handle];
-            (!rigid.is_sleeping()).then(|| (body.index, rigid.linvel().length()))
-        });
+        let awake = self.free.iter().filter(|body| !body.sleeps);
+        let speeds = awake.map(|body| (body.index, body.v.norm()));
         speeds.reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
@@ -428,38 +494,36 @@ impl World {
         !self.driven.is_empty()
     }
 
-    /// Reads the robot's state after a step, shape `(n)` each.
+    /// Reads the robot's state after a step in which it was present, shape `(n)` each.
     pub(crate) fn read_arm(&self, q: &mut [f64], qd: &mut [f64]) {
-        if let Some(arm) = &self.arm {
-            arm.read(&self.physics, q, qd);
-        }
-        if let Some(bounced) = &self.bounced_qd {
-            qd.copy_from_slice(bounced);
-        }
+        self.contacts.read_arm(q, qd);
     }
 
     /// The state of body `index` of the scene.
     pub(crate) fn body(&self, index: usize) -> BodyState {
-        let body = &self.physics.bodies[self.bodies[index]];
-        BodyState {
-            world_from_body: from_engine_pose(body.position()),
-            twist: Twist {
-                linear: from_vector(body.velocity_at_point(body.translation())),
-                angular: from_vector(body.angvel()),
+        match self.places[index] {
+            Place::Fixed(pose) => BodyState {
+                world_from_body: pose,
+                twist: Twist::zero(),
+                sleeps: false,
             },
-            sleeps: body.is_sleeping(),
+            Place::Driven(index) => BodyState {
+                world_from_body: self.driven[index].now,
+                twist: self.driven[index].twist,
+                sleeps: false,
+            },
+            Place::Free(index) => self.free[index].state(),
         }
     }
 
     /// Tests `ray` against the bodies of the scene, in its order, and the ground, at their current poses.
     pub(crate) fn meet(&self, ray: &mut Ray) {
-        for handle in &self.bodies {
-            let body = &self.physics.bodies[*handle];
-            for collider in body.colliders() {
-                ray.meet_collider(body.position(), &self.physics.colliders[*collider]);
+        for collider in &self.colliders {
+            if matches!(collider.party, Party::Body(_)) {
+                ray.meet_collider(collider);
             }
         }
-        if self.ground {
+        if self.colliders.iter().any(|one| one.party == Party::Ground) {
             ray.meet_ground();
         }
     }
@@ -469,57 +533,49 @@ impl World {
         self.work
     }
 
-    /// What the last step cost: bodies and pairs of shapes that are awake.
-    fn work_of_step(&self) -> u64 {
-        let (bodies, colliders) = (&self.physics.bodies, &self.physics.colliders);
-        let is_awake = |handle: &RigidBodyHandle| {
-            let body = bodies.get(*handle);
-            body.is_some_and(|body| !body.is_fixed() && !body.is_sleeping())
-        };
-        let free = self.free.iter().filter(|body| is_awake(&body.handle));
-        let free: u64 = free.map(|body| body.work).sum();
-        let pairs = self.physics.narrow_phase.contact_pairs().map(|pair| {
-            let both = [pair.collider1, pair.collider2].map(|handle| colliders.get(handle));
-            let mut parents = both.iter().flatten().filter_map(|one| one.parent());
-            if !parents.any(|parent| is_awake(&parent)) {
-                return 0;
-            }
-            let vertices = both.iter().flatten().map(|one| vertices(one.shape()));
-            let hulls = 1 + (vertices.sum::<usize>() / work::HULL_VERTICES) as u64;
+    /// What the last step cost: bodies and pairs of shapes that are awake, and the sweeps over their points.
+    fn work_of_step(&mut self) -> u64 {
+        let awake = self.free.iter().filter(|body| !body.sleeps).count() as u64;
+        let mut work = awake * work::BODY + self.contacts.take_visits() * work::VISIT;
+        for pair in self.pairs.as_slice().iter().filter(|pair| pair.is_fresh) {
+            let both = pair.colliders.map(|index| &self.colliders[index].shape);
+            let vertices: usize = both.iter().map(|shape| vertices(shape.as_ref())).sum();
+            let hulls = 1 + (vertices / work::HULL_VERTICES) as u64;
             // a surface has one for each of its triangles that is near
-            let manifolds = pair.solver_manifolds();
-            let touches = |one: &&ContactManifold| !one.data.solver_contacts.is_empty();
+            let manifolds = &pair.manifolds;
+            let touches = |one: &&super::pairs::Manifold| !one.points.is_empty();
             let patches = manifolds.iter().filter(touches).count() as u64;
-            hulls * (work::PAIR * (1 + manifolds.len() as u64) + work::PATCH * patches)
-        });
-        free + pairs.sum::<u64>()
+            work += hulls * work::PAIR * (1 + manifolds.len() as u64) + work::PATCH * patches;
+        }
+        work
     }
 
     pub(crate) fn body_count(&self) -> usize {
-        self.bodies.len()
+        self.places.len()
     }
 }
 
-/// The vertices of a hull; none of any other shape.
-pub(super) fn vertices(shape: &dyn Shape) -> usize {
-    let hull = shape.as_convex_polyhedron();
-    hull.map_or(0, |hull| hull.points().len())
+/// The shapes of the robot's links; those that move only if `with_arm`.
+fn links(robot: &Robot, with_arm: bool) -> Result<Vec<Collider>, EngineError> {
+    let mut colliders = Vec::new();
+    for (index, link) in robot.links().iter().enumerate() {
+        let carrier = match link.attachment.body {
+            None => Carrier::World,
+            Some(body) if with_arm => Carrier::Arm(body),
+            Some(_) => continue,
+        };
+        for shape in &link.shapes {
+            let shape = shape_of(&link.name, shape, &link.attachment.body_from_here)?;
+            let surface = link.contact.unwrap_or(SURFACE);
+            colliders.push(Collider::new(Party::Link(index), carrier, surface, shape));
+        }
+    }
+    Ok(colliders)
 }
 
-fn mass_properties(body: &SceneBody) -> Result<MassProperties, EngineError> {
-    let inertia = &body.inertia;
-    let tensor = inertia.about_com_kg_m2.to_matrix();
-    let least_kg_m2 = tensor.symmetric_eigenvalues().min();
-    if !(inertia.mass_kg > 0.0 && least_kg_m2 > 0.0) {
-        return Err(EngineError::Massless {
-            body: body.name.clone(),
-            mass_kg: inertia.mass_kg,
-            least_kg_m2,
-        });
-    }
-    Ok(MassProperties::with_inertia_matrix(
-        vector(&inertia.com_m),
-        inertia.mass_kg,
-        matrix(&tensor),
-    ))
+/// A right-handed pair of unit vectors across the unit vector `normal`.
+pub(super) fn tangents(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let least = normal.abs().imin();
+    let first = normal.cross(&Vector3::ith(least, 1.0)).normalize();
+    [first, normal.cross(&first)]
 }

@@ -143,13 +143,34 @@ pub struct Shape {
     pub link_from_shape: Pose,
 }
 
-/// Surface properties of a link.
+/// Surface properties of a link or body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Coefficient of friction, a ratio of forces.
     pub friction: f64,
     /// Coefficient of restitution, a ratio of speeds.
     pub restitution: f64,
+    /// Coefficient of rolling resistance: the lever arm at which the normal force resists rolling \[m\].
+    pub rolling_m: f64,
+}
+
+impl Contact {
+    /// The coefficient of rolling resistance of what has only round shapes, as a part of their least radius: between a steel ball on
+    /// steel (0.001) and a rubber wheel on concrete (0.01).
+    pub const ROLLING_OF_RADIUS: f64 = 0.005;
+
+    /// The coefficient of rolling resistance \[m\] of what has `shapes` and states none: 0 unless all of them are balls, cylinders or
+    /// capsules.
+    pub fn usual_rolling_m(shapes: &[Shape]) -> f64 {
+        let radius = |shape: &Shape| match shape.solid {
+            Solid::Cylinder { radius_m, .. }
+            | Solid::Capsule { radius_m, .. }
+            | Solid::Sphere { radius_m } => radius_m,
+            Solid::Box { .. } | Solid::Mesh(_) => 0.0,
+        };
+        let least = shapes.iter().map(radius).reduce(f64::min);
+        least.unwrap_or(0.0) * Self::ROLLING_OF_RADIUS
+    }
 }
 
 /// A link of the description.

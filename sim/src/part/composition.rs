@@ -110,10 +110,16 @@ impl Values<'_> {
         }
     }
 
-    pub(crate) fn contact(&self, table: &ContactTable) -> Result<Contact, PartError> {
+    /// The surface of what has `shapes`.
+    pub(crate) fn contact(
+        &self,
+        table: &ContactTable,
+        shapes: &[Shape],
+    ) -> Result<Contact, PartError> {
         let ContactTable {
             friction,
             restitution,
+            rolling_m,
         } = table;
         Ok(Contact {
             friction: self.number(friction, "friction", Allowed::NotNegative)?,
@@ -122,6 +128,12 @@ impl Values<'_> {
                 "restitution",
                 Allowed::Fraction, // above one, every bounce would add energy
                 0.0,
+            )?,
+            rolling_m: self.number_or(
+                rolling_m.as_ref(),
+                "rolling_m",
+                Allowed::NotNegative,
+                Contact::usual_rolling_m(shapes),
             )?,
         })
     }

@@ -97,6 +97,7 @@ pub(crate) struct InertiaTable {
 pub(crate) struct ContactTable {
     pub(crate) friction: NumberAt,
     pub(crate) restitution: Option<NumberAt>,
+    pub(crate) rolling_m: Option<NumberAt>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

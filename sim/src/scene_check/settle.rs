@@ -95,7 +95,7 @@ pub(super) fn check(
             return Ok(());
         }
         let before = world.work();
-        if let Err(fault) = world.step(robot, &[], &[], &[], None, &mut facts) {
+        if let Err(fault) = world.step(robot, None, &mut facts) {
             // the positions of the others mean nothing after that
             findings.push(match fault {
                 StepFault::Lost(body) => Finding {

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::joint_limits::JointLimitConstraints;
 use super::smooth::SmoothStep;
 use crate::dynamics::SingularMassMatrix;
-use crate::engine::{BodyState, Clearance, EngineError, Ray, StepFault, World};
+use crate::engine::{ArmStep, BodyState, Clearance, EngineError, Ray, StepFault, World};
 use crate::model::air::AirNow;
 use crate::model::contact::{ContactFact, Party};
 use crate::model::robot::Robot;
@@ -78,6 +78,9 @@ pub struct HybridStep {
     start_q: Vec<f64>,
     start_qd: Vec<f64>,
     held: Vec<f64>,
+    /// The motion of a step without contact, dry friction and joint limits.
+    loose_q: Vec<f64>,
+    loose_qd: Vec<f64>,
     /// The air of the last step.
     air: Option<AirNow>,
     /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
@@ -115,6 +118,8 @@ impl HybridStep {
             start_q: room.clone(),
             start_qd: room.clone(),
             held: room.clone(),
+            loose_q: room.clone(),
+            loose_qd: room.clone(),
             drag: room,
             air: None,
             report: StepReport {
@@ -229,20 +234,19 @@ impl HybridStep {
         qd: &mut [f64],
         near: bool,
     ) -> Result<(), StepError> {
-        let travel_m = near.then(|| self.clearance.travel_m(robot, &self.start_q, q));
         if near {
-            self.hold_with_drag(robot, effort);
+            self.advance_loose(robot, effort, q, qd)?;
         }
+        let arm = near.then(|| ArmStep {
+            q: &self.start_q,
+            qd: &self.start_qd,
+            next_q: &self.loose_q,
+            next_qd: &self.loose_qd,
+            travel_m: self.clearance.travel_m(robot, &self.start_q, &self.loose_q),
+        });
         let facts = &mut self.report.contacts;
         self.world
-            .step(
-                robot,
-                &self.held,
-                &self.start_q,
-                &self.start_qd,
-                travel_m,
-                facts,
-            )
+            .step(robot, arm, facts)
             .map_err(|fault| match fault {
                 StepFault::Lost(lost) => StepError::Lost {
                     body: lost.map(|index| self.names[index].clone()),
@@ -256,6 +260,28 @@ impl HybridStep {
             self.report.state_from = StateFrom::Contact;
             self.report.stops.clear();
         }
+        Ok(())
+    }
+
+    /// Computes the step as nothing holds the joints, which contact then settles together with its own impulses; `(q, qd)` is the state
+    /// after the step without contact.
+    fn advance_loose(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &[f64],
+        qd: &[f64],
+    ) -> Result<(), StepError> {
+        if !self.smooth.has_dry_friction() && self.report.stops.is_empty() {
+            self.loose_q.copy_from_slice(q);
+            self.loose_qd.copy_from_slice(qd);
+            return Ok(());
+        }
+        self.loose_q.copy_from_slice(&self.start_q);
+        self.loose_qd.copy_from_slice(&self.start_qd);
+        let (q, qd) = (&mut self.loose_q, &mut self.loose_qd);
+        self.smooth
+            .advance_without_dry_friction(robot, effort, q, qd)?;
         Ok(())
     }
 

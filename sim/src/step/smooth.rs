@@ -82,10 +82,37 @@ impl SmoothStep {
         q: &mut [f64],
         qd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
+        self.advance_rubbing(robot, effort, q, qd, self.friction.is_present())
+    }
+
+    /// Whether a joint of the robot has dry friction.
+    pub(super) fn has_dry_friction(&self) -> bool {
+        self.friction.is_present()
+    }
+
+    /// As [`Self::advance`], without dry friction: contact settles it together with its own impulses.
+    pub(super) fn advance_without_dry_friction(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        self.advance_rubbing(robot, effort, q, qd, false)
+    }
+
+    fn advance_rubbing(
+        &mut self,
+        robot: &Robot,
+        effort: &[f64],
+        q: &mut [f64],
+        qd: &mut [f64],
+        rubs: bool,
+    ) -> Result<(), SingularMassMatrix> {
         let n = q.len();
         let dt = self.dt_s;
         self.held[..n].copy_from_slice(&effort[..n]);
-        if self.friction.is_present() {
+        if rubs {
             let slope = &mut self.slopes[0];
             let effort = match &self.air {
                 None => effort,

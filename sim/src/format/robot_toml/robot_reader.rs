@@ -255,7 +255,7 @@ impl Resolver<'_> {
                 None => Inertia::zero(),
             };
             let contact = table.contact.as_ref();
-            let contact = contact.map(|c| self.values.contact(c)).transpose()?;
+            let contact = contact.map(|c| self.values.contact(c, &shapes)).transpose()?;
             let drag = table.drag.as_ref();
             let drag = drag.map(|d| self.values.drag(d)).transpose()?;
             links.push(LinkPart {

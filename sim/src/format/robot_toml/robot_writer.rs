@@ -35,8 +35,8 @@ impl Robot {
             if let Some(contact) = &link.contact {
                 let _ = writeln!(
                     out,
-                    "contact = {{ friction = {:?}, restitution = {:?} }}",
-                    contact.friction, contact.restitution
+                    "contact = {{ friction = {:?}, restitution = {:?}, rolling_m = {:?} }}",
+                    contact.friction, contact.restitution, contact.rolling_m
                 );
             }
             if let Some(drag) = &link.drag {

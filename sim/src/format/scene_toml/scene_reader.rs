@@ -97,7 +97,7 @@ impl Resolver<'_> {
             },
             ground: ground
                 .as_ref()
-                .map(|ground| self.contact(ground))
+                .map(|ground| self.contact(ground, &[]))
                 .transpose()?,
             wind: wind.as_ref().map(|wind| self.wind(wind)).transpose()?,
         })
@@ -188,12 +188,13 @@ impl Resolver<'_> {
             };
             return self.err(velocity.span(), problem);
         }
+        let contact = self.contact(&table.contact, &shapes)?;
         Ok(SceneBody {
             name: name.clone(),
             kind,
             shapes,
             inertia,
-            contact: self.contact(&table.contact)?,
+            contact,
             world_from_body,
             twist,
             drag: self.drag(table)?,
@@ -326,10 +327,14 @@ impl Resolver<'_> {
         Ok(Some(drag))
     }
 
-    fn contact(&self, table: &ContactTable) -> Result<Contact, SceneError> {
-        let contact = self.values.contact(table)?;
+    fn contact(&self, table: &ContactTable, shapes: &[Shape]) -> Result<Contact, SceneError> {
+        let contact = self.values.contact(table, shapes)?;
         let at = table.friction.span();
         self.values.within(at, "friction", &[contact.friction])?;
+        if let Some(rolling) = &table.rolling_m {
+            self.values
+                .within(rolling.span(), "rolling_m", &[contact.rolling_m])?;
+        }
         Ok(contact)
     }
 }
