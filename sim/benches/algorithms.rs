@@ -24,7 +24,10 @@ fn robot(name: &str) -> Robot {
     );
     let text = std::fs::read_to_string(&path).expect(&path);
     // every joint counts, as for the peer
-    let options = ReadOptions { ignore_mimic: true };
+    let options = ReadOptions {
+        ignore_mimic: true,
+        ..ReadOptions::default()
+    };
     let source = Source::new(path, text);
     (detect(&source).read)(source, &options, &mut |_| Err("no meshes here".to_owned()))
         .expect("a robot")

@@ -19,7 +19,10 @@ fn model(name: &str) -> Robot {
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(path).expect("a model");
-    let options = ReadOptions { ignore_mimic: true };
+    let options = ReadOptions {
+        ignore_mimic: true,
+        ..ReadOptions::default()
+    };
     let source = Source::new(name.to_owned(), text);
     (detect(&source).read)(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
 }

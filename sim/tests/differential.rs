@@ -32,7 +32,10 @@ pub(crate) fn model(name: &str) -> Robot {
         name.to_owned(),
         std::fs::read_to_string(&path).expect(&path),
     );
-    let options = ReadOptions { ignore_mimic: true };
+    let options = ReadOptions {
+        ignore_mimic: true,
+        ..ReadOptions::default()
+    };
     read_robot(source, &options, &mut |_| Err("none".to_owned())).expect("a robot")
 }
 

@@ -28,7 +28,10 @@ fn read(text: String, ignore_mimic: bool) -> Robot {
     let no_mesh = &mut |_: &str| Err("none".to_owned());
     read_robot(
         Source::new("golden.urdf", text),
-        &ReadOptions { ignore_mimic },
+        &ReadOptions {
+            ignore_mimic,
+            ..ReadOptions::default()
+        },
         no_mesh,
     )
     .unwrap_or_else(|error| panic!("{:?}: {error}", error.line_and_column()))

@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
-use kinemark_sim::model::inertia::{Inertia, Solid, unphysical};
+use kinemark_sim::model::inertia::{Inertia, Solid};
 use kinemark_sim::model::mesh::{Mesh, MeshProblem};
+use kinemark_sim::model::unphysical::Unphysical;
 use kinemark_sim::spatial::{Symmetric3, pose, rotation_from_rpy_deg};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -403,6 +404,6 @@ proptest! {
         let got = turned.inertia(700.0).expect("solid");
         // coordinates near 2 are rounded to 2e-16, 1e-14 of the least edge
         assert_same(&got, &mesh.inertia(700.0).expect("solid").seen_from(&a_from_b), 1e-12);
-        prop_assert!(unphysical(&got.about_com_kg_m2).is_none());
+        prop_assert!(Unphysical::inertia(&got).is_none());
     }
 }

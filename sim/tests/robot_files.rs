@@ -87,3 +87,54 @@ fn a_rotation_that_is_half_there_or_there_twice_says_which() {
         assert_eq!(error.problem.help().as_deref(), Some(help), "{origin}");
     }
 }
+
+/// A base and an arm with this inertia, on line 6.
+fn with_inertia(inertia: &str) -> String {
+    format!(
+        "format = 1\nname = \"r\"\n[[links]]\nname = \"base\"\n[[links]]\ninertia = {inertia}\nname = \"arm\"\n[[joints]]\nname = \"j\"\n\
+         type = \"continuous\"\nparent = \"base\"\nchild = \"arm\"\naxis = [0, 0, 1]\n"
+    )
+}
+
+#[test]
+fn a_tensor_that_no_body_can_have_is_for_kinematics_or_treated_as_the_file_says() {
+    let tensor = "mass_kg = 1, tensor_kg_m2 = [0.001, 0.001, 0.01, 0, 0, 0]";
+    let refused = robot(&with_inertia(&format!("{{ {tensor} }}")));
+    let found = refused.check_inertias().expect_err("a triangle broken");
+    let text = found.to_string();
+    for part in [
+        "`arm` (line 6)",
+        "`accept_unphysical = true`",
+        "`balance = true`",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+    assert_eq!(refused.warnings().len(), 1);
+    for (key, zz) in [("accept_unphysical", 0.01), ("balance", 0.004)] {
+        let treated = robot(&with_inertia(&format!("{{ {tensor}, {key} = true }}")));
+        assert_eq!(treated.check_inertias(), Ok(()));
+        assert_eq!(treated.links()[1].inertia.about_com_kg_m2.zz, zz, "{key}");
+        // the file says so itself
+        assert_eq!(treated.warnings(), [""; 0], "{key}");
+    }
+    let both = format!("{{ {tensor}, accept_unphysical = true, balance = true }}");
+    let file = RobotFile::parse(Source::new("robot.toml", with_inertia(&both))).expect("tables");
+    let error = file.build(&[]).expect_err("both");
+    assert_eq!(error.problem.code(), "robot::inertia");
+    // a mass below zero is no rounding of published numbers
+    let negative = format!("{{ {}, balance = true }}", tensor.replace("= 1,", "= -1,"));
+    let negative = robot(&with_inertia(&negative));
+    assert!(negative.check_masses().is_err());
+}
+
+#[test]
+fn all_mistakes_of_links_and_joints_are_reported_at_once() {
+    let text = with_inertia("{ mass_kg = 1 }").replace("[0, 0, 1]", "[0, 0, 0]");
+    let file = RobotFile::parse(Source::new("robot.toml", text)).expect("tables");
+    let error = file.build(&[]).expect_err("two mistakes");
+    let lines: Vec<usize> = std::iter::once(&error)
+        .chain(error.others())
+        .map(|one| one.line_and_column().0)
+        .collect();
+    assert_eq!(lines, [6, 13]);
+}

@@ -324,7 +324,10 @@ fn ur5() -> Robot {
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(&path).expect(&path);
-    let options = ReadOptions { ignore_mimic: true };
+    let options = ReadOptions {
+        ignore_mimic: true,
+        ..ReadOptions::default()
+    };
     let no_mesh = &mut |_: &str| Err("none".to_owned());
     read_robot(Source::new("ur5.urdf", text), &options, no_mesh).expect("a robot")
 }

@@ -4,10 +4,11 @@ use std::cell::RefCell;
 
 use crate::arms::read_robot;
 use kinemark_sim::format::ReadOptions;
-use kinemark_sim::format::RobotError;
+use kinemark_sim::format::{RobotError, RobotFile};
 use kinemark_sim::joint_space::JointPositions;
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::model::robot::{JointKind, Robot};
+use kinemark_sim::model::unphysical::OnUnphysical;
 use kinemark_sim::spatial::{Pose, rotation_about_axis_deg};
 use kinemark_sim::text::Source;
 use nalgebra::Vector3;
@@ -194,9 +195,14 @@ pub(crate) fn gripper() -> String {
 fn a_mimic_joint_follows_or_stands_alone() {
     let robot_of = |ignore_mimic| {
         let source = Source::new("g.urdf", gripper());
-        read_robot(source, &ReadOptions { ignore_mimic }, &mut |_: &str| {
-            Err(String::new())
-        })
+        read_robot(
+            source,
+            &ReadOptions {
+                ignore_mimic,
+                ..ReadOptions::default()
+            },
+            &mut |_: &str| Err(String::new()),
+        )
         .expect("a gripper")
     };
     let following = robot_of(false);
@@ -288,5 +294,207 @@ fn missing_meshes_are_named_and_asked_for_once() {
     assert_eq!(
         warnings[2],
         "link `base`: mesh `c.dae` is COLLADA, which is not supported: convert it to STL or OBJ (line 3)"
+    );
+}
+
+/// A base and an arm; `base` and `arm` are the children of `<inertial>` of each, on lines 3 and 6.
+fn two_bodies(base: &str, arm: &str) -> String {
+    format!(
+        "<robot name=\"r\">\n<link name=\"base\"><inertial>\n{base}\n</inertial></link>\n<link name=\"arm\"><inertial>\n{arm}\n\
+         </inertial></link>\n<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/>\
+         <axis xyz=\"0 0 1\"/></joint>\n</robot>\n"
+    )
+}
+
+fn body(mass: f64, diagonal: [f64; 3], off_diagonal: f64) -> String {
+    let [x, y, z] = diagonal;
+    let o = off_diagonal;
+    format!(
+        "<mass value=\"{mass:e}\"/><inertia ixx=\"{x:e}\" iyy=\"{y:e}\" izz=\"{z:e}\" ixy=\"{o:e}\" ixz=\"{o:e}\" iyz=\"{o:e}\"/>"
+    )
+}
+
+fn read_with(text: &str, on_unphysical: OnUnphysical) -> Robot {
+    let options = ReadOptions {
+        on_unphysical,
+        ..ReadOptions::default()
+    };
+    let no_mesh = &mut |_: &str| Err("no meshes in this test".to_owned());
+    read_robot(Source::new("robot.urdf", text), &options, no_mesh).expect("readable")
+}
+
+#[test]
+fn the_tensor_of_a_root_moves_nothing_and_is_no_reason_to_refuse() {
+    // as exporters write it: all six numbers alike, with the principal moments -2e-22, 0 and 3e-6
+    let dummy = body(1e-6, [1e-6; 3], 1e-6);
+    let text = two_bodies(&dummy, &body(1.0, [0.1; 3], 0.0));
+    let robot = good(&text);
+    assert_eq!(robot.check_inertias(), Ok(()));
+    assert_eq!(robot.warnings(), [""; 0]);
+    // what is fixed to the root moves no more than it
+    let with_mount = text.replace(
+        "</robot>",
+        &format!(
+            "<link name=\"mount\"><inertial>{dummy}</inertial></link><joint name=\"k\" type=\"fixed\">\
+             <parent link=\"base\"/><child link=\"mount\"/></joint></robot>"
+        ),
+    );
+    assert_eq!(good(&with_mount).check_inertias(), Ok(()));
+    // on the arm it moves
+    let on_arm = with_mount.replace(
+        "<parent link=\"base\"/><child link=\"mount\"/>",
+        "<parent link=\"arm\"/><child link=\"mount\"/>",
+    );
+    let robot = good(&on_arm);
+    let found = robot.unphysical().expect("a triangle broken").links();
+    assert_eq!((found.len(), found[0].name.as_str()), (1, "mount"));
+}
+
+#[test]
+fn the_rounding_of_a_point_mass_is_none_of_its_inertia() {
+    let point = body(1.3, [-2.4e-35, 0.0, 2.4e-35], 0.0);
+    assert_eq!(
+        good(&two_bodies("<mass value=\"0\"/>", &point)).check_inertias(),
+        Ok(())
+    );
+}
+
+#[test]
+fn a_tensor_that_no_body_can_have_leaves_a_robot_for_kinematics() {
+    let text = two_bodies(
+        &body(-1.0, [0.1; 3], 0.0),
+        &body(1.0, [0.001, 0.001, 0.01], 0.0),
+    );
+    let robot = good(&text);
+    let found = robot.check_inertias().expect_err("two links");
+    assert_eq!(
+        found.to_string(),
+        "the robot is for kinematics only: no body can have the mass properties of 2 links
+  `base` (line 3): the mass is negative (-1.0 kg)
+  `arm` (line 6): principal moments 1.000000e-3, 1.000000e-3, 1.000000e-2 kg m² break the triangle inequality: the largest exceeds the sum of the others
+--accept-unphysical takes these tensors as they are, --balance makes all three principal moments of each their mean (in lab.toml, the same words in [robot_options])
+a negative mass has to be mended in the file"
+    );
+    // one warning has all of it
+    assert_eq!(robot.warnings().len(), 1);
+    assert!(
+        robot.warnings()[0].contains("`base` (line 3)")
+            && robot.warnings()[0].contains("`arm` (line 6)")
+    );
+    assert_eq!(robot.check_masses(), Err(found));
+    let q = JointPositions::new([0.5]);
+    assert!(
+        forward_kinematics(&robot, &q)
+            .world_from(robot.tcp())
+            .rotation
+            .angle()
+            > 0.4
+    );
+    // no flag makes a mass of less than nothing
+    for on_unphysical in [OnUnphysical::Accept, OnUnphysical::Balance] {
+        let robot = read_with(&text, on_unphysical);
+        let found = robot.unphysical().expect("the mass").links();
+        assert_eq!((found.len(), found[0].name.as_str()), (1, "base"));
+    }
+}
+
+#[test]
+fn a_flag_takes_a_tensor_as_it_is_or_balances_it() {
+    let text = two_bodies("<mass value=\"0\"/>", &body(1.0, [0.001, 0.001, 0.01], 0.0));
+    let refused = good(&text);
+    let found = refused.check_inertias().expect_err("a triangle broken");
+    // kinematics and the centre of mass do not need it
+    assert_eq!(refused.check_masses(), Ok(()));
+    assert!(found.to_string().contains("--accept-unphysical"), "{found}");
+    let moments = |robot: &Robot| {
+        let tensor = robot.links()[1].inertia.about_com_kg_m2;
+        [tensor.xx, tensor.yy, tensor.zz]
+    };
+    let accepted = read_with(&text, OnUnphysical::Accept);
+    assert_eq!(accepted.check_inertias(), Ok(()));
+    assert_eq!(moments(&accepted), [0.001, 0.001, 0.01]);
+    let balanced = read_with(&text, OnUnphysical::Balance);
+    assert_eq!(balanced.check_inertias(), Ok(()));
+    // (0.001 + 0.001 + 0.01) / 3, as MuJoCo's balanceinertia has it
+    assert_eq!(moments(&balanced), [0.004; 3]);
+    for (robot, word) in [
+        (&accepted, "taken as they are"),
+        (&balanced, "are balanced"),
+    ] {
+        let [warning] = robot.warnings() else {
+            panic!("{:?}", robot.warnings());
+        };
+        assert!(
+            warning.contains(word) && warning.contains("`arm` (line 6)"),
+            "{warning}"
+        );
+    }
+}
+
+#[test]
+fn a_robot_is_written_with_the_tensors_that_it_was_read_with() {
+    let text = two_bodies(
+        &body(1e-6, [1e-6; 3], 1e-6),
+        &body(1.0, [0.001, 0.001, 0.01], 0.0),
+    );
+    for on_unphysical in [
+        OnUnphysical::Refuse,
+        OnUnphysical::Accept,
+        OnUnphysical::Balance,
+    ] {
+        let robot = read_with(&text, on_unphysical);
+        let written = robot.to_toml(&mut str::to_owned);
+        let again = RobotFile::parse(Source::new("robot.toml", written.as_str()))
+            .and_then(|file| file.build(&[]))
+            .unwrap_or_else(|error| panic!("{error}\n{written}"));
+        assert_eq!(again.links(), robot.links(), "{written}");
+        let is_accepted = written.contains("accept_unphysical = true");
+        assert_eq!(
+            is_accepted,
+            on_unphysical == OnUnphysical::Accept,
+            "{written}"
+        );
+        let names = |robot: &Robot| -> Vec<String> {
+            let found = robot.unphysical().map_or(&[][..], |found| found.links());
+            found.iter().map(|link| link.name.clone()).collect()
+        };
+        assert_eq!(names(&again), names(&robot), "{written}");
+    }
+}
+
+#[test]
+fn heavy_meshes_are_a_warning_with_the_heaviest_links() {
+    let mesh = |rows: usize| {
+        let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
+        text += &"f 1 2 3\n".repeat(rows);
+        text.into_bytes()
+    };
+    let links: String = [("light", 0), ("heavy", 12_000), ("heavier", 15_000)]
+        .iter()
+        .map(|(name, rows)| {
+            format!("<link name=\"{name}\"><collision><geometry><mesh filename=\"{rows}.obj\"/></geometry></collision></link>")
+        })
+        .collect();
+    let text = format!(
+        "<robot name=\"r\"><link name=\"base\"/>{links}<joint name=\"a\" type=\"fixed\"><parent link=\"base\"/><child link=\"light\"/></joint>\
+         <joint name=\"b\" type=\"fixed\"><parent link=\"base\"/><child link=\"heavy\"/></joint>\
+         <joint name=\"c\" type=\"fixed\"><parent link=\"base\"/><child link=\"heavier\"/></joint></robot>"
+    );
+    let warnings = |most: usize| {
+        let read = &mut |name: &str| {
+            let rows: usize = name.trim_end_matches(".obj").parse().expect("a count");
+            Ok(mesh(rows.clamp(1, most)))
+        };
+        let source = Source::new("robot.urdf", text.as_str());
+        let robot = read_robot(source, &ReadOptions::default(), read).expect("readable");
+        robot.warnings().to_vec()
+    };
+    assert_eq!(warnings(9_999), [""; 0]);
+    let all = warnings(usize::MAX);
+    assert_eq!(all.len(), 1, "{all:?}");
+    assert!(
+        all[0].starts_with("the meshes have 27001 triangles, more than 20000: ")
+            && all[0].contains("heaviest links are `heavier` 15000, `heavy` 12000, `light` 1;"),
+        "{all:?}"
     );
 }

@@ -78,6 +78,7 @@ mod submit;
 mod tampered_reports;
 mod targets;
 mod testbed;
+mod urdf_labs;
 mod variant_mistakes;
 mod variants;
 mod verify;

@@ -197,7 +197,7 @@ fn what_cannot_be_shown_says_why() {
         "<robot name=\"arm\">\n  <link name=\"base\"/>\n  <link name=\"tip\"/>\n</robot>\n",
     );
     let links = "0,0,1; 0,0,1; 0,0,1";
-    let cases: [(&[&str], i32, &str); 17] = [
+    let cases: [(&[&str], i32, &str); 20] = [
         (&["RzRyRz"], 2, "--links \"0,0,1; 0,0,1; 0,0,1\""),
         // the letter comes first: links of a wrong count would not help
         (&["RzRxq"], 2, "[joint string:1:5]"),
@@ -220,6 +220,21 @@ fn what_cannot_be_shown_says_why() {
             "--base is for joint strings",
         ),
         (&["arm.toml", "--ignore-mimic"], 2, "remove `mimic`"),
+        (
+            &["arm.toml", "--balance"],
+            2,
+            "write `balance = true` in the link's `inertia`",
+        ),
+        (
+            &["rrbot", "--accept-unphysical"],
+            2,
+            "write `accept_unphysical = true` in the link's `inertia`",
+        ),
+        (
+            &["arm.urdf", "--accept-unphysical", "--balance"],
+            2,
+            "cannot be used with",
+        ),
         (
             &["arm.toml", "--package", "a=."],
             2,

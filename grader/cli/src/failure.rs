@@ -6,7 +6,7 @@ use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use textwrap::{WordSeparator, WordSplitter};
 
-use crate::shown_diagnostic::{ShownDiagnostic, words};
+use crate::shown_diagnostic::{ShownDiagnostic, lines, words};
 
 /// Points lost, or a comparison that differs.
 pub(crate) const LOST: u8 = 1;
@@ -116,11 +116,13 @@ pub(crate) fn warn_in_words(message: &str, help: &str) {
     let _ = anstream::stderr().write_all(text.as_bytes());
 }
 
-/// Prints, in words, what ends nothing and says by itself what to do.
+/// Prints, in words, what ends nothing and says by itself what to do. Lines after the first are indented, so that none can be taken
+/// for something else.
 pub(crate) fn warn_alone(message: &str) {
     use std::io::Write as _;
+    let text = lines(message).replace('\n', "\n  ");
     // without standard error there is no one to warn
-    let _ = anstream::stderr().write_all(format!("warning: {}\n", words(message)).as_bytes());
+    let _ = anstream::stderr().write_all(format!("warning: {text}\n").as_bytes());
 }
 
 /// Prints, in words, what a person should know while nothing is wrong.

@@ -5,9 +5,10 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use kinemark_grader::task::robot::LabRobot;
-use kinemark_grader::task::robot::robot_names;
+use kinemark_grader::task::robot::{RobotOptions, robot_names};
 use kinemark_sim::format::{MeshLocation, ReadOptions, RobotError, detect, joint_string};
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::unphysical::OnUnphysical;
 use kinemark_sim::text::suggest;
 
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
@@ -31,6 +32,12 @@ pub(crate) struct RobotArgs {
     /// Give the mimic joints of a URDF their own entries in q
     #[arg(long)]
     pub(crate) ignore_mimic: bool,
+    /// Take inertia tensors of a URDF that no body can have as they are
+    #[arg(long, conflicts_with = "balance")]
+    pub(crate) accept_unphysical: bool,
+    /// Make all three principal moments of such a tensor their mean, as MuJoCo's `balanceinertia` does
+    #[arg(long)]
+    pub(crate) balance: bool,
     #[command(flatten)]
     pub(crate) labs_folder: LabsFolderArgs,
 }
@@ -69,7 +76,9 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
     }
     let name = args.robot.to_string_lossy();
     let (files, folder) = labs_folder::open(&args.labs_folder)?;
-    if let Some(LabRobot { file, meshes }) = LabRobot::load(files.as_ref(), &name)? {
+    let options = RobotOptions::default();
+    if let Some(robot) = LabRobot::load(files.as_ref(), &name, &options)? {
+        let LabRobot { file, meshes, .. } = robot;
         let what = format!("`{name}` is a robot of the labs");
         refuse_joint_string_options(args, &what)?;
         refuse_urdf_options(args, &what)?;
@@ -130,12 +139,35 @@ fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failu
     ))
 }
 
-/// `--package` and `--ignore-mimic` belong to URDFs.
+impl RobotArgs {
+    fn read_options(&self) -> ReadOptions {
+        ReadOptions {
+            ignore_mimic: self.ignore_mimic,
+            on_unphysical: match (self.accept_unphysical, self.balance) {
+                (true, _) => OnUnphysical::Accept,
+                (false, true) => OnUnphysical::Balance,
+                (false, false) => OnUnphysical::Refuse,
+            },
+        }
+    }
+}
+
+/// `--package`, `--ignore-mimic`, `--accept-unphysical` and `--balance` belong to URDFs.
 fn refuse_urdf_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
     let (given, instead) = if args.ignore_mimic {
         (
             "--ignore-mimic",
             "; in a robot file, remove `mimic` from the joint",
+        )
+    } else if args.accept_unphysical {
+        (
+            "--accept-unphysical",
+            "; in a robot file, write `accept_unphysical = true` in the link's `inertia`",
+        )
+    } else if args.balance {
+        (
+            "--balance",
+            "; in a robot file, write `balance = true` in the link's `inertia`",
         )
     } else if !args.packages.is_empty() {
         (
@@ -162,9 +194,7 @@ fn from_file(path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
     } else {
         refuse_urdf_options(args, &format!("`{shown}` is {}", format.name))?;
     }
-    let options = ReadOptions {
-        ignore_mimic: args.ignore_mimic,
-    };
+    let options = args.read_options();
     let folder = folder_of(path);
     let mut meshes = BTreeMap::new();
     let mut read = |name: &str| {

@@ -157,6 +157,8 @@ fn arm(args: &Args) -> Result<Option<ArmInScene>, Failure> {
         links: None,
         packages: args.packages.clone(),
         ignore_mimic: false,
+        accept_unphysical: false,
+        balance: false,
         labs_folder: args.labs_folder.clone(),
     })?
     .robot;

@@ -33,7 +33,7 @@ pub(crate) fn words(text: &str) -> String {
 
 /// The same for a message that may have several lines: each is shown below the others and behind the margin of the diagnostic, so that
 /// none can be taken for something else.
-fn lines(text: &str) -> String {
+pub(crate) fn lines(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').take(MOST_LINES).map(words).collect();
     lines.join("\n")
 }

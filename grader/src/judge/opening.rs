@@ -55,14 +55,12 @@ fn granted(lab: &Lab, work: &TaskWork) -> Option<Granted> {
         TaskWork::Motion(motion, _) => (&motion.grants, motion.gravity_m_s2),
     };
     let source = lab.robot_file.source();
-    let mesh = |mesh: &MeshFile| {
-        let name = mesh.path.strip_prefix("robots/").unwrap_or(&mesh.path);
-        (name.to_owned(), mesh.bytes.clone())
-    };
+    let mesh = |mesh: &MeshFile| (mesh.name.clone(), mesh.bytes.clone());
     (!functions.is_empty()).then(|| Granted {
         functions: functions.clone(),
         robot_path: source.name().to_owned(),
         robot_text: source.text().to_owned(),
+        read_options: lab.robot_file.options(),
         meshes: lab.robot_meshes.iter().map(mesh).collect(),
         frame: lab.frame.clone(),
         gravity_m_s2: gravity_m_s2.into(),

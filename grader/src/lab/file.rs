@@ -23,6 +23,7 @@ pub(super) struct LabTable {
     #[serde(default)]
     pub(super) summary: String,
     pub(super) robot: Spanned<String>,
+    pub(super) robot_options: Option<Spanned<RobotOptionsTable>>,
     pub(super) frame: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) budgets: BudgetTable,
@@ -36,6 +37,20 @@ pub(super) struct LabTable {
     pub(super) variants: BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
     #[serde(default)]
     pub(super) tasks: Vec<TaskTable>,
+}
+
+/// How a URDF is read.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RobotOptionsTable {
+    #[serde(default)]
+    pub(super) ignore_mimic: bool,
+    #[serde(default)]
+    pub(super) accept_unphysical: bool,
+    #[serde(default)]
+    pub(super) balance: bool,
+    #[serde(default)]
+    pub(super) packages: BTreeMap<String, String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

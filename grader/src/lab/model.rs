@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kinemark_sim::format::RobotFile;
+use kinemark_sim::format::RobotDescription;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimensions;
 use kinemark_sim::text::Source;
@@ -35,9 +35,9 @@ pub struct Lab {
     pub variants: Vec<VariantRule>,
     /// The variant it is, if it is one.
     pub variant: Option<Variant>,
-    /// The robot file, which variants and cases build with other dimensions.
-    pub robot_file: RobotFile,
-    /// The meshes the robot file names.
+    /// The robot's description, which variants and cases build with other dimensions.
+    pub robot_file: RobotDescription,
+    /// The meshes the description names.
     pub robot_meshes: Vec<MeshFile>,
     /// The robot as its file states it, but for the dimensions that the lab changes.
     pub robot: Robot,

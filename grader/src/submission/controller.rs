@@ -3,6 +3,7 @@
 //! One trait, whatever the submission is made of, with two transports: this process, and a worker process. Both carry these types and
 //! give the same bits.
 
+use kinemark_sim::format::ReadOptions;
 use serde::{Deserialize, Serialize};
 
 use super::handed_in::Program;
@@ -63,6 +64,8 @@ pub struct Granted {
     pub robot_path: String,
     /// The robot file's text.
     pub robot_text: String,
+    /// How it is read, where it is a URDF.
+    pub read_options: ReadOptions,
     /// Bytes of its meshes, by their names in the robot file.
     pub meshes: Vec<(String, Vec<u8>)>,
     /// The lab's frame.

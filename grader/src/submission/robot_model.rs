@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use kinemark_sim::dynamics::{gravity_effort, mass_matrix};
-use kinemark_sim::format::RobotFile;
+use kinemark_sim::format::RobotDescription;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
@@ -17,7 +17,7 @@ use crate::task::tcp::tcp_in;
 /// The robot that granted functions query, built again only for other dimensions.
 #[derive(Debug)]
 pub(super) struct Model {
-    file: RobotFile,
+    file: RobotDescription,
     frame: String,
     gravity_m_s2: Vector3<f64>,
     current: RefCell<(Vec<(String, Value)>, Robot)>,
@@ -38,16 +38,14 @@ impl Model {
             Stop::GraderFault(format!("the robot of the granted functions: {error}"))
         };
         let source = Source::new(granted.robot_path.as_str(), granted.robot_text.as_str());
-        let file = RobotFile::parse(source)
-            .and_then(|file| {
-                file.with_meshes(|name| {
-                    let mut meshes = granted.meshes.iter();
-                    match meshes.find(|(known, _)| known == name) {
-                        Some((_, bytes)) => Ok(bytes.clone()),
-                        None => Err("it was not handed over".to_owned()),
-                    }
-                })
-            })
+        let mut mesh = |name: &str| {
+            let mut meshes = granted.meshes.iter();
+            match meshes.find(|(known, _)| known == name) {
+                Some((_, bytes)) => Ok(bytes.clone()),
+                None => Err("it was not handed over".to_owned()),
+            }
+        };
+        let file = RobotDescription::read(source, &granted.read_options, &mut mesh)
             .map_err(|error| fault(&error))?;
         let robot = built(&file, facts)?;
         Ok(Self {
@@ -104,7 +102,7 @@ pub(super) fn cost(grant: Grant, joints: usize) -> u64 {
     }
 }
 
-fn built(file: &RobotFile, facts: &RobotFacts) -> Result<Robot, Stop> {
+fn built(file: &RobotDescription, facts: &RobotFacts) -> Result<Robot, Stop> {
     let number = |value: &Value| match value {
         Value::Number(number) => *number,
         // dimensions are numbers; building the robot refuses invalid ones

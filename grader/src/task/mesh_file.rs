@@ -5,6 +5,8 @@ use super::files::Files;
 /// A mesh as its file has it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshFile {
+    /// What the file that names it calls it, such as `package://hand_description/meshes/hand.stl`.
+    pub name: String,
     /// Its path inside the labs, such as `robots/meshes/hand.stl`.
     pub path: String,
     /// Its bytes.
@@ -21,9 +23,52 @@ pub(crate) fn read(files: &dyn Files, folder: &str, name: &str) -> Result<MeshFi
     }
     let path = format!("{folder}/{name}");
     match files.bytes(&path)? {
-        Some(bytes) => Ok(MeshFile { path, bytes }),
+        Some(bytes) => Ok(MeshFile {
+            name: name.to_owned(),
+            path,
+            bytes,
+        }),
         None => Err(format!("there is no file `{path}` in {}", files.name())),
     }
+}
+
+/// The path below `root` to which `path` leads from its folder `folder`; `None` where it leads out of `root`.
+pub(crate) fn inside(root: &str, folder: &str, path: &str) -> Option<String> {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').chain(path.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop()?;
+            }
+            part if part.contains(['\\', ':']) => return None,
+            part => parts.push(part),
+        }
+    }
+    Some(format!("{root}/{}", parts.join("/")))
+}
+
+/// Reads the mesh called `name` from the first of `paths` where a file is.
+pub(crate) fn read_first(
+    files: &dyn Files,
+    name: &str,
+    paths: &[String],
+) -> Result<MeshFile, String> {
+    for path in paths {
+        if let Some(bytes) = files.bytes(path)? {
+            return Ok(MeshFile {
+                name: name.to_owned(),
+                path: path.clone(),
+                bytes,
+            });
+        }
+    }
+    let tried: Vec<String> = paths.iter().map(|path| format!("`{path}`")).collect();
+    Err(format!(
+        "there is no file {} in {}",
+        tried.join(" or "),
+        files.name()
+    ))
 }
 
 /// The digest of a file and its meshes: another one for any other file.

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::assembly::assembler::{MOST_LINKS, axes_with_z_along};
-use super::assembly::description::{Description, FramePart, JointPart, LinkPart};
+use super::assembly::description::{Description, FramePart, JointPart, LinkPart, UnphysicalWords};
 use super::robot_problem::{RobotError, RobotProblem};
 use crate::model::inertia::Solid;
 use crate::model::robot::{JointKind, Robot, Shape};
@@ -86,6 +86,7 @@ pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError
         frames: Vec::new(),
         loops: Vec::new(),
         warnings: Vec::new(),
+        unphysical: UnphysicalWords::NONE,
         source,
     };
     let mut carrier = "base".to_owned();

@@ -5,6 +5,8 @@
 mod assembly;
 pub mod joint_string;
 mod mesh_location;
+mod mistakes;
+mod robot_description;
 mod robot_format;
 mod robot_problem;
 mod scene_toml;
@@ -25,6 +27,7 @@ robot_formats! {
 }
 
 pub use mesh_location::MeshLocation;
+pub use robot_description::{FixedDescription, RobotDescription};
 pub use robot_format::{Likeness, NameMesh, ReadFile, ReadOptions, RobotFormat, detect};
 pub use robot_problem::{RobotError, RobotProblem};
 pub use robot_toml::RobotFile;

@@ -1,9 +1,12 @@
 //! What a format of robot descriptions is, and which one a description is in. The list of formats is [`super::ROBOT_FORMATS`].
 
+use serde::{Deserialize, Serialize};
+
 use super::ROBOT_FORMATS;
 use super::mesh_location::MeshLocation;
 use super::robot_problem::RobotError;
 use crate::model::robot::Robot;
+use crate::model::unphysical::OnUnphysical;
 use crate::text::Source;
 
 /// Gets the bytes of a file by the name that a description has for it, or why there are none.
@@ -13,10 +16,12 @@ pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 pub type NameMesh<'a> = dyn FnMut(&str) -> String + 'a;
 
 /// How a description is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct ReadOptions {
     /// Whether a mimic joint gets an entry of its own in `q`, as if it followed nothing; formats of ROS only.
     pub ignore_mimic: bool,
+    /// What becomes of tensors that no body can have; formats of ROS only: a robot file says it itself, link by link.
+    pub on_unphysical: OnUnphysical,
 }
 
 /// How much a file looks like one of a format.
@@ -43,7 +48,7 @@ pub struct RobotFormat {
     pub write: Option<fn(&Robot, &mut NameMesh<'_>) -> String>,
     /// Where a mesh lies that a description names so.
     pub mesh_location: fn(&str) -> MeshLocation<'_>,
-    /// Whether it is one of ROS: meshes may lie in packages, and [`ReadOptions::ignore_mimic`] counts.
+    /// Whether it is one of ROS: meshes may lie in packages, and [`ReadOptions`] count.
     pub is_of_ros: bool,
     /// A description, with the name of its file.
     #[cfg(test)]

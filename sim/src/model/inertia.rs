@@ -1,4 +1,4 @@
-//! Mass, centre of mass and rotational inertia: of shapes, of sums, and what makes a tensor physical.
+//! Mass, centre of mass and rotational inertia: of shapes and of sums.
 
 use std::sync::Arc;
 
@@ -194,26 +194,6 @@ impl Solid {
     }
 }
 
-/// The reason why no body can have this tensor about its centre of mass, if there is one: a negative principal moment, or one larger
-/// than the sum of the other two (the triangle inequality).
-pub fn unphysical(tensor: &Symmetric3) -> Option<String> {
-    let moments = principal_moments(tensor);
-    let slack = 1e-9 * moments[2].abs(); // printed tensors are rounded
-    if moments[0] < -slack {
-        return Some(format!(
-            "the inertia tensor has a negative principal moment ({:.6e} kg m²)",
-            moments[0]
-        ));
-    }
-    if moments[2] > moments[0] + moments[1] + slack {
-        return Some(format!(
-            "principal moments {:.6e}, {:.6e}, {:.6e} kg m² break the triangle inequality: the largest exceeds the sum of the others",
-            moments[0], moments[1], moments[2]
-        ));
-    }
-    None
-}
-
 /// The principal moments of an inertia tensor \[kg m²\], least first; NaN where the tensor is not finite.
 pub(crate) fn principal_moments(tensor: &Symmetric3) -> [f64; 3] {
     let full = tensor.to_matrix();
@@ -311,17 +291,5 @@ mod tests {
             assert!(principal_moments(&tensor(broken))[0].is_nan());
         }
         assert_eq!(principal_moments(&tensor(0.0)), [0.0; 3]);
-    }
-
-    #[test]
-    fn a_tensor_that_breaks_the_triangle_inequality_is_named() {
-        let tensor = Symmetric3 {
-            xx: 1.0,
-            yy: 1.0,
-            zz: 2.5,
-            ..Symmetric3::default()
-        };
-        assert!(unphysical(&tensor).is_some());
-        assert!(unphysical(&Symmetric3 { zz: 2.0, ..tensor }).is_none());
     }
 }

@@ -11,3 +11,4 @@ pub mod prescribed_motion;
 pub mod robot;
 pub mod scene;
 pub mod sensor;
+pub mod unphysical;

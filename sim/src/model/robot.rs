@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::air::Drag;
 use super::inertia::{Inertia, Solid};
 use super::sensor::Sensor;
+use super::unphysical::UnphysicalLinks;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::spatial::{Pose, Symmetric3};
 use crate::text::Dimensions;
@@ -270,6 +271,7 @@ pub struct Robot {
     pub(crate) independent: Vec<usize>,
     pub(crate) home: Vec<f64>,
     pub(crate) warnings: Vec<String>,
+    pub(crate) unphysical: Option<UnphysicalLinks>,
     pub(crate) sensors: Vec<Sensor>,
 }
 
@@ -358,6 +360,37 @@ impl Robot {
     /// Warnings: facts that a reader of the description should know although they are not errors.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// The links whose mass properties no body can have, in a robot that is for kinematics only; `None` in any other.
+    ///
+    /// Links that no joint moves are not among them for their tensors, which move nothing, and neither are those whose tensor is
+    /// taken as it is or was balanced ([`OnUnphysical`](super::unphysical::OnUnphysical)).
+    pub fn unphysical(&self) -> Option<&UnphysicalLinks> {
+        self.unphysical.as_ref()
+    }
+
+    /// Checks that mass, centre of mass and tensor of every link count, as dynamics needs them.
+    ///
+    /// # Errors
+    /// [`Robot::unphysical`].
+    pub fn check_inertias(&self) -> Result<(), &UnphysicalLinks> {
+        self.unphysical.as_ref().map_or(Ok(()), Err)
+    }
+
+    /// Checks that the mass and the centre of mass of every link count, whatever its tensor.
+    ///
+    /// # Errors
+    /// [`Robot::unphysical`], if a mass is negative.
+    pub fn check_masses(&self) -> Result<(), &UnphysicalLinks> {
+        let is_of_mass = |found: &&UnphysicalLinks| {
+            let mut links = found.links().iter();
+            links.any(|link| !link.why.is_of_tensor())
+        };
+        self.unphysical
+            .as_ref()
+            .filter(is_of_mass)
+            .map_or(Ok(()), Err)
     }
 
     /// Whether every entry of `q` moves one body of a tree: no loop and no mimic joint.

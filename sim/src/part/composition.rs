@@ -12,10 +12,10 @@ use super::part_tables::{
 };
 use super::values::{Allowed, Values};
 use crate::model::air::Drag;
-use crate::model::inertia;
 use crate::model::inertia::{Inertia, MeshSolid, Solid};
 use crate::model::mesh::mesh_problem::MeshProblem;
 use crate::model::robot::{Contact, Shape};
+use crate::model::unphysical::Unphysical;
 use crate::spatial::Symmetric3;
 use crate::text::Located;
 
@@ -187,7 +187,7 @@ impl Values<'_> {
     }
 
     /// Mass properties written out in full; the tensor is about the centre of mass, which is the owner's origin where the file does
-    /// not say.
+    /// not say. A robot's may be such as no body can have: what comes of that is for its links together.
     fn given_inertia(
         &self,
         owner: &str,
@@ -203,21 +203,20 @@ impl Values<'_> {
             );
         };
         let about_com_kg_m2 = self.tensor(tensor.get_ref())?;
-        if let Some(why) = inertia::unphysical(&about_com_kg_m2)
-            && !given.accept_unphysical
-        {
-            let help = match self.kind {
-                // contact would not hold such a body
-                "scene" => "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass",
-                _ => {
-                    "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass; published \
-                     numbers that are so anyway pass with `accept_unphysical = true`"
-                }
-            };
+        // contact would not hold such a body
+        let is_body = self.kind == "scene";
+        let allowed = if is_body {
+            Allowed::NotNegative
+        } else {
+            Allowed::Any
+        };
+        let mass_kg = self.number(mass, "mass_kg", allowed)?;
+        if is_body && let Some(why) = Unphysical::tensor(&about_com_kg_m2, mass_kg) {
+            let help = "the order is [ixx, iyy, izz, ixy, ixz, iyz], about the centre of mass";
             return self.refuse_inertia(tensor.span(), format!("{owner}: {why}"), help);
         }
         Ok(Inertia {
-            mass_kg: self.number(mass, "mass_kg", Allowed::NotNegative)?,
+            mass_kg,
             com_m: match &given.com_m {
                 Some(com) => self.triple(com, "com_m")?,
                 None => Vector3::zeros(),

@@ -90,6 +90,8 @@ pub(crate) struct InertiaTable {
     pub(crate) tensor_kg_m2: Option<Spanned<[NumberAt; 6]>>,
     #[serde(default)]
     pub(crate) accept_unphysical: bool,
+    #[serde(default)]
+    pub(crate) balance: bool,
 }
 
 #[derive(Debug, Clone, Deserialize)]

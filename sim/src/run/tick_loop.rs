@@ -16,6 +16,7 @@ use crate::kinematics::FramePoses;
 use crate::model::robot::{Frame, Robot};
 use crate::model::scene::Scene;
 use crate::model::sensor::{Seen, Sensor};
+use crate::model::unphysical::UnphysicalLinks;
 use crate::sensing::{SensorError, Sensors};
 use crate::spatial::Pose;
 use crate::step::hybrid::HybridStep;
@@ -118,6 +119,9 @@ pub enum End<E> {
 /// A run that cannot start, or a robot that cannot move.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
+    /// No body can have the mass properties of some links.
+    #[error(transparent)]
+    Unphysical(#[from] UnphysicalLinks),
     /// The servo does not fit.
     #[error(transparent)]
     Servo(#[from] ServoError),
@@ -200,7 +204,7 @@ impl<'a> Run<'a> {
     /// A run of `setup` before its first tick.
     ///
     /// # Errors
-    /// [`RunError`] if the servo settings do not fit the robot, or robot and scene cannot have contact.
+    /// [`RunError`] if the robot is for kinematics only, the servo settings do not fit it, or robot and scene cannot have contact.
     ///
     /// # Panics
     /// If a start vector does not have the shape of the robot.
@@ -217,6 +221,7 @@ impl<'a> Run<'a> {
             (n, n),
             "a start state per joint that moves"
         );
+        robot.check_inertias().map_err(UnphysicalLinks::clone)?;
         let state = State {
             tick: 0,
             q: setup.start_q.clone(),

@@ -74,19 +74,20 @@ pub struct Located<P> {
     /// What is wrong.
     pub problem: P,
     inner: Box<SourceExcerpt>,
+    others: Vec<Located<P>>,
 }
 
 #[derive(Debug)]
 struct SourceExcerpt {
     source: Source,
-    named: NamedSource<String>,
+    named: NamedSource<Arc<str>>,
     at: SourceSpan,
 }
 
 impl<P> Located<P> {
     /// Puts `problem` at the bytes `at` of `source`.
     pub fn new(problem: P, source: &Source, at: std::ops::Range<usize>) -> Self {
-        let named = NamedSource::new(source.name(), source.text().to_owned());
+        let named = NamedSource::new(source.name(), Arc::clone(&source.text));
         Self {
             problem,
             inner: Box::new(SourceExcerpt {
@@ -94,14 +95,46 @@ impl<P> Located<P> {
                 named,
                 at: (at.start, at.end.saturating_sub(at.start)).into(),
             }),
+            others: Vec::new(),
         }
     }
 
-    /// The same position with `problem` replaced by `words(problem)`.
-    pub fn map<Q>(self, words: impl FnOnce(P) -> Q) -> Located<Q> {
+    /// The first of `all` in the text, with the rest of them behind it; `None` if there is none.
+    pub fn first_of(mut all: Vec<Self>) -> Option<Self> {
+        all.sort_by_key(|one| one.inner.at.offset());
+        let mut all = all.into_iter();
+        let mut first = all.next()?;
+        for one in all {
+            first.push(one);
+        }
+        Some(first)
+    }
+
+    fn push(&mut self, mut other: Self) {
+        let behind = std::mem::take(&mut other.others);
+        self.others.push(other);
+        self.others.extend(behind);
+    }
+
+    /// Problems of the same text beside this one, in its order.
+    pub fn others(&self) -> &[Self] {
+        &self.others
+    }
+
+    /// The same positions with each problem replaced by `words(problem)`.
+    pub fn map<Q>(self, mut words: impl FnMut(P) -> Q) -> Located<Q> {
+        self.mapped(&mut words)
+    }
+
+    fn mapped<Q>(self, words: &mut impl FnMut(P) -> Q) -> Located<Q> {
         Located {
             problem: words(self.problem),
             inner: self.inner,
+            others: self
+                .others
+                .into_iter()
+                .map(|other| other.mapped(words))
+                .collect(),
         }
     }
 
@@ -140,6 +173,14 @@ impl<P: Problem> Diagnostic for Located<P> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let label = LabeledSpan::new_with_span(Some(self.problem.label()), self.inner.at);
         Some(Box::new(std::iter::once(label)))
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        if self.others.is_empty() {
+            return None;
+        }
+        let others = self.others.iter();
+        Some(Box::new(others.map(|other| other as &dyn Diagnostic)))
     }
 }
 

@@ -323,3 +323,25 @@ fn a_typed_request_is_answered_as_its_json_is() {
     let answer = ask(&robot, &json!({ "op": "fk", "q": [0.3] }));
     assert_eq!(json!(refusal), answer["error"]);
 }
+
+#[test]
+fn the_centre_of_mass_of_a_robot_in_which_nothing_moves_is_that_of_all_links() {
+    // 1.5 kg at the origin, 0.5 kg at 0.4 m
+    let still = robot_of(include_str!(
+        "../../../tests/robots/peculiar/nothing_moves.urdf"
+    ));
+    let answer = ask(&still, &json!({ "op": "com", "q": [] }));
+    close(&answer["position_m"], &[0.1, 0.0, 0.0], 1e-15);
+    close(&answer["mass_kg"], &[2.0], 0.0);
+    // what was asked for word by word is not there, and what is there is said
+    let answer = ask(
+        &still,
+        &json!({ "op": "com", "q": [], "counted": "moving" }),
+    );
+    assert_eq!(answer["error"]["code"], "no-mass");
+    let message = answer["error"]["message"].as_str().unwrap_or_default();
+    assert!(
+        message.contains("`\"counted\": \"all\"`") && message.contains("2 kg"),
+        "{message}"
+    );
+}

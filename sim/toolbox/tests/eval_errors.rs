@@ -3,7 +3,7 @@
 use kinemark_toolbox::eval::{OPERATIONS, Subject, answer_line, operation_names};
 use serde_json::{Value, json};
 
-use crate::{ask, rrbot, uarm};
+use crate::{ask, robot_of, rrbot, uarm};
 
 /// Code and message of the refusal of a line.
 fn refusal(line: &str) -> (String, String) {
@@ -196,4 +196,58 @@ fn every_operation_is_documented() {
     assert!(operation_names().starts_with("info, fk, jacobian, "));
     let unknown = ask(&rrbot(), &json!({ "op": Value::Null }));
     assert_eq!(unknown["error"]["code"], "wrong-type");
+}
+
+#[test]
+fn a_robot_with_a_tensor_that_no_body_can_have_answers_kinematics_and_refuses_dynamics() {
+    let robot = robot_of(include_str!(
+        "../../../tests/robots/peculiar/broken_triangle.urdf"
+    ));
+    let q = json!([0.1, 0.2]);
+    for request in [
+        json!({ "op": "info" }),
+        json!({ "op": "fk", "q": q }),
+        json!({ "op": "jacobian", "q": q }),
+        json!({ "op": "jacobian_derivative", "q": q, "qd": q }),
+        json!({ "op": "manipulability", "q": q }),
+        json!({ "op": "workspace", "samples": 3 }),
+        json!({ "op": "ik", "q0": q, "targets": [{ "frame": "lower", "position_m": [0, 0, -0.4] }] }),
+        // where the masses are is another matter than how they turn
+        json!({ "op": "com", "q": q }),
+    ] {
+        let answer = ask(&robot, &request);
+        assert_eq!(answer["error"], Value::Null, "{request}");
+    }
+    for request in [
+        json!({ "op": "rnea", "q": q, "qd": q, "qdd": q }),
+        json!({ "op": "bias", "q": q, "qd": q }),
+        json!({ "op": "gravity", "q": q }),
+        json!({ "op": "coriolis", "q": q, "qd": q }),
+        json!({ "op": "inverse_dynamics", "q": q, "qd": q, "qdd": q }),
+        json!({ "op": "crba", "q": q }),
+        json!({ "op": "aba", "q": q, "qd": q, "effort": q }),
+        json!({ "op": "energy", "q": q, "qd": q }),
+        json!({
+            "op": "simulate", "q0": q, "qd0": q, "command": q, "duration_s": 1, "servo_period_s": 0.1, "sample_period_s": 1,
+            "servo": { "mode": "effort" }
+        }),
+    ] {
+        let error = &ask(&robot, &request)["error"];
+        assert_eq!(error["code"], "unphysical", "{request}: {error}");
+        let message = error["message"].as_str().unwrap_or_default();
+        for part in [
+            "`upper` (line 5)",
+            "`lower` (line 6)",
+            "--balance",
+            "--accept-unphysical",
+        ] {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+    }
+    // a negative mass has no centre, either
+    let robot = robot_of(include_str!(
+        "../../../tests/robots/peculiar/negative_mass.urdf"
+    ));
+    let error = &ask(&robot, &json!({ "op": "com", "q": [0] }))["error"];
+    assert_eq!(error["code"], "unphysical", "{error}");
 }

@@ -2,6 +2,7 @@
 
 mod eval_answers;
 mod eval_errors;
+mod published;
 mod step_responses;
 mod texts;
 

@@ -3,6 +3,7 @@
 
 use kinemark_fuzz::{exercise, explain};
 use kinemark_sim::format::{ReadOptions, detect};
+use kinemark_sim::model::unphysical::OnUnphysical;
 use kinemark_sim::text::Source;
 use libfuzzer_sys::fuzz_target;
 
@@ -11,8 +12,15 @@ const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 fuzz_target!(|text: &str| {
     let format = detect(&Source::new("fuzz.urdf", ""));
-    for ignore_mimic in [false, true] {
-        let options = ReadOptions { ignore_mimic };
+    for (ignore_mimic, on_unphysical) in [
+        (false, OnUnphysical::Refuse),
+        (true, OnUnphysical::Accept),
+        (true, OnUnphysical::Balance),
+    ] {
+        let options = ReadOptions {
+            ignore_mimic,
+            on_unphysical,
+        };
         let mut read_mesh = |file: &str| {
             (format.mesh_location)(file);
             match file.ends_with("obj") {

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use crate::failure::{Failure, LOST};
 use crate::robot_source::{self, RobotArgs};
-use crate::{disk, scene_source};
+use crate::{disk, failure, scene_source};
 
 /// Answer requests about a robot: one JSON object per line in, one per line out
 #[derive(Debug, clap::Args)]
@@ -40,6 +40,9 @@ const MOST_LINE_BYTES: u64 = 16 << 20;
 /// Answers requests until the input ends.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let loaded = robot_source::load(&args.robot)?;
+    if let Some(unphysical) = loaded.robot.unphysical() {
+        failure::warn_alone(&unphysical.to_string());
+    }
     let named = args.scene.as_deref();
     let scene = named.map(|named| scene_source::load(named, &args.robot.labs_folder));
     let scene = scene.transpose()?.map(|loaded| loaded.scene);

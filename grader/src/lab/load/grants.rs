@@ -56,6 +56,9 @@ impl Reader<'_> {
                 let problem = GrantProblem::ClosedLoops { name, robot };
                 return self.report.refuse_at(at, problem);
             }
+            if matches!(grant, Grant::Gravity | Grant::MassMatrix) {
+                self.has_inertias(at)?;
+            }
             grants.push(grant);
         }
         grants.sort();

@@ -13,8 +13,9 @@ mod target;
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::format::RobotFile;
+use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::unphysical::OnUnphysical;
 use kinemark_sim::text::suggest;
 use toml::Spanned;
 
@@ -28,7 +29,7 @@ use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
 use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
-use crate::task::robot::{LabRobot, robot_names};
+use crate::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
 use crate::task::scene::{LabScene, scene_names};
 
 pub(super) use reading::{refuse_not_finite, tables};
@@ -39,12 +40,23 @@ problems! {
         NotOfFolder { name: String, folder: String }:
             "lab::name", "the lab in folder `{folder}` calls itself `{name}`", "differs from its folder",
             format!("write `name = \"{folder}\"`, or rename the folder");
-        UnknownRobot { name: String, known: Vec<String> }:
-            "lab::unknown_robot", "no robot file `robots/{name}.toml`", "no such robot",
+        UnknownRobot { path: String, name: String, known: Vec<String> }:
+            "lab::unknown_robot", "no robot file `{path}`", "no such robot",
             near(name, "robots", known);
         UnknownFrame { robot: String, frame: String, known: Vec<String> }:
             "lab::unknown_frame", "robot `{robot}` has no frame `{frame}`", "not a frame of this robot",
             near(frame, "frames", known);
+        RobotOptions { robot: String }:
+            "lab::robot_options", "[robot_options] is for URDFs, but `{robot}` is a robot file", "of no effect",
+            "leave it out: a robot file says itself which joints follow others, and which inertias are taken as they are";
+        Treatments:
+            "lab::robot_options", "`accept_unphysical` and `balance` exclude each other", "both in here",
+            "leave one of them out: tensors are taken as they are, or balanced";
+        MissingMesh { robot: String, mesh: String, warning: String }:
+            "lab::robot_mesh", "robot `{robot}` names the mesh `{mesh}`, which is not among the files of the labs", "this robot",
+            format!("{warning}; put it there, or name its package's folder: packages = {{ NAME = \"FOLDER\" }} below [robot_options]");
+        Unphysical { why: String }:
+            "lab::unphysical", "{why}", "needs inertias that a body can have";
         Dimension { name: String, error: String, known: Vec<String> }:
             "lab::dimensions", "{error}", "this dimension", near(name, "dimensions", known);
         Dimensions { error: String }:
@@ -130,7 +142,7 @@ impl Lab {
         let report = Reporter { source: &source };
         report.format(&lab.format)?;
         is_of_folder(report, &lab, name)?;
-        let LabRobot { file, meshes } = lab_robot(files, report, &lab)?;
+        let LabRobot { file, meshes, .. } = lab_robot(files, report, &lab)?;
         let robot_file = of_dimensions(report, file, &lab)?;
         let robot = robot_file.build(&[])?;
         let frame = frame(report, &lab, &robot)?;
@@ -201,11 +213,52 @@ fn lab_robot(
     lab: &LabTable,
 ) -> Result<LabRobot, LoadError> {
     let name = lab.robot.get_ref();
-    if let Some(robot) = LabRobot::load(files, name)? {
-        return Ok(robot);
+    let options = robot_options(report, lab)?;
+    let Some(robot) = LabRobot::load(files, name, &options)? else {
+        let problem = LabFileProblem::UnknownRobot {
+            path: robot_path(name),
+            name: name.clone(),
+            known: robot_names(files),
+        };
+        return Ok(report.refuse_at(&lab.robot, problem)?);
+    };
+    if let (Some(table), false) = (&lab.robot_options, robot.is_of_ros) {
+        let robot = name.clone();
+        return Ok(report.refuse_at(table, LabFileProblem::RobotOptions { robot })?);
     }
-    let (name, known) = (name.clone(), robot_names(files));
-    Ok(report.refuse_at(&lab.robot, LabFileProblem::UnknownRobot { name, known })?)
+    if let Some(mesh) = &robot.missing_mesh {
+        let built = robot.file.build(&[])?;
+        let mut warnings = built.warnings().iter();
+        let warning = warnings.find(|warning| warning.contains(mesh.as_str()));
+        let problem = LabFileProblem::MissingMesh {
+            robot: name.clone(),
+            mesh: mesh.clone(),
+            warning: warning.cloned().unwrap_or_default(),
+        };
+        return Ok(report.refuse_at(&lab.robot, problem)?);
+    }
+    Ok(robot)
+}
+
+/// How the lab reads its robot, if that is a URDF.
+fn robot_options(report: Reporter<'_>, lab: &LabTable) -> Result<RobotOptions, LabError> {
+    let Some(typed) = &lab.robot_options else {
+        return Ok(RobotOptions::default());
+    };
+    let table = typed.get_ref();
+    let on_unphysical = match (table.accept_unphysical, table.balance) {
+        (false, false) => OnUnphysical::Refuse,
+        (true, false) => OnUnphysical::Accept,
+        (false, true) => OnUnphysical::Balance,
+        (true, true) => return report.refuse_at(typed, LabFileProblem::Treatments),
+    };
+    Ok(RobotOptions {
+        read: ReadOptions {
+            ignore_mimic: table.ignore_mimic,
+            on_unphysical,
+        },
+        packages: table.packages.clone(),
+    })
 }
 
 /// The frame in which students work: the one that the lab names, or the first link.
@@ -229,9 +282,9 @@ fn frame(report: Reporter<'_>, lab: &LabTable, robot: &Robot) -> Result<String, 
 /// The robot file with the dimensions that the lab changes.
 fn of_dimensions(
     report: Reporter<'_>,
-    robot_file: RobotFile,
+    robot_file: RobotDescription,
     lab: &LabTable,
-) -> Result<RobotFile, LabError> {
+) -> Result<RobotDescription, LabError> {
     let mut robot_file = robot_file;
     for (name, value) in &lab.dimensions {
         let changed = [(name.get_ref().clone(), value.get_ref().clone())];
@@ -315,7 +368,7 @@ struct Reader<'a> {
     /// Where the lab names its robot.
     robot_at: Range<usize>,
     scenes: &'a [Arc<LabScene>],
-    robot_file: &'a RobotFile,
+    robot_file: &'a RobotDescription,
 }
 
 impl Reader<'_> {
@@ -377,6 +430,7 @@ impl Reader<'_> {
                 TaskWork::Function(function, checks)
             }
             (None, Some(motion)) => {
+                self.has_inertias(motion)?;
                 let motion = self.motion(motion)?;
                 self.has_checks(table)?;
                 let checks = self.motion_checks(&table.checks, &motion)?;
@@ -393,6 +447,21 @@ impl Reader<'_> {
             title: table.title.clone(),
             work,
         })
+    }
+
+    /// Whoever moves a robot, or asks for its gravity or its mass matrix, needs inertias that a body can have.
+    pub(in crate::lab::load) fn has_inertias<T>(
+        &self,
+        needed_by: &Spanned<T>,
+    ) -> Result<(), LabError> {
+        match self.robot.check_inertias() {
+            Ok(()) => Ok(()),
+            Err(found) => {
+                let why = found.to_string();
+                self.report
+                    .refuse_at(needed_by, LabFileProblem::Unphysical { why })
+            }
+        }
     }
 
     /// A task has checks, each with a name of its own.

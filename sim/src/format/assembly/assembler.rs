@@ -7,6 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::description::{Description, JointPart};
+use super::heavy_meshes;
+use super::unphysical_links::{self, Settled};
 use crate::format::robot_problem::{KIND, RobotError, RobotProblem};
 use crate::kinematics::closure;
 use crate::model::inertia::Inertia;
@@ -120,7 +122,7 @@ impl Assembler<'_> {
             .map(|j| self.drive(&joints, &moving, j))
             .collect::<Result<_, _>>()?;
         let (attachments, mut bodies) = bodies(&joints, &order, &drives, parts.links.len());
-        let links: Vec<Link> = parts
+        let mut links: Vec<Link> = parts
             .links
             .iter()
             .zip(attachments)
@@ -133,6 +135,9 @@ impl Assembler<'_> {
                 attachment,
             })
             .collect();
+        let Settled { refused, warnings } = unphysical_links::settle(parts, &mut links);
+        let warnings = parts.warnings.iter().cloned().chain(warnings);
+        let warnings = warnings.chain(heavy_meshes::warning(&links)).collect();
         let world_inertia = gather_inertia(&links, &mut bodies);
         let frames = self.frames(&links, &link_names)?;
         let loops = self.loops(&links, &link_names)?;
@@ -151,7 +156,8 @@ impl Assembler<'_> {
             dependent: Vec::new(),
             independent: (0..n).collect(),
             home,
-            warnings: parts.warnings.clone(),
+            warnings,
+            unphysical: refused,
             sensors: Vec::new(),
         };
         self.closed(robot)

@@ -8,6 +8,7 @@ use toml::Spanned;
 use crate::model::air::Drag;
 use crate::model::inertia::Inertia;
 use crate::model::robot::{Contact, JointKind, Limits, LoopKind, Shape};
+use crate::model::unphysical::OnUnphysical;
 use crate::spatial::Pose;
 use crate::text::{Dimensions, Source};
 
@@ -25,6 +26,24 @@ pub(crate) struct Description {
     pub(crate) frames: Vec<FramePart>,
     pub(crate) loops: Vec<LoopPart>,
     pub(crate) warnings: Vec<String>,
+    pub(crate) unphysical: UnphysicalWords,
+}
+
+/// What a format says of inertias that no body can have.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct UnphysicalWords {
+    /// How to have tensors taken as they are, or balanced.
+    pub(crate) remedy: &'static str,
+    /// Whether a warning lists what was treated: only where the description itself does not say so.
+    pub(crate) lists_treated: bool,
+}
+
+impl UnphysicalWords {
+    /// Of a source that has none.
+    pub(crate) const NONE: Self = Self {
+        remedy: "",
+        lists_treated: false,
+    };
 }
 
 #[derive(Debug, Clone)]
@@ -32,8 +51,17 @@ pub(crate) struct LinkPart {
     pub(crate) name: Spanned<String>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) inertia: Inertia,
+    /// Where the inertia stands, and what to do if no body can have it; `None` where it cannot be so.
+    pub(crate) given_inertia: Option<GivenInertia>,
     pub(crate) contact: Option<Contact>,
     pub(crate) drag: Option<Drag>,
+}
+
+/// An inertia that was written out in full, not taken from shapes.
+#[derive(Debug, Clone)]
+pub(crate) struct GivenInertia {
+    pub(crate) at: std::ops::Range<usize>,
+    pub(crate) on_unphysical: OnUnphysical,
 }
 
 impl LinkPart {
@@ -43,6 +71,7 @@ impl LinkPart {
             name,
             shapes: Vec::new(),
             inertia: Inertia::zero(),
+            given_inertia: None,
             contact: None,
             drag: None,
         }

@@ -2,4 +2,6 @@
 
 pub(super) mod assembler;
 pub(super) mod description;
+mod heavy_meshes;
 mod joint_order;
+mod unphysical_links;

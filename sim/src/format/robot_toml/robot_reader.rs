@@ -6,17 +6,19 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::robot_tables::{
-    JointTable, JointType, LimitTable, LoopTable, LoopType, MimicTable, RobotFile,
+    JointTable, JointType, LimitTable, LinkTable, LoopTable, LoopType, MimicTable, RobotFile,
 };
 use crate::format::assembly::assembler::axes_with_z_along;
 use crate::format::assembly::description::{
-    Description, FramePart, JointPart, LinkPart, LoopPart, MimicPart,
+    Description, FramePart, GivenInertia, JointPart, LinkPart, LoopPart, MimicPart, UnphysicalWords,
 };
+use crate::format::mistakes::Mistakes;
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Limits, LoopKind, Robot, Shape};
+use crate::model::unphysical::OnUnphysical;
 use crate::part::part_problem::PartProblem;
-use crate::part::part_tables::{NumberAt, ShapeTable};
+use crate::part::part_tables::{InertiaTable, NumberAt, ShapeTable};
 use crate::part::values::{Allowed, Values};
 use crate::sensor::sensors_of;
 use crate::spatial::pose;
@@ -48,6 +50,13 @@ impl RobotFile {
         is_changed.then(|| self.build(changed)).transpose()
     }
 }
+
+/// What a robot file says of inertias that no body can have; what it treats, it says itself.
+const UNPHYSICAL: UnphysicalWords = UnphysicalWords {
+    remedy: "in the `inertia` of such a link, `accept_unphysical = true` takes the tensor as it is, and `balance = true` makes all \
+             three principal moments their mean",
+    lists_treated: false,
+};
 
 pub(super) struct Resolver<'a> {
     pub(super) file: &'a RobotFile,
@@ -239,9 +248,7 @@ impl Resolver<'_> {
         Ok(shape)
     }
 
-    fn links(&self) -> Result<Vec<LinkPart>, RobotError> {
-        let mut links = Vec::with_capacity(self.file.tables.links.len());
-        for table in &self.file.tables.links {
+    fn link(&self, table: &LinkTable) -> Result<LinkPart, RobotError> {
             let shapes = table
                 .shapes
                 .iter()
@@ -254,19 +261,46 @@ impl Resolver<'_> {
                 }
                 None => Inertia::zero(),
             };
+            let given_inertia = table.inertia.as_ref().map(|table| self.given(table));
             let contact = table.contact.as_ref();
             let contact = contact.map(|c| self.values.contact(c, &shapes)).transpose()?;
             let drag = table.drag.as_ref();
             let drag = drag.map(|d| self.values.drag(d)).transpose()?;
-            links.push(LinkPart {
+            Ok(LinkPart {
                 name: table.name.clone(),
                 shapes,
                 inertia,
+                given_inertia: given_inertia.transpose()?.flatten(),
                 contact,
                 drag,
-            });
-        }
-        Ok(links)
+            })
+    }
+
+    /// What the table of an inertia says of a tensor that is written out; `None` where it follows from the shapes.
+    fn given(&self, table: &Spanned<InertiaTable>) -> Result<Option<GivenInertia>, RobotError> {
+        let InertiaTable {
+            tensor_kg_m2,
+            accept_unphysical,
+            balance,
+            ..
+        } = table.get_ref();
+        let on_unphysical = match (accept_unphysical, balance) {
+            (false, false) => OnUnphysical::Refuse,
+            (true, false) => OnUnphysical::Accept,
+            (false, true) => OnUnphysical::Balance,
+            (true, true) => {
+                let problem = PartProblem::Inertia {
+                    message: "`accept_unphysical` and `balance` exclude each other".to_owned(),
+                    help: "leave one of them out: a tensor is taken as it is, or balanced".to_owned(),
+                };
+                return self.err(table.span(), problem);
+            }
+        };
+        let given = tensor_kg_m2.as_ref().map(|tensor| GivenInertia {
+            at: tensor.span(),
+            on_unphysical,
+        });
+        Ok(given)
     }
 
     fn description(&self) -> Result<Description, RobotError> {
@@ -282,23 +316,30 @@ impl Resolver<'_> {
                 })
             })
             .collect::<Result<_, RobotError>>()?;
+        let mut mistakes = Mistakes::default();
+        let links = tables.links.iter();
+        let links = links.filter_map(|table| mistakes.keep(self.link(table)));
+        let links: Vec<LinkPart> = links.collect();
+        let joints = tables.joints.iter();
+        let joints = joints.filter_map(|table| mistakes.keep(self.joint(table)));
+        let joints: Vec<JointPart> = joints.collect();
+        mistakes.finish()?;
         let mut description = Description {
             source: self.file.source.clone(),
             name: tables.name.get_ref().clone(),
             at: tables.name.span(),
             dimensions: self.values.dimensions.clone(),
-            links: self.links()?,
+            links,
             joints: Vec::new(),
             frames,
             loops: Vec::new(),
             warnings: Vec::new(),
+            unphysical: UNPHYSICAL,
         };
         if let Some(table) = &tables.dh {
             self.dh(table, &mut description)?;
         }
-        for table in &tables.joints {
-            description.joints.push(self.joint(table)?);
-        }
+        description.joints.extend(joints);
         for table in &tables.loops {
             description.loops.push(self.loop_part(table)?);
         }

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::model::inertia::{Inertia, Solid, unphysical};
-use crate::model::robot::{Joint, JointKind, Robot, Shape};
+use crate::model::inertia::{Inertia, Solid};
+use crate::model::robot::{Joint, JointKind, Link, Robot, Shape};
+use crate::model::unphysical::Unphysical;
 use crate::part::toml_text::{quoted, triple};
 use crate::sensor::sensor_table;
 use crate::spatial::{Pose, rotation_from_rpy_deg};
@@ -30,7 +31,8 @@ impl Robot {
                 let _ = writeln!(out, "shapes = [\n{}]", shapes.concat());
             }
             if link.inertia != Inertia::zero() {
-                let _ = writeln!(out, "inertia = {}", inertia(&link.inertia));
+                let accepts = self.has_accepted(link);
+                let _ = writeln!(out, "inertia = {}", inertia(&link.inertia, accepts));
             }
             if let Some(contact) = &link.contact {
                 let _ = writeln!(
@@ -78,6 +80,14 @@ impl Robot {
             sensor_table(sensor, self, &mut out);
         }
         out
+    }
+
+    /// Whether the tensor of a link is one that no body can have, and is taken as it is.
+    fn has_accepted(&self, link: &Link) -> bool {
+        let refused = self.unphysical().map_or(&[][..], |found| found.links());
+        link.attachment.body.is_some()
+            && Unphysical::inertia(&link.inertia).is_some()
+            && !refused.iter().any(|refused| refused.name == link.name)
     }
 
     fn joint_table(&self, joint: &Joint, out: &mut String) {
@@ -201,11 +211,12 @@ fn shape(shape: &Shape, mesh_path: &mut dyn FnMut(&str) -> String) -> String {
     }
 }
 
-fn inertia(inertia: &Inertia) -> String {
+fn inertia(inertia: &Inertia, accepts: bool) -> String {
     let t = &inertia.about_com_kg_m2;
-    let accepted = match unphysical(t) {
-        Some(_) => ", accept_unphysical = true",
-        None => "",
+    let accepted = if accepts {
+        ", accept_unphysical = true"
+    } else {
+        ""
     };
     format!(
         "{{ mass_kg = {:?}, com_m = {}, tensor_kg_m2 = [{:?}, {:?}, {:?}, {:?}, {:?}, {:?}]{accepted} }}",

@@ -263,11 +263,16 @@ impl Resolver<'_> {
             let help = help.to_owned();
             self.err(stated.span(), PartProblem::Inertia { message, help })
         };
-        if stated.get_ref().accept_unphysical {
-            return refuse(
-                format!("body `{name}` cannot be unphysical: contact would not hold it"),
-                "leave `accept_unphysical` out",
-            );
+        for (key, given) in [
+            ("accept_unphysical", stated.get_ref().accept_unphysical),
+            ("balance", stated.get_ref().balance),
+        ] {
+            if given {
+                return refuse(
+                    format!("body `{name}` cannot be unphysical: contact would not hold it"),
+                    &format!("leave `{key}` out"),
+                );
+            }
         }
         let inertia = self
             .values

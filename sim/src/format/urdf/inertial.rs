@@ -1,22 +1,35 @@
-//! Mass properties of a URDF link, in its own, possibly turned, inertial frame; and joints that move no mass.
+//! Mass properties of a URDF link, in its own, possibly turned, inertial frame; and joints that move no mass. Whether a body can have
+//! them is decided for all links together.
+
+use std::ops::Range;
 
 use super::origin::origin;
 use crate::format::robot_problem::RobotError;
 use crate::format::xml::reader::{Node, Reader};
-use crate::model::inertia::{Inertia, unphysical};
+use crate::model::inertia::Inertia;
 use crate::model::robot::{JointKind, Robot};
 use crate::part::part_problem::PartProblem;
 use crate::part::values::Allowed;
 use crate::spatial::{Pose, Symmetric3};
+
+/// What is written of a tensor, before anybody asks whether a body can have it.
+pub(super) struct Inertial {
+    pub(super) inertia: Inertia,
+    /// Where the tensor stands, or what is there instead; `None` without `<inertial>`.
+    pub(super) at: Option<Range<usize>>,
+}
 
 /// Reads `<inertial>`; a link without it has no mass.
 pub(super) fn inertia(
     reader: &mut Reader<'_>,
     owner: &str,
     link: Node<'_>,
-) -> Result<Inertia, RobotError> {
+) -> Result<Inertial, RobotError> {
     let Some(inertial) = reader.child(link, "inertial", owner) else {
-        return Ok(Inertia::zero());
+        return Ok(Inertial {
+            inertia: Inertia::zero(),
+            at: None,
+        });
     };
     reader.check(inertial, owner, &[], &["origin", "mass", "inertia"]);
     let link_from_inertial: Pose = origin(reader, inertial, owner)?;
@@ -31,10 +44,16 @@ pub(super) fn inertia(
     reader.check(mass, owner, &["value"], &[]);
     reader.required(mass, "value", owner)?;
     let mass_kg = reader
-        .number(mass, "value", owner, Allowed::NotNegative)?
+        .number(mass, "value", owner, Allowed::Any)?
         .unwrap_or(0.0);
+    let mut at = Reader::tag(mass);
     let about_com_kg_m2 = match reader.child(inertial, "inertia", owner) {
-        Some(inertia) => tensor(reader, owner, inertia)?,
+        Some(inertia) => {
+            if mass_kg >= 0.0 {
+                at = Reader::tag(inertia);
+            }
+            tensor(reader, owner, inertia)?
+        }
         None if mass_kg == 0.0 => Symmetric3::default(),
         None => {
             return incomplete(
@@ -54,7 +73,10 @@ pub(super) fn inertia(
         about_com_kg_m2,
         ..Inertia::zero()
     };
-    Ok(own.seen_from(&link_from_inertial))
+    Ok(Inertial {
+        inertia: own.seen_from(&link_from_inertial),
+        at: Some(at),
+    })
 }
 
 fn incomplete<T>(
@@ -90,23 +112,14 @@ fn tensor(
         }
     }
     let [xx, yy, zz, xy, xz, yz] = values;
-    let tensor = Symmetric3 {
+    Ok(Symmetric3 {
         xx,
         yy,
         zz,
         xy,
         xz,
         yz,
-    };
-    match unphysical(&tensor) {
-        None => Ok(tensor),
-        Some(why) => incomplete(
-            reader,
-            inertia,
-            format!("{owner}: {why}"),
-            "give the tensor about the centre of mass, in the axes of the inertial frame, in kg m²",
-        ),
-    }
+    })
 }
 
 /// Adds a warning for every joint that moves no mass at all: its acceleration is undefined.

@@ -3,11 +3,12 @@
 use nalgebra::Vector3;
 use toml::Spanned;
 
+use super::mimic;
 use super::origin::origin;
 use crate::format::assembly::assembler::axes_with_z_along;
-use crate::format::assembly::description::{JointPart, LinkPart, MimicPart};
+use crate::format::assembly::description::{JointPart, LinkPart};
 use crate::format::robot_format::ReadOptions;
-use crate::format::robot_problem::{RobotError, RobotProblem};
+use crate::format::robot_problem::RobotError;
 use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::robot::JointKind;
 use crate::part::part_problem::PartProblem;
@@ -111,11 +112,6 @@ pub(super) fn chain(
         head.child.clone(),
         origin(reader, node, &owner)?,
     );
-    let mimic = if options.ignore_mimic {
-        None
-    } else {
-        reader.child(node, "mimic", &owner)
-    };
     match head.kind {
         Type::Single(kind) => {
             joint.kind = kind;
@@ -124,21 +120,17 @@ pub(super) fn chain(
                 joint.limits = super::limits::limits(reader, node, &owner, kind)?;
                 dynamics(reader, node, &owner, &mut joint)?;
             }
-            joint.mimic = mimic
-                .map(|mimic| follow(reader, mimic, &owner))
-                .transpose()?;
+            if !options.ignore_mimic {
+                joint.mimic = mimic::mimic(reader, node, &owner, kind)?;
+            }
             Ok(Chain {
                 joints: vec![joint],
                 links_between: Vec::new(),
             })
         }
         Type::Floating | Type::Planar => {
-            if let Some(mimic) = mimic {
-                let problem = RobotProblem::Mimic {
-                    message: format!("{owner} has more than one motion and mimics nothing"),
-                    help: "only joints of one degree of freedom follow others".to_owned(),
-                };
-                return reader.err(Reader::tag(mimic), problem);
+            if !options.ignore_mimic {
+                mimic::leave_out(reader, node, &owner);
             }
             let motions = motions(reader, head, &owner, is_base)?;
             Ok(unfold(&joint, &motions))
@@ -285,14 +277,4 @@ fn dynamics(
         joint.dry_friction = read("friction")?.unwrap_or(0.0);
     }
     Ok(())
-}
-
-fn follow(reader: &mut Reader<'_>, mimic: Node<'_>, owner: &str) -> Result<MimicPart, RobotError> {
-    reader.check(mimic, owner, &["joint", "multiplier", "offset"], &[]);
-    let read = |name| reader.number(mimic, name, owner, Allowed::Any);
-    Ok(MimicPart {
-        joint: reader.required(mimic, "joint", owner)?,
-        multiplier: read("multiplier")?.unwrap_or(1.0),
-        offset: read("offset")?.unwrap_or(0.0),
-    })
 }

@@ -6,6 +6,9 @@
 //! - A `floating` joint is the base's: it becomes `NAME_x`, `_y`, `_z` (prismatic), `_yaw`, `_pitch`, `_roll` (continuous) with
 //!   massless links between. A `planar` one becomes `NAME_x`, `_y` in the plane normal to its axis, and `_yaw` about it.
 //! - A `mimic` joint follows its master and has no entry in `q`, unless [`ReadOptions::ignore_mimic`](super::ReadOptions::ignore_mimic).
+//!   Where it is fixed, or its master is not there or fixed, a warning says so, and it follows nothing.
+//! - An inertia that no body can have leaves a robot for kinematics only, unless
+//!   [`ReadOptions::on_unphysical`](super::ReadOptions::on_unphysical) says what to do.
 //! - Shapes come from `<collision>`, or from `<visual>` where a link has no collision. A mesh that cannot be read is a warning.
 //! - Materials, transmissions, calibration, safety controllers and extensions of simulators are left out without a word; what looks
 //!   like a slip of the pen inside a link or a joint is a warning.
@@ -16,6 +19,7 @@ mod document;
 mod inertial;
 mod joint;
 mod limits;
+mod mimic;
 mod origin;
 mod shape;
 mod tree;

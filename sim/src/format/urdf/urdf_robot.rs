@@ -2,17 +2,25 @@
 
 use toml::Spanned;
 
-use super::joint::Head;
+use super::inertial::Inertial;
+use super::joint::{Chain, Head};
 use super::shape::Meshes;
-use super::{document, inertial, joint, shape, tree};
+use super::{document, inertial, joint, mimic, shape, tree};
 use crate::format::assembly::assembler::MOST_LINKS;
-use crate::format::assembly::description::{Description, JointPart, LinkPart};
+use crate::format::assembly::description::{
+    Description, GivenInertia, JointPart, LinkPart, UnphysicalWords,
+};
+use crate::format::mistakes::Mistakes;
 use crate::format::robot_format::{ReadFile, ReadOptions};
-use crate::format::robot_problem::{KIND, RobotError};
+use crate::format::robot_problem::{KIND, RobotError, RobotProblem};
 use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::robot::Robot;
 use crate::part::part_problem::PartProblem;
 use crate::text::{Dimensions, Source, nearest};
+
+/// How to go on with a tensor that no body can have.
+const REMEDY: &str = "--accept-unphysical takes these tensors as they are, --balance makes all three principal moments of each their \
+                      mean (in lab.toml, the same words in [robot_options])";
 
 /// Reads the robot of a URDF.
 ///
@@ -21,7 +29,7 @@ use crate::text::{Dimensions, Source, nearest};
 /// requested once. A file that cannot be read is in [`Robot::warnings`], and its shape is left out.
 ///
 /// # Errors
-/// Whatever makes the text no robot, with its place: see [`RobotProblem`](crate::format::RobotProblem).
+/// Whatever makes the text no robot, with its place, and what else is wrong: see [`RobotProblem`](crate::format::RobotProblem).
 pub(super) fn robot(
     source: Source,
     options: &ReadOptions,
@@ -42,14 +50,18 @@ fn describe(
     let mut reader = Reader::new(source, &document::DIALECT);
     let name = document::robot_name(&reader, root)?;
     let (links, joints) = parts(&mut reader, root);
-    let links = links
+    let mut mistakes = Mistakes::default();
+    let links: Vec<(Spanned<String>, Node<'_>)> = links
         .into_iter()
-        .map(|link| Ok((reader.required(link, "name", "a link")?, link)))
-        .collect::<Result<Vec<_>, RobotError>>()?;
-    let joints = joints
+        .filter_map(|link| {
+            let name = mistakes.keep(reader.required(link, "name", "a link"))?;
+            Some((name, link))
+        })
+        .collect();
+    let joints: Vec<Head<'_>> = joints
         .into_iter()
-        .map(|joint| joint::head(&reader, joint))
-        .collect::<Result<Vec<Head<'_>>, RobotError>>()?;
+        .filter_map(|joint| mistakes.keep(joint::head(&reader, joint)))
+        .collect();
     // before anything is unfolded, so that no file costs more than its size
     let found = links.len() + joints.iter().map(|j| j.kind.links_between()).sum::<usize>();
     if found > MOST_LINKS {
@@ -65,31 +77,29 @@ fn describe(
         );
     }
     let names: Vec<&Spanned<String>> = links.iter().map(|(name, _)| name).collect();
-    let base = tree::root(&reader, root, &names, &joints)?;
-
+    // what is left out would be missed in the tree
+    let base = if mistakes.is_empty() {
+        mistakes.keep(tree::root(&reader, root, &names, &joints))
+    } else {
+        None
+    };
     let mut meshes = Meshes::new(read_mesh);
     let mut link_parts = Vec::with_capacity(found);
     for (name, node) in &links {
-        link_parts.push(link(&mut reader, &mut meshes, name, *node)?);
+        let part = link(&mut reader, &mut meshes, options, name, *node);
+        link_parts.extend(mistakes.keep(part));
     }
+    let base_name = base.map(|base| links[base].0.get_ref().as_str());
+    let chains = chains(&mut reader, options, &joints, base_name, &mut mistakes);
+    mistakes.finish()?;
+    let Some(base) = base else {
+        // a tree without a root is a mistake
+        return reader.err(Reader::tag(root), RobotProblem::NoLinks);
+    };
     let base = link_parts.remove(base);
-    let base_name = base.name.get_ref().clone();
     link_parts.insert(0, base);
-    let held_by_base = joints.iter().filter(|j| j.parent.get_ref() == &base_name);
-    let one_joint_on_base = held_by_base.count() == 1;
-    let mut joint_parts: Vec<JointPart> = Vec::with_capacity(found);
-    for head in &joints {
-        let is_base = one_joint_on_base && head.parent.get_ref() == &base_name;
-        let chain = joint::chain(&mut reader, options, head, is_base)?;
-        if !chain.links_between.is_empty() {
-            // before the link they lead to, so that the last link stays the last
-            let is_child = |link: &LinkPart| link.name.get_ref() == head.child.get_ref();
-            let at = link_parts.iter().position(is_child);
-            let at = at.unwrap_or(link_parts.len());
-            link_parts.splice(at..at, chain.links_between);
-        }
-        joint_parts.extend(chain.joints);
-    }
+    let mut joint_parts = unfolded(&joints, chains, &mut link_parts);
+    mimic::settle(&mut reader, &mut joint_parts)?;
     Ok(Description {
         source: source.clone(),
         name: name.get_ref().clone(),
@@ -100,7 +110,47 @@ fn describe(
         frames: Vec::new(),
         loops: Vec::new(),
         warnings: reader.into_warnings(),
+        unphysical: UnphysicalWords {
+            remedy: REMEDY,
+            lists_treated: true,
+        },
     })
+}
+
+/// The joints of the file, each as a chain; those that are mistakes are left out.
+fn chains(
+    reader: &mut Reader<'_>,
+    options: ReadOptions,
+    joints: &[Head<'_>],
+    base_name: Option<&str>,
+    mistakes: &mut Mistakes,
+) -> Vec<Chain> {
+    let is_on_base = |joint: &&Head<'_>| Some(joint.parent.get_ref().as_str()) == base_name;
+    let one_joint_on_base = joints.iter().filter(is_on_base).count() == 1;
+    let mut chains = Vec::with_capacity(joints.len());
+    for head in joints {
+        // without a root nobody knows which joint floats
+        let is_base = base_name.is_none() || (one_joint_on_base && is_on_base(&head));
+        let chain = joint::chain(reader, options, head, is_base);
+        chains.extend(mistakes.keep(chain));
+    }
+    chains
+}
+
+/// The joints of all chains, whose links come into `links`.
+fn unfolded(joints: &[Head<'_>], chains: Vec<Chain>, links: &mut Vec<LinkPart>) -> Vec<JointPart> {
+    let mut parts = Vec::with_capacity(links.len());
+    for (head, chain) in joints.iter().zip(chains) {
+        if !chain.links_between.is_empty() {
+            // before the link they lead to, so that the last link stays the last
+            let is_child = |link: &LinkPart| link.name.get_ref() == head.child.get_ref();
+            let at = links.iter().position(is_child);
+            let at = at.unwrap_or(links.len());
+            links.splice(at..at, chain.links_between);
+        }
+        parts.extend(chain.joints);
+    }
+    parts
 }
 
 /// The links and the joints of a robot element, each in file order.
@@ -129,6 +179,7 @@ fn parts<'a>(reader: &mut Reader<'_>, robot: Node<'a>) -> (Vec<Node<'a>>, Vec<No
 fn link(
     reader: &mut Reader<'_>,
     meshes: &mut Meshes<'_>,
+    options: ReadOptions,
     name: &Spanned<String>,
     node: Node<'_>,
 ) -> Result<LinkPart, RobotError> {
@@ -148,9 +199,14 @@ fn link(
             "material",
         ],
     );
+    let Inertial { inertia, at } = inertial::inertia(reader, &owner, node)?;
     Ok(LinkPart {
         name: name.clone(),
-        inertia: inertial::inertia(reader, &owner, node)?,
+        inertia,
+        given_inertia: at.map(|at| GivenInertia {
+            at,
+            on_unphysical: options.on_unphysical,
+        }),
         shapes: shape::shapes(reader, meshes, &owner, node)?,
         contact: None,
         drag: None,

@@ -91,6 +91,7 @@ impl Efforts {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let qdd = accelerations(robot, "qdd", (&q, &qd), &request.qdd)?;
@@ -104,6 +105,7 @@ pub fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
@@ -116,6 +118,7 @@ pub fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
     Efforts::new(dynamics::gravity_effort(robot, &gravity, &q).as_slice())
@@ -127,6 +130,7 @@ pub fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn coriolis(robot: &Robot, request: &InMotion) -> Result<Efforts, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     Efforts::new(dynamics::coriolis_effort(robot, &q, &qd).as_slice())
@@ -149,6 +153,7 @@ pub struct DriveEfforts {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn inverse_dynamics(robot: &Robot, request: &Accelerated) -> Result<DriveEfforts, Refusal> {
+    robot.check_inertias()?;
     let q = independent(robot, "q", &request.q)?;
     let qd = independent(robot, "qd", &request.qd)?;
     let qdd = independent(robot, "qdd", &request.qdd)?;
@@ -177,6 +182,7 @@ pub struct MassMatrix {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn crba(robot: &Robot, request: &AtRest) -> Result<MassMatrix, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let has_loops = !robot.loops().is_empty();
     let of_independent = has_loops.then(|| dynamics::driven_mass_matrix(robot, &q).ok());
@@ -203,6 +209,7 @@ pub struct Accelerations {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn aba(robot: &Robot, request: &UnderEffort) -> Result<Accelerations, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let effort = efforts(robot, "effort", &request.effort)?;
@@ -228,6 +235,7 @@ pub struct Energies {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn energy(robot: &Robot, request: &UnderGravity) -> Result<Energies, Refusal> {
+    robot.check_inertias()?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let energy = dynamics::energy(robot, &gravity_or_earths(request.gravity_m_s2), &q, &qd);

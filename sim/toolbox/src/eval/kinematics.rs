@@ -259,7 +259,7 @@ pub struct Com {
     pub q: Numbers,
     /// The frame that coordinates are expressed in; the world where none is given.
     pub r#in: Option<String>,
-    /// Which links count; those that move where nothing is given.
+    /// Which links count; where nothing is given, those that move, or all if none does.
     pub counted: Option<Counted>,
 }
 
@@ -278,12 +278,18 @@ pub struct CentreOfMass {
 ///
 /// The refusal that the same request in JSON is answered with.
 pub fn com(robot: &Robot, request: &Com) -> Result<CentreOfMass, Refusal> {
+    robot.check_masses()?;
     let q = positions(robot, "q", &request.q)?;
     let base = frame_or_world(robot, request.r#in.as_deref())?;
-    let counted = request.counted.unwrap_or(Counted::MovingLinks);
+    // in a robot in which nothing moves, "all that moves" is nothing that anybody would ask for
+    let of_all = if robot.n() == 0 {
+        Counted::WholeRobot
+    } else {
+        Counted::MovingLinks
+    };
+    let counted = request.counted.unwrap_or(of_all);
     let Some(mut p_com) = centre_of_mass(robot, &q, counted) else {
-        let message = "what has no mass has no centre of mass; give links `inertia`";
-        return refuse(Code::NoMass, message);
+        return refuse(Code::NoMass, no_mass(robot));
     };
     if let Some(base) = base {
         let world_from_base = forward_kinematics(robot, &q).world_from(base);
@@ -294,6 +300,18 @@ pub fn com(robot: &Robot, request: &Com) -> Result<CentreOfMass, Refusal> {
         position_m: finite(p_com.as_slice())?,
         mass_kg: mass_kg(robot, counted),
     })
+}
+
+/// Why nothing that counts has mass, and what to do.
+fn no_mass(robot: &Robot) -> String {
+    let whole = robot.mass_kg();
+    if whole > 0.0 {
+        return format!(
+            "no link that moves has mass, so they have no centre of mass; `\"counted\": \"all\"` counts those fixed to the world, \
+             too, with {whole} kg in all"
+        );
+    }
+    "what has no mass has no centre of mass; give links `inertia`".to_owned()
 }
 
 fn mass_kg(robot: &Robot, counted: Counted) -> f64 {

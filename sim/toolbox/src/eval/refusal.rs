@@ -1,5 +1,6 @@
 //! Why a request is not answered: a documented code, and a message for a person.
 
+use kinemark_sim::model::unphysical::UnphysicalLinks;
 use serde::{Deserialize, Serialize};
 
 /// The code of a refusal; docs/robot-eval.md has the table.
@@ -38,6 +39,8 @@ pub enum Code {
     Singular,
     /// Nothing has mass.
     NoMass,
+    /// No body can have the mass properties of a link.
+    Unphysical,
     /// The simulation cannot start.
     CannotRun,
     /// The simulation diverged.
@@ -61,6 +64,12 @@ impl Refusal {
     pub(crate) fn new(code: Code, message: impl ToString) -> Self {
         let message = message.to_string();
         Self { code, message }
+    }
+}
+
+impl From<&UnphysicalLinks> for Refusal {
+    fn from(links: &UnphysicalLinks) -> Self {
+        Self::new(Code::Unphysical, links)
     }
 }
 

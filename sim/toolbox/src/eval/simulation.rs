@@ -78,6 +78,7 @@ pub struct ServoTable {
 /// The refusal that the same request in JSON is answered with.
 pub fn simulate(subject: Subject<'_>, request: &Simulate) -> Result<SampledRun, Refusal> {
     let Subject { robot, scene } = subject;
+    robot.check_inertias()?;
     let q0 = positions(robot, "q0", &request.q0)?;
     refuse_open_loop(robot, q0.as_slice())?;
     let qd0 = velocities(robot, "qd0", &q0, &request.qd0)?;

@@ -37,8 +37,18 @@ pub fn robot_record(robot: &Robot) -> Value {
         "home": robot.home(),
         "mass_kg": robot.mass_kg(),
         "com_at_home_m": com_at_home_m(robot),
+        "unphysical": unphysical_links(robot),
         "warnings": robot.warnings(),
     })
+}
+
+/// The links for which dynamics refuses the robot.
+fn unphysical_links(robot: &Robot) -> Vec<Value> {
+    let links = robot.unphysical().map_or(&[][..], |found| found.links());
+    let links = links
+        .iter()
+        .map(|link| json!({ "link": link.name, "line": link.line, "why": link.why.to_string() }));
+    links.collect()
 }
 
 fn link_record(link: &Link) -> Value {
