@@ -184,12 +184,14 @@ impl Variant {
     /// Why `lab`, which has the default numbers, is invalid with those of this variant, where it is the variant that is to blame: it has
     /// a number that no student's variant has.
     pub fn blamed(&self, lab: &Lab, why: &LoadError) -> Option<LabError> {
-        let problem = VariantProblem::Invalid {
-            lab: lab.name.clone(),
-            why: why.to_string(),
-        };
         let not_drawn = self.check_drawn(lab).err()?;
-        Some(not_drawn.map(|_| Box::new(problem) as Box<_>))
+        Some(not_drawn.map(|_| {
+            let problem = VariantProblem::Invalid {
+                lab: lab.name.clone(),
+                why: why.to_string(),
+            };
+            Box::new(problem) as Box<_>
+        }))
     }
 
     /// Checks that it is one of `lab`: the lab's name, and each number one of its parameters in the same shape.

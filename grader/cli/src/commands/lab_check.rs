@@ -22,7 +22,7 @@ use kinemark_sim::text::Source;
 use owo_colors::OwoColorize as _;
 
 use crate::disk::Folder;
-use crate::failure::{Failure, LOST};
+use crate::failure::{self, Failure, LOST};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
 use crate::{interrupt, output};
@@ -62,6 +62,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         files.as_ref(),
         &labs_folder::full_name(files.as_ref(), &args.lab)?,
     )?;
+    for warning in lab.robot.warnings() {
+        failure::warn_alone(&format!("robot `{}`: {warning}", lab.robot.name()));
+    }
     let from = StaffPart {
         reference: args.reference.clone(),
         salt: None,
