@@ -59,7 +59,8 @@ joint-reached = { joint = "turn", position_rad = 0.5, hold_s = 0.5, full_rad = 0
 
 /// The mass matrix is that of the balanced tensor: (0.001 + 0.001 + 0.1) / 3 about the centre of mass, and 1 kg at 0.5 m.
 const SUBMISSION: &str = "fn forward_kinematics(robot, q) { [cos(q[0]), sin(q[0]), 1.0] }\n\
-    fn control(observation) {\n    let off = robot.mass_matrix(observation.q)[0][0] - 0.284;\n\
+    fn init(robot, task) { this.robot = robot; }\n\
+    fn control(observation) {\n    let off = this.robot.mass_matrix(observation.q)[0][0] - 0.284;\n\
     if off > 1e-12 || off < -1e-12 { throw \"another mass matrix\" }\n    observation.target\n}\n";
 
 fn bed() -> TestBed {
