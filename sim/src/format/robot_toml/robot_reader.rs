@@ -249,31 +249,31 @@ impl Resolver<'_> {
     }
 
     fn link(&self, table: &LinkTable) -> Result<LinkPart, RobotError> {
-            let shapes = table
-                .shapes
-                .iter()
-                .map(|shape| self.shape(shape))
-                .collect::<Result<Vec<_>, _>>()?;
-            let inertia = match &table.inertia {
-                Some(inertia) => {
-                    let owner = format!("link `{}`", table.name.get_ref());
-                    self.values.inertia(&owner, &shapes, inertia)?
-                }
-                None => Inertia::zero(),
-            };
-            let given_inertia = table.inertia.as_ref().map(|table| self.given(table));
-            let contact = table.contact.as_ref();
-            let contact = contact.map(|c| self.values.contact(c, &shapes)).transpose()?;
-            let drag = table.drag.as_ref();
-            let drag = drag.map(|d| self.values.drag(d)).transpose()?;
-            Ok(LinkPart {
-                name: table.name.clone(),
-                shapes,
-                inertia,
-                given_inertia: given_inertia.transpose()?.flatten(),
-                contact,
-                drag,
-            })
+        let shapes = table
+            .shapes
+            .iter()
+            .map(|shape| self.shape(shape))
+            .collect::<Result<Vec<_>, _>>()?;
+        let inertia = match &table.inertia {
+            Some(inertia) => {
+                let owner = format!("link `{}`", table.name.get_ref());
+                self.values.inertia(&owner, &shapes, inertia)?
+            }
+            None => Inertia::zero(),
+        };
+        let given_inertia = table.inertia.as_ref().map(|table| self.given(table));
+        let contact = table.contact.as_ref();
+        let contact = contact.map(|c| self.values.contact(c, &shapes)).transpose()?;
+        let drag = table.drag.as_ref();
+        let drag = drag.map(|d| self.values.drag(d)).transpose()?;
+        Ok(LinkPart {
+            name: table.name.clone(),
+            shapes,
+            inertia,
+            given_inertia: given_inertia.transpose()?.flatten(),
+            contact,
+            drag,
+        })
     }
 
     /// What the table of an inertia says of a tensor that is written out; `None` where it follows from the shapes.
@@ -291,7 +291,8 @@ impl Resolver<'_> {
             (true, true) => {
                 let problem = PartProblem::Inertia {
                     message: "`accept_unphysical` and `balance` exclude each other".to_owned(),
-                    help: "leave one of them out: a tensor is taken as it is, or balanced".to_owned(),
+                    help: "leave one of them out: a tensor is taken as it is, or balanced"
+                        .to_owned(),
                 };
                 return self.err(table.span(), problem);
             }
