@@ -14,7 +14,7 @@ use crate::text::{Dimension, Dimensions, Source};
 #[derive(Debug, Clone)]
 pub enum RobotDescription {
     /// A robot file: TOML.
-    File(RobotFile),
+    File(Box<RobotFile>),
     /// A file without dimensions, such as a URDF.
     Fixed(FixedDescription),
 }
@@ -41,7 +41,7 @@ impl RobotDescription {
         let format = detect(&source);
         if !format.is_of_ros {
             let file = RobotFile::parse(source)?.with_meshes(read_mesh)?;
-            return Ok(Self::File(file));
+            return Ok(Self::File(Box::new(file)));
         }
         let robot = (format.read)(source.clone(), options, read_mesh)?;
         Ok(Self::Fixed(FixedDescription {
@@ -82,7 +82,7 @@ impl RobotDescription {
     /// A dimension that the file does not have, or has in another shape.
     pub fn with_dimensions(self, changed: &[(String, Dimension)]) -> Result<Self, RobotError> {
         match self {
-            Self::File(file) => Ok(Self::File(file.with_dimensions(changed)?)),
+            Self::File(file) => Ok(Self::File(Box::new(file.with_dimensions(changed)?))),
             Self::Fixed(fixed) => {
                 fixed.refuse(changed)?;
                 Ok(Self::Fixed(fixed))

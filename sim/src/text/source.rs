@@ -73,7 +73,13 @@ impl Problem for Box<dyn Problem> {
 pub struct Located<P> {
     /// What is wrong.
     pub problem: P,
-    inner: Box<SourceExcerpt>,
+    inner: Box<Place<P>>,
+}
+
+/// Where a problem is, and what else is wrong there; apart from the problem, so that a result that may be one stays small.
+#[derive(Debug)]
+struct Place<P> {
+    excerpt: SourceExcerpt,
     others: Vec<Located<P>>,
 }
 
@@ -90,18 +96,20 @@ impl<P> Located<P> {
         let named = NamedSource::new(source.name(), Arc::clone(&source.text));
         Self {
             problem,
-            inner: Box::new(SourceExcerpt {
-                source: source.clone(),
-                named,
-                at: (at.start, at.end.saturating_sub(at.start)).into(),
+            inner: Box::new(Place {
+                excerpt: SourceExcerpt {
+                    source: source.clone(),
+                    named,
+                    at: (at.start, at.end.saturating_sub(at.start)).into(),
+                },
+                others: Vec::new(),
             }),
-            others: Vec::new(),
         }
     }
 
     /// The first of `all` in the text, with the rest of them behind it; `None` if there is none.
     pub fn first_of(mut all: Vec<Self>) -> Option<Self> {
-        all.sort_by_key(|one| one.inner.at.offset());
+        all.sort_by_key(|one| one.inner.excerpt.at.offset());
         let mut all = all.into_iter();
         let mut first = all.next()?;
         for one in all {
@@ -111,14 +119,14 @@ impl<P> Located<P> {
     }
 
     fn push(&mut self, mut other: Self) {
-        let behind = std::mem::take(&mut other.others);
-        self.others.push(other);
-        self.others.extend(behind);
+        let behind = std::mem::take(&mut other.inner.others);
+        self.inner.others.push(other);
+        self.inner.others.extend(behind);
     }
 
     /// Problems of the same text beside this one, in its order.
     pub fn others(&self) -> &[Self] {
-        &self.others
+        &self.inner.others
     }
 
     /// The same positions with each problem replaced by `words(problem)`.
@@ -127,25 +135,25 @@ impl<P> Located<P> {
     }
 
     fn mapped<Q>(self, words: &mut impl FnMut(P) -> Q) -> Located<Q> {
+        let Place { excerpt, others } = *self.inner;
+        let problem = words(self.problem);
+        let others = others.into_iter().map(|other| other.mapped(words));
+        let others = others.collect();
         Located {
-            problem: words(self.problem),
-            inner: self.inner,
-            others: self
-                .others
-                .into_iter()
-                .map(|other| other.mapped(words))
-                .collect(),
+            problem,
+            inner: Box::new(Place { excerpt, others }),
         }
     }
 
     /// The text that holds the problem.
     pub fn source(&self) -> &Source {
-        &self.inner.source
+        &self.inner.excerpt.source
     }
 
     /// Line and column where the problem starts, both from one.
     pub fn line_and_column(&self) -> (usize, usize) {
-        self.inner.source.line_and_column(self.inner.at.offset())
+        let SourceExcerpt { source, at, .. } = &self.inner.excerpt;
+        source.line_and_column(at.offset())
     }
 }
 
@@ -167,19 +175,19 @@ impl<P: Problem> Diagnostic for Located<P> {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.inner.named)
+        Some(&self.inner.excerpt.named)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = LabeledSpan::new_with_span(Some(self.problem.label()), self.inner.at);
+        let label = LabeledSpan::new_with_span(Some(self.problem.label()), self.inner.excerpt.at);
         Some(Box::new(std::iter::once(label)))
     }
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        if self.others.is_empty() {
+        let others = self.others().iter();
+        if others.len() == 0 {
             return None;
         }
-        let others = self.others.iter();
         Some(Box::new(others.map(|other| other as &dyn Diagnostic)))
     }
 }
