@@ -34,6 +34,7 @@ mod scenes;
 mod sensor_files;
 mod sensor_rig;
 mod sensors;
+mod stiff_damping;
 mod trajectories;
 mod urdf;
 mod urdf_mistakes;

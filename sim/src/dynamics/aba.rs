@@ -18,6 +18,9 @@ pub struct SingularMassMatrix {
 #[derive(Debug, Clone)]
 pub(super) struct Aba {
     nodes: Vec<Node>,
+    /// Zeros of shape `(n)`, and room for accelerations that nobody reads.
+    still: Vec<f64>,
+    unread: Vec<f64>,
 }
 
 /// An articulated body about its own origin, in world axes. Its inertia maps `[dw; a]` to `[n; f]`:
@@ -87,7 +90,24 @@ impl Aba {
         });
         Self {
             nodes: nodes.collect(),
+            still: vec![0.0; robot.n()],
+            unread: vec![0.0; robot.n()],
         }
+    }
+
+    /// Whether `M + diag(added)` is positive definite at `q`; both slices have shape `(n)`. Allocates nothing.
+    ///
+    /// The inertias that the joints feel are the pivots of a factorization `Lᵀ D L` of that matrix, so one pass decides.
+    /// Source: Featherstone (2008), sec. 6.5 and 7.3.
+    pub(super) fn is_positive_with(&mut self, robot: &Robot, q: &[f64], added: &[f64]) -> bool {
+        let (still, mut unread) = (
+            std::mem::take(&mut self.still),
+            std::mem::take(&mut self.unread),
+        );
+        let (state, none) = ((q, &still[..]), Vector3::zeros());
+        let solved = self.solve::<true>(robot, &none, state, &still, added, &mut unread);
+        (self.still, self.unread) = (still, unread);
+        solved.is_ok()
     }
 
     /// Writes the accelerations into `qdd`; all slices have shape `(n)`. With viscous damping, without dry friction (whose sign a
@@ -98,8 +118,6 @@ impl Aba {
     ///
     /// # Panics
     /// If a slice is shorter than [`Robot::n`], or `robot` is not the one of [`Aba::new`].
-    // long: three passes over the same nodes. The second turns the rigid inertias of the first into articulated ones in place, and the
-    // third reads the results of both, so none of them is meaningful alone or in another order.
     pub(super) fn acceleration(
         &mut self,
         robot: &Robot,
@@ -107,6 +125,38 @@ impl Aba {
         q: &[f64],
         qd: &[f64],
         effort: &[f64],
+        qdd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        self.solve::<false>(robot, gravity_m_s2, (q, qd), effort, &[], qdd)
+    }
+
+    /// As [`Self::acceleration`], with `added` inertia on the joints, shape `(n)`: `(M + diag(added)) qdd = effort - h - D qd`.
+    ///
+    /// # Errors
+    /// [`SingularMassMatrix`] if a joint moves nothing with it, or less than nothing.
+    pub(super) fn acceleration_with(
+        &mut self,
+        robot: &Robot,
+        gravity_m_s2: &Vector3<f64>,
+        state: (&[f64], &[f64]),
+        effort: &[f64],
+        added: &[f64],
+        qdd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        self.solve::<true>(robot, gravity_m_s2, state, effort, added, qdd)
+    }
+
+    /// Both of them; compiled separately, so that the inertia that is added costs nothing where there is none.
+    // long: three passes over the same nodes. The second turns the rigid inertias of the first into articulated ones in place, and the
+    // third reads the results of both, so none of them is meaningful alone or in another order.
+    #[inline]
+    fn solve<const ADDED: bool>(
+        &mut self,
+        robot: &Robot,
+        gravity_m_s2: &Vector3<f64>,
+        (q, qd): (&[f64], &[f64]),
+        effort: &[f64],
+        added: &[f64],
         qdd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         let bodies = robot.bodies();
@@ -159,7 +209,7 @@ impl Aba {
             let passive = effort[k] - body.damping * qd[k];
             let (before, rest) = nodes.split_at_mut(i);
             let node = &mut rest[0];
-            let felt = if body.turns {
+            let mut felt = if body.turns {
                 node.u_n = node.upper.times(&node.axis);
                 node.u_f = node.cross.tr_mul(&node.axis);
                 node.free = passive - node.axis.dot(&node.n);
@@ -170,6 +220,9 @@ impl Aba {
                 node.free = passive - node.axis.dot(&node.f);
                 node.axis.dot(&node.u_f)
             } + body.armature;
+            if ADDED {
+                felt += added[k];
+            }
             if felt <= 0.0 {
                 return Err(singular(robot, k));
             }

@@ -44,7 +44,8 @@ impl DryFriction {
         self.present
     }
 
-    /// The friction efforts to hold over the step, shape `(n)`, where `qdd` is the acceleration without them.
+    /// The friction efforts to hold over the step, shape `(n)`, where `qdd` is the acceleration without them. In a step that takes
+    /// damping implicitly, `added` is the inertia that it adds, shape `(n)`, and `qdd` is the acceleration with it.
     ///
     /// All zero if the mass matrix is not positive definite: the step itself then reports the singular joint.
     pub fn efforts(
@@ -52,13 +53,13 @@ impl DryFriction {
         robot: &Robot,
         dynamics: &mut ForwardDynamics,
         dt_s: f64,
-        q: &[f64],
-        qd: &[f64],
+        (q, qd): (&[f64], &[f64]),
+        added: Option<&[f64]>,
         qdd: &[f64],
     ) -> &[f64] {
         let n = self.limits.len();
         self.efforts.fill(0.0);
-        let Some(inverse) = dynamics.inverse_inertia(robot, q) else {
+        let Some(inverse) = dynamics.inverse_inertia(robot, q, added) else {
             return &self.efforts;
         };
         for i in 0..n {

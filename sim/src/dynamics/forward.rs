@@ -77,8 +77,40 @@ impl ForwardDynamics {
         match &mut self.0 {
             Algorithm::Tree(aba) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
             Algorithm::Coupled(coupled) => {
-                coupled.acceleration(robot, gravity_m_s2, q, qd, effort, qdd)
+                coupled.acceleration(robot, gravity_m_s2, (q, qd), effort, None, qdd)
             }
+        }
+    }
+
+    /// As [`Self::acceleration`], with `added` inertia on the joints, shape `(n)`: `(M + diag(added)) qdd = effort - h - D qd`, with
+    /// the loop-closure constraints if there are any.
+    ///
+    /// # Errors
+    /// [`SingularMassMatrix`] if a joint moves nothing with it.
+    pub(crate) fn acceleration_with(
+        &mut self,
+        robot: &Robot,
+        gravity_m_s2: &Vector3<f64>,
+        state: (&[f64], &[f64]),
+        effort: &[f64],
+        added: &[f64],
+        qdd: &mut [f64],
+    ) -> Result<(), SingularMassMatrix> {
+        match &mut self.0 {
+            Algorithm::Tree(aba) => {
+                aba.acceleration_with(robot, gravity_m_s2, state, effort, added, qdd)
+            }
+            Algorithm::Coupled(coupled) => {
+                coupled.acceleration(robot, gravity_m_s2, state, effort, Some(added), qdd)
+            }
+        }
+    }
+
+    /// Whether `M + diag(added)` is positive definite at `q`, for the mass matrix of the open tree; both slices have shape `(n)`.
+    pub(crate) fn is_positive_with(&mut self, robot: &Robot, q: &[f64], added: &[f64]) -> bool {
+        match &mut self.0 {
+            Algorithm::Tree(aba) => aba.is_positive_with(robot, q, added),
+            Algorithm::Coupled(coupled) => coupled.is_positive_with(robot, q, added),
         }
     }
 
@@ -98,24 +130,20 @@ impl ForwardDynamics {
         }
     }
 
-    /// The inverse mass matrix, constraints included: accelerations per unit effort, shape `(n, n)`; `None` if it is singular.
-    pub(crate) fn inverse_inertia(&mut self, robot: &Robot, q: &[f64]) -> Option<DMatrix<f64>> {
-        self.inverse_inertia_with(robot, q, &[])
-    }
-
-    /// As [`Self::inverse_inertia`], with `added` on the diagonal of the mass matrix \[kg m² or kg\].
-    pub(crate) fn inverse_inertia_with(
+    /// The inverse mass matrix, constraints included: accelerations per unit effort, shape `(n, n)`; `None` if it is singular. With
+    /// `added` inertia on the joints, shape `(n)`, if any.
+    pub(crate) fn inverse_inertia(
         &mut self,
         robot: &Robot,
         q: &[f64],
-        added: &[f64],
+        added: Option<&[f64]>,
     ) -> Option<DMatrix<f64>> {
         match &mut self.0 {
             Algorithm::Coupled(coupled) => coupled.inverse_inertia(robot, q, added),
             Algorithm::Tree(_) => {
                 let q = JointPositions::new(q.iter().copied());
                 let mut matrix = super::mass_matrix(robot, &q);
-                for (i, added) in added.iter().enumerate() {
+                for (i, added) in added.into_iter().flatten().enumerate() {
                     matrix[(i, i)] += added;
                 }
                 matrix.cholesky().map(|c| c.inverse())

@@ -45,30 +45,35 @@ impl Constrained {
         }
     }
 
+    /// The Cholesky factor of the mass matrix with `added` inertia on the joints, shape `(n)`, if any.
     fn factor(
         &mut self,
         robot: &Robot,
         q: &[f64],
+        added: Option<&[f64]>,
     ) -> Result<Cholesky<f64, Dyn>, SingularMassMatrix> {
         self.crba.fill(robot, q, &mut self.matrix);
+        for (i, added) in added.into_iter().flatten().enumerate() {
+            self.matrix[(i, i)] += added;
+        }
         self.matrix
             .clone()
             .cholesky()
             .ok_or_else(|| weakest(robot, &self.matrix))
     }
 
-    /// As [`super::aba::Aba::acceleration`]: with viscous damping, without dry friction.
+    /// As [`super::aba::Aba::acceleration_with`]: with viscous damping, without dry friction, with `added` inertia if any.
     pub(crate) fn acceleration(
         &mut self,
         robot: &Robot,
         gravity_m_s2: &Vector3<f64>,
-        q: &[f64],
-        qd: &[f64],
+        (q, qd): (&[f64], &[f64]),
         effort: &[f64],
+        added: Option<&[f64]>,
         qdd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         let n = robot.n();
-        let factor = self.factor(robot, q)?;
+        let factor = self.factor(robot, q, added)?;
         self.rnea
             .effort(robot, gravity_m_s2, q, qd, &self.still, &mut self.bias);
         let mut rhs = DVector::from_iterator(n, (0..n).map(|i| effort[i] - self.bias[i]));
@@ -86,19 +91,20 @@ impl Constrained {
         Ok(())
     }
 
-    /// Accelerations per unit effort, shape `(n, n)`: the inverse mass matrix, with `added` on its diagonal, projected on the
+    /// Whether the mass matrix of the open tree with `added` inertia on the joints is positive definite.
+    pub(crate) fn is_positive_with(&mut self, robot: &Robot, q: &[f64], added: &[f64]) -> bool {
+        self.factor(robot, q, Some(added)).is_ok()
+    }
+
+    /// Accelerations per unit effort, shape `(n, n)`: the inverse mass matrix, with `added` inertia if any, projected on the
     /// constraints.
     pub(crate) fn inverse_inertia(
         &mut self,
         robot: &Robot,
         q: &[f64],
-        added: &[f64],
+        added: Option<&[f64]>,
     ) -> Option<DMatrix<f64>> {
-        self.crba.fill(robot, q, &mut self.matrix);
-        for (i, added) in added.iter().enumerate() {
-            self.matrix[(i, i)] += added;
-        }
-        let factor = self.matrix.clone().cholesky()?;
+        let factor = self.factor(robot, q, added).ok()?;
         let mut inverse = factor.inverse();
         if !robot.loops().is_empty() {
             self.closure.update(robot, q, &self.still);
@@ -123,7 +129,7 @@ impl Constrained {
         if robot.loops().is_empty() {
             return Ok(());
         }
-        let factor = self.factor(robot, q)?;
+        let factor = self.factor(robot, q, None)?;
         // after one step the gap has the size of the integrator's error; two corrections reduce it to rounding
         for _ in 0..2 {
             self.closure.update(robot, q, &self.still);

@@ -10,6 +10,7 @@
 
 mod aba;
 pub mod crba;
+pub(crate) mod damping_rate;
 pub mod drag;
 pub mod dry_friction;
 pub mod energy;

@@ -47,7 +47,7 @@ impl Arm {
 
     /// Computes how the joints answer to impulses at `q`.
     pub(super) fn weigh(&mut self, robot: &Robot, q: &[f64]) {
-        let inverse = self.dynamics.inverse_inertia_with(robot, q, &self.resists);
+        let inverse = self.dynamics.inverse_inertia(robot, q, Some(&self.resists));
         self.response = inverse.unwrap_or_else(|| DMatrix::zeros(robot.n(), robot.n()));
     }
 

@@ -195,9 +195,10 @@ impl HybridStep {
         q.copy_from_slice(&self.start_q);
         qd.copy_from_slice(&self.start_qd);
         self.hold_with_drag(robot, effort);
-        let (gravity, dt_s) = (&self.gravity_m_s2, self.dt_s);
+        let added = self.smooth.damping_inertia(robot, q);
+        let (gravity, step) = (&self.gravity_m_s2, (self.dt_s, added));
         self.stops
-            .hold(robot, gravity, dt_s, q, qd, &mut self.held)?;
+            .hold(robot, gravity, step, (q, qd), &mut self.held)?;
         if self.smooth.feels_air() {
             // the step adds it anew
             for (held, drag) in self.held.iter_mut().zip(&self.drag) {

@@ -65,7 +65,8 @@ impl JointLimitConstraints {
         &self.impulses
     }
 
-    /// Adds to `effort` the constraint efforts of the joints on their limits at `(q, qd)`, for a step of `dt_s`.
+    /// Adds to `effort` the constraint efforts of the joints on their limits at `(q, qd)`, for a step of `dt_s`. In a step that takes
+    /// damping implicitly, `added` is the inertia that it adds, shape `(n)`.
     ///
     /// # Errors
     /// [`SingularMassMatrix`] if a joint moves no inertia.
@@ -73,16 +74,20 @@ impl JointLimitConstraints {
         &mut self,
         robot: &Robot,
         gravity_m_s2: &Vector3<f64>,
-        dt_s: f64,
-        q: &[f64],
-        qd: &[f64],
+        (dt_s, added): (f64, Option<&[f64]>),
+        (q, qd): (&[f64], &[f64]),
         effort: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         self.efforts.fill(0.0);
         self.impulses.fill(0.0);
-        let dynamics = &mut self.dynamics;
-        dynamics.acceleration(robot, gravity_m_s2, q, qd, effort, &mut self.accelerations)?;
-        let Some(inverse) = dynamics.inverse_inertia(robot, q) else {
+        let (dynamics, room) = (&mut self.dynamics, &mut self.accelerations);
+        match added {
+            None => dynamics.acceleration(robot, gravity_m_s2, q, qd, effort, room)?,
+            Some(added) => {
+                dynamics.acceleration_with(robot, gravity_m_s2, (q, qd), effort, added, room)?;
+            }
+        }
+        let Some(inverse) = dynamics.inverse_inertia(robot, q, added) else {
             return Ok(());
         };
         let accelerated = qd.iter().zip(&self.accelerations);
@@ -145,7 +150,7 @@ impl JointLimitConstraints {
                 (next_q[i], signs[i]) = (lower, -1.0);
             }
         }
-        let Some(inverse) = self.dynamics.inverse_inertia(robot, next_q) else {
+        let Some(inverse) = self.dynamics.inverse_inertia(robot, next_q, None) else {
             return;
         };
         self.efforts.fill(0.0);
