@@ -1,15 +1,22 @@
-//! The likely cause of a divergence: a servo beyond its sampled-data limit, or a feedback that overshoots more at every call.
+//! The likely cause of a divergence: a servo beyond its sampled-data limit, a feedback that overshoots more at every call, damping that
+//! is stiff for the physics step, or motion that is too fast for it.
 
 use crate::control::sampled_loop::{SampledLoop, sampled_loop};
 use crate::run::DivergenceKind;
 use crate::run::Setup;
+use crate::step::stiffest_joint;
+use crate::text::number::trimmed;
+use crate::ticks::Periods;
 use crate::trace::Trace;
+use crate::watch::Names;
 
 /// With joint rates below this an arm counts as still under control \[rad/s or m/s\].
 const CALM_RATE: f64 = 10.0;
 /// The feedback is blamed if this many consecutive calls reverse the command, each with a larger amplitude than the one before. The
 /// number is small because a strong feedback diverges within a few calls.
 const TURNS: usize = 2;
+/// The step is blamed if a joint moves by this much in the last one \[rad or m\]: Runge-Kutta is then off by 1e-4 of its speed a step.
+const LONG_STEP: f64 = 0.3;
 
 /// Why a run diverged, as far as it can be computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,25 +32,122 @@ pub enum Cause {
         /// Number of consecutive calls that reversed it, up to the end of the run.
         calls: usize,
     },
+    /// Viscous damping is stiff for the step.
+    StiffDamping {
+        /// Index of the joint in `q` whose damping brakes it fastest.
+        joint: usize,
+        /// Its damping by the inertia that it feels, times the step: how often it is braked within a step, a ratio.
+        per_step: f64,
+    },
+    /// The step is too long for the motion.
+    LongStep {
+        /// Index of the fastest joint in `q`.
+        joint: usize,
+        /// How far it moves in one step \[rad or m\].
+        per_step: f64,
+    },
+}
+
+impl Cause {
+    /// The cause as a clause, with the names and the periods of the run.
+    pub fn clause(&self, names: &Names<'_>, periods: &Periods) -> String {
+        let (servo_ms, step_ms) = (
+            trimmed(periods.servo_s() * 1e3, 4),
+            trimmed(periods.step_s * 1e3, 4),
+        );
+        match self {
+            Self::ServoGains(servo) => servo_clause(servo, names, &servo_ms),
+            Self::ServoIntegral(servo) => format!(
+                "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample, and without its integral gains it would not",
+                trimmed(servo.spectral_radius, 4)
+            ),
+            Self::Feedback { joint, calls } => format!(
+                "the command of `{}` turned round at each of the last {calls} calls of `control`, further each time",
+                names.joint(*joint)
+            ),
+            Self::StiffDamping { joint, per_step } => format!(
+                "the damping of `{}` is stiff for the physics step of {step_ms} ms: damping by inertia, times the step, is {}",
+                names.joint(*joint),
+                trimmed(*per_step, 3)
+            ),
+            Self::LongStep { joint, per_step } => format!(
+                "the physics step of {step_ms} ms is too long for the motion of `{}`, which moves by {} {} in a step",
+                names.joint(*joint),
+                trimmed(*per_step, 3),
+                names.joint_unit(*joint)
+            ),
+        }
+    }
+}
+
+fn servo_clause(servo: &SampledLoop, names: &Names<'_>, servo_ms: &str) -> String {
+    let mut text = format!(
+        "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample",
+        trimmed(servo.spectral_radius, 3)
+    );
+    let percent = |share: f64| format!("{} %", trimmed(100.0 * share, 2));
+    let mut ways = Vec::new();
+    if let Some(share) = servo.stable_share.filter(|share| *share < 1.0) {
+        let joint = names.joint(servo.worst_joint);
+        ways.push(format!("{} of the gains of `{joint}`", percent(share)));
+    } else if let Some(share) = servo.stable_share_of_all.filter(|share| *share < 1.0) {
+        ways.push(format!("{} of all its gains", percent(share)));
+    }
+    if let Some(period_s) = servo.stable_period_s.filter(|period| period.is_finite()) {
+        ways.push(format!("a period of {} ms", trimmed(1e3 * period_s, 3)));
+    }
+    if !ways.is_empty() {
+        text += &format!("; it is stable with at most {}", ways.join(", or "));
+    }
+    text
 }
 
 /// The likely cause of the divergence `what` in a run of `setup` recorded as `trace`; `None` if nothing computed here explains it.
 ///
 /// [`sampled_loop()`] examines the servo at the start of the run and at the last configuration with low joint rates.
 pub fn likely_cause(setup: &Setup<'_>, what: &DivergenceKind, trace: &Trace) -> Option<Cause> {
-    if matches!(
-        what,
-        DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }
-    ) {
+    if is_of_bodies(what) {
         return None;
     }
-    let calm = |tick: &usize| trace.qd.at(*tick).iter().all(|rate| rate.abs() < CALM_RATE);
-    let last_calm = (0..trace.len()).rev().find(calm);
-    let configurations = [
-        last_calm.map(|tick| trace.q.at(tick).to_vec()),
-        Some(setup.start_q.clone()),
-    ];
-    for q in configurations.iter().flatten() {
+    let state = |tick: usize| (trace.q.at(tick), trace.qd.at(tick));
+    let last_calm = (0..trace.len()).rev().find(|&at| is_calm(trace.qd.at(at)));
+    let last_calm = last_calm.map(state);
+    servo(setup, last_calm.map(|(q, _)| q))
+        .or_else(|| feedback(setup, trace))
+        .or_else(|| motion(setup, state(trace.len().checked_sub(1)?), last_calm))
+}
+
+/// As [`likely_cause`], for a run whose commands do not depend on it: from the last state before it diverged, and the last with low joint
+/// rates; positions and velocities of shape `(n)`.
+pub fn likely_cause_without_feedback(
+    setup: &Setup<'_>,
+    what: &DivergenceKind,
+    last: (&[f64], &[f64]),
+    last_calm: Option<(&[f64], &[f64])>,
+) -> Option<Cause> {
+    if is_of_bodies(what) {
+        return None;
+    }
+    servo(setup, last_calm.map(|(q, _)| q)).or_else(|| motion(setup, last, last_calm))
+}
+
+/// Whether joints with these rates count as still under control.
+pub fn is_calm(qd: &[f64]) -> bool {
+    qd.iter().all(|rate| rate.abs() < CALM_RATE)
+}
+
+/// Whether bodies of a scene diverged, or contact.
+fn is_of_bodies(what: &DivergenceKind) -> bool {
+    matches!(
+        what,
+        DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }
+    )
+}
+
+/// A servo that is unstable at `last_calm` or at the start.
+fn servo(setup: &Setup<'_>, last_calm: Option<&[f64]>) -> Option<Cause> {
+    let configurations = [last_calm, Some(setup.start_q.as_slice())];
+    for q in configurations.into_iter().flatten() {
         let looked_at = sampled_loop(
             setup.robot,
             &setup.servo,
@@ -73,7 +177,29 @@ pub fn likely_cause(setup: &Setup<'_>, what: &DivergenceKind, trace: &Trace) -> 
             return Some(Cause::ServoGains(found));
         }
     }
-    feedback(setup, trace)
+    None
+}
+
+/// What the physics step does not resolve: motion that is too fast for it while rates are low, damping, or the motion at the end.
+fn motion(
+    setup: &Setup<'_>,
+    last: (&[f64], &[f64]),
+    last_calm: Option<(&[f64], &[f64])>,
+) -> Option<Cause> {
+    let step_s = setup.periods.step_s;
+    let fastest = |(_, qd): (&[f64], &[f64])| {
+        let moved = qd.iter().map(|rate| rate.abs() * step_s).enumerate();
+        let (joint, per_step) = moved.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        (per_step >= LONG_STEP).then_some(Cause::LongStep { joint, per_step })
+    };
+    let damping = |(q, _): (&[f64], &[f64])| {
+        let (joint, per_step) = stiffest_joint(setup.robot, step_s, q)?;
+        Some(Cause::StiffDamping { joint, per_step })
+    };
+    last_calm
+        .and_then(fastest)
+        .or_else(|| damping(last_calm.unwrap_or(last)))
+        .or_else(|| fastest(last))
 }
 
 /// A command that reverses at every call with growing amplitude, up to the end of the run.

@@ -13,7 +13,8 @@ use super::moment::{fragment, last_before, of_task};
 use super::stop_words::stop_of_whole_file;
 use super::visible::visible;
 use kinemark_grader::record::grade::{
-    CheckGrade, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped, TaskGrade, TaskKind,
+    CheckGrade, EventRecord, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped,
+    TaskGrade, TaskKind,
 };
 use kinemark_grader::record::hints;
 use kinemark_grader::record::quantity::{points, with_unit};
@@ -109,6 +110,17 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
     if let Some(stopped) = &task.stopped {
         push_stopped(out, stopped, file, &task.name);
     }
+    if let Some(event) = task.first_unresolved() {
+        line(
+            out,
+            &format!(
+                "  {} {} {}",
+                "inaccurate:".yellow().bold(),
+                unresolved(event),
+                fragment(&task.name, event.time_s).dimmed()
+            ),
+        );
+    }
     for diagnosis in &task.diagnoses {
         line(
             out,
@@ -164,6 +176,15 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             ),
         );
     }
+}
+
+/// What the first event of a run that is not resolved means for whoever reads its grade.
+pub(crate) fn unresolved(event: &EventRecord) -> String {
+    format!(
+        "the simulation is not accurate from {} on: {}; if it is not your commands that drive it so hard, tell your instructor",
+        seconds(event.time_s),
+        visible(&event.message)
+    )
 }
 
 /// What is hidden in a task of this kind.

@@ -1,6 +1,6 @@
 //! A simulation that diverged, in words: what grew without bound, the likely cause, and what to do about it.
 
-use kinemark_sim::control::{Mode, SampledLoop};
+use kinemark_sim::control::Mode;
 use kinemark_sim::diagnosis::Cause;
 use kinemark_sim::run::DivergenceKind;
 use kinemark_sim::text::number::trimmed;
@@ -11,6 +11,9 @@ use crate::task::model::MotionTask;
 /// What a student can do about a servo.
 const SERVO_HELP: &str = "this is the task's own servo, not your code: tell your instructor";
 
+/// What a student can do about damping.
+const ROBOT_HELP: &str = "this is the task's own robot, not your code: tell your instructor";
+
 /// Describes a divergence in words, with the names of a run.
 pub(crate) trait DivergedWords {
     /// A message about the divergence of a run of `task`, and the next step.
@@ -20,9 +23,6 @@ pub(crate) trait DivergedWords {
         cause: Option<&Cause>,
         task: &MotionTask,
     ) -> (String, String);
-
-    /// Why the servo itself is the cause, with its computed stability limits.
-    fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String;
 }
 
 impl DivergedWords for Names<'_> {
@@ -56,64 +56,33 @@ impl DivergedWords for Names<'_> {
                 "the simulation diverged: a contact force on a link is unbounded".to_owned()
             }
         };
+        let because = |cause: &Cause| format!("{lost}; {}", cause.clause(self, &task.periods));
         match cause {
-            Some(Cause::ServoGains(servo)) => (
-                format!("{lost}; {}", self.servo(servo, task)),
-                SERVO_HELP.to_owned(),
-            ),
-            Some(Cause::ServoIntegral(servo)) => (
-                format!(
-                    "{lost}; sampled every {} ms, its servo makes each error {} times as large from sample to sample, and without its integral gains it would not",
-                    trimmed(task.periods.servo_s() * 1e3, 4),
-                    trimmed(servo.spectral_radius, 4)
-                ),
-                SERVO_HELP.to_owned(),
-            ),
-            Some(Cause::Feedback { joint, calls }) => (
-                format!(
-                    "{lost}; the command of `{}` turned round at each of the last {calls} calls of `control`, further each time",
-                    self.joint(*joint)
-                ),
+            Some(cause @ (Cause::ServoGains(_) | Cause::ServoIntegral(_))) => {
+                (because(cause), SERVO_HELP.to_owned())
+            }
+            Some(cause @ Cause::Feedback { .. }) => (
+                because(cause),
                 format!(
                     "your feedback is too strong for a period of {} ms: a correction is held that long before you see what it did. Lower its gains",
                     trimmed(task.periods.control_s() * 1e3, 4)
                 ),
             ),
-            None => (
-                lost,
-                match (what, task.servo.mode) {
-                    (DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }, _) => {
-                        "press less hard, or more slowly".to_owned()
-                    }
-                    (_, Mode::Effort) => "command less effort, and take it back in time".to_owned(),
-                    (_, Mode::Position | Mode::Velocity) => {
-                        "command less, or more slowly".to_owned()
-                    }
-                },
-            ),
+            Some(cause @ Cause::StiffDamping { .. }) => (because(cause), ROBOT_HELP.to_owned()),
+            Some(cause @ Cause::LongStep { .. }) => (because(cause), gentler(what, task)),
+            None => (lost, gentler(what, task)),
         }
     }
+}
 
-    fn servo(&self, servo: &SampledLoop, task: &MotionTask) -> String {
-        let mut text = format!(
-            "sampled every {} ms, its servo makes each error {} times as large from sample to sample",
-            trimmed(task.periods.servo_s() * 1e3, 4),
-            trimmed(servo.spectral_radius, 3)
-        );
-        let percent = |share: f64| format!("{} %", trimmed(100.0 * share, 2));
-        let mut ways = Vec::new();
-        if let Some(share) = servo.stable_share.filter(|share| *share < 1.0) {
-            let joint = self.joint(servo.worst_joint);
-            ways.push(format!("{} of the gains of `{joint}`", percent(share)));
-        } else if let Some(share) = servo.stable_share_of_all.filter(|share| *share < 1.0) {
-            ways.push(format!("{} of all its gains", percent(share)));
+/// What a student can do about a motion that is too violent.
+fn gentler(what: &DivergenceKind, task: &MotionTask) -> String {
+    let help = match (what, task.servo.mode) {
+        (DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }, _) => {
+            "press less hard, or more slowly"
         }
-        if let Some(period_s) = servo.stable_period_s.filter(|period| period.is_finite()) {
-            ways.push(format!("a period of {} ms", trimmed(1e3 * period_s, 3)));
-        }
-        if !ways.is_empty() {
-            text += &format!("; it is stable with at most {}", ways.join(", or "));
-        }
-        text
-    }
+        (_, Mode::Effort) => "command less effort, and take it back in time",
+        (_, Mode::Position | Mode::Velocity) => "command less, or more slowly",
+    };
+    help.to_owned()
 }

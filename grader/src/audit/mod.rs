@@ -257,6 +257,7 @@ impl Audit {
             .iter()
             .find(|task| task.verdict != Verdict::Passed);
         let problem = lost.map(|task| reference_problem(lab, staff, task));
+        let problem = problem.or_else(|| grade.tasks.iter().find_map(unresolved_problem));
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Reference, form), None, earned, problem);
         Some(run)
@@ -324,6 +325,18 @@ fn reference_problem(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Problem {
         help: mending(task),
         hidden,
     }
+}
+
+/// What is wrong where the simulation of the reference solution's run in `task` is not accurate.
+fn unresolved_problem(task: &TaskGrade) -> Option<Problem> {
+    let event = task.first_unresolved()?;
+    let what = format!(
+        "the simulation of task `{}` is not accurate from {} s on: {}",
+        task.name, event.time_s, event.message
+    );
+    let help =
+        "shorten the physics step or the servo period of the task, or lower the servo's gains";
+    Some(Problem::from((what, help)))
 }
 
 /// What is wrong where a submission of the course staff was stopped in `task`: in a hidden case or run, with its numbers and its line.

@@ -13,6 +13,9 @@ use crate::record::verdict::Verdict;
 /// The record version that this build writes.
 pub const FORMAT: &str = "kinemark-grade/1";
 
+/// The kind of an event after which a simulation is not accurate.
+const UNDER_RESOLVED: &str = "under-resolved";
+
 /// A graded run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -190,6 +193,15 @@ pub struct TaskGrade {
     pub figures: Option<RunFigures>,
 }
 
+impl TaskGrade {
+    /// The first event that says that the simulation of its run is not accurate from there on.
+    pub fn first_unresolved(&self) -> Option<&EventRecord> {
+        self.events
+            .iter()
+            .find(|event| event.event == UNDER_RESOLVED)
+    }
+}
+
 /// The first control tick at which a run differs from the reference solution's. It is not a mistake by itself: another path or another
 /// time may be as right.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -223,7 +235,7 @@ pub struct EventRecord {
     pub tick: u64,
     /// Its time \[s\].
     pub time_s: f64,
-    /// Its kind: `saturated`, `limit-hit`, `speed-limit-hit`, `near-singular`, `touched`, `moved`, `toppled`, `left-support`, `body-fell`, `diverged` or `stopped`.
+    /// Its kind: `saturated`, `limit-hit`, `speed-limit-hit`, `under-resolved`, `near-singular`, `touched`, `moved`, `toppled`, `left-support`, `body-fell`, `diverged` or `stopped`.
     pub event: String,
     /// In words.
     pub message: String,

@@ -23,8 +23,12 @@ pub fn events(names: &Names<'_>, trace: &Trace, periods: &Periods) -> Vec<EventR
             (&mut others, MOST_RECORDS)
         };
         *count += 1;
-        // the end of a run is always kept
-        *count <= most || matches!(event.kind, EventKind::Diverged | EventKind::Stopped)
+        // the end of a run is always kept, and so is what makes it inaccurate, of which there are two for each joint at most
+        let always = matches!(
+            event.kind,
+            EventKind::Diverged | EventKind::Stopped | EventKind::UnderResolved { .. }
+        );
+        *count <= most || always
     });
     kept.map(|event| EventRecord {
         tick: event.tick,

@@ -24,7 +24,8 @@ pub enum DivergenceKind {
     },
     /// The robot's kinetic energy is beyond the bound.
     #[error(
-        "the robot's kinetic energy grew to {kinetic_j:.1e} J, beyond the bound of {bound_j:.1e} J,"
+        "the robot's kinetic energy {} {kinetic_j:.1e} J, beyond the bound of {bound_j:.1e} J,",
+        if *.at_start { "began at" } else { "grew to" }
     )]
     Runaway {
         /// Index of the fastest joint in `q`.
@@ -33,6 +34,8 @@ pub enum DivergenceKind {
         kinetic_j: f64,
         /// The bound \[J\].
         bound_j: f64,
+        /// Whether it was beyond the bound where the run started; `kinetic_j` is that energy then.
+        at_start: bool,
     },
     /// A dynamic body is faster than [`RUNAWAY_SPEED_M_S`].
     #[error("a body of the scene was as fast as {speed_m_s:.0} m/s")]
@@ -54,14 +57,18 @@ pub enum DivergenceKind {
 #[derive(Debug, Clone)]
 pub(crate) struct RunawayGuard {
     bound_j: f64,
+    /// The kinetic energy at the start \[J\].
+    start_j: f64,
 }
 
 impl RunawayGuard {
-    pub(crate) fn new(robot: &Robot) -> Self {
+    /// For a run that starts at `(q, qd)`, shape `(n)` each.
+    pub(crate) fn new(robot: &Robot, q: &[f64], qd: &[f64]) -> Self {
         let moving_kg: f64 = robot.bodies().iter().map(|body| body.mass_kg).sum();
         // a robot with nothing but armatures has no mass; a gram is less than the mass of any arm
         let mass_kg = moving_kg.max(1e-3);
         Self {
+            start_j: kinetic_energy_j(robot, q, qd),
             bound_j: 0.5 * mass_kg * RUNAWAY_SPEED_M_S * RUNAWAY_SPEED_M_S,
         }
     }
@@ -88,10 +95,12 @@ impl RunawayGuard {
             // NaN is beyond any bound
             let bounded = kinetic_j <= self.bound_j;
             if !bounded {
+                let at_start = self.start_j > self.bound_j;
                 return Some(DivergenceKind::Runaway {
                     joint: fastest.0,
-                    kinetic_j,
+                    kinetic_j: if at_start { self.start_j } else { kinetic_j },
                     bound_j: self.bound_j,
+                    at_start,
                 });
             }
         }

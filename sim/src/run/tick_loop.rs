@@ -235,7 +235,7 @@ impl<'a> Run<'a> {
             sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
             qd_before: setup.start_qd.clone(),
             qdd: vec![0.0; n],
-            guard: RunawayGuard::new(robot),
+            guard: RunawayGuard::new(robot, &setup.start_q, &setup.start_qd),
             poses: FramePoses::new(robot),
             budget: WorkBudget::new(WORK + WORK_PER_TICK * setup.ticks),
             stepped: 0,

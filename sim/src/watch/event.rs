@@ -31,6 +31,13 @@ pub enum EventKind {
         /// Index of the joint in `q`.
         joint: usize,
     },
+    /// The physics step, or the servo's period, is too long for the motion of a joint: see [`Watch`](super::Watch) for the bounds.
+    UnderResolved {
+        /// Index of the joint in `q`.
+        joint: usize,
+        /// What is too long.
+        why: Unresolved,
+    },
     /// The TCP can hardly move in some direction: see [`Watch`](super::Watch) for the bound.
     NearSingular,
     /// Two parties pressed on each other for the first time.
@@ -64,6 +71,18 @@ pub enum EventKind {
     Diverged,
     /// The controller stopped the run.
     Stopped,
+}
+
+/// A time that is too long for what a joint does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unresolved {
+    /// The physics step: its errors of the joint's speed add up to 1 % of it.
+    Step,
+    /// The servo's period: with these gains its loop is unstable where the run starts, and stable at a shorter period.
+    ServoPeriod {
+        /// The longest stable period \[s\].
+        stable_s: f64,
+    },
 }
 
 /// A side of the support of a body.
@@ -107,6 +126,7 @@ impl EventKind {
             Self::Saturated { .. } => "saturated",
             Self::LimitHit { .. } => "limit-hit",
             Self::SpeedLimitHit { .. } => "speed-limit-hit",
+            Self::UnderResolved { .. } => "under-resolved",
             Self::NearSingular => "near-singular",
             Self::Touched { .. } => "touched",
             Self::Moved { .. } => "moved",
@@ -123,7 +143,8 @@ impl EventKind {
         match self {
             Self::Saturated { joint }
             | Self::LimitHit { joint }
-            | Self::SpeedLimitHit { joint } => Some(*joint),
+            | Self::SpeedLimitHit { joint }
+            | Self::UnderResolved { joint, .. } => Some(*joint),
             _ => None,
         }
     }
@@ -151,6 +172,13 @@ impl EventKind {
             Self::Saturated { joint }
             | Self::LimitHit { joint }
             | Self::SpeedLimitHit { joint } => number(*joint as u64),
+            Self::UnderResolved { joint, why } => {
+                number(*joint as u64);
+                match why {
+                    Unresolved::Step => number(0),
+                    Unresolved::ServoPeriod { stable_s } => number(stable_s.to_bits()),
+                }
+            }
             Self::Touched { parties } => {
                 for party in parties {
                     let (kind, index) = party.numbers();

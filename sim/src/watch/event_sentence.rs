@@ -2,10 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::event::{EventKind, Side};
+use super::event::{EventKind, Side, Unresolved};
 use crate::model::contact::Party;
-use crate::model::robot::Robot;
+use crate::model::robot::{JointKind, Robot};
 use crate::model::scene::Scene;
+use crate::text::number::trimmed;
 
 /// The robot, scene and frame whose names appear in sentences.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +24,19 @@ impl<'a> Names<'a> {
     pub fn joint(&self, index: usize) -> &'a str {
         let found = self.robot.moving_joints().nth(index);
         found.map_or("?", |joint| joint.name.as_str())
+    }
+
+    /// The unit of a joint's position by its index in `q`: `m` or `rad`.
+    pub fn joint_unit(&self, index: usize) -> &'static str {
+        match self
+            .robot
+            .moving_joints()
+            .nth(index)
+            .map(|joint| joint.kind)
+        {
+            Some(JointKind::Prismatic) => "m",
+            Some(JointKind::Revolute | JointKind::Continuous | JointKind::Fixed) | None => "rad",
+        }
     }
 
     /// The name of a body of the scene.
@@ -51,6 +65,18 @@ impl<'a> Names<'a> {
             }
             EventKind::SpeedLimitHit { joint } => {
                 format!("`{}` reached its speed limit", self.joint(*joint))
+            }
+            EventKind::UnderResolved { joint, why } => {
+                let joint = self.joint(*joint);
+                match why {
+                    Unresolved::Step => format!(
+                        "`{joint}` moves too fast for the physics step: by now 1 % of its speed is the error of the step"
+                    ),
+                    Unresolved::ServoPeriod { stable_s } => format!(
+                        "the servo of `{joint}` is unstable: its gains need a servo period below {} ms",
+                        trimmed(stable_s * 1e3, 3)
+                    ),
+                }
             }
             EventKind::NearSingular => {
                 "the arm is near a singular configuration: the TCP cannot move in some direction"

@@ -3,6 +3,7 @@
 mod eval_answers;
 mod eval_errors;
 mod published;
+mod simulate_limits;
 mod step_responses;
 mod texts;
 

@@ -13,7 +13,7 @@ use super::viewer::place;
 use super::{foreign, prose};
 use crate::moment::{FirstLoss, first_loss_of, last_before};
 use crate::plot::Plot;
-use crate::text::kept_words;
+use crate::text::{kept_words, unresolved};
 use crate::visible::{file_stem, visible};
 use kinemark_grader::record::grade::{
     CheckGrade, Diagnosis, Divergence, Outcome, Stopped, TaskGrade, TaskKind,
@@ -141,6 +141,7 @@ fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) ->
     let others = || plots.iter().filter(|plot| !beside.contains(plot));
     let has_others = others().next().is_some();
     html! {
+        @if let Some(event) = task.first_unresolved() { p class="lead" { "Note: " (prose(&unresolved(event))) "." } }
         @if let Some(differs) = &task.divergence { (differing(differs, of)) }
         @if !task.checks.is_empty() { h3 { "Checks" } }
         @if !lost.is_empty() {

@@ -92,7 +92,8 @@ impl Messages<'_> {
                 EventKind::Diverged | EventKind::Stopped => Level::Error,
                 EventKind::Saturated { .. }
                 | EventKind::LimitHit { .. }
-                | EventKind::SpeedLimitHit { .. } => Level::Warning,
+                | EventKind::SpeedLimitHit { .. }
+                | EventKind::UnderResolved { .. } => Level::Warning,
                 _ => Level::Info,
             };
             let message = names.event(&event.kind);

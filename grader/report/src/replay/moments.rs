@@ -58,9 +58,10 @@ fn mark(kind: &EventKind) -> &'static str {
         EventKind::Touched { .. } => "contact",
         EventKind::Toppled { .. } | EventKind::BodyFell { .. } => "fell",
         EventKind::Diverged | EventKind::Stopped => "stop",
-        EventKind::NearSingular | EventKind::Moved { .. } | EventKind::LeftSupport { .. } => {
-            "other"
-        }
+        EventKind::UnderResolved { .. }
+        | EventKind::NearSingular
+        | EventKind::Moved { .. }
+        | EventKind::LeftSupport { .. } => "other",
     }
 }
 

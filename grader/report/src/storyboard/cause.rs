@@ -81,6 +81,7 @@ pub(super) fn causes(run: &TaskRun, grade: &TaskGrade) -> Vec<Cause> {
             EventKind::LimitHit { .. } => 40.0,
             EventKind::Moved { .. } => 35.0,
             EventKind::LeftSupport { .. } => 30.0,
+            EventKind::UnderResolved { .. } => 25.0,
             EventKind::Saturated { .. } | EventKind::SpeedLimitHit { .. } => 20.0,
             EventKind::NearSingular => 15.0,
             EventKind::Touched { .. } | EventKind::Diverged | EventKind::Stopped => continue,

@@ -377,6 +377,7 @@ mod tests {
                 joint,
                 kinetic_j: 2e6,
                 bound_j: 1e6,
+                at_start: false,
             };
             let why = EndReason::Diverged { what, cause: None };
             Ended::because(why, tick)

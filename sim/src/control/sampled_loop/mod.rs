@@ -15,4 +15,6 @@
 mod linear;
 mod stability;
 
-pub use stability::{SampledLoop, VariedGain, sampled_loop, stable_gain_factor};
+pub use stability::{
+    SampledLoop, VariedGain, is_sampled_loop_stable, sampled_loop, stable_gain_factor,
+};

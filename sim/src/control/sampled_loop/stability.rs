@@ -104,6 +104,26 @@ pub fn sampled_loop(
     })
 }
 
+/// Whether the loop of [`sampled_loop`] is stable, at a fraction of its cost; `None` where that has no result.
+///
+/// # Panics
+/// If `q` does not have the shape of the robot.
+pub fn is_sampled_loop_stable(
+    robot: &Robot,
+    settings: &ServoSettings,
+    servo_s: f64,
+    gravity_m_s2: &Vector3<f64>,
+    q: &[f64],
+) -> Option<bool> {
+    assert_eq!(q.len(), robot.n(), "one position per joint that moves");
+    if settings.gains.len() != robot.n() || !(servo_s > 0.0 && servo_s.is_finite()) {
+        return None;
+    }
+    let near = Linear::new(robot, settings, gravity_m_s2, q)?;
+    let transition = near.transition(&near.discretize(servo_s)?, &settings.gains)?;
+    Some(is_stable(&transition))
+}
+
 /// One of the three gains of a servo.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariedGain {

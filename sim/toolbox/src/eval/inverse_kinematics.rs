@@ -103,7 +103,7 @@ pub enum IkMethod {
 /// The answer to [`Ik`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct IkSolution {
-    /// The best joint positions found \[rad or m\].
+    /// The joint positions \[rad or m\]: where the target is not reached, the best ones found, or the last ones of a textbook method.
     pub q: Vec<f64>,
     /// Whether all targets are reached.
     pub reached: bool,

@@ -130,12 +130,9 @@ pub fn simulate(subject: Subject<'_>, request: &Simulate) -> Result<SampledRun, 
     )
     .map_err(|error| Refusal::new(Code::CannotRun, error))?;
     match end {
-        End::Finished => sampler.answer(&setup),
+        End::Finished => sampler.answer(),
         End::Stopped { why, .. } => Err(why),
-        End::Diverged { tick, what } => refuse(
-            Code::Diverged,
-            format!("{what} at {} s", periods.time_s(tick)),
-        ),
+        End::Diverged { tick, what } => refuse(Code::Diverged, sampler.divergence(tick, &what)),
     }
 }
 
@@ -169,7 +166,7 @@ fn refuse_too_large(ticks: u64, rows: u64, numbers_per_row: usize) -> Result<(),
 impl Simulate {
     /// The setpoints of the servos: a row for each period, the last one for the rest of the run.
     fn commands(&self, robot: &Robot) -> Result<Vec<Vec<f64>>, Refusal> {
-        let n = robot.n();
+        let (n, k) = (robot.n(), robot.independent().len());
         match (&self.command, &self.commands, self.command_period_s) {
             (None, None, _) => refuse(Code::MissingField, "`command` is missing"),
             (Some(_), Some(_), _) => refuse(
@@ -187,14 +184,22 @@ impl Simulate {
             (None, Some(rows), Some(_)) if rows.is_empty() => {
                 refuse(Code::WrongLength, "`commands` has no row")
             }
-            (None, Some(rows), Some(_)) => match rows.iter().position(|row| row.len() != n) {
-                None => Ok(rows.clone()),
-                Some(i) => {
-                    let found = rows[i].len();
-                    let message = format!("`commands[{i}]` has {found} numbers, expected {n}");
-                    refuse(Code::WrongLength, message)
-                }
-            },
+            (None, Some(rows), Some(_)) => {
+                let whole = |(i, row): (usize, &Vec<f64>)| match row.len() {
+                    found if found == n => Ok(row.clone()),
+                    found if found == k => Ok(zeros_elsewhere(robot, row)),
+                    found => {
+                        let expected = match k < n {
+                            true => format!("{k} (independent joints) or {n}"),
+                            false => n.to_string(),
+                        };
+                        let message =
+                            format!("`commands[{i}]` has {found} numbers, expected {expected}");
+                        refuse(Code::WrongLength, message)
+                    }
+                };
+                rows.iter().enumerate().map(whole).collect()
+            }
         }
     }
 

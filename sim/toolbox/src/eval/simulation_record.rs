@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use kinemark_sim::run::{Recorder, Row, Setup};
+use kinemark_sim::diagnosis::{is_calm, likely_cause_without_feedback};
+use kinemark_sim::run::{DivergenceKind, Recorder, Row, Setup};
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::pose_numbers;
 use kinemark_sim::watch::Names;
 use kinemark_sim::watch::event::{Event, EventKind};
-use kinemark_sim::watch::{ContactSpan, Watch};
+use kinemark_sim::watch::{ContactSpan, ResolutionWatch, Watch};
 use serde::Serialize;
 
 use super::number_fields::{Numbers, finite, finite_number, finite_rows};
@@ -27,6 +28,9 @@ pub struct SampledRun {
     /// Readings by sensor: a number, or a list where it has several channels; only where the robot has sensors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<BTreeMap<String, Vec<Numbers>>>,
+    /// Without a scene, what the periods of the run do not resolve, if there is anything; in a scene it is among the events there.
+    #[serde(rename = "events", skip_serializing_if = "Vec::is_empty")]
+    pub unresolved: Vec<EventRecord>,
     /// What happened in the scene.
     #[serde(flatten)]
     pub scene: Option<SceneRecord>,
@@ -90,30 +94,52 @@ pub struct ContactRecord {
     pub first_point_m: [f64; 3],
 }
 
-/// Keeps every `stride`-th row, and in a scene what happened.
+/// Keeps every `stride`-th row, and what happened.
 pub(super) struct Sampler<'a> {
+    setup: &'a Setup<'a>,
     stride: u64,
-    periods: Periods,
     t_s: Vec<f64>,
     q: Vec<Vec<f64>>,
     qd: Vec<Vec<f64>>,
     effort: Vec<Vec<f64>>,
     /// Poses of the scene's bodies, one list per body.
     bodies: Vec<Vec<Vec<f64>>>,
-    watch: Option<Watch<'a>>,
+    watch: Watched<'a>,
     /// Readings of the sensors, channel by channel.
     sensors: Vec<Vec<f64>>,
+    /// The last state, and the last one with low joint rates: where a cause is sought if the run diverges.
+    last: (Vec<f64>, Vec<f64>),
+    last_calm: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+/// What is watched.
+enum Watched<'a> {
+    /// Everything, in a scene.
+    Scene(Box<Watch<'a>>),
+    /// What the periods do not resolve, and the events so far.
+    Resolution(Box<ResolutionWatch<'a>>, Vec<Event>),
 }
 
 impl Recorder for Sampler<'_> {
     fn row(&mut self, row: Row<'_>) {
-        if let Some(watch) = &mut self.watch {
-            watch.observe(&row);
+        match &mut self.watch {
+            Watched::Scene(watch) => watch.observe(&row),
+            Watched::Resolution(watch, events) => {
+                watch.observe(&row, &mut |tick, kind| events.push(Event { tick, kind }));
+            }
+        }
+        let keep = |(q, qd): &mut (Vec<f64>, Vec<f64>)| {
+            q.copy_from_slice(row.q);
+            qd.copy_from_slice(row.qd);
+        };
+        keep(&mut self.last);
+        if is_calm(row.qd) {
+            keep(self.last_calm.get_or_insert_with(|| self.last.clone()));
         }
         if !row.tick.is_multiple_of(self.stride) {
             return;
         }
-        self.t_s.push(self.periods.time_s(row.tick));
+        self.t_s.push(self.setup.periods.time_s(row.tick));
         self.q.push(row.q.to_vec());
         self.qd.push(row.qd.to_vec());
         self.effort.push(row.effort.to_vec());
@@ -128,21 +154,51 @@ impl Recorder for Sampler<'_> {
 impl<'a> Sampler<'a> {
     pub(super) fn new(setup: &'a Setup<'a>, stride: u64) -> Self {
         let bodies = setup.scene.map_or(0, |scene| scene.bodies.len());
+        let watch = match setup.scene {
+            Some(_) => Watched::Scene(Box::new(Watch::new(setup))),
+            None => Watched::Resolution(Box::new(ResolutionWatch::new(setup)), Vec::new()),
+        };
         Self {
+            setup,
             stride,
-            periods: setup.periods,
             t_s: Vec::new(),
             q: Vec::new(),
             qd: Vec::new(),
             effort: Vec::new(),
             bodies: vec![Vec::new(); bodies],
-            watch: setup.scene.map(|_| Watch::new(setup)),
+            watch,
             sensors: Vec::new(),
+            last: (setup.start_q.clone(), setup.start_qd.clone()),
+            last_calm: None,
         }
     }
 
-    /// The answer to the request that described `setup`.
-    pub(super) fn answer(self, setup: &Setup<'_>) -> Result<SampledRun, Refusal> {
+    /// Why the run diverged at `tick` as `what`, in words.
+    pub(super) fn divergence(&self, tick: u64, what: &DivergenceKind) -> String {
+        let names = names(self.setup);
+        let (q, qd) = &self.last;
+        let calm = self.last_calm.as_ref();
+        let calm = calm.map(|(q, qd)| (q.as_slice(), qd.as_slice()));
+        let cause = likely_cause_without_feedback(self.setup, what, (q, qd), calm);
+        let mut text = format!("{what} at {} s", self.setup.periods.time_s(tick));
+        if let Some(cause) = cause {
+            text += &format!("; {}", cause.clause(&names, &self.setup.periods));
+        }
+        text
+    }
+
+    /// The answer to the request that described the setup.
+    pub(super) fn answer(self) -> Result<SampledRun, Refusal> {
+        let setup = self.setup;
+        let names = names(setup);
+        let (unresolved, scene) = match self.watch {
+            Watched::Scene(watch) => (Vec::new(), Some(scene_record(setup, *watch, &self.bodies)?)),
+            Watched::Resolution(_, events) => {
+                let events = events.iter();
+                let records = events.map(|event| event_record(&names, event, &setup.periods));
+                (records.collect(), None)
+            }
+        };
         let has_sensors = !setup.robot.sensors().is_empty();
         Ok(SampledRun {
             t_s: finite(&self.t_s)?,
@@ -152,10 +208,8 @@ impl<'a> Sampler<'a> {
             sensors: has_sensors
                 .then(|| readings(setup, &self.sensors))
                 .transpose()?,
-            scene: self
-                .watch
-                .map(|watch| scene_record(setup, watch, &self.bodies))
-                .transpose()?,
+            unresolved,
+            scene,
         })
     }
 }
@@ -180,16 +234,20 @@ fn readings(
     Ok(readings)
 }
 
+fn names<'a>(setup: &Setup<'a>) -> Names<'a> {
+    Names {
+        robot: setup.robot,
+        scene: setup.scene,
+        seen_from: "",
+    }
+}
+
 fn scene_record(
     setup: &Setup<'_>,
     watch: Watch<'_>,
     bodies: &[Vec<Vec<f64>>],
 ) -> Result<SceneRecord, Refusal> {
-    let names = Names {
-        robot: setup.robot,
-        scene: setup.scene,
-        seen_from: "",
-    };
+    let names = names(setup);
     let (events, contacts) = watch.finish();
     let events = events
         .iter()
