@@ -127,9 +127,9 @@ fn stiff_robots_move_as_radau_says() {
     for case in file["cases"].as_array().expect("cases") {
         let robot = model(case["robot"].as_str().expect("robot"));
         let (mut q, mut qd) = (numbers(&case["q0"]), numbers(&case["qd0"]));
-        let told = case["fastest_damping_per_s"].as_f64().expect("rate");
+        let stated = case["fastest_damping_per_s"].as_f64().expect("rate");
         let rate = fastest_damping(&robot, &q);
-        assert!((rate / told - 1.0).abs() < 1e-9, "{rate} against {told}");
+        assert!((rate / stated - 1.0).abs() < 1e-9, "{rate} against {stated}");
         assert!(rate * STEP_S > 7.0);
         let effort = numbers(&case["effort"]);
         let mut done = 0;
