@@ -31,6 +31,14 @@ pub(crate) fn rrbot() -> Robot {
     lab_robot("rrbot")
 }
 
+/// The arm of the course without limits of position, speed and effort, for what limits would hide.
+pub(crate) fn rrbot_without_limits() -> Robot {
+    let path = format!("{}/../labs/robots/rrbot.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).expect(&path);
+    let lines = text.lines().filter(|line| !line.starts_with("limit"));
+    robot(&lines.collect::<Vec<_>>().join("\n"))
+}
+
 /// Numbers drawn from a seed, in the ranges that tests ask for.
 pub(crate) struct Numbers(SplitMix64);
 

@@ -13,7 +13,7 @@ use kinemark_sim::spatial::Pose;
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use serde_json::Value;
 
-use crate::arms::lab_robot;
+use crate::arms::{lab_robot, robot};
 use crate::golden_rrbot::{golden, numbers};
 
 pub(crate) fn rows(value: &Value) -> Vec<Vec<f64>> {
@@ -85,7 +85,9 @@ fn configuration_strings_agree() {
             .map(|l| format!("{},{},{}", l[0], l[1], l[2]))
             .collect();
         let base = case["h_base"].as_f64().expect("base");
-        let robot = joint_string::robot(text, base, &links.join("; ")).expect(text);
+        let robot =
+            joint_string::robot(text, base, &links.join("; "), joint_string::ALUMINIUM_KG_M3)
+                .expect(text);
         let last = robot.links().last().expect("links").name.clone();
         let last = robot.frame(&last).expect("last link");
         for sample in case["samples"].as_array().expect("samples") {
@@ -121,7 +123,10 @@ fn configuration_strings_agree() {
     }
     for text in file["invalid_strings"].as_array().expect("invalid") {
         let text = text.as_str().expect("text");
-        assert!(joint_string::robot(text, 2.0, "0,0,1").is_err(), "{text:?}");
+        assert!(
+            joint_string::robot(text, 2.0, "0,0,1", 0.0).is_err(),
+            "{text:?}"
+        );
     }
 }
 
@@ -177,6 +182,56 @@ fn the_puma_of_a_standard_dh_table_agrees() {
             // relative, as stated: the wrist's inertia is tiny and its accelerations reach 1e5 rad/s²
             assert!((got - expected).abs() <= 1e-8 * (1.0 + expected.abs()));
         }
+    }
+}
+
+#[test]
+fn the_puma_with_its_motors_agrees() {
+    let file = golden("H_puma560.json");
+    let path = format!("{}/../labs/robots/puma560.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).expect(&path);
+    let mut motors = file["dh_and_dynamics"].as_array().expect("rows").iter();
+    let lines = text.lines().map(|line| {
+        if line != "type = \"revolute\"" {
+            return line.to_owned();
+        }
+        let motor = motors.next().expect("a motor for each row");
+        let number = |key: &str| motor[key].as_f64().expect("a number");
+        let gear = number("gear_G").abs();
+        let tc = numbers(&motor["coulomb_Tc"]);
+        format!(
+            "{line}\ndrive = {{ ratio = {gear}, rotor_inertia = {} }}\ndamping = {}\n\
+             dry_friction = {{ positive = {}, negative = {} }}",
+            number("motor_inertia_Jm"),
+            number("viscous_B") * gear * gear,
+            gear * tc[0],
+            -gear * tc[1],
+        )
+    });
+    let robot = robot(&lines.collect::<Vec<_>>().join("\n"));
+    assert!(robot.joints().iter().all(|j| j.mimic.is_none()));
+    for state in file["states"].as_array().expect("states") {
+        let q = robot.positions(&numbers(&state["q"])).expect("q");
+        let qd = robot.velocities(&numbers(&state["v"])).expect("v");
+        let qdd = robot.accelerations(&numbers(&state["a"])).expect("a");
+        let got = inverse_dynamics(&robot, &GRAVITY_M_S2, &q, &qd, &qdd);
+        let parts = ["rnea", "motor_inertia_torque", "friction_torque_link_side"];
+        let parts = parts.map(|key| numbers(&state[key]));
+        for (i, got) in got.as_slice().iter().enumerate() {
+            let expected: f64 = parts.iter().map(|part| part[i]).sum();
+            assert!(
+                (got - expected).abs() <= 1e-9,
+                "joint {i}: {got} {expected}"
+            );
+        }
+    }
+    // and as a file that is written and read again
+    let again = crate::arms::robot(&robot.to_toml(&mut str::to_owned));
+    for (one, other) in robot.joints().iter().zip(again.joints()) {
+        assert_eq!(
+            (one.dry_friction, one.drive),
+            (other.dry_friction, other.drive)
+        );
     }
 }
 

@@ -9,11 +9,11 @@ use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
 use serde_json::Value;
 
-use crate::arms::rrbot;
+use crate::arms::rrbot_without_limits;
 use crate::golden_rrbot::{golden, numbers};
 
 fn simulate(scenario: &Value, mode: Mode, step_s: f64, duration_s: f64) -> Trace {
-    let robot = rrbot();
+    let robot = rrbot_without_limits();
     let servo_s = scenario["Ts"].as_f64().expect("Ts");
     let gains = numbers(&scenario["gains"]);
     let gains = Gains {

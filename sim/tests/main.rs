@@ -10,6 +10,7 @@ mod contact_scenes;
 mod differential;
 mod disturbances;
 mod friction;
+mod drives;
 mod golden_contact;
 mod golden_robots;
 mod golden_rrbot;

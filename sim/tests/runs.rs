@@ -15,7 +15,7 @@ use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::{Trace, TraceRecorder};
 use kinemark_sim::watch::event::{Event, EventKind, SeenSide};
 
-use crate::arms::rrbot;
+use crate::arms::{rrbot, rrbot_without_limits};
 use crate::contact_scenes::{GRAVITY, at, part, reach, scene, shelf_and_can};
 
 fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks: u64) -> Setup<'a> {
@@ -176,7 +176,7 @@ fn without_contact_a_run_in_a_scene_is_smooth_motion_to_the_last_bit() {
 
 #[test]
 fn a_servo_beyond_its_limit_ends_the_run_while_its_numbers_are_finite() {
-    let (robot, around) = (rrbot(), shelf_and_can());
+    let (robot, around) = (rrbot_without_limits(), shelf_and_can());
     for scene in [None, Some(&around)] {
         let mut setup = setup(&robot, scene, [100.0, 2000.0], 5000);
         for gains in &mut setup.servo.gains {
@@ -240,9 +240,9 @@ fn a_straight_arm_is_near_a_singular_position_and_says_so_once() {
 }
 
 #[test]
-fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
+fn a_motor_drives_its_joint_no_faster_than_its_limit() {
     let (robot, nothing) = (rrbot(), scene(Vec::new()));
-    let fastest = |scene: Option<&Scene>| {
+    for scene in [None, Some(&nothing)] {
         let mut setup = setup(&robot, scene, [0.0, 0.0], 500);
         setup.servo.mode = Mode::Effort;
         setup.gravity_m_s2 = nalgebra::Vector3::zeros();
@@ -253,19 +253,17 @@ fn in_a_scene_a_motor_drives_its_joint_no_faster_than_its_limit() {
         };
         assert_eq!(run::run(&setup, command, &mut recorder), Ok(End::Finished));
         let trace = recorder.finish();
+        // 20 rad/s; the forearm swings on while the limit acts, which a step does not foresee
         let rates = trace.qd.component(0).map(f64::abs);
-        (rates.fold(0.0, f64::max), trace)
-    };
-    let (free, _) = fastest(None);
-    assert!(free > 25.0, "{free}");
-    // 20 rad/s, and what 100 N m do to 1.33 kg m² or less in a millisecond
-    let (held, trace) = fastest(Some(&nothing));
-    assert!((20.0..20.5).contains(&held), "{held}");
-    let shoulder = EventKind::SpeedLimitHit { joint: 0 };
-    let event = trace.events.iter().find(|event| event.kind == shoulder);
-    let tick = event.expect("an event").tick as usize;
-    assert!(trace.qd.at(tick)[0] <= -20.0);
-    assert!(trace.effort.at(tick)[0].abs() < f64::MIN_POSITIVE);
+        let fastest = rates.fold(0.0, f64::max);
+        assert!((fastest / 20.0 - 1.0).abs() < 1e-3, "{fastest}");
+        let shoulder = EventKind::SpeedLimitHit { joint: 0 };
+        let event = trace.events.iter().find(|event| event.kind == shoulder);
+        let tick = event.expect("an event").tick as usize;
+        assert!(trace.qd.at(tick)[0] <= -19.98);
+        // what it takes to go on as fast: damping of 0.7 N m s/rad, and what the forearm does
+        assert!(trace.effort.at(tick)[0].abs() < 100.0);
+    }
 }
 
 #[test]
@@ -395,7 +393,7 @@ fn bodies_are_as_fast_as_they_are_until_they_fly_off() {
 
 #[test]
 fn an_integral_gain_beyond_its_limit_is_blamed() {
-    let robot = rrbot();
+    let robot = rrbot_without_limits();
     let mut setup = setup(&robot, None, [100.0, 10.0], 60_000);
     for gains in &mut setup.servo.gains {
         gains.ki = 20_000.0;

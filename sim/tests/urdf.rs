@@ -72,7 +72,7 @@ fn numbers_arrive_where_they_belong() {
     assert_eq!(joint.limits.effort, Some(30.0));
     assert_eq!(joint.limits.speed, Some(4.0));
     assert_eq!(
-        (joint.damping, joint.dry_friction, joint.armature),
+        (joint.damping, joint.dry_friction.negative, joint.armature),
         (0.5, 0.25, 0.0)
     );
     // 5 m along (0, 0.6, 0.8), turned by a quarter about z: y becomes -x

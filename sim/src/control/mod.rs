@@ -1,12 +1,12 @@
 //! Joint servos: a command in, an effort out; the gains and periods at which they are stable; the step response of the ideal loop
-//! and the measures of any; and the speed limits of drives.
+//! and the measures of any; and what the drives of joints deliver.
 
+pub mod drives;
 mod joint_alone;
 pub mod linear_step;
 mod matrix_functions;
 pub mod sampled_loop;
 pub mod servo;
-pub mod speed_limit;
 pub mod step_metrics;
 
 pub use joint_alone::JointAlone;

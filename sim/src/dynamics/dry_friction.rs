@@ -1,4 +1,4 @@
-//! Dry friction over one step: the effort, within `±dry_friction`, that brings each joint as near to rest as possible.
+//! Dry friction over one step: the effort, within `-positive ..= negative`, that brings each joint as near to rest as possible.
 //!
 //! A sign function inside the integrator would chatter around rest. Instead the effort is computed once a step and held, like that of
 //! a servo: it stops a joint that can be stopped within the step (so a joint sticks exactly), and otherwise opposes motion with its
@@ -9,6 +9,7 @@
 use nalgebra::DVector;
 
 use super::forward::ForwardDynamics;
+use crate::model::joint_friction::JointFriction;
 use crate::model::robot::Robot;
 
 /// Sweeps over the joints. The iteration contracts on any positive definite matrix; 40 sweeps leave less than rounding on arms.
@@ -17,7 +18,7 @@ const SWEEPS: usize = 40;
 /// The friction efforts of one robot and their scratch memory; does nothing for a robot without dry friction.
 #[derive(Debug, Clone)]
 pub struct DryFriction {
-    limits: Vec<f64>,
+    limits: Vec<JointFriction>,
     rates: DVector<f64>,
     efforts: Vec<f64>,
     present: bool,
@@ -27,12 +28,11 @@ impl DryFriction {
     /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
         let n = robot.n();
-        let mut limits = vec![0.0; n];
-        for body in robot.bodies() {
-            limits[body.q_index] += body.gear.abs() * body.dry_friction;
-        }
+        let limits = friction_by_entry(robot);
         Self {
-            present: limits.iter().any(|limit| *limit > 0.0),
+            present: limits
+                .iter()
+                .any(|limit| limit.positive > 0.0 || limit.negative > 0.0),
             limits,
             rates: DVector::zeros(n),
             efforts: vec![0.0; n],
@@ -75,7 +75,7 @@ impl DryFriction {
                     continue;
                 }
                 let wanted = self.efforts[i] - self.rates[i] / per_effort;
-                let next = wanted.clamp(-self.limits[i], self.limits[i]);
+                let next = wanted.clamp(-self.limits[i].positive, self.limits[i].negative);
                 let change = next - self.efforts[i];
                 is_settled &= next.to_bits() == self.efforts[i].to_bits();
                 self.efforts[i] = next;
@@ -93,13 +93,14 @@ impl DryFriction {
     }
 }
 
-/// Sign with `sign(0) = 0`: dry friction of a joint at rest has no direction.
-pub(crate) fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        0.0
+/// The dry friction against motion of each entry of `q`: that of its joint, and of the joints that mimic it.
+pub(crate) fn friction_by_entry(robot: &Robot) -> Vec<JointFriction> {
+    let mut limits = vec![JointFriction::default(); robot.n()];
+    for body in robot.bodies() {
+        let friction = body.joint_friction().through(body.gear);
+        let limit = &mut limits[body.q_index];
+        limit.positive += friction.positive;
+        limit.negative += friction.negative;
     }
+    limits
 }

@@ -4,7 +4,6 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::aba::{Aba, SingularMassMatrix};
-use super::dry_friction::sign;
 use super::loops::Constrained;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::model::robot::Robot;
@@ -23,7 +22,7 @@ pub fn forward_dynamics(
     let mut applied = effort.clone();
     for body in robot.bodies() {
         applied.as_mut_slice()[body.q_index] -=
-            body.gear * body.dry_friction * sign(body.rate(qd.as_slice()));
+            body.gear * body.joint_friction().overcome_at(body.rate(qd.as_slice()));
     }
     let mut qdd = JointAccelerations::zeros(robot.n());
     ForwardDynamics::new(robot).acceleration(
@@ -35,6 +34,30 @@ pub fn forward_dynamics(
         qdd.as_mut_slice(),
     )?;
     Ok(qdd)
+}
+
+/// The first joint found that moves neither mass nor armature at home, if there is one: no effort can move the robot in a simulation.
+pub fn immovable_joint(robot: &Robot) -> Option<SingularMassMatrix> {
+    let rest = vec![0.0; robot.n()];
+    let mut accelerations = rest.clone();
+    ForwardDynamics::new(robot)
+        .acceleration(
+            robot,
+            &Vector3::zeros(),
+            robot.home(),
+            &rest,
+            &rest,
+            &mut accelerations,
+        )
+        .err()
+}
+
+/// Whether no joint moves anything: no body has mass, a moment of inertia or armature.
+pub fn moves_nothing(robot: &Robot) -> bool {
+    robot.bodies().iter().all(|body| {
+        let tensor = body.inertia.to_matrix();
+        body.mass_kg == 0.0 && body.armature == 0.0 && tensor.iter().all(|x| *x == 0.0)
+    })
 }
 
 /// Forward dynamics of one robot, with its scratch memory. In a loop it allocates nothing for a plain tree.

@@ -22,7 +22,7 @@ pub mod rnea;
 pub use aba::SingularMassMatrix;
 pub use crba::mass_matrix;
 pub use energy::{Energy, energy};
-pub use forward::{ForwardDynamics, forward_dynamics};
+pub use forward::{ForwardDynamics, forward_dynamics, immovable_joint, moves_nothing};
 pub use gravity::GRAVITY_M_S2;
 pub use loops::{driven_efforts, driven_mass_matrix};
 pub use rnea::{bias_effort, coriolis_effort, gravity_effort, inverse_dynamics};

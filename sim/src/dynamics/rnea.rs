@@ -2,12 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::dry_friction::sign;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::kinematics::forward::BodyPose;
 use crate::model::robot::{Body, Robot};
 
-/// Returns the joint efforts, shape `(n)`, that give `qdd` at `(q, qd)`: `M qdd + h + damping qd + dry_friction sign(qd)`.
+/// Returns the joint efforts, shape `(n)`, that give `qdd` at `(q, qd)`: `M qdd + h + damping qd + dry_friction sign(qd)`,
+/// where each joint has the dry friction of the direction in which it moves.
 pub fn inverse_dynamics(
     robot: &Robot,
     gravity_m_s2: &Vector3<f64>,
@@ -19,7 +19,7 @@ pub fn inverse_dynamics(
     for body in robot.bodies() {
         let v = body.rate(qd.as_slice());
         effort.as_mut_slice()[body.q_index] +=
-            body.gear * (body.damping * v + body.dry_friction * sign(v));
+            body.gear * (body.damping * v + body.joint_friction().overcome_at(v));
     }
     effort
 }

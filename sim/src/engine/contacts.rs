@@ -11,6 +11,7 @@ use super::free_body::FreeBody;
 use super::pairs::{Carrier, Collider, Memory, Pairs};
 use super::settle::{Constraints, JointFriction, Point, Rolling};
 use super::world::{ArmStep, Driven, tangents};
+use crate::dynamics::dry_friction::friction_by_entry;
 use crate::kinematics::position_range::position_ranges;
 use crate::model::robot::Robot;
 
@@ -74,12 +75,10 @@ pub(super) struct Contacts {
 
 impl Contacts {
     pub(super) fn new(robot: &Robot, dt_s: f64) -> Self {
-        let mut frictions = vec![[0.0; 2]; robot.n()];
-        for body in robot.bodies() {
-            for most in &mut frictions[body.q_index] {
-                *most += body.gear.abs() * body.dry_friction * dt_s;
-            }
-        }
+        let frictions = friction_by_entry(robot)
+            .iter()
+            .map(|friction| [friction.positive * dt_s, friction.negative * dt_s])
+            .collect();
         let ranges = position_ranges(robot);
         Self {
             constraints: Constraints::default(),

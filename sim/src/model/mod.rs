@@ -2,9 +2,11 @@
 
 pub mod air;
 pub mod contact;
+pub mod drive;
 pub mod extent;
 pub mod gust;
 pub mod inertia;
+pub mod joint_friction;
 pub mod mesh;
 mod perturbed;
 pub mod prescribed_motion;

@@ -42,7 +42,8 @@ impl Robot {
             if joint.kind == JointKind::Fixed || joint.mimic.is_some() {
                 continue;
             }
-            joint.dry_friction += effort;
+            joint.dry_friction.positive += effort;
+            joint.dry_friction.negative += effort;
             if let Some(body) = self.links[joint.child].attachment.body {
                 self.bodies[body].dry_friction += effort;
             }
@@ -135,7 +136,7 @@ mod tests {
     #[test]
     fn friction_is_added_and_damping_multiplied() {
         let robot = pendulum().with_more_friction(0.2).with_damping_times(3.0);
-        assert!((robot.joints()[0].dry_friction - 0.3).abs() < 1e-12);
+        assert!((robot.joints()[0].dry_friction.negative - 0.3).abs() < 1e-12);
         assert!((robot.joints()[0].damping - 1.5).abs() < 1e-12);
         assert!((robot.bodies()[0].dry_friction - 0.3).abs() < 1e-12);
         assert!((robot.bodies()[0].damping - 1.5).abs() < 1e-12);

@@ -3,7 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::air::Drag;
+use super::drive::Drive;
 use super::inertia::{Inertia, Solid};
+use super::joint_friction::JointFriction;
 use super::sensor::Sensor;
 use super::unphysical::UnphysicalLinks;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
@@ -71,9 +73,11 @@ pub struct Joint {
     /// Viscous damping \[N m s/rad or N s/m\].
     pub damping: f64,
     /// Dry (Coulomb) friction \[N m or N\].
-    pub dry_friction: f64,
-    /// Inertia of the drive, reflected to the joint \[kg m² or kg\].
+    pub dry_friction: JointFriction,
+    /// Inertia of the drive as felt at the joint, if it is described without a `drive` \[kg m² or kg\].
     pub armature: f64,
+    /// The drive, if it is described.
+    pub drive: Option<Drive>,
     /// Limits.
     pub limits: Limits,
     /// The joint that it mimics, if it has no entry in `q` of its own.
@@ -237,11 +241,24 @@ pub(crate) struct Body {
     /// Rotational inertia about the body's origin \[kg m²\].
     pub(crate) inertia: Symmetric3,
     pub(crate) damping: f64,
+    /// Mean of the dry friction in the two directions.
     pub(crate) dry_friction: f64,
+    /// What dry friction gives towards lesser positions beyond its mean; 0 if both directions have the same.
+    pub(crate) dry_skew: f64,
+    /// Inertia of the drive, from wherever it is described.
     pub(crate) armature: f64,
 }
 
 impl Body {
+    /// Dry friction of its joint.
+    #[inline]
+    pub(crate) fn joint_friction(&self) -> JointFriction {
+        JointFriction {
+            positive: self.dry_friction + self.dry_skew,
+            negative: self.dry_friction - self.dry_skew,
+        }
+    }
+
     /// The position of its joint \[rad or m\].
     #[inline]
     pub(crate) fn position(&self, q: &[f64]) -> f64 {

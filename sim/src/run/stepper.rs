@@ -1,14 +1,14 @@
-//! Advances a run by one step: smooth motion alone, or smooth motion and contact in a scene.
+//! Advances a run by one step: the robot alone, or in contact with a scene.
 
 use super::divergence::DivergenceKind;
 use super::tick_loop::{RunError, Setup};
 use crate::model::robot::Robot;
+use crate::step::free::FreeStep;
 use crate::step::hybrid::{HybridStep, StepError};
-use crate::step::smooth::SmoothStep;
 
 #[derive(Debug)]
 pub(super) enum Stepper {
-    Free(Box<SmoothStep>),
+    Free(Box<FreeStep>),
     InScene(Box<HybridStep>),
 }
 
@@ -22,7 +22,7 @@ impl Stepper {
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, RunError> {
         let (robot, gravity, step_s) = (setup.robot, setup.gravity_m_s2, setup.periods.step_s);
         Ok(match setup.scene {
-            None => Self::Free(Box::new(SmoothStep::new(robot, gravity, step_s))),
+            None => Self::Free(Box::new(FreeStep::new(robot, gravity, step_s))),
             Some(scene) => Self::InScene(Box::new(HybridStep::new(robot, scene, gravity, step_s)?)),
         })
     }

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 use super::disturbance::{Disturbance, Disturbed};
 use super::divergence::{DivergenceKind, RunawayGuard};
 use super::stepper::{StepOutcome, Stepper};
+use crate::control::drives::Drives;
 use crate::control::servo::{Servo, ServoError, ServoSettings};
-use crate::control::speed_limit::SpeedLimits;
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::{EngineError, WorkBudget};
 use crate::kinematics::FramePoses;
@@ -19,7 +19,7 @@ use crate::model::sensor::{Seen, Sensor};
 use crate::model::unphysical::UnphysicalLinks;
 use crate::sensing::{SensorError, Sensors};
 use crate::spatial::Pose;
-use crate::step::hybrid::HybridStep;
+use crate::step::hybrid::{HybridStep, StateFrom};
 use crate::ticks::Periods;
 
 /// Everything a run needs but its controller.
@@ -27,7 +27,7 @@ use crate::ticks::Periods;
 pub struct Setup<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// The scene around the robot. Without one, limits of joint position and speed do not act.
+    /// The scene around the robot, if there is one.
     pub scene: Option<&'a Scene>,
     /// The frame commands and checks refer to.
     pub tcp: &'a Frame,
@@ -81,7 +81,7 @@ pub struct Row<'a> {
     pub qd: &'a [f64],
     /// The command in the servo's mode.
     pub command: &'a [f64],
-    /// Joint efforts, after limit switches opened their motors and speed limits were kept \[N m or N\].
+    /// Joint efforts as the drives deliver them: after limit switches opened their motors, within speed limits and torque-speed lines \[N m or N\].
     pub effort: &'a [f64],
     /// What the sensors read, channel by channel in the order of [`Setup::sensors`].
     pub sensors: &'a [f64],
@@ -182,7 +182,7 @@ struct State {
     effort: Vec<f64>,
     servo: Servo,
     stepper: Stepper,
-    speed_limits: SpeedLimits,
+    drives: Drives,
     sensors: Sensors,
     /// Velocities a step ago, for sensors.
     qd_before: Vec<f64>,
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
             effort: vec![0.0; n],
             servo: Servo::new(robot, setup.servo.clone(), periods.servo_s(), gravity_m_s2)?,
             stepper: Stepper::new(&setup)?,
-            speed_limits: SpeedLimits::new(robot),
+            drives: Drives::new(robot, &setup.servo.gains, gravity_m_s2, periods.step_s),
             sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
             qd_before: setup.start_qd.clone(),
             qdd: vec![0.0; n],
@@ -317,10 +317,11 @@ impl<'a> Run<'a> {
         }
         state.effort.copy_from_slice(&state.driven);
         state.sensors.open_motors(&mut state.effort);
-        // in a scene the limits act: position limits as hard stops, speed limits in the drives
-        if self.setup.scene.is_some() {
-            state.speed_limits.hold(&state.qd, &mut state.effort);
-        }
+        state
+            .drives
+            .deliver(robot, &state.q, &state.qd, &mut state.effort);
+        // a drive that brakes cannot do so through an open circuit either
+        state.sensors.open_motors(&mut state.effort);
         recorder.row(Row {
             tick,
             q: &state.q,
@@ -337,6 +338,9 @@ impl<'a> Run<'a> {
         let moved = state
             .stepper
             .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
+        let scene = state.stepper.scene();
+        let in_contact = scene.is_some_and(|scene| scene.report().state_from == StateFrom::Contact);
+        state.drives.meet(&state.qd, in_contact);
         state.count(&self.setup);
         if state.budget.is_spent() {
             let time_s = periods.time_s(tick);

@@ -1,15 +1,14 @@
-//! The step in a scene: our Runge-Kutta step while the robot is free, the contact engine's while something presses on it.
+//! The step in a scene: the free step, and what contact makes of it.
 //!
-//! Every step is first computed as if there were no scene. If anything in the scene is awake, or a link may come near anything, the
-//! contact engine steps too, from the same state and under the same efforts. If something pressed on a moving link in it, the
-//! engine's state is kept; on all other steps ours is, to the last bit. So free motion has fourth order, and motion in contact has
-//! the first order of the engine (semi-implicit Euler in four substeps). Joint limits act as hard stops in both. The air of a step is
-//! the same for links and bodies; in the engine the drag on links is held at its value from the start of the step.
+//! Every step is first computed as if there were no scene. If anything in the scene is awake, or a link may come near anything, contact
+//! is computed too, on top of that free motion and without what holds the joints in it: dry friction and joint limits are settled
+//! together with contact. If something pressed on a moving link, the result is kept; on all other steps the free step is, to the last
+//! bit. So free motion has fourth order; motion in contact has the second for a block that slides, and the first where normals turn.
+//! The air of a step is the same for links and bodies.
 
 use nalgebra::Vector3;
 
-use super::joint_limits::JointLimitConstraints;
-use super::smooth::SmoothStep;
+use super::free::FreeStep;
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::{ArmStep, BodyState, Clearance, EngineError, Ray, StepFault, World};
 use crate::model::air::AirNow;
@@ -64,27 +63,16 @@ pub struct StepReport {
 
 /// Steps one robot in one scene.
 pub struct HybridStep {
-    smooth: SmoothStep,
-    stops: JointLimitConstraints,
+    free: FreeStep,
     clearance: Clearance,
     world: World,
-    gravity_m_s2: Vector3<f64>,
-    dt_s: f64,
     /// Which links move: only what presses on these matters to the robot's state.
     moves: Vec<bool>,
     names: Vec<String>,
     /// Upper bound of what gravity adds to the travel of a dynamic body in one step \[m\].
     falls_m: f64,
-    start_q: Vec<f64>,
-    start_qd: Vec<f64>,
-    held: Vec<f64>,
-    /// The motion of a step without contact, dry friction and joint limits.
-    loose_q: Vec<f64>,
-    loose_qd: Vec<f64>,
     /// The air of the last step.
     air: Option<AirNow>,
-    /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
-    drag: Vec<f64>,
     report: StepReport,
 }
 
@@ -100,14 +88,10 @@ impl HybridStep {
         dt_s: f64,
     ) -> Result<Self, EngineError> {
         let clearance = Clearance::new(robot);
-        let room = vec![0.0; robot.n()];
         Ok(Self {
-            smooth: SmoothStep::new(robot, gravity_m_s2, dt_s),
-            stops: JointLimitConstraints::new(robot),
+            free: FreeStep::new(robot, gravity_m_s2, dt_s),
             world: World::new(robot, scene, &gravity_m_s2, dt_s, clearance.has_shapes())?,
             clearance,
-            gravity_m_s2,
-            dt_s,
             moves: robot
                 .links()
                 .iter()
@@ -115,12 +99,6 @@ impl HybridStep {
                 .collect(),
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             falls_m: 2.0 * gravity_m_s2.norm() * dt_s * dt_s,
-            start_q: room.clone(),
-            start_qd: room.clone(),
-            held: room.clone(),
-            loose_q: room.clone(),
-            loose_qd: room.clone(),
-            drag: room,
             air: None,
             report: StepReport {
                 state_from: StateFrom::Smooth,
@@ -145,14 +123,13 @@ impl HybridStep {
         q: &mut [f64],
         qd: &mut [f64],
     ) -> Result<&StepReport, StepError> {
-        self.start_q.copy_from_slice(q);
-        self.start_qd.copy_from_slice(qd);
         self.report.state_from = StateFrom::Smooth;
         self.report.stops.clear();
         self.report.at_limit.clear();
         self.air = self.world.air_now();
-        self.smooth.set_air(self.air);
-        self.advance_free(robot, effort, q, qd)?;
+        self.free.set_air(self.air);
+        self.free.advance(robot, effort, q, qd)?;
+        self.report.stops.extend_from_slice(self.free.acted());
 
         let awake = self.world.is_awake();
         if self.world.is_driven() {
@@ -164,67 +141,20 @@ impl HybridStep {
             0.0
         };
         let world = &self.world;
-        let near = self
-            .clearance
-            .is_near(robot, &self.start_q, q, others_m, |list| {
-                world.obstacles(list);
-            });
+        let (start_q, _) = self.free.start();
+        let near = self.clearance.is_near(robot, start_q, q, others_m, |list| {
+            world.obstacles(list);
+        });
         let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
-        let usable = finite(q) && finite(qd) && finite(&self.start_q) && finite(effort);
+        let usable = finite(q) && finite(qd) && finite(start_q) && finite(effort);
         self.report.engine_stepped = awake || (near && usable);
         if self.report.engine_stepped {
             self.advance_in_contact(robot, effort, q, qd, near && usable)?;
         } else {
             self.world.rest();
         }
-        self.stops.list_at_limit(q, &mut self.report.at_limit);
+        self.free.list_at_limit(q, &mut self.report.at_limit);
         Ok(&self.report)
-    }
-
-    fn advance_free(
-        &mut self,
-        robot: &Robot,
-        effort: &[f64],
-        q: &mut [f64],
-        qd: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.smooth.advance(robot, effort, q, qd)?;
-        if self.stops.allow(&self.start_q, q) {
-            return Ok(());
-        }
-        q.copy_from_slice(&self.start_q);
-        qd.copy_from_slice(&self.start_qd);
-        self.hold_with_drag(robot, effort);
-        let added = self.smooth.damping_inertia(robot, q);
-        let (gravity, step) = (&self.gravity_m_s2, (self.dt_s, added));
-        self.stops
-            .hold(robot, gravity, step, (q, qd), &mut self.held)?;
-        if self.smooth.feels_air() {
-            // the step adds it anew
-            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
-                *held -= drag;
-            }
-        }
-        self.smooth.advance(robot, &self.held, q, qd)?;
-        self.stops.catch(robot, &self.start_q, q, qd);
-        let acted = self.stops.impulses().iter().copied().enumerate();
-        self.report
-            .stops
-            .extend(acted.filter(|(_, impulse)| *impulse != 0.0));
-        Ok(())
-    }
-
-    /// Sets `held` to `effort` and the drag on links at the start of the step.
-    fn hold_with_drag(&mut self, robot: &Robot, effort: &[f64]) {
-        self.held.copy_from_slice(effort);
-        if self.smooth.feels_air() {
-            let (q, qd) = (&self.start_q, &self.start_qd);
-            self.drag.fill(0.0);
-            self.smooth.add_drag(robot, q, qd, &mut self.drag);
-            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
-                *held += drag;
-            }
-        }
     }
 
     fn advance_in_contact(
@@ -236,14 +166,16 @@ impl HybridStep {
         near: bool,
     ) -> Result<(), StepError> {
         if near {
-            self.advance_loose(robot, effort, q, qd)?;
+            self.free.loosen(robot, effort, q, qd)?;
         }
+        let (start_q, start_qd) = self.free.start();
+        let (loose_q, loose_qd) = self.free.loose();
         let arm = near.then(|| ArmStep {
-            q: &self.start_q,
-            qd: &self.start_qd,
-            next_q: &self.loose_q,
-            next_qd: &self.loose_qd,
-            travel_m: self.clearance.travel_m(robot, &self.start_q, &self.loose_q),
+            q: start_q,
+            qd: start_qd,
+            next_q: loose_q,
+            next_qd: loose_qd,
+            travel_m: self.clearance.travel_m(robot, start_q, loose_q),
         });
         let facts = &mut self.report.contacts;
         self.world
@@ -257,32 +189,10 @@ impl HybridStep {
         let pressed = |party: &Party| matches!(party, Party::Link(link) if self.moves[*link]);
         if facts.iter().any(|fact| fact.parties.iter().any(pressed)) {
             self.world.read_arm(q, qd);
-            self.stops.keep_inside(robot, &self.start_q, q, qd)?;
+            self.free.keep_inside(robot, q, qd)?;
             self.report.state_from = StateFrom::Contact;
             self.report.stops.clear();
         }
-        Ok(())
-    }
-
-    /// Computes the step as nothing holds the joints, which contact then settles together with its own impulses; `(q, qd)` is the state
-    /// after the step without contact.
-    fn advance_loose(
-        &mut self,
-        robot: &Robot,
-        effort: &[f64],
-        q: &[f64],
-        qd: &[f64],
-    ) -> Result<(), StepError> {
-        if !self.smooth.has_dry_friction() && self.report.stops.is_empty() {
-            self.loose_q.copy_from_slice(q);
-            self.loose_qd.copy_from_slice(qd);
-            return Ok(());
-        }
-        self.loose_q.copy_from_slice(&self.start_q);
-        self.loose_qd.copy_from_slice(&self.start_qd);
-        let (q, qd) = (&mut self.loose_q, &mut self.loose_qd);
-        self.smooth
-            .advance_without_dry_friction(robot, effort, q, qd)?;
         Ok(())
     }
 

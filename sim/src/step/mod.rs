@@ -1,5 +1,6 @@
-//! One step of a robot: smooth motion by Runge-Kutta alone, or together with contact in a scene.
+//! One step of a robot: smooth motion by Runge-Kutta, between its joint limits, and together with contact in a scene.
 
+pub(crate) mod free;
 pub mod hybrid;
 mod implicit_damping;
 mod joint_limits;

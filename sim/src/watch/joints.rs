@@ -1,7 +1,7 @@
 //! Joints at their limits of effort, position and speed. A joint that returns to a limit within 0.1 s makes no new event.
 
 use super::event::EventKind;
-use crate::control::speed_limit::SpeedLimits;
+use crate::control::drives::SpeedLimits;
 use crate::run::{Row, Setup};
 
 /// A joint that was away from a limit for longer than this makes a new event when it returns \[s\].
@@ -43,7 +43,7 @@ impl JointWatch {
                 // an effort limit of zero means a joint without a drive
                 limit > 0.0 && row.effort[joint].abs() >= limit,
                 row.q[joint] <= lower || row.q[joint] >= upper || standing.contains(&joint),
-                row.scene.is_some() && self.speed_limits.is_reached(joint, row.qd[joint]),
+                self.speed_limits.is_reached(joint, row.qd[joint]),
             ];
             let kinds = [
                 EventKind::Saturated { joint },

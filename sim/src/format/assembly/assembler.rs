@@ -208,6 +208,7 @@ impl Assembler<'_> {
             damping: part.damping,
             dry_friction: part.dry_friction,
             armature: part.armature,
+            drive: part.drive,
             limits: part.limits,
             mimic,
             passive: part.passive,
@@ -386,8 +387,10 @@ fn bodies(
                     first_moment: Vector3::zeros(),
                     inertia: Symmetric3::default(),
                     damping: joint.damping,
-                    dry_friction: joint.dry_friction,
-                    armature: joint.armature,
+                    dry_friction: joint.dry_friction.mean(),
+                    dry_skew: joint.dry_friction.skew(),
+                    armature: joint.armature
+                        + joint.drive.map_or(0.0, |drive| drive.felt_inertia()),
                 });
                 Attachment {
                     body: Some(bodies.len() - 1),

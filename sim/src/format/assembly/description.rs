@@ -6,7 +6,9 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use crate::model::air::Drag;
+use crate::model::drive::Drive;
 use crate::model::inertia::Inertia;
+use crate::model::joint_friction::JointFriction;
 use crate::model::robot::{Contact, JointKind, Limits, LoopKind, Shape};
 use crate::model::unphysical::OnUnphysical;
 use crate::spatial::Pose;
@@ -88,8 +90,9 @@ pub(crate) struct JointPart {
     /// Unit axis in the child's frame; zero for a fixed joint.
     pub(crate) axis: Vector3<f64>,
     pub(crate) damping: f64,
-    pub(crate) dry_friction: f64,
+    pub(crate) dry_friction: JointFriction,
     pub(crate) armature: f64,
+    pub(crate) drive: Option<Drive>,
     pub(crate) limits: Limits,
     pub(crate) mimic: Option<MimicPart>,
     pub(crate) passive: bool,
@@ -112,8 +115,9 @@ impl JointPart {
             parent_from_child,
             axis: Vector3::zeros(),
             damping: 0.0,
-            dry_friction: 0.0,
+            dry_friction: JointFriction::default(),
             armature: 0.0,
+            drive: None,
             limits: Limits::default(),
             mimic: None,
             passive: false,

@@ -11,7 +11,8 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
-use super::robot_reader::{Resolver, kind};
+use super::drives::Driven;
+use super::robot_reader::{Resolver, kind, undriven};
 use super::robot_tables::{DhConvention, DhRowTable, DhTable};
 use crate::format::assembly::description::{Description, FramePart, JointPart, LinkPart};
 use crate::format::robot_problem::{RobotError, RobotProblem};
@@ -139,8 +140,14 @@ impl Resolver<'_> {
             part.kind = kind;
             part.axis = Vector3::z() * direction;
             part.damping = self.not_negative(&row.damping, "damping")?;
-            part.dry_friction = self.not_negative(&row.dry_friction, "dry_friction")?;
+            part.dry_friction = self.friction(row.dry_friction.as_ref())?;
             part.armature = self.not_negative(&row.armature, "armature")?;
+            let driven = Driven {
+                joint,
+                armature: part.armature,
+                undriven: undriven(kind, row.mimic.is_some(), false),
+            };
+            part.drive = self.drive(&driven, row.drive.as_ref())?;
             part.mimic = self.mimic(row.mimic.as_ref())?;
             part.limits = match &row.limit {
                 Some(limit) => self.limits(joint, kind, limit)?,

@@ -1,6 +1,7 @@
 //! Robot files: TOML, with expressions over named dimensions; read and written.
 
 mod dh;
+mod drives;
 mod robot_reader;
 mod robot_tables;
 mod robot_writer;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use toml::Spanned;
 
+use super::drives::Driven;
 use super::robot_tables::{
     JointTable, JointType, LimitTable, LinkTable, LoopTable, LoopType, MimicTable, RobotFile,
 };
@@ -144,6 +145,12 @@ impl Resolver<'_> {
                 );
             }
         };
+        let armature = self.not_negative(&table.armature, "armature")?;
+        let driven = Driven {
+            joint: name,
+            armature,
+            undriven: undriven(kind, table.mimic.is_some(), table.passive),
+        };
         Ok(JointPart {
             kind,
             parent: table.parent.clone(),
@@ -151,8 +158,9 @@ impl Resolver<'_> {
             parent_from_child: self.values.origin(table.origin.as_ref())?,
             axis,
             damping: self.not_negative(&table.damping, "damping")?,
-            dry_friction: self.not_negative(&table.dry_friction, "dry_friction")?,
-            armature: self.not_negative(&table.armature, "armature")?,
+            dry_friction: self.friction(table.dry_friction.as_ref())?,
+            armature,
+            drive: self.drive(&driven, table.drive.as_ref())?,
             limits: match &table.limit {
                 Some(limit) => self.limits(name, kind, limit)?,
                 None => Limits::default(),
@@ -345,6 +353,16 @@ impl Resolver<'_> {
             description.loops.push(self.loop_part(table)?);
         }
         Ok(description)
+    }
+}
+
+/// Why a joint can have no drive, if it cannot.
+pub(super) fn undriven(kind: JointKind, mimics: bool, passive: bool) -> Option<&'static str> {
+    match (kind, mimics, passive) {
+        (JointKind::Fixed, ..) => Some("is fixed"),
+        (_, true, _) => Some("mimics another"),
+        (.., true) => Some("is passive"),
+        _ => None,
     }
 }
 

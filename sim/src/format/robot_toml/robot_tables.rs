@@ -4,6 +4,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::drives::{DriveTable, FrictionEntry};
 use crate::format::robot_problem::{KIND, RobotProblem};
 use crate::part::document::{Document, Tables};
 use crate::part::part_tables::{
@@ -83,8 +84,9 @@ pub(crate) struct JointTable {
     pub(crate) origin: Option<OriginTable>,
     pub(crate) axis: Option<TripleAt>,
     pub(crate) damping: Option<NumberAt>,
-    pub(crate) dry_friction: Option<NumberAt>,
+    pub(crate) dry_friction: Option<Spanned<FrictionEntry>>,
     pub(crate) armature: Option<NumberAt>,
+    pub(crate) drive: Option<Spanned<DriveTable>>,
     pub(crate) limit: Option<Spanned<LimitTable>>,
     pub(crate) mimic: Option<MimicTable>,
     #[serde(default)]
@@ -150,8 +152,9 @@ pub(crate) struct DhRowTable {
     pub(crate) theta_deg: Option<NumberAt>,
     pub(crate) direction: Option<NumberAt>,
     pub(crate) damping: Option<NumberAt>,
-    pub(crate) dry_friction: Option<NumberAt>,
+    pub(crate) dry_friction: Option<Spanned<FrictionEntry>>,
     pub(crate) armature: Option<NumberAt>,
+    pub(crate) drive: Option<Spanned<DriveTable>>,
     pub(crate) limit: Option<Spanned<LimitTable>>,
     pub(crate) mimic: Option<MimicTable>,
 }

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::model::drive::Drive;
 use crate::model::inertia::{Inertia, Solid};
+use crate::model::joint_friction::JointFriction;
 use crate::model::robot::{Joint, JointKind, Link, Robot, Shape};
 use crate::model::unphysical::Unphysical;
 use crate::part::toml_text::{quoted, triple};
@@ -104,16 +106,20 @@ impl Robot {
             return;
         }
         let _ = writeln!(out, "axis = {}", triple(&joint.axis));
-        for (key, value) in [
-            ("damping", joint.damping),
-            ("dry_friction", joint.dry_friction),
-            ("armature", joint.armature),
-            ("guess", joint.guess),
-        ] {
+        let number = |out: &mut String, key: &str, value: f64| {
             if value != 0.0 {
                 let _ = writeln!(out, "{key} = {value:?}");
             }
+        };
+        number(out, "damping", joint.damping);
+        if joint.dry_friction != JointFriction::default() {
+            let _ = writeln!(out, "dry_friction = {}", friction(&joint.dry_friction));
         }
+        number(out, "armature", joint.armature);
+        if let Some(drive) = &joint.drive {
+            let _ = writeln!(out, "drive = {{ {} }}", drive_keys(drive));
+        }
+        number(out, "guess", joint.guess);
         if joint.passive {
             out.push_str("passive = true\n");
         }
@@ -139,6 +145,29 @@ impl Robot {
             let _ = writeln!(out, "limit = {{ {} }}", limits.join(", "));
         }
     }
+}
+
+fn friction(friction: &JointFriction) -> String {
+    let JointFriction { positive, negative } = friction;
+    if friction.is_symmetric() {
+        format!("{positive:?}")
+    } else {
+        format!("{{ positive = {positive:?}, negative = {negative:?} }}")
+    }
+}
+
+fn drive_keys(drive: &Drive) -> String {
+    let line = drive.line.map(|line| {
+        let (stall, free_speed) = (line.stall, line.free_speed);
+        format!("stall = {stall:?}, free_speed = {free_speed:?}, ")
+    });
+    format!(
+        "{}ratio = {:?}, rotor_inertia = {:?}, efficiency = {:?}",
+        line.unwrap_or_default(),
+        drive.ratio,
+        drive.rotor_inertia_kg_m2,
+        drive.efficiency
+    )
 }
 
 /// One key with an origin, left out where it is the identity.

@@ -10,6 +10,7 @@ use crate::format::assembly::description::{JointPart, LinkPart};
 use crate::format::robot_format::ReadOptions;
 use crate::format::robot_problem::RobotError;
 use crate::format::xml::reader::{Node, Reader, elements};
+use crate::model::joint_friction::JointFriction;
 use crate::model::robot::JointKind;
 use crate::part::part_problem::PartProblem;
 use crate::part::values::Allowed;
@@ -274,7 +275,7 @@ fn dynamics(
         reader.check(dynamics, owner, &["damping", "friction"], &[]);
         let read = |name| reader.number(dynamics, name, owner, Allowed::NotNegative);
         joint.damping = read("damping")?.unwrap_or(0.0);
-        joint.dry_friction = read("friction")?.unwrap_or(0.0);
+        joint.dry_friction = JointFriction::both(read("friction")?.unwrap_or(0.0));
     }
     Ok(())
 }

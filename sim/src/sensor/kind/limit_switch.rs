@@ -41,6 +41,8 @@ pub(super) struct Table {
     at: Option<NumberAt>,
     side: Side,
     opens_motor: Option<bool>,
+    hysteresis: Option<NumberAt>,
+    latch: Option<bool>,
 }
 
 impl KindTable for Table {
@@ -48,7 +50,7 @@ impl KindTable for Table {
     const IS_NOISY: bool = false;
     #[cfg(test)]
     const EXAMPLE: &'static str =
-        "joint = 'elbow'\nside = 'lower'\nat = -0.25\nopens_motor = false";
+        "joint = 'elbow'\nside = 'lower'\nat = -0.25\nopens_motor = false\nhysteresis = 0.01\nlatch = true";
     type Kind = LimitSwitch;
 
     fn read(&self, reading: &SensorReading<'_>) -> Result<LimitSwitch, PartError> {
@@ -74,6 +76,13 @@ impl KindTable for Table {
             at,
             side: self.side,
             opens_motor: self.opens_motor.unwrap_or(true),
+            hysteresis: reading.values.number_or(
+                self.hysteresis.as_ref(),
+                "hysteresis",
+                Allowed::NotNegative,
+                0.0,
+            )?,
+            latches: self.latch.unwrap_or(false),
         })
     }
 }
@@ -88,6 +97,10 @@ pub(super) struct LimitSwitch {
     side: Side,
     /// Whether it opens the motor's circuit: pressed, it leaves no effort towards its side.
     opens_motor: bool,
+    /// How far the joint goes back before it is released, zero or more \[rad or m\].
+    hysteresis: f64,
+    /// Whether, once pressed, it stays so until the motor has driven the joint away.
+    latches: bool,
 }
 
 impl LimitSwitch {
@@ -96,6 +109,14 @@ impl LimitSwitch {
         match self.side {
             Side::Lower => position <= self.at,
             Side::Upper => position >= self.at,
+        }
+    }
+
+    /// Whether a joint at `position` keeps it pressed, once it is; never for NaN.
+    fn is_kept_at(&self, position: f64) -> bool {
+        match self.side {
+            Side::Lower => position <= self.at + self.hysteresis,
+            Side::Upper => position >= self.at - self.hysteresis,
         }
     }
 }
@@ -113,7 +134,12 @@ impl SensorKind for LimitSwitch {
         } else {
             "opens_motor = false\n"
         };
-        format!("joint = {joint}\nat = {at:?}\nside = \"{side}\"\n{opens}")
+        let hysteresis = match self.hysteresis {
+            h if h > 0.0 => format!("hysteresis = {h:?}\n"),
+            _ => String::new(),
+        };
+        let latch = if self.latches { "latch = true\n" } else { "" };
+        format!("joint = {joint}\nat = {at:?}\nside = \"{side}\"\n{opens}{hysteresis}{latch}")
     }
 
     fn gauge(&self, robot: &Robot, _: f64) -> Box<dyn Gauge> {
@@ -121,7 +147,7 @@ impl SensorKind for LimitSwitch {
         Box::new(Circuit {
             switch: *self,
             pressed: false,
-            motor: body.filter(|_| self.opens_motor).map(|body| {
+            motor: body.map(|body| {
                 let outwards = match self.side {
                     Side::Lower => -body.gear,
                     Side::Upper => body.gear,
@@ -136,7 +162,7 @@ impl SensorKind for LimitSwitch {
 struct Circuit {
     switch: LimitSwitch,
     pressed: bool,
-    /// The motor that it opens while it is pressed: its entry in `q`, and a number that is positive where positive efforts push
+    /// The joint's motor: its entry in `q`, and a number that is positive where positive efforts push
     /// towards the switch. A mimic joint's motor is its master's.
     motor: Option<(usize, f64)>,
 }
@@ -144,7 +170,11 @@ struct Circuit {
 impl Gauge for Circuit {
     fn watch(&mut self, seen: &Seen<'_>) {
         let body = moved_by(seen.robot, self.switch.joint);
-        self.pressed = body.is_some_and(|body| self.switch.is_pressed_at(body.position(seen.q)));
+        self.pressed = body.is_some_and(|body| {
+            let position = body.position(seen.q);
+            let held = self.pressed && (self.switch.is_kept_at(position) || !self.resets(seen));
+            self.switch.is_pressed_at(position) || held
+        });
     }
 
     fn read(&mut self, _: &Seen<'_>, _: &dyn Surroundings, values: &mut [f64]) {
@@ -152,11 +182,22 @@ impl Gauge for Circuit {
     }
 
     fn open_motor(&self, effort: &mut [f64]) {
-        if let (Some((entry, outwards)), true) = (self.motor, self.pressed)
+        if let (Some((entry, outwards)), true) =
+            (self.motor, self.pressed && self.switch.opens_motor)
             && outwards * effort[entry] > 0.0
         {
             effort[entry] = 0.0;
         }
+    }
+}
+
+impl Circuit {
+    /// Whether it is released once the joint is away: at once, or where it latches after a step in which the motor drove away from it.
+    fn resets(&self, seen: &Seen<'_>) -> bool {
+        !self.switch.latches
+            || self
+                .motor
+                .is_some_and(|(entry, outwards)| outwards * seen.effort[entry] < 0.0)
     }
 }
 
@@ -171,6 +212,8 @@ mod tests {
             at: 0.25,
             side: Side::Upper,
             opens_motor: true,
+            hysteresis: 0.0,
+            latches: false,
         };
         for (position, upper, lower) in [
             (0.249, false, true),

@@ -1,5 +1,8 @@
 //! A robot as JSON.
 
+use kinemark_sim::dynamics::immovable_joint;
+use kinemark_sim::model::drive::Drive;
+use kinemark_sim::model::joint_friction::JointFriction;
 use kinemark_sim::model::robot::{Joint, JointKind, Link, Robot};
 use serde_json::{Value, json};
 
@@ -38,6 +41,7 @@ pub fn robot_record(robot: &Robot) -> Value {
         "mass_kg": robot.mass_kg(),
         "com_at_home_m": com_at_home_m(robot),
         "unphysical": unphysical_links(robot),
+        "immovable_joint": immovable_joint(robot).map(|singular| singular.joint),
         "warnings": robot.warnings(),
     })
 }
@@ -87,9 +91,29 @@ fn joint_record(robot: &Robot, joint: &Joint) -> Value {
         "speed": joint.limits.speed,
         "effort": joint.limits.effort,
         "damping": joint.damping,
-        "dry_friction": joint.dry_friction,
+        "dry_friction": friction_record(&joint.dry_friction),
         "armature": joint.armature,
+        "drive": joint.drive.as_ref().map(drive_record),
         "passive": joint.passive,
         "mimic": mimic,
+    })
+}
+
+/// A number where both directions have the same friction, as in a robot file.
+fn friction_record(friction: &JointFriction) -> Value {
+    match friction.is_symmetric() {
+        true => json!(friction.positive),
+        false => json!({ "positive": friction.positive, "negative": friction.negative }),
+    }
+}
+
+fn drive_record(drive: &Drive) -> Value {
+    json!({
+        "stall": drive.line.map(|line| line.stall),
+        "free_speed": drive.line.map(|line| line.free_speed),
+        "ratio": drive.ratio,
+        "rotor_inertia": drive.rotor_inertia_kg_m2,
+        "efficiency": drive.efficiency,
+        "felt_inertia": drive.felt_inertia(),
     })
 }

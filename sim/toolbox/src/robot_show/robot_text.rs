@@ -1,6 +1,8 @@
 //! A robot as text: its links and joints as a table, and what the table does not say as a list of facts.
 
+use kinemark_sim::dynamics::{SingularMassMatrix, immovable_joint};
 use kinemark_sim::kinematics::centre_of_mass::{Counted, centre_of_mass};
+use kinemark_sim::model::drive::Drive;
 use kinemark_sim::model::robot::Mimic;
 use kinemark_sim::model::robot::{JointKind, Robot};
 use kinemark_sim::text::number::short;
@@ -21,6 +23,7 @@ pub fn robot_text(robot: &Robot) -> StyledText {
     text.plain("\n");
     let mut facts = Facts(text);
     facts.totals(robot);
+    facts.drives(robot);
     facts.mimics(robot);
     facts.loops(robot);
     facts.frames_and_sensors(robot);
@@ -78,6 +81,20 @@ impl Facts {
             None => "none".to_owned(),
         };
         self.line("mass", &mass);
+        if let Some(SingularMassMatrix { joint }) = immovable_joint(robot) {
+            let fact =
+                format!("cannot move: joint {joint} moves no inertia, so there is no simulation");
+            self.styled_line(Emphasis::Warning, "warning", &fact);
+        }
+    }
+
+    fn drives(&mut self, robot: &Robot) {
+        for joint in robot.joints() {
+            if let Some(drive) = &joint.drive {
+                let rule = drive_rule(drive, joint.kind.turns());
+                self.line("drive", &format!("{}: {rule}", joint.name));
+            }
+        }
     }
 
     fn mimics(&mut self, robot: &Robot) {
@@ -134,6 +151,29 @@ impl Facts {
             self.styled_line(Emphasis::Warning, "warning", wrapped.trim_start());
         }
     }
+}
+
+/// What a drive is: `stall 200 N, free speed 0.025 m/s, ratio 1257 rad/m, ...`.
+fn drive_rule(drive: &Drive, turns: bool) -> String {
+    let (effort, speed, ratio, inertia) = match turns {
+        true => ("N m", "rad/s", "", "kg m²"),
+        false => ("N", "m/s", " rad/m", "kg"),
+    };
+    let mut parts = Vec::new();
+    if let Some(line) = &drive.line {
+        parts.push(format!("stall {} {effort}", short(line.stall)));
+        parts.push(format!("free speed {} {speed}", short(line.free_speed)));
+    }
+    parts.push(format!("ratio {}{ratio}", short(drive.ratio)));
+    if drive.rotor_inertia_kg_m2 > 0.0 {
+        let felt = short(drive.felt_inertia());
+        let rotor = short(drive.rotor_inertia_kg_m2);
+        parts.push(format!("rotor {rotor} kg m², felt as {felt} {inertia}"));
+    }
+    if drive.efficiency < 1.0 {
+        parts.push(format!("efficiency {}", short(drive.efficiency)));
+    }
+    parts.join(", ")
 }
 
 /// What a mimic joint is: `2 master + 0.1`.
