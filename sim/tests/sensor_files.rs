@@ -204,9 +204,13 @@ fn sensors_survive_being_written_and_read_again() {
 }
 
 #[test]
-fn the_rppr_has_a_switch_at_either_end_of_each_axis() {
+fn the_rppr_has_a_switch_at_either_end_of_each_axis_and_an_encoder() {
     let rppr = lab_robot("rppr");
     let names: Vec<&str> = rppr.sensors().iter().map(|s| s.name.as_str()).collect();
-    assert_eq!(names.len(), 8);
+    assert_eq!(names.len(), 12);
     assert_eq!(names[..3], ["turn_lower", "turn_upper", "lift_lower"]);
+    assert_eq!(names[8], "turn_encoder");
+    // with the gripper that moves, the ten switches and four encoders of its document
+    let with_gripper = lab_robot("rppr_gripper");
+    assert_eq!(with_gripper.sensors().len(), 14);
 }

@@ -26,6 +26,9 @@ pub(crate) struct RobotArgs {
     /// Links of a joint string: one lx,ly,lz per joint, in metres, separated by semicolons
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     pub(crate) links: Option<String>,
+    /// Density of the links of a joint string, in kg/m³; 0 for links without mass [default: 2700, aluminium]
+    #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
+    pub(crate) density: Option<f64>,
     /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
     #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
     pub(crate) packages: Vec<(String, PathBuf)>,
@@ -92,7 +95,7 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
         let meshes = meshes.collect();
         return Ok(Loaded { robot, meshes });
     }
-    if args.links.is_some() || args.base.is_some() || joint_string::looks_like_one(&name) {
+    if joint_string_option(args).is_some() || joint_string::looks_like_one(&name) {
         return of_joint_string(&name, args);
     }
     let known = robot_names(files.as_ref());
@@ -121,17 +124,30 @@ fn of_joint_string(text: &str, args: &RobotArgs) -> Result<Loaded, Failure> {
             &format!("add one lx,ly,lz per joint, in metres: --links \"{example}\""),
         ));
     };
-    let robot = joint_string::robot(text, args.base.unwrap_or(0.0), links).map_err(usage)?;
+    let base_m = args.base.unwrap_or(0.0);
+    let density_kg_m3 = args.density.unwrap_or(joint_string::ALUMINIUM_KG_M3);
+    let robot = joint_string::robot(text, base_m, links, density_kg_m3).map_err(usage)?;
     let meshes = BTreeMap::new();
     Ok(Loaded { robot, meshes })
 }
 
-/// `--links` and `--base` belong to joint strings; elsewhere they would have no effect.
+/// The first option given that is for joint strings alone.
+fn joint_string_option(args: &RobotArgs) -> Option<&'static str> {
+    let given = [
+        (args.links.is_some(), "--links"),
+        (args.base.is_some(), "--base"),
+        (args.density.is_some(), "--density"),
+    ];
+    given
+        .iter()
+        .find(|(given, _)| *given)
+        .map(|(_, name)| *name)
+}
+
+/// Options of joint strings would have no effect elsewhere.
 fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
-    let given = match (&args.links, args.base) {
-        (Some(_), _) => "--links",
-        (None, Some(_)) => "--base",
-        (None, None) => return Ok(()),
+    let Some(given) = joint_string_option(args) else {
+        return Ok(());
     };
     Err(Failure::usage(
         format!("{given} is for joint strings such as RzRyRz, but {what}"),

@@ -155,6 +155,7 @@ fn arm(args: &Args) -> Result<Option<ArmInScene>, Failure> {
         robot: named.clone(),
         base: None,
         links: None,
+        density: None,
         packages: args.packages.clone(),
         ignore_mimic: false,
         accept_unphysical: false,

@@ -1,7 +1,7 @@
 //! Robots typed as a row of joints: `RzRyRz` turns about z, y, z; `TzRxTy` slides along z, turns about x, slides along y.
 //!
 //! All link frames are aligned with the world at `q = 0`. Joint 1 stands at the base's height on the z axis; each link leads from
-//! its joint by `(lx, ly, lz)` to the next, and the last one to the tip, frame `tcp`.
+//! its joint by `(lx, ly, lz)` to the next, and the last one to the tip, frame `tcp`. Links that move are solid, of one material.
 //!
 //! `H = Tz(base) J1(q1) Trans(l1) J2(q2) Trans(l2) ...`; turns are right-handed, in radians, slides in metres.
 
@@ -11,13 +11,16 @@ use toml::Spanned;
 use super::assembly::assembler::{MOST_LINKS, axes_with_z_along};
 use super::assembly::description::{Description, FramePart, JointPart, LinkPart, UnphysicalWords};
 use super::robot_problem::{RobotError, RobotProblem};
-use crate::model::inertia::Solid;
+use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Robot, Shape};
 use crate::spatial::{Pose, pose};
 use crate::text::{Dimensions, Source};
 
 /// A drawn link is this part of the longest link thick.
 const DRAWN_RADIUS: f64 = 0.03;
+
+/// The density of a link where none is given: aluminium \[kg/m³\].
+pub const ALUMINIUM_KG_M3: f64 = 2700.0;
 
 /// Whether `text` starts like a joint string, so that what is wrong with it is worth telling.
 pub fn looks_like_one(text: &str) -> bool {
@@ -41,12 +44,18 @@ pub fn joint_count(text: &str) -> Result<usize, RobotError> {
 /// Makes the robot of a joint string.
 ///
 /// `base_m` is the height of the first joint; `links_m` holds one `lx, ly, lz` per joint in metres, separated by semicolons, as in
-/// `"0,0,4; 3,0,0; 1,0,0"`. Links are drawn as cylinders and have no mass. Joints are called `joint1` and on, links `base`,
-/// `link1` and on.
+/// `"0,0,4; 3,0,0; 1,0,0"`. A link is a cylinder, 0.03 of the longest link (or of the base, if that is higher) in radius; a link without
+/// length is a ball of that radius. With `density_kg_m3` the links that move have mass, with 0 none has. Joints are called `joint1` and
+/// on, links `base`, `link1` and on.
 ///
 /// # Errors
-/// A problem at the letter or the link that does not fit.
-pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError> {
+/// A problem at the letter or the link that does not fit; a density that is negative or not finite.
+pub fn robot(
+    text: &str,
+    base_m: f64,
+    links_m: &str,
+    density_kg_m3: f64,
+) -> Result<Robot, RobotError> {
     let source = joint_string(text);
     let joints = joints(&source)?;
     let links = links(&Source::new("links", links_m), joints.len())?;
@@ -54,20 +63,29 @@ pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError
         let message = format!("the base's height must be a finite number of metres, got {base_m}");
         return refuse(&source, 0..text.len(), message, "write --base 2");
     }
+    if !(density_kg_m3.is_finite() && density_kg_m3 >= 0.0) {
+        let message =
+            format!("the density must be zero or more and finite, got {density_kg_m3} kg/m³");
+        let help = "write --density 2700 for aluminium, or 0 for links without mass";
+        return refuse(&source, 0..text.len(), message, help);
+    }
     let longest = links.iter().map(Vector3::norm).fold(base_m.abs(), f64::max);
     let drawn = |end: Vector3<f64>| -> Vec<Shape> {
         let length_m = end.norm();
-        if length_m > 0.0 && longest.is_finite() {
-            let solid = Solid::Cylinder {
-                radius_m: DRAWN_RADIUS * longest,
-                length_m,
-            };
+        let radius_m = DRAWN_RADIUS * longest;
+        if !(radius_m > 0.0 && longest.is_finite()) {
+            Vec::new()
+        } else if length_m > 0.0 {
+            let axes = axes_with_z_along(&(end / length_m));
             vec![Shape {
-                solid,
-                link_from_shape: pose(axes_with_z_along(&(end / length_m)), end / 2.0),
+                solid: Solid::Cylinder { radius_m, length_m },
+                link_from_shape: pose(axes, end / 2.0),
             }]
         } else {
-            Vec::new()
+            vec![Shape {
+                solid: Solid::Sphere { radius_m },
+                link_from_shape: Pose::identity(),
+            }]
         }
     };
     let whole = 0..text.len();
@@ -92,7 +110,9 @@ pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError
     let mut carrier = "base".to_owned();
     for (i, (joint, end)) in joints.iter().zip(&links).enumerate() {
         let name = format!("link{}", i + 1);
-        parts.links.push(link(name.clone(), *end));
+        let mut moved = link(name.clone(), *end);
+        moved.inertia = solid(&moved.shapes, density_kg_m3);
+        parts.links.push(moved);
         let mut part = JointPart::fixed(
             Spanned::new(joint.at.clone(), format!("joint{}", i + 1)),
             named(carrier),
@@ -111,6 +131,23 @@ pub fn robot(text: &str, base_m: f64, links_m: &str) -> Result<Robot, RobotError
         link_from_frame: Pose::translation(at.x, at.y, at.z),
     });
     parts.assemble()
+}
+
+/// The mass properties of shapes of one density; none where they are beyond what a number can hold.
+fn solid(shapes: &[Shape], density_kg_m3: f64) -> Inertia {
+    let of_shape = |shape: &Shape| {
+        let mass_kg = density_kg_m3 * shape.solid.volume_m3().ok()?;
+        let inertia = shape.solid.inertia(mass_kg).ok()?;
+        Some(inertia.seen_from(&shape.link_from_shape))
+    };
+    let parts = shapes.iter().filter_map(of_shape);
+    let sum = parts.fold(Inertia::zero(), |sum, part| sum.plus(&part));
+    let about_origin = sum.about_origin_kg_m2().to_matrix();
+    if sum.mass_kg > 0.0 && about_origin.iter().all(|x| x.is_finite()) {
+        sum
+    } else {
+        Inertia::zero()
+    }
 }
 
 fn refuse<T>(
@@ -237,10 +274,10 @@ mod tests {
             ("RzRyRzX", 7),
             ("RzÄy", 3),
         ] {
-            let error = robot(text, 0.0, "").expect_err(text);
+            let error = robot(text, 0.0, "", 0.0).expect_err(text);
             assert_eq!(error.line_and_column(), (1, column), "{text}: {error}");
         }
-        let error = robot("RzRxq", 0.0, "").expect_err("q");
+        let error = robot("RzRxq", 0.0, "", 0.0).expect_err("q");
         assert_eq!(
             error.to_string(),
             "joint string, sign 5: `q` is not a joint (R, T or P, then x, y or z)"
@@ -264,16 +301,50 @@ mod tests {
             ("0,0,1; 0,0,1; 1,1,1", 1),
             ("0,0,1;; 0,0,1", 7),
         ] {
-            let error = robot("RzTx", 0.0, links).expect_err(links);
+            let error = robot("RzTx", 0.0, links, 0.0).expect_err(links);
             assert_eq!(error.line_and_column(), (1, column), "{links}: {error}");
         }
-        assert!(robot("RzTx", 0.0, "0,0,1; 0,0,1;").is_ok());
-        assert!(robot("RzTx", f64::NAN, "0,0,1; 0,0,1").is_err());
+        assert!(robot("RzTx", 0.0, "0,0,1; 0,0,1;", 0.0).is_ok());
+        assert!(robot("RzTx", f64::NAN, "0,0,1; 0,0,1", 0.0).is_err());
+    }
+
+    #[test]
+    fn links_have_the_mass_of_their_material() {
+        // cylinders of 2 m and 1 m, 0.03 of 2 m in radius, and a ball where there is no length
+        let arm = robot("RzRyRx", 0.5, "0,0,2; 0,0,0; 1,0,0", ALUMINIUM_KG_M3).unwrap();
+        let r: f64 = 0.06;
+        let area = std::f64::consts::PI * r * r;
+        let masses: Vec<f64> = arm.links().iter().map(|l| l.inertia.mass_kg).collect();
+        let expected = [
+            0.0,
+            2.0 * area * 2700.0,
+            4.0 / 3.0 * area * r * 2700.0,
+            area * 2700.0,
+        ];
+        for (mass, expected) in masses.iter().zip(expected) {
+            assert!(
+                (mass - expected).abs() < 1e-12 * expected,
+                "{mass} {expected}"
+            );
+        }
+        assert_eq!(arm.links()[3].inertia.com_m, Vector3::new(0.5, 0.0, 0.0));
+        // m (3 r² + l²) / 12 across, m r² / 2 along
+        let of = &arm.links()[3].inertia;
+        let across = of.mass_kg * (3.0 * r * r + 1.0) / 12.0;
+        assert!((of.about_com_kg_m2.yy - across).abs() < 1e-12);
+        assert!((of.about_com_kg_m2.xx - of.mass_kg * r * r / 2.0).abs() < 1e-12);
+        let light = robot("Rz", 0.0, "1,0,0", 0.0).unwrap();
+        assert_eq!(light.mass_kg().to_bits(), 0.0_f64.to_bits());
+        // beyond what a number holds there is no mass, and no panic
+        assert!(robot("Rz", 0.0, "1e150,0,0", ALUMINIUM_KG_M3).is_ok());
+        for density in [-1.0, f64::NAN, f64::INFINITY] {
+            assert!(robot("Rz", 0.0, "1,0,0", density).is_err());
+        }
     }
 
     #[test]
     fn a_right_angle_turns_the_next_link() {
-        let arm = robot("RzTx", 2.0, "1,0,0; 0,0,0.5").unwrap();
+        let arm = robot("RzTx", 2.0, "1,0,0; 0,0,0.5", 0.0).unwrap();
         let q = arm.positions(&[std::f64::consts::FRAC_PI_2, 0.25]).unwrap();
         let tip = forward_kinematics(&arm, &q).world_from(arm.tcp());
         // one metre along the turned x, a quarter more by the slide, half a metre up

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::finding::{Finding, Kind, Severity, Unchecked};
 use super::progress::{Budgets, Progress, Stage, Watch};
 use super::{settle, via};
+use crate::dynamics::immovable_joint;
 use crate::engine::{EngineError, Layout, Overlap};
 use crate::kinematics::position_range::position_ranges;
 use crate::kinematics::{FramePoses, IkError};
@@ -89,6 +90,7 @@ fn check_within(
     let overlaps = findings.len();
     if let Some(work) = work {
         start_within_limits(work, &mut findings)?;
+        findings.extend(cannot_move(work.robot));
         let mut poses = FramePoses::new(work.robot);
         poses.update(work.robot, &work.start_q);
         layout.place_robot(work.robot, &poses);
@@ -127,6 +129,15 @@ fn overlapping(overlap: Overlap) -> Finding {
         },
         kind: Kind::Overlap(overlap),
     }
+}
+
+fn cannot_move(robot: &Robot) -> Option<Finding> {
+    immovable_joint(robot).map(|singular| Finding {
+        severity: Severity::Warning,
+        kind: Kind::CannotMove {
+            joint: singular.joint,
+        },
+    })
 }
 
 fn start_within_limits(work: &Work<'_>, findings: &mut Vec<Finding>) -> Result<(), IkError> {

@@ -50,6 +50,11 @@ pub enum Kind {
         /// The limit that it exceeds \[rad or m\].
         limit: f64,
     },
+    /// A joint of the robot moves no inertia, so that no simulation of it can start.
+    CannotMove {
+        /// The joint.
+        joint: String,
+    },
     /// The centre of a body's shape went into something.
     FallsThrough {
         /// The body.
@@ -159,6 +164,7 @@ impl Kind {
         match self {
             Self::Overlap(_) => "overlap",
             Self::StartBeyondLimit { .. } => "start-beyond-limit",
+            Self::CannotMove { .. } => "cannot-move",
             Self::FallsThrough { .. } => "falls-through",
             Self::FallsOff { .. } => "falls-off",
             Self::FallsForever { .. } => "falls-forever",

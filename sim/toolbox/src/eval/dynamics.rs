@@ -8,12 +8,24 @@ use serde::{Deserialize, Serialize};
 
 use super::joint_state::{accelerations, efforts, independent, positions, velocities};
 use super::number_fields::{Numbers, finite, finite_number, matrix_rows};
-use super::refusal::{Code, Refusal};
+use super::refusal::{Code, Refusal, refuse};
 use crate::joint_names::joint_names;
 
 /// Gravity in the world, the earth's where none is given \[m/s²\].
 pub(super) fn gravity_or_earths(given: Option<[f64; 3]>) -> Vector3<f64> {
     given.map_or(GRAVITY_M_S2, Vector3::from)
+}
+
+/// Refuses a robot that has nothing to move: its efforts and energies would all be zero, which nobody asks for.
+fn refuse_massless(robot: &Robot) -> Result<(), Refusal> {
+    if robot.n() > 0 && dynamics::moves_nothing(robot) {
+        return refuse(
+            Code::NoMass,
+            "no link that moves has mass, so there is nothing to compute efforts for: give links an `inertia`, or a joint string a \
+             `--density`",
+        );
+    }
+    Ok(())
 }
 
 /// A robot at rest.
@@ -92,6 +104,7 @@ impl Efforts {
 /// The refusal that the same request in JSON is answered with.
 pub fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let qdd = accelerations(robot, "qdd", (&q, &qd), &request.qdd)?;
@@ -106,6 +119,7 @@ pub fn rnea(robot: &Robot, request: &Accelerated) -> Result<Efforts, Refusal> {
 /// The refusal that the same request in JSON is answered with.
 pub fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
@@ -119,6 +133,7 @@ pub fn bias(robot: &Robot, request: &UnderGravity) -> Result<Efforts, Refusal> {
 /// The refusal that the same request in JSON is answered with.
 pub fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let gravity = gravity_or_earths(request.gravity_m_s2);
     Efforts::new(dynamics::gravity_effort(robot, &gravity, &q).as_slice())
@@ -131,6 +146,7 @@ pub fn gravity(robot: &Robot, request: &AtRest) -> Result<Efforts, Refusal> {
 /// The refusal that the same request in JSON is answered with.
 pub fn coriolis(robot: &Robot, request: &InMotion) -> Result<Efforts, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     Efforts::new(dynamics::coriolis_effort(robot, &q, &qd).as_slice())
@@ -154,6 +170,7 @@ pub struct DriveEfforts {
 /// The refusal that the same request in JSON is answered with.
 pub fn inverse_dynamics(robot: &Robot, request: &Accelerated) -> Result<DriveEfforts, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = independent(robot, "q", &request.q)?;
     let qd = independent(robot, "qd", &request.qd)?;
     let qdd = independent(robot, "qdd", &request.qdd)?;
@@ -183,6 +200,7 @@ pub struct MassMatrix {
 /// The refusal that the same request in JSON is answered with.
 pub fn crba(robot: &Robot, request: &AtRest) -> Result<MassMatrix, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let has_loops = !robot.loops().is_empty();
     let of_independent = has_loops.then(|| dynamics::driven_mass_matrix(robot, &q).ok());
@@ -236,6 +254,7 @@ pub struct Energies {
 /// The refusal that the same request in JSON is answered with.
 pub fn energy(robot: &Robot, request: &UnderGravity) -> Result<Energies, Refusal> {
     robot.check_inertias()?;
+    refuse_massless(robot)?;
     let q = positions(robot, "q", &request.q)?;
     let qd = velocities(robot, "qd", &q, &request.qd)?;
     let energy = dynamics::energy(robot, &gravity_or_earths(request.gravity_m_s2), &q, &qd);

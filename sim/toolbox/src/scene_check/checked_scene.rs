@@ -141,7 +141,8 @@ fn body_of(finding: &Finding) -> Option<usize> {
         | Kind::Moves { body, .. }
         | Kind::NeverRests { body, .. } => Some(*body),
         Kind::FliesApart { body, .. } => *body,
-        Kind::StartBeyondLimit { .. }
+        Kind::CannotMove { .. }
+        | Kind::StartBeyondLimit { .. }
         | Kind::ViaUnreachable { .. }
         | Kind::ViaCollides { .. }
         | Kind::ViaTouches { .. }

@@ -30,6 +30,7 @@ pub(super) fn message(scene: &SceneToCheck, finding: &Finding) -> String {
             let (at, limit) = (trimmed(*position, 4), trimmed(*limit, 4));
             format!("joint `{name}` starts at {at} {unit}, beyond its limit of {limit} {unit}")
         }
+        Kind::CannotMove { joint } => cannot_move(scene, joint),
         Kind::FallsThrough {
             body: index,
             through,
@@ -75,6 +76,15 @@ pub(super) fn message(scene: &SceneToCheck, finding: &Finding) -> String {
         Kind::LineBlocked { .. } | Kind::LineTouches { .. } => about_line(scene, &finding.kind),
         Kind::NotChecked(what) => not_checked(scene, *what),
     }
+}
+
+/// Why no simulation of the robot can start, and what helps.
+fn cannot_move(scene: &SceneToCheck, joint: &str) -> String {
+    let robot = scene.arm.as_ref().map_or("?", |arm| arm.robot.name());
+    format!(
+        "robot `{robot}` cannot move: joint `{joint}` moves no inertia; give the link that it moves an `inertia`, or the joint an \
+         `armature`"
+    )
 }
 
 /// What was left out, why, and what helps.

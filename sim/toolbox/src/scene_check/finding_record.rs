@@ -52,6 +52,7 @@ fn numbers(scene: &SceneToCheck, kind: &Kind) -> Value {
             position,
             limit,
         } => json!({ "joint": joint_name(scene, *joint), "position": position, "limit": limit }),
+        Kind::CannotMove { joint } => json!({ "joint": joint }),
         Kind::FallsThrough {
             body: index,
             through,
