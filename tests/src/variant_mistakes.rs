@@ -145,18 +145,20 @@ fn mistakes_in_hidden_runs_are_reported_at_their_position() {
 #[test]
 fn a_motion_task_of_a_robot_without_masses_is_the_labs_mistake() {
     let bed = bed();
-    let lab = LAB.replace("robot = \"rrbot\"\nframe = \"lab\"", "robot = \"rppr\"");
+    let lab = LAB.replace("robot = \"rrbot\"\nframe = \"lab\"", "robot = \"bare\"");
     let lab = lab.replace("link_lengths = [\"= lengths[0]\", \"= lengths[1]\"]\n", "");
+    bed.write("labs/93-touch/lab.toml", lab);
     bed.write(
-        "labs/93-touch/lab.toml",
-        lab.replace("[0.5, \"= out\"]", "[0, 0, 0, 0]"),
+        "labs/robots/bare.toml",
+        "format = 1\nname = \"bare\"\n[dh]\nconvention = \"modified\"\n[[dh.rows]]\njoint = \"shoulder\"\ntype = \"revolute\"\n\
+         [[dh.rows]]\njoint = \"elbow\"\ntype = \"revolute\"\na_m = 1\n",
     );
     let ran = bed.run(&["grade", "93-touch", "solution.rhai"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
     let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(shown.contains("lab::no_inertia"), "{shown}");
-    assert!(shown.contains("joint `gripper_turn`"), "{shown}");
-    assert!(shown.contains("robot `rppr`"), "{shown}");
+    assert!(shown.contains("joint `elbow`"), "{shown}");
+    assert!(shown.contains("robot `bare`"), "{shown}");
     assert!(shown.contains("lab.toml:5:9"), "{shown}");
 }
 

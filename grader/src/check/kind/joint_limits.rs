@@ -1,5 +1,7 @@
-//! joint-limits: how far a joint leaves its position limits \[rad or m\]. Inside the limits the value is negative: the margin that is
-//! left.
+//! joint-limits: how far a joint leaves its position limits, or is commanded beyond a limit that stops it \[rad or m\]. Inside the
+//! limits the value is negative: the margin that is left.
+
+use kinemark_sim::control::Mode;
 
 use crate::check::prelude::*;
 
@@ -35,8 +37,14 @@ impl RunMeasure for JointLimits {
         for (index, joint) in facts.robot.moving_joints().enumerate() {
             let lower = joint.limits.lower.unwrap_or(f64::NEG_INFINITY);
             let upper = joint.limits.upper.unwrap_or(f64::INFINITY);
-            for (tick, q) in trace.q.component(index).enumerate() {
-                let beyond = (q - upper).max(lower - q);
+            let outside = |position: f64| (position - upper).max(lower - position);
+            let commands = trace.command.component(index);
+            for (tick, (q, command)) in trace.q.component(index).zip(commands).enumerate() {
+                let mut beyond = outside(q);
+                // a joint on its stop goes no farther, however wrong its command is
+                if facts.motion.servo.mode == Mode::Position && beyond >= 0.0 {
+                    beyond = beyond.max(outside(command));
+                }
                 if beyond > worst.0 {
                     worst = (beyond, tick, index);
                 }

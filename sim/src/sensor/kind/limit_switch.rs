@@ -49,8 +49,7 @@ impl KindTable for Table {
     const NAME: &'static str = "limit-switch";
     const IS_NOISY: bool = false;
     #[cfg(test)]
-    const EXAMPLE: &'static str =
-        "joint = 'elbow'\nside = 'lower'\nat = -0.25\nopens_motor = false\nhysteresis = 0.01\nlatch = true";
+    const EXAMPLE: &'static str = "joint = 'elbow'\nside = 'lower'\nat = -0.25\nopens_motor = false\nhysteresis = 0.01\nlatch = true";
     type Kind = LimitSwitch;
 
     fn read(&self, reading: &SensorReading<'_>) -> Result<LimitSwitch, PartError> {
