@@ -21,8 +21,7 @@ export const robotFiles = {
   "rrbot-short-forearm": lengths(1.3, 0.6),
   "rrbot-long-forearm": lengths(0.55, 1.4),
   puma560: readFileSync(join(robots, "puma560.toml"), "utf8"),
-  // its file has no masses, which a lab with a run needs
-  rppr: readFileSync(join(robots, "rppr.toml"), "utf8").replace(/^type = "(revolute|prismatic)"$/gm, "$&\narmature = 0.1"),
+  rppr: readFileSync(join(robots, "rppr.toml"), "utf8"),
   tilted: chain([
     'type = "revolute"\norigin = { xyz_m = [0.1, 0.2, 0.3], rpy_deg = [20, -35, 70] }\naxis = [0, 0, 1]\nlimit = { lower = -3, upper = 2 }',
     'type = "revolute"\norigin = { xyz_m = [0.7, 0, 0] }\naxis = [0, 0, -1]',

@@ -184,6 +184,39 @@ fn a_count_of_joints_names_the_independent_ones() {
 }
 
 #[test]
+fn dynamics_of_a_robot_without_mass_is_refused_and_not_zero() {
+    let bare = |keys: &str| {
+        robot_of(&format!(
+            "format = 1\nname = 'bare'\n[dh]\nconvention = 'modified'\n[[dh.rows]]\njoint = 'a'\ntype = 'revolute'\n{keys}\n"
+        ))
+    };
+    for request in [
+        json!({ "op": "rnea", "q": [0], "qd": [0], "qdd": [1] }),
+        json!({ "op": "inverse_dynamics", "q": [0], "qd": [0], "qdd": [1] }),
+        json!({ "op": "bias", "q": [0], "qd": [0] }),
+        json!({ "op": "coriolis", "q": [0], "qd": [0] }),
+        json!({ "op": "gravity", "q": [0] }),
+        json!({ "op": "crba", "q": [0] }),
+        json!({ "op": "energy", "q": [0], "qd": [0] }),
+    ] {
+        let answer = ask(&bare(""), &request);
+        assert_eq!(answer["error"]["code"], "no-mass", "{request} {answer}");
+        // an armature is something to move
+        let answer = ask(&bare("armature = 0.5"), &request);
+        assert!(answer.get("error").is_none(), "{request} {answer}");
+    }
+    let felt = bare("drive = { ratio = 100, rotor_inertia = 1e-4 }");
+    let answer = ask(
+        &felt,
+        &json!({ "op": "rnea", "q": [0], "qd": [0], "qdd": [1] }),
+    );
+    assert!(
+        (answer["effort"][0].as_f64().unwrap_or(0.0) - 1.0).abs() < 1e-12,
+        "{answer}"
+    );
+}
+
+#[test]
 fn every_operation_is_documented() {
     let page = include_str!("../../../docs/robot-eval.md");
     for operation in OPERATIONS {

@@ -3,6 +3,7 @@
 use kinemark_sim::control::Derivative;
 use kinemark_sim::control::linear_step::Fed;
 use kinemark_sim::model::air::Drag;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::number::short;
 use kinemark_toolbox::response::{
     Analysis, NoMeasure, PidGains, Response, ResponseSettings, Surroundings, Sweep, analyse,
@@ -43,6 +44,15 @@ fn analysed(settings: &ResponseSettings) -> Analysis {
 
 fn response(settings: &ResponseSettings) -> Response {
     analysed(settings).responses.remove(0)
+}
+
+fn rrbot_without_speed_limits() -> Robot {
+    let text = include_str!("../../../labs/robots/rrbot.toml");
+    robot_of(
+        &text
+            .replace("speed = 20.0, ", "")
+            .replace("lower = -6.3, upper = 6.3, ", ""),
+    )
 }
 
 #[track_caller]
@@ -121,7 +131,13 @@ fn velocity_loops_run_where_they_are_sampled_fast_enough() {
         effort_limit: vec![1e9],
         ..exercise()
     };
-    let diverged = response(&slow);
+    // at the robot's own speed limit it swings to and fro
+    let held = response(&slow);
+    assert_eq!(held.measured.missing, Some(NoMeasure::Unsettled));
+    let diverged = analyse(&rrbot_without_speed_limits(), &slow, None)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .responses
+        .remove(0);
     assert_eq!(diverged.measured.missing, Some(NoMeasure::Diverged));
     assert_eq!(diverged.measured.final_value, None);
     let at = diverged.run.divergence.expect("a divergence");

@@ -28,6 +28,55 @@ fn a_robot_is_a_table_and_facts() {
 }
 
 #[test]
+fn a_robot_that_cannot_move_says_so_alone_and_in_a_scene() {
+    let bare = robot_of(
+        "format = 1\nname = 'bare'\n[dh]\nconvention = 'modified'\n[[dh.rows]]\njoint = 'a'\ntype = 'revolute'\n",
+    );
+    let text = robot_text(&bare).to_string();
+    let says = "warning   cannot move: joint a moves no inertia, so there is no simulation\n";
+    assert!(text.contains(says), "{text}");
+    assert_eq!(robot_record(&bare)["immovable_joint"], "a");
+    assert!(robot_record(&rrbot())["immovable_joint"].is_null());
+    let file = SceneFile::parse(Source::new("none.toml", "format = 1\nname = \"none\"\n"))
+        .unwrap_or_else(|error| panic!("{error}"));
+    let scene = file.build(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let to_check = SceneToCheck {
+        task: None,
+        file,
+        scene,
+        arm: ArmInScene::new(bare, vec![0.0], "base"),
+    };
+    let checked = to_check
+        .check(&mut |_| {})
+        .unwrap_or_else(|error| panic!("{error}"));
+    let text = scene_text(&checked).to_string();
+    assert!(
+        text.contains("robot `bare` cannot move: joint `a` moves no inertia"),
+        "{text}"
+    );
+    assert_eq!(scene_record(&checked)["findings"][0]["joint"], "a");
+    assert!(!checked.has_errors());
+}
+
+#[test]
+fn a_drive_is_shown_with_what_the_joint_feels() {
+    let lift = robot_of(
+        "format = 1\nname = 'lift'\n[dh]\nconvention = 'modified'\n[[dh.rows]]\njoint = 'up'\ntype = 'prismatic'\n\
+         dry_friction = { positive = 3, negative = 2 }\n\
+         drive = { stall = 200, free_speed = 0.025, ratio = 1000, rotor_inertia = 2e-5, efficiency = 0.9 }\n",
+    );
+    let text = robot_text(&lift).to_string();
+    let says = "drive     up: stall 200 N, free speed 0.025 m/s, ratio 1000 rad/m, rotor 2e-5 kg m², felt as 20 kg, efficiency 0.9\n";
+    assert!(text.contains(says), "{text}");
+    let record = robot_record(&lift);
+    assert_eq!(record["joints"][0]["dry_friction"]["negative"], 2.0);
+    assert_eq!(record["joints"][0]["drive"]["stall"], 200.0);
+    let write = |robot: &Robot, mesh: &mut NameMesh<'_>| robot.to_toml(mesh);
+    let converted = converted(&lift, write, |_| None);
+    assert_eq!(robot_record(&robot_of(&converted.text)), record);
+}
+
+#[test]
 fn a_robot_file_reads_back_as_the_same_robot() {
     let write = |robot: &Robot, mesh: &mut NameMesh<'_>| robot.to_toml(mesh);
     let converted = converted(&uarm(), write, |_| None);
