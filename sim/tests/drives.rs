@@ -159,20 +159,33 @@ fn a_load_that_drives_a_joint_beyond_its_limit_is_braked_with_what_the_drive_has
             effort_limit,
             ..EFFORT
         };
-        held(&arm, None, &servo, (&REST, &REST), &REST, 1000)
+        // pushed down with a newton
+        held(&arm, None, &servo, (&REST, &REST), &[-1.0, 0.0], 1000)
     };
     // strong enough for 29.43 N
     let trace = falls(40.0);
     assert!((fastest(&trace, 0) / 0.5 - 1.0).abs() < 1e-9);
     // too weak: from 0.5 m/s on it falls with g - 20 N / 3 kg
     let trace = falls(20.0);
-    let after_s = 1.0 - 0.5 / 9.81;
+    let after_s = 1.0 - 0.5 / (9.81 + 1.0 / 3.0);
     let expected = 0.5 + (9.81 - 20.0 / 3.0) * after_s;
     assert!(
         (fastest(&trace, 0) - expected).abs() < 5e-3,
         "{} {expected}",
         fastest(&trace, 0)
     );
+}
+
+#[test]
+fn a_motor_that_is_asked_for_nothing_is_off() {
+    let arm = lifter("limit = { speed = 0.5 }", "");
+    let trace = held(&arm, None, &EFFORT, (&REST, &REST), &REST, 1000);
+    assert!((fastest(&trace, 0) - 9.81).abs() < 1e-9);
+    // the torque-speed line is the motor itself: beyond its free speed it brakes, whatever is asked
+    let arm = lifter("drive = { stall = 30, free_speed = 0.5 }", "");
+    let trace = held(&arm, None, &EFFORT, (&REST, &REST), &REST, 3000);
+    let expected = 0.5 * (1.0 + 3.0 * 9.81 / 30.0);
+    assert!((fastest(&trace, 0) - expected).abs() < 1e-9 * expected);
 }
 
 #[test]

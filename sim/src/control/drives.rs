@@ -57,8 +57,10 @@ impl SpeedLimits {
 struct JointDrive {
     /// \[rad/s or m/s\].
     speed_limit: f64,
-    /// That of the servo, which bounds braking as well \[N m or N\].
+    /// That of the servo \[N m or N\].
     effort_limit: f64,
+    /// That of the servo or the joint, whichever is less: with so much it brakes at its speed limit.
+    brake_limit: f64,
     line: Option<TorqueSpeedLine>,
     /// Effort at the joint per effort of the motor where the joint moves against it; 1 without losses.
     held_per_driven: f64,
@@ -143,13 +145,17 @@ impl Drives {
         let joints: Vec<JointDrive> = robot
             .moving_joints()
             .enumerate()
-            .map(|(i, joint)| JointDrive {
-                speed_limit: speed_limit(joint),
-                effort_limit: gains.get(i).map_or(f64::INFINITY, |g| g.effort_limit),
-                line: joint.drive.and_then(|drive| drive.line),
-                held_per_driven: joint.drive.map_or(1.0, |drive| drive.held_per_driven()),
-                friction: frictions[i],
-                range: (ranges[i].lower, ranges[i].upper),
+            .map(|(i, joint)| {
+                let effort_limit = gains.get(i).map_or(f64::INFINITY, |g| g.effort_limit);
+                JointDrive {
+                    speed_limit: speed_limit(joint),
+                    effort_limit,
+                    brake_limit: effort_limit.min(joint.limits.effort.unwrap_or(f64::INFINITY)),
+                    line: joint.drive.and_then(|drive| drive.line),
+                    held_per_driven: joint.drive.map_or(1.0, |drive| drive.held_per_driven()),
+                    friction: frictions[i],
+                    range: (ranges[i].lower, ranges[i].upper),
+                }
             })
             .collect();
         let rubs = |joint: &JointDrive| joint.friction != JointFriction::default();
@@ -214,7 +220,8 @@ impl Drives {
             });
             let drives =
                 joint.held_per_driven <= 1.0 || (asked * start >= 0.0 && asked * end >= 0.0);
-            end.abs() <= joint.speed_limit && on_line && drives
+            let slow = end.abs() <= joint.speed_limit || is_off(asked);
+            slow && on_line && drives
         })
     }
 
@@ -286,6 +293,11 @@ impl Drives {
             };
         }
     }
+}
+
+/// Whether a motor is off, because nothing is asked of it: then its electronics keep no speed limit.
+fn is_off(effort: f64) -> bool {
+    effort == 0.0
 }
 
 /// 1 on the upper limit or beyond, -1 on the lower one, 0 between them.
@@ -382,12 +394,12 @@ impl JointDrive {
                 given = under(at_joint(self.bounded(self.on(least, coasting, &asked))));
             }
         }
-        if given.rate > self.speed_limit {
+        if given.rate > self.speed_limit && !is_off(asked.effort) {
             let needed = (self.speed_limit - coasting) / asked.per_effort;
-            let brake = match &self.line {
-                Some(line) => self.bounded(line.least(self.speed_limit)),
-                None => -self.effort_limit,
-            };
+            let most = self
+                .line
+                .map_or(f64::NEG_INFINITY, |line| line.least(self.speed_limit));
+            let brake = most.max(-self.brake_limit);
             given = under(needed.max(at_joint(brake)));
         }
         given
@@ -458,6 +470,7 @@ mod tests {
         JointDrive {
             speed_limit: f64::INFINITY,
             effort_limit: f64::INFINITY,
+            brake_limit: f64::INFINITY,
             line: None,
             held_per_driven: 1.0,
             friction: JointFriction::default(),
@@ -493,11 +506,17 @@ mod tests {
         // a load that takes it along is braked, as far as the drive can
         let falling = Asked {
             coasting: 7.0,
-            ..asked(0.0)
+            ..asked(0.5)
         };
         assert_eq!(given(limited, falling), (2.0, -5.0));
+        // unless it is off
+        let coasting = Asked {
+            effort: 0.0,
+            ..falling
+        };
+        assert_eq!(given(limited, coasting), (7.0, 0.0));
         let weak = JointDrive {
-            effort_limit: 3.0,
+            brake_limit: 3.0,
             ..limited
         };
         assert_eq!(given(weak, falling), (4.0, -3.0));

@@ -84,7 +84,7 @@ impl Facts {
         if let Some(SingularMassMatrix { joint }) = immovable_joint(robot) {
             let fact =
                 format!("cannot move: joint {joint} moves no inertia, so there is no simulation");
-            self.styled_line(Emphasis::Warning, "warning", &fact);
+            self.wrapped_line(Emphasis::Warning, "warning", &fact);
         }
     }
 
@@ -92,7 +92,8 @@ impl Facts {
         for joint in robot.joints() {
             if let Some(drive) = &joint.drive {
                 let rule = drive_rule(drive, joint.kind.turns());
-                self.line("drive", &format!("{}: {rule}", joint.name));
+                let fact = format!("{}: {rule}", joint.name);
+                self.wrapped_line(Emphasis::Faint, "drive", &fact);
             }
         }
     }
@@ -141,15 +142,20 @@ impl Facts {
     }
 
     fn warnings(&mut self, robot: &Robot) {
-        let indent = " ".repeat(LABEL_WIDTH + 1);
         for warning in robot.warnings() {
-            let options = textwrap::Options::new(WIDEST)
-                .initial_indent(&indent)
-                .subsequent_indent(&indent)
-                .break_words(false);
-            let wrapped = textwrap::fill(warning, options);
-            self.styled_line(Emphasis::Warning, "warning", wrapped.trim_start());
+            self.wrapped_line(Emphasis::Warning, "warning", warning);
         }
+    }
+
+    /// A fact of as many lines as a page needs for it.
+    fn wrapped_line(&mut self, emphasis: Emphasis, label: &str, fact: &str) {
+        let indent = " ".repeat(LABEL_WIDTH + 1);
+        let options = textwrap::Options::new(WIDEST)
+            .initial_indent(&indent)
+            .subsequent_indent(&indent)
+            .break_words(false);
+        let wrapped = textwrap::fill(fact, options);
+        self.styled_line(emphasis, label, wrapped.trim_start());
     }
 }
 
