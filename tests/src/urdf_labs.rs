@@ -106,7 +106,10 @@ fn a_lab_with_a_urdf_is_graded_and_takes_its_meshes_along() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let file = std::fs::File::open(bed.path("10-urdf-students.zip")).expect("an archive");
     let archive = zip::ZipArchive::new(file).expect("a ZIP");
-    let packed: Vec<&str> = archive.file_names().collect();
+    let packed: Vec<String> = archive
+        .file_names()
+        .map(|name| name.expect("a name").into_owned())
+        .collect();
     for file in [ROBOT, MESH] {
         assert!(packed.iter().any(|name| name.ends_with(file)), "{packed:?}");
     }
