@@ -181,7 +181,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
 /// What the first event of a run that is not resolved means for whoever reads its grade.
 pub(crate) fn unresolved(event: &EventRecord) -> String {
     format!(
-        "the simulation is not accurate from {} on: {}; if it is not your commands that drive it so hard, tell your instructor",
+        "the simulation is not accurate from {} on: {}. Unless your commands cause this, tell your instructor",
         seconds(event.time_s),
         visible(&event.message)
     )

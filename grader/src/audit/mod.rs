@@ -256,8 +256,9 @@ impl Audit {
             .tasks
             .iter()
             .find(|task| task.verdict != Verdict::Passed);
-        let problem = lost.map(|task| reference_problem(lab, staff, task));
-        let problem = problem.or_else(|| grade.tasks.iter().find_map(unresolved_problem));
+        // points may be lost because of it
+        let unresolved = grade.tasks.iter().find_map(unresolved_problem);
+        let problem = unresolved.or_else(|| lost.map(|task| reference_problem(lab, staff, task)));
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Reference, form), None, earned, problem);
         Some(run)
@@ -329,7 +330,8 @@ fn reference_problem(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Problem {
 
 /// What is wrong where the simulation of the reference solution's run in `task` is not accurate.
 fn unresolved_problem(task: &TaskGrade) -> Option<Problem> {
-    let event = task.first_unresolved()?;
+    // a run that diverged has its own words
+    let event = task.first_unresolved().filter(|_| task.stopped.is_none())?;
     let what = format!(
         "the simulation of task `{}` is not accurate from {} s on: {}",
         task.name, event.time_s, event.message

@@ -135,7 +135,13 @@ fn a_divergence_names_its_joint_and_its_cause() {
         began.ends_with("the physics step of 1 ms is too long for the motion of `j0`, which moves by 10 rad in a step"),
         "{began}"
     );
-    let long = message(&swing(&two_bars(), json!([1, 0.5]), json!([0, 0]), 0.5));
+    let long = message(&swing_for(
+        2,
+        &two_bars(),
+        json!([1, 0.5]),
+        json!([0, 0]),
+        0.5,
+    ));
     assert!(
         long.starts_with("the robot's kinetic energy grew to"),
         "{long}"
