@@ -58,8 +58,9 @@ impl Cause {
         match self {
             Self::ServoGains(servo) => servo_clause(servo, names, &servo_ms),
             Self::ServoIntegral(servo) => format!(
-                "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample, and without its integral gains it would not",
-                trimmed(servo.spectral_radius, 4)
+                "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample, most of all at `{}`, and without its integral gains it would not",
+                trimmed(servo.spectral_radius, 4),
+                names.joint(servo.worst_joint)
             ),
             Self::Feedback { joint, calls } => format!(
                 "the command of `{}` turned round at each of the last {calls} calls of `control`, further each time",
@@ -82,8 +83,9 @@ impl Cause {
 
 fn servo_clause(servo: &SampledLoop, names: &Names<'_>, servo_ms: &str) -> String {
     let mut text = format!(
-        "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample",
-        trimmed(servo.spectral_radius, 3)
+        "sampled every {servo_ms} ms, its servo makes each error {} times as large from sample to sample, most of all at `{}`",
+        trimmed(servo.spectral_radius, 3),
+        names.joint(servo.worst_joint)
     );
     let percent = |share: f64| format!("{} %", trimmed(100.0 * share, 2));
     let mut ways = Vec::new();

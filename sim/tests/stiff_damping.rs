@@ -129,7 +129,10 @@ fn stiff_robots_move_as_radau_says() {
         let (mut q, mut qd) = (numbers(&case["q0"]), numbers(&case["qd0"]));
         let stated = case["fastest_damping_per_s"].as_f64().expect("rate");
         let rate = fastest_damping(&robot, &q);
-        assert!((rate / stated - 1.0).abs() < 1e-9, "{rate} against {stated}");
+        assert!(
+            (rate / stated - 1.0).abs() < 1e-9,
+            "{rate} against {stated}"
+        );
         assert!(rate * STEP_S > 7.0);
         let effort = numbers(&case["effort"]);
         let mut done = 0;
