@@ -152,6 +152,23 @@ fn a_speed_limit_holds_within_a_percent_at_any_gain() {
 }
 
 #[test]
+fn a_speed_limit_holds_where_a_servo_throws_the_arm_from_end_to_end() {
+    // gains far beyond what a kilohertz allows, without a limit of effort: both joints turn round in every step
+    let robot = crate::arms::rrbot();
+    let servo = Loop {
+        mode: Mode::Velocity,
+        kp: 10_000.0,
+        kd: 0.0,
+        ..EFFORT
+    };
+    let trace = held(&robot, None, &servo, (&REST, &REST), &[0.0, 1.0], 3000);
+    for joint in [0, 1] {
+        let most = fastest(&trace, joint) / 20.0;
+        assert!((0.99..=1.01).contains(&most), "joint {joint} at {most}");
+    }
+}
+
+#[test]
 fn a_load_that_drives_a_joint_beyond_its_limit_is_braked_with_what_the_drive_has() {
     let arm = lifter("limit = { speed = 0.5 }", "");
     let falls = |effort_limit: f64| {

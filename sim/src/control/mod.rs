@@ -1,7 +1,6 @@
 //! Joint servos: a command in, an effort out; the gains and periods at which they are stable; the step response of the ideal loop
-//! and the measures of any; and what the drives of joints deliver.
+//! and the measures of any.
 
-pub mod drives;
 mod joint_alone;
 pub mod linear_step;
 mod matrix_functions;

@@ -8,7 +8,6 @@ use nalgebra::Vector3;
 use super::disturbance::{Disturbance, Disturbed};
 use super::divergence::{DivergenceKind, RunawayGuard};
 use super::stepper::{StepOutcome, Stepper};
-use crate::control::drives::Drives;
 use crate::control::servo::{Servo, ServoError, ServoSettings};
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::{EngineError, WorkBudget};
@@ -19,6 +18,7 @@ use crate::model::sensor::{Seen, Sensor};
 use crate::model::unphysical::UnphysicalLinks;
 use crate::sensing::{SensorError, Sensors};
 use crate::spatial::Pose;
+use crate::step::drives::Drives;
 use crate::step::hybrid::{HybridStep, StateFrom};
 use crate::ticks::Periods;
 

@@ -1,5 +1,7 @@
-//! One step of a robot: smooth motion by Runge-Kutta, between its joint limits, and together with contact in a scene.
+//! One step of a robot: what its drives deliver; smooth motion by Runge-Kutta, between its joint limits, and together with contact in a
+//! scene.
 
+pub mod drives;
 pub(crate) mod free;
 pub mod hybrid;
 mod implicit_damping;

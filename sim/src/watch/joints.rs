@@ -1,8 +1,8 @@
 //! Joints at their limits of effort, position and speed. A joint that returns to a limit within 0.1 s makes no new event.
 
 use super::event::EventKind;
-use crate::control::drives::SpeedLimits;
 use crate::run::{Row, Setup};
+use crate::step::drives::SpeedLimits;
 
 /// A joint that was away from a limit for longer than this makes a new event when it returns \[s\].
 const AWAY_S: f64 = 0.1;

@@ -6,6 +6,9 @@
 //! each joint in turn is solved exactly, by projected Gauss-Seidel, as dry friction is. A drive whose limits do not bind delivers what
 //! is asked for, to the last bit.
 //!
+//! The rates at the end are foreseen by a linear step. Where the step itself then ends beyond a speed limit, what was not foreseen is
+//! added and the efforts are found again: it matters where a joint turns so far within a step that the mass matrix changes.
+//!
 //! On its torque-speed line a drive gives the mean of the line over the step, for the rate that a joint of this inertia alone would have:
 //! the weight of the rate at the end is [`weight_of_end`]. For one joint under constant load that is the exact solution at any step.
 //!
@@ -14,7 +17,8 @@
 
 use nalgebra::Vector3;
 
-use super::servo::Gains;
+use super::free::FreeStep;
+use crate::control::Gains;
 use crate::dynamics::ForwardDynamics;
 use crate::dynamics::dry_friction::friction_by_entry;
 use crate::kinematics::position_range::position_ranges;
@@ -24,6 +28,15 @@ use crate::model::robot::{Joint, Robot};
 
 /// Sweeps over the joints: on arms, more than enough for rounding.
 const SWEEPS: usize = 40;
+
+/// Times that efforts are found again where the step ends beyond a speed limit.
+const CORRECTIONS: usize = 12;
+
+/// By this fraction a step may end beyond a speed limit.
+const TOLERANCE: f64 = 1e-4;
+
+/// A step that changes a rate by more than this fraction of its speed limit is checked even where no drive is at a limit.
+const VIOLENT: f64 = 0.1;
 
 /// A joint this fraction below its speed limit is at it: the integrator leaves it so near.
 const AT_LIMIT: f64 = 1e-3;
@@ -118,7 +131,14 @@ pub struct Drives {
     gravity_m_s2: Vector3<f64>,
     dt_s: f64,
     dynamics: ForwardDynamics,
+    step: FreeStep,
+    end_q: Vec<f64>,
+    end_qd: Vec<f64>,
     accelerations: Vec<f64>,
+    /// What the servos ask for.
+    asked: Vec<f64>,
+    /// Rates at the end of the step with what is asked for, as far as they are foreseen.
+    plain: Vec<f64>,
     rates: Vec<f64>,
     /// What friction, stops and drives add to the efforts asked for.
     added: Vec<f64>,
@@ -166,7 +186,12 @@ impl Drives {
             gravity_m_s2,
             dt_s,
             dynamics: ForwardDynamics::new(robot),
+            step: FreeStep::new(robot, gravity_m_s2, dt_s),
+            end_q: zeros.clone(),
+            end_qd: zeros.clone(),
             accelerations: zeros.clone(),
+            asked: zeros.clone(),
+            plain: zeros.clone(),
             rates: zeros.clone(),
             added: zeros.clone(),
             delivered: zeros.clone(),
@@ -193,20 +218,60 @@ impl Drives {
         if free.is_err() {
             return;
         }
-        for (i, rate) in self.rates.iter_mut().enumerate() {
+        for (i, rate) in self.plain.iter_mut().enumerate() {
             *rate = qd[i] + self.dt_s * self.accelerations[i] + self.met.used[i];
         }
+        self.rates.copy_from_slice(&self.plain);
         // NaN is left to the guard against divergence
-        let finite = self
-            .rates
-            .iter()
-            .chain(effort.iter())
-            .all(|x| x.is_finite());
-        let idle = !self.has_friction && self.none_binds(qd, effort);
-        if !finite || idle {
+        let mut known = self.rates.iter().chain(effort.iter());
+        if !known.all(|x| x.is_finite()) {
             return;
         }
-        self.solve(robot, q, qd, effort);
+        self.asked.copy_from_slice(effort);
+        if self.has_friction || !self.none_binds(qd, effort) {
+            self.solve(robot, q, qd, effort);
+        }
+        if self.is_violent(qd, effort) {
+            self.correct(robot, q, qd, effort);
+        }
+    }
+
+    /// Whether the end of the step may be far from what is foreseen: a drive is at a limit, or a rate changes by much of its limit.
+    fn is_violent(&self, qd: &[f64], effort: &[f64]) -> bool {
+        let mut given = effort.iter().zip(&self.asked);
+        let mut changes = self.rates.iter().zip(qd).zip(&self.joints);
+        given.any(|(given, asked)| given.to_bits() != asked.to_bits())
+            || changes
+                .any(|((end, start), joint)| (end - start).abs() > VIOLENT * joint.speed_limit)
+    }
+
+    /// Finds the efforts again for as long as the step ends beyond a speed limit that a drive keeps.
+    fn correct(&mut self, robot: &Robot, q: &[f64], qd: &[f64], effort: &mut [f64]) {
+        for _ in 0..CORRECTIONS {
+            self.end_q.copy_from_slice(q);
+            self.end_qd.copy_from_slice(qd);
+            let (end_q, end_qd) = (&mut self.end_q, &mut self.end_qd);
+            if self.step.advance(robot, effort, end_q, end_qd).is_err() {
+                return;
+            }
+            for (end, met) in self.end_qd.iter_mut().zip(&self.met.used) {
+                *end += met;
+            }
+            let exceeds = |i: usize| {
+                let most = self.joints[i].speed_limit.max(self.rates[i].abs());
+                self.end_qd[i].abs() > most * (1.0 + TOLERANCE) && !is_off(self.asked[i])
+            };
+            let finite = self.end_qd.iter().all(|end| end.is_finite());
+            if !finite || !(0..q.len()).any(exceeds) {
+                return;
+            }
+            for (i, plain) in self.plain.iter_mut().enumerate() {
+                *plain += self.end_qd[i] - self.rates[i];
+            }
+            self.rates.copy_from_slice(&self.plain);
+            effort.copy_from_slice(&self.asked);
+            self.solve(robot, q, qd, effort);
+        }
     }
 
     /// Whether every drive can give what is asked for from the start of the step to its end.
