@@ -323,7 +323,7 @@ mod tests {
         ];
         for (mass, expected) in masses.iter().zip(expected) {
             assert!(
-                (mass - expected).abs() < 1e-12 * expected,
+                (mass - expected).abs() <= 1e-12 * expected,
                 "{mass} {expected}"
             );
         }

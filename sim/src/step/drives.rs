@@ -72,7 +72,8 @@ struct JointDrive {
     speed_limit: f64,
     /// That of the servo \[N m or N\].
     effort_limit: f64,
-    /// That of the servo or the joint, whichever is less: with so much it brakes at its speed limit.
+    /// That of the servo or the joint, whichever is less: with so much it brakes at its speed limit, or with as much as is asked for where
+    /// that is more.
     brake_limit: f64,
     line: Option<TorqueSpeedLine>,
     /// Effort at the joint per effort of the motor where the joint moves against it; 1 without losses.
@@ -464,7 +465,7 @@ impl JointDrive {
             let most = self
                 .line
                 .map_or(f64::NEG_INFINITY, |line| line.least(self.speed_limit));
-            let brake = most.max(-self.brake_limit);
+            let brake = most.max(-self.brake_limit.max(asked.effort.abs()));
             given = under(needed.max(at_joint(brake)));
         }
         given
