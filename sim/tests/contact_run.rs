@@ -8,7 +8,7 @@ use crate::contact_scenes::{GRAVITY, reach, shelf_and_can};
 pub(crate) const DT: f64 = 1e-3;
 
 /// Digest of the run of the course's arm. Changing it moves grades: it needs a line in the changelog that says why.
-pub(crate) const DIGEST: &str = "70c5b646c97ca814811142c6f066ac49c5147b19395c550cf689cea8d7ba3609";
+pub(crate) const DIGEST: &str = "aa0e8dd905693cad0d6bf89afbdbe88277f5fe8e9898bf627f817535e4c9c197";
 
 /// What holds the course's arm against gravity.
 pub(crate) fn weight(q: &[f64]) -> [f64; 2] {

@@ -5,7 +5,7 @@ use crate::testbed::TestBed;
 
 #[test]
 fn what_cannot_be_answered_has_its_code() {
-    let arm = ["RzRyRz", "--links", "0,0,1; 1,0,0; 1,0,0"];
+    let arm = ["RzRyRz", "--links", "0,0,1; 1,0,0; 1,0,0", "--density", "0"];
     let cases = [
         (
             &["uarm"][..],

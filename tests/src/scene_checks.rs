@@ -109,7 +109,7 @@ fn an_arm_that_stays_earns_nothing() {
     );
     assert_eq!(
         message(check(&task, "gentle")),
-        "the arm never touched `can`: the hand comes no nearer to its middle than 0.250 m, at 0.001 s, where it is at [1.25, 0.75, 0.05]; \
+        "the arm never touched `can`: the hand comes no nearer to its middle than 0.250 m, at 0 s, where it is at [1.25, 0.75, 0.05]; \
          at the end it is at [1.25, 0.75, 0.05]"
     );
     for name in ["shelf", "calm"] {

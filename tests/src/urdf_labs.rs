@@ -124,7 +124,7 @@ fn what_cannot_be_right_with_a_urdf_in_a_lab_is_refused_with_what_to_do() {
             "[robot_options]\nbalance = true\n",
             "",
             "lab::unphysical",
-            "`accept_unphysical = true`",
+            "the same words in [robot_options]",
         ),
         (
             lab,

@@ -91,6 +91,7 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
+// long: the lines of a task in the order in which they are printed
 fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
     let verdict = match task.verdict {
         Verdict::Passed => task.verdict.name().green().to_string(),

@@ -355,6 +355,7 @@ impl Constraints {
     }
 
     /// Settles the normals of a patch; returns the greatest change of a speed or gap.
+    // long: gathers the block, solves it and spreads the result; each half needs the arrays of the other
     fn press(
         &mut self,
         index: usize,

@@ -3,7 +3,7 @@
 use kinemark_sim::model::robot::Robot;
 use serde_json::{Value, json};
 
-use crate::{ask, numbers, robot_of, rrbot, uarm};
+use crate::{ask, numbers, robot_of, uarm};
 
 /// Two bars of 1 m and 0.5 kg that hang and swing without friction.
 fn two_bars() -> Robot {
@@ -14,6 +14,17 @@ fn two_bars() -> Robot {
          [[joints]]\nname = 'j0'\ntype = 'continuous'\nparent = 'base'\nchild = 'u'\naxis = [0, 1, 0]\n\
          [[joints]]\nname = 'j1'\ntype = 'continuous'\nparent = 'u'\nchild = 'f'\norigin = { xyz_m = [0, 0, -1] }\naxis = [0, 1, 0]\n",
     )
+}
+
+/// The arm of the course without limits, which would hold what runs away.
+fn rrbot() -> Robot {
+    let path = format!(
+        "{}/../../labs/robots/rrbot.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let text = std::fs::read_to_string(&path).expect(&path);
+    let lines = text.lines().filter(|line| !line.starts_with("limit"));
+    robot_of(&lines.collect::<Vec<_>>().join("\n"))
 }
 
 /// A wheel that alone turns as fast as it likes.
