@@ -271,7 +271,9 @@ impl Resolver<'_> {
         };
         let given_inertia = table.inertia.as_ref().map(|table| self.given(table));
         let contact = table.contact.as_ref();
-        let contact = contact.map(|c| self.values.contact(c, &shapes)).transpose()?;
+        let contact = contact
+            .map(|c| self.values.contact(c, &shapes))
+            .transpose()?;
         let drag = table.drag.as_ref();
         let drag = drag.map(|d| self.values.drag(d)).transpose()?;
         Ok(LinkPart {
