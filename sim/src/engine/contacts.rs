@@ -413,7 +413,7 @@ impl Contacts {
                 });
                 self.constraints.add_patches(from, None);
             }
-            if self.frictions[i] != [0.0; 2] {
+            if self.frictions[i].iter().any(|most| *most > 0.0) {
                 let row = self.constraints.rows.start(0.0);
                 self.constraints.rows.add(0, links.joint(i, 1.0));
                 self.constraints.frictions.push(JointFriction {
@@ -548,7 +548,7 @@ impl Contacts {
             };
             let kick = six(&self.velocities, &self.free);
             let moved = six(&self.displacement, kicked);
-            if kick == [0.0; 6] && moved == [0.0; 6] {
+            if kick.iter().chain(&moved).all(|x| *x == 0.0) {
                 body.fly(self.dt_s);
             } else {
                 body.fly_kicked(self.dt_s, at_s, &kick, &moved);

@@ -56,10 +56,10 @@ pub(super) fn settle(
         let root = root(&group, index);
         stays[root] &= stays[index] || free[index].sleeps;
     }
-    for index in 0..free.len() {
+    for (index, body) in free.iter_mut().enumerate() {
         let root = root(&group, index);
-        if stays[root] && !free[index].sleeps {
-            free[index].sleep(root as u64);
+        if stays[root] && !body.sleeps {
+            body.sleep(root as u64);
         }
     }
 }

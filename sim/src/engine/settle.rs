@@ -449,7 +449,7 @@ impl Constraints {
                 continue;
             };
             let most = point.friction * point.impulse;
-            if most <= 0.0 && point.rubbed == [0.0; 2] {
+            if most <= 0.0 && point.rubbed.iter().all(|x| *x == 0.0) {
                 continue;
             }
             self.visits += 1;
@@ -475,7 +475,7 @@ impl Constraints {
         let points = &self.points[patch.points.clone()];
         let pressed: f64 = points.iter().map(|point| point.impulse).sum();
         let most = rolling.arm_m * pressed;
-        if most <= 0.0 && rolling.impulse == [0.0; 2] {
+        if most <= 0.0 && rolling.impulse.iter().all(|x| *x == 0.0) {
             return 0.0;
         }
         self.visits += 1;
