@@ -119,7 +119,7 @@ fn the_golden_numbers_of_the_arm_come_back() {
 fn without_limits(bed: &TestBed) -> &'static str {
     let arm = std::fs::read_to_string(root().join("labs/robots/rrbot.toml")).expect("a robot");
     let lines = arm.lines().filter(|line| !line.starts_with("limit"));
-    bed.write("arm.toml", &lines.collect::<Vec<_>>().join("\n"));
+    bed.write("arm.toml", lines.collect::<Vec<_>>().join("\n"));
     "arm.toml"
 }
 

@@ -315,7 +315,7 @@ fn a_broken_urdf_is_shown_at_its_line() {
         assert!(ran.stderr.contains(words), "{text}{ran:?}");
     }
     // a tensor that no body can have keeps a robot from moving, not from being read
-    bed.write("broken.urdf", &link(tensor));
+    bed.write("broken.urdf", link(tensor));
     let ran = bed.run(&["robot", "show", "broken.urdf"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     for words in ["`tip` (line 3)", "triangle", "--balance"] {
