@@ -8,7 +8,7 @@ use crate::contact_scenes::{GRAVITY, reach, shelf_and_can};
 pub(crate) const DT: f64 = 1e-3;
 
 /// Digest of the run of the course's arm. Changing it moves grades: it needs a line in the changelog that says why.
-pub(crate) const DIGEST: &str = "aa0e8dd905693cad0d6bf89afbdbe88277f5fe8e9898bf627f817535e4c9c197";
+pub(crate) const DIGEST: &str = "e7ab0e4e10fa434f7471c3f290f5d1241861d8a87137fab8971f43a00dec285d";
 
 /// What holds the course's arm against gravity.
 pub(crate) fn weight(q: &[f64]) -> [f64; 2] {

@@ -266,7 +266,7 @@ fn an_arm_that_pushes_a_shelf_feels_the_reaction_in_its_joints() {
     assert!(pressed > 1000, "{pressed} {:?}", rig.q);
     // moments of ten newton metres; in contact the error is of first order in the step
     assert!(
-        worst < 2e-3,
+        worst < 1e-3,
         "{worst} {pressed} {:?} {:?}",
         rig.contacts,
         rig.effort

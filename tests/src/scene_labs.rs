@@ -257,4 +257,30 @@ fn a_diverged_run_is_reported_with_its_cause() {
     assert_eq!(events.last().expect("events")["event"], "diverged");
     // what was drawn stops there
     assert!(bed.path("out/plots").is_dir());
+
+    // the student's own feedback
+    bed.edit(
+        "labs/90-knock/lab.toml",
+        "mode = \"position\"",
+        "mode = \"effort\"",
+    );
+    bed.write(
+        "mine.rhai",
+        "fn control(o) { [-60.0 * o.qd[0] - 100.0 * (o.q[0] - 1.0), -60.0 * o.qd[1] - 100.0 * (o.q[1] - 2.0)] }",
+    );
+    assert_eq!(bed.run(&GRADE).code, Some(1));
+    let record = self::record(&bed);
+    let stopped = &record["tasks"][0]["stopped"];
+    let message = stopped["message"].as_str().expect("why");
+    assert!(
+        message.contains("turned round at each of the last"),
+        "{message}"
+    );
+    assert!(
+        stopped["help"]
+            .as_str()
+            .expect("help")
+            .contains("period of 10 ms"),
+        "{stopped}"
+    );
 }

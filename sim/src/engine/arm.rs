@@ -1,15 +1,22 @@
-//! The robot among the bodies: where its links are at the start of a step, and how its joints answer to impulses.
+//! The robot among the bodies: where its links are in a step, and how its joints answer to impulses.
+//!
+//! Contact points are found where the links are at the start of a step. Impulses see the links in its middle: so the directions in which
+//! they act and push are right to second order.
 
 use nalgebra::{DMatrix, Vector3};
 
 use crate::dynamics::ForwardDynamics;
 use crate::kinematics::body_motion::{BodyMotions, Motion};
+use crate::kinematics::forward::BodyPose;
 use crate::model::robot::Robot;
 
 /// The robot in one step.
 #[derive(Debug, Clone)]
 pub(super) struct Arm {
     motions: BodyMotions,
+    /// Where each body was when contact points were found.
+    found_at: Vec<BodyPose>,
+    middle_q: Vec<f64>,
     dynamics: ForwardDynamics,
     /// Half of what viscous damping takes from a unit of velocity in a step: it resists an impulse that is spread over the step like
     /// inertia \[kg m² or kg\].
@@ -28,6 +35,8 @@ impl Arm {
         }
         Self {
             motions: BodyMotions::new(robot),
+            found_at: vec![BodyPose::WORLD; robot.bodies().len()],
+            middle_q: vec![0.0; robot.n()],
             dynamics: ForwardDynamics::new(robot),
             resists,
             response: DMatrix::zeros(0, 0),
@@ -35,19 +44,43 @@ impl Arm {
         }
     }
 
-    /// Moves the links to `(q, qd)`, shape `(n)` each.
+    /// Moves the links to where a step starts, `(q, qd)` of shape `(n)` each, to find contact points there.
     pub(super) fn place(&mut self, robot: &Robot, q: &[f64], qd: &[f64]) {
         self.motions.update(robot, q, qd);
+        for (index, found_at) in self.found_at.iter_mut().enumerate() {
+            *found_at = self.motions.body(index).placed;
+        }
     }
 
-    /// The motion of body `index` of the robot at the start of the step.
-    pub(super) fn motion(&self, index: usize) -> &Motion {
-        self.motions.body(index)
+    /// Where body `index` of the robot is at the start of the step.
+    pub(super) fn placed(&self, index: usize) -> &BodyPose {
+        &self.found_at[index]
     }
 
-    /// Computes how the joints answer to impulses at `q`.
-    pub(super) fn weigh(&mut self, robot: &Robot, q: &[f64]) {
-        let inverse = self.dynamics.inverse_inertia(robot, q, Some(&self.resists));
+    /// Moves the links on to the middle of the step that ends at `next_q` without contact.
+    pub(super) fn advance_to_middle(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        qd: &[f64],
+        next_q: &[f64],
+    ) {
+        for (middle, (q, next)) in self.middle_q.iter_mut().zip(q.iter().zip(next_q)) {
+            *middle = 0.5 * (q + next);
+        }
+        self.motions.update(robot, &self.middle_q, qd);
+    }
+
+    /// Where the matter of body `index` that was at `p` at the start of the step is in its middle, world axes.
+    pub(super) fn carried(&self, index: usize, p: &Vector3<f64>) -> Vector3<f64> {
+        let (from, to) = (&self.found_at[index], &self.motions.body(index).placed);
+        to.position + to.world_from_body * (from.world_from_body.transpose() * (p - from.position))
+    }
+
+    /// Computes how the joints answer to impulses in the middle of the step.
+    pub(super) fn weigh(&mut self, robot: &Robot) {
+        let added = Some(self.resists.as_slice());
+        let inverse = self.dynamics.inverse_inertia(robot, &self.middle_q, added);
         self.response = inverse.unwrap_or_else(|| DMatrix::zeros(robot.n(), robot.n()));
     }
 
@@ -63,7 +96,8 @@ impl Arm {
         }
     }
 
-    /// The row of the speed along `direction` of the point `p` of body `index`, world axes: `row · qd`.
+    /// The row of the speed along `direction` of the matter of body `index` that is at `p` in the middle of the step, world axes:
+    /// `row · qd`.
     pub(super) fn along(
         &mut self,
         robot: &Robot,

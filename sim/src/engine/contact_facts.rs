@@ -1,7 +1,6 @@
 //! The contacts of a step: their parties, points, forces and impulses.
 
 use nalgebra::Vector3;
-use parry3d_f64::math::Pose as EnginePose;
 
 use super::convert::from_vector;
 use super::pairs::{Collider, Pairs};
@@ -30,14 +29,10 @@ pub(super) fn read(pairs: &Pairs, colliders: &[Collider], dt_s: f64, facts: &mut
             p_centre_in_world: Vector3::zeros(),
         };
         for manifold in &pair.manifolds {
-            let place = |collider: &Collider, subshape: Option<&EnginePose>| match subshape {
-                Some(place) => collider.world_from_shape * *place,
-                None => collider.world_from_shape,
+            let first = match manifold.subshape_pos1() {
+                Some(place) => one.world_from_shape * *place,
+                None => one.world_from_shape,
             };
-            let (first, second) = (
-                place(one, manifold.subshape_pos1()),
-                place(other, manifold.subshape_pos2()),
-            );
             let normal = from_vector(first.rotation * manifold.local_n1) * sign;
             for point in &manifold.points {
                 let pressed = point.data.impulse;
@@ -45,7 +40,7 @@ pub(super) fn read(pairs: &Pairs, colliders: &[Collider], dt_s: f64, facts: &mut
                 if pressed <= 0.0 {
                     continue;
                 }
-                let p = from_vector((first * point.local_p1 + second * point.local_p2) * 0.5);
+                let p = from_vector(point.data.p);
                 let (on_second, along) = (normal * pressed, from_vector(point.data.rubbed) * sign);
                 fact.impulse_n_s += pressed;
                 fact.normal_impulse_n_s += on_second;

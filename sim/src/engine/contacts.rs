@@ -31,6 +31,8 @@ struct Origin {
     manifold: usize,
     point: usize,
     tangents: [Vector3<f64>; 2],
+    /// Where the impulse acts, world axes \[m\].
+    p: Vector3<f64>,
 }
 
 /// What two surfaces have together.
@@ -260,6 +262,7 @@ impl Contacts {
                         manifold: manifold_index,
                         point: point_index,
                         tangents: across,
+                        p: acts_at(movers, &spot),
                     });
                 }
                 if self.constraints.points.len() > from {
@@ -345,7 +348,8 @@ impl Contacts {
                 }
                 Carrier::Arm(index) => {
                     if let Some(arm) = &mut movers.arm {
-                        rows.add(0, arm.along(movers.robot, index, &spot.p, &along));
+                        let p = arm.carried(index, &spot.p);
+                        rows.add(0, arm.along(movers.robot, index, &p, &along));
                     }
                 }
             }
@@ -468,8 +472,8 @@ impl Contacts {
     /// Computes how everything answers to impulses `at_s` after the start of the step.
     fn weigh(&mut self, movers: &mut Movers<'_>, arm: Option<&ArmStep<'_>>, at_s: f64) {
         let n = arm.map_or(0, |arm| arm.q.len());
-        if let (Some(links), Some(arm)) = (&mut movers.arm, arm) {
-            links.weigh(movers.robot, arm.q);
+        if let Some(links) = &mut movers.arm {
+            links.weigh(movers.robot);
         }
         let mut inverse: Vec<(f64, Matrix3<f64>)> = Vec::new();
         for body in movers.free.iter().filter(|body| !body.sleeps) {
@@ -581,6 +585,7 @@ impl Contacts {
                 place: point.place,
                 impulse: point.impulse,
                 rubbed: vector(&rubbed),
+                p: vector(&origin.p),
             };
         }
         self.limit_memory.fill([0.0; 2]);
@@ -592,6 +597,18 @@ impl Contacts {
         for friction in &self.constraints.frictions {
             self.friction_memory[friction.joint] = friction.impulse;
         }
+    }
+}
+
+/// Where the impulse of a point acts: on a link that moves, where its matter is in the middle of the step.
+fn acts_at(movers: &Movers<'_>, spot: &Spot) -> Vector3<f64> {
+    let link = spot.carriers.iter().find_map(|carrier| match carrier {
+        Carrier::Arm(index) => Some(*index),
+        _ => None,
+    });
+    match (&movers.arm, link) {
+        (Some(arm), Some(index)) => arm.carried(index, &spot.p),
+        _ => spot.p,
     }
 }
 

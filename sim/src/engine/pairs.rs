@@ -93,6 +93,8 @@ pub(super) struct Memory {
     pub(super) impulse: f64,
     /// Friction impulse on the second shape, world axes \[N s\].
     pub(super) rubbed: Vector,
+    /// Where both act, world axes \[m\].
+    pub(super) p: Vector,
 }
 
 pub(super) type Manifold = ContactManifold<(), Memory>;

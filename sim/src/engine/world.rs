@@ -326,6 +326,9 @@ impl World {
                 break;
             }
         }
+        if let (Some(arm), Some(links)) = (&arm, &mut self.arm) {
+            links.advance_to_middle(robot, arm.q, arm.qd, arm.next_q);
+        }
         let mut movers = Movers {
             robot,
             arm: self.arm.as_mut().filter(|_| arm.is_some()),
@@ -368,7 +371,7 @@ impl World {
         };
         for collider in &mut self.colliders {
             if let Carrier::Arm(body) = collider.carrier {
-                let placed = &arm.motion(body).placed;
+                let placed = arm.placed(body);
                 let pose = crate::spatial::pose(placed.world_from_body, placed.position);
                 collider.place(&engine_pose(&pose));
             }

@@ -33,8 +33,7 @@ pub struct ContactFact {
     pub impulse_n_s: f64,
     /// Normal impulses on the second party, as a vector in the world \[N s\].
     pub normal_impulse_n_s: Vector3<f64>,
-    /// Friction impulses on the second party, as a vector in the world \[N s\]; zero where no party is a link that
-    /// moves, because the engine does not provide them.
+    /// Friction impulses on the second party, as a vector in the world \[N s\].
     pub friction_impulse_n_s: Vector3<f64>,
     /// Moment of all these impulses on the second party about the world's origin \[N m s\].
     pub moment_impulse_n_m_s: Vector3<f64>,
@@ -44,6 +43,7 @@ pub struct ContactFact {
     pub depth_m: f64,
     /// Number of points with a normal force.
     pub points: usize,
-    /// Centre of these points, weighted by impulse, in the world at the end of the step \[m\].
+    /// Centre of these points, weighted by impulse, in the world \[m\]: where they are at the start of the step, or on a moving link in
+    /// its middle.
     pub p_centre_in_world: Vector3<f64>,
 }
