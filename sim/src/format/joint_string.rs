@@ -71,28 +71,10 @@ pub fn robot(
         return refuse(&source, 0..text.len(), message, help);
     }
     let longest = links.iter().map(Vector3::norm).fold(base_m.abs(), f64::max);
-    let drawn = |end: Vector3<f64>| -> Vec<Shape> {
-        let length_m = end.norm();
-        let radius_m = DRAWN_RADIUS * longest;
-        if !(radius_m > 0.0 && longest.is_finite()) {
-            Vec::new()
-        } else if length_m > 0.0 {
-            let axes = axes_with_z_along(&(end / length_m));
-            vec![Shape {
-                solid: Solid::Cylinder { radius_m, length_m },
-                link_from_shape: pose(axes, end / 2.0),
-            }]
-        } else {
-            vec![Shape {
-                solid: Solid::Sphere { radius_m },
-                link_from_shape: Pose::identity(),
-            }]
-        }
-    };
     let whole = 0..text.len();
     let named = |name: String| Spanned::new(whole.clone(), name);
     let link = |name: String, end: Vector3<f64>| LinkPart {
-        shapes: drawn(end),
+        shapes: drawn(end, DRAWN_RADIUS * longest),
         ..LinkPart::bare(named(name))
     };
     let mut at = Vector3::new(0.0, 0.0, base_m);
@@ -132,6 +114,26 @@ pub fn robot(
         link_from_frame: Pose::translation(at.x, at.y, at.z),
     });
     parts.assemble()
+}
+
+/// A link to `end`, as thick as it is drawn; nothing where the radius is no size.
+fn drawn(end: Vector3<f64>, radius_m: f64) -> Vec<Shape> {
+    if !(radius_m > 0.0 && radius_m.is_finite()) {
+        return Vec::new();
+    }
+    let length_m = end.norm();
+    if length_m > 0.0 {
+        let axes = axes_with_z_along(&(end / length_m));
+        vec![Shape {
+            solid: Solid::Cylinder { radius_m, length_m },
+            link_from_shape: pose(axes, end / 2.0),
+        }]
+    } else {
+        vec![Shape {
+            solid: Solid::Sphere { radius_m },
+            link_from_shape: Pose::identity(),
+        }]
+    }
 }
 
 /// The mass properties of shapes of one density; none where they are beyond what a number can hold.

@@ -140,15 +140,7 @@ impl Resolver<'_> {
         if kind != JointKind::Fixed {
             part.kind = kind;
             part.axis = Vector3::z() * direction;
-            part.damping = self.not_negative(&row.damping, "damping")?;
-            part.dry_friction = self.friction(row.dry_friction.as_ref())?;
-            part.armature = self.not_negative(&row.armature, "armature")?;
-            let driven = Driven {
-                joint,
-                armature: part.armature,
-                undriven: undriven(kind, row.mimic.is_some(), false),
-            };
-            part.drive = self.drive(&driven, row.drive.as_ref())?;
+            self.resist(row, kind, &mut part)?;
             part.mimic = self.mimic(row.mimic.as_ref())?;
             part.limits = match &row.limit {
                 Some(limit) => self.limits(joint, kind, limit)?,
@@ -171,6 +163,25 @@ impl Resolver<'_> {
         }
         description.links.push(link);
         description.joints.push(part);
+        Ok(())
+    }
+
+    /// What resists or drives the joint of a row.
+    fn resist(
+        &self,
+        row: &DhRowTable,
+        kind: JointKind,
+        part: &mut JointPart,
+    ) -> Result<(), RobotError> {
+        part.damping = self.not_negative(&row.damping, "damping")?;
+        part.dry_friction = self.friction(row.dry_friction.as_ref())?;
+        part.armature = self.not_negative(&row.armature, "armature")?;
+        let driven = Driven {
+            joint: row.joint.get_ref(),
+            armature: part.armature,
+            undriven: undriven(kind, row.mimic.is_some(), false),
+        };
+        part.drive = self.drive(&driven, row.drive.as_ref())?;
         Ok(())
     }
 }
