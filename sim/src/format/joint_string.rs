@@ -50,7 +50,6 @@ pub fn joint_count(text: &str) -> Result<usize, RobotError> {
 ///
 /// # Errors
 /// A problem at the letter or the link that does not fit; a density that is negative or not finite.
-// long: one table of parts, each made from what was read before it
 pub fn robot(
     text: &str,
     base_m: f64,

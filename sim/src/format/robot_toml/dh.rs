@@ -91,7 +91,6 @@ impl Resolver<'_> {
         self.err(at, problem)
     }
 
-    // long: a row of the table is a frame, a link and a joint at once
     fn row(
         &self,
         table: &DhTable,
