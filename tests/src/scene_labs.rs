@@ -266,7 +266,7 @@ fn a_diverged_run_is_reported_with_its_cause() {
     );
     bed.write(
         "mine.rhai",
-        "fn control(o) { [-60.0 * o.qd[0] - 100.0 * (o.q[0] - 1.0), -60.0 * o.qd[1] - 100.0 * (o.q[1] - 2.0)] }",
+        "fn control(o) { [-600.0 * o.qd[0] - 100.0 * (o.q[0] - 1.0), -600.0 * o.qd[1] - 100.0 * (o.q[1] - 2.0)] }",
     );
     assert_eq!(bed.run(&GRADE).code, Some(1));
     let record = self::record(&bed);
