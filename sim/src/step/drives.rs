@@ -10,7 +10,7 @@
 //! added and the efforts are found again: it matters where a joint turns so far within a step that the mass matrix changes.
 //!
 //! On its torque-speed line a drive gives the mean of the line over the step, for the rate that a joint of this inertia alone would have:
-//! the weight of the rate at the end is [`weight_of_end`]. For one joint under constant load that is the exact solution at any step.
+//! the weight of the rate at the end is `weight_of_end`. For one joint under constant load that is the exact solution at any step.
 //!
 //! Source: Stewart & Trinkle, *An implicit time-stepping scheme for rigid body dynamics* (1996), restricted to joints; the weight is that
 //! of exponential fitting: Liniger & Willoughby, *Efficient integration methods for stiff systems* (1970).

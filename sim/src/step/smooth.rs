@@ -1,7 +1,7 @@
 //! The smooth step: classical Runge-Kutta of order four over forward dynamics, effort held over the step; then, if the robot has
 //! loops, a projection onto the loop-closure constraints.
 //!
-//! Where viscous damping is too stiff for Runge-Kutta ([`ImplicitDamping`]), a step of the same order takes damping implicitly: `k` Euler
+//! Where viscous damping is too stiff for Runge-Kutta (see `implicit_damping.rs`), a step of the same order takes damping implicitly: `k` Euler
 //! steps of `h/k` with `(M + h/k D) q̈ = τ - h(q, q̇) - D q̇` for each `k` from 1 to 4, extrapolated to steps without length. Damping
 //! alone then decays at any rate (the step is L-stable there), and everything else is as explicit, and as accurate, as before.
 //!
