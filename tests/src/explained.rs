@@ -98,6 +98,7 @@ fn classes(task: &ExplainedTask) -> Vec<HiddenClass> {
         class: class.to_owned(),
         good: draws.iter().filter(|draw| draw.good).count() as u32,
         total: draws.len() as u32,
+        under_resolved: 0,
     });
     count.collect()
 }

@@ -194,6 +194,7 @@ pub(crate) fn task(name: &str, digest: &str, checks: Vec<CheckGrade>) -> TaskGra
             class: "hidden class".to_owned(),
             good: 1,
             total: 2,
+            under_resolved: 0,
         }],
         events: Vec::new(),
         contacts: Vec::new(),

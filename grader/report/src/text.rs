@@ -122,6 +122,10 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             ),
         );
     }
+    if task.unresolved_hidden() > 0 {
+        let words = unresolved_hidden(task);
+        line(out, &format!("  {} {words}", "inaccurate:".yellow().bold()));
+    }
     for diagnosis in &task.diagnoses {
         line(
             out,
@@ -185,6 +189,15 @@ pub(crate) fn unresolved(event: &EventRecord) -> String {
         "the simulation is not accurate from {} on: {}. Unless your commands cause this, tell your instructor",
         seconds(event.time_s),
         visible(&event.message)
+    )
+}
+
+/// The same of hidden runs, of which only the count is given.
+pub(crate) fn unresolved_hidden(task: &TaskGrade) -> String {
+    let all: u32 = task.hidden.iter().map(|class| class.total).sum();
+    format!(
+        "the simulation is not accurate to the end of {} of {all} hidden runs. Unless your commands cause this, tell your instructor",
+        task.unresolved_hidden()
     )
 }
 

@@ -91,6 +91,7 @@ pub(super) fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenC
                 class: class.clone(),
                 good,
                 total: 1,
+                under_resolved: 0,
             }),
         }
     }

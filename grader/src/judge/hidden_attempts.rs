@@ -2,6 +2,7 @@
 //! only by class.
 
 use kinemark_sim::text::Source;
+use kinemark_sim::watch::event::{Event, EventKind};
 
 use super::Interrupted;
 use super::judged::JudgedCheck;
@@ -26,6 +27,8 @@ struct HiddenAttempt {
     /// For each check, whether it was judged: a check that needs another one may not be, and none is of a run without an end.
     judged: Vec<bool>,
     digest: blake3::Hash,
+    /// Whether the simulation is not accurate to its end.
+    is_under_resolved: bool,
     stopped: Option<(Verdict, Stopped)>,
 }
 
@@ -133,15 +136,18 @@ impl HiddenAttempts {
         let mut classes: Vec<HiddenClass> = Vec::new();
         for run in &self.0 {
             let good = u32::from(run.scores.iter().all(|score| *score >= 1.0));
+            let under_resolved = u32::from(run.is_under_resolved);
             match classes.iter_mut().find(|known| known.class == run.class) {
                 Some(known) => {
                     known.good += good;
                     known.total += 1;
+                    known.under_resolved += under_resolved;
                 }
                 None => classes.push(HiddenClass {
                     class: run.class.clone(),
                     good,
                     total: 1,
+                    under_resolved,
                 }),
             }
         }
@@ -204,8 +210,13 @@ fn attempt(
             .collect(),
         judged: judged.checks.iter().map(was_judged).collect(),
         digest: attempt.recorded.digest().all,
+        is_under_resolved: attempt.recorded.events.iter().any(is_under_resolved),
         stopped: judged.stopped.map(|stopped| (judged.verdict, stopped)),
     }))
+}
+
+fn is_under_resolved(event: &Event) -> bool {
+    matches!(event.kind, EventKind::UnderResolved { .. })
 }
 
 #[cfg(test)]
@@ -219,6 +230,7 @@ mod tests {
             scores: vec![0.5, 0.0],
             judged: vec![true, false],
             digest: blake3::hash(b""),
+            is_under_resolved: false,
             stopped: None,
         }]);
         let messages = |check: usize| {

@@ -200,6 +200,11 @@ impl TaskGrade {
             .iter()
             .find(|event| event.event == UNDER_RESOLVED)
     }
+
+    /// How many of its hidden runs are not accurate to their ends.
+    pub fn unresolved_hidden(&self) -> u32 {
+        self.hidden.iter().map(|class| class.under_resolved).sum()
+    }
 }
 
 /// The first control tick at which a run differs from the reference solution's. It is not a mistake by itself: another path or another
@@ -475,6 +480,13 @@ pub struct HiddenClass {
     pub good: u32,
     /// All cases or runs of the class.
     pub total: u32,
+    /// Runs whose simulation is not accurate to their ends: `under-resolved`. Left out if there are none.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub under_resolved: u32,
+}
+
+fn is_none(count: &u32) -> bool {
+    *count == 0
 }
 
 /// A line the submission printed.

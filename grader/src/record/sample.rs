@@ -463,11 +463,13 @@ fn fk() -> TaskGrade {
             class: "unequal links".to_owned(),
             good: 3,
             total: 12,
+            under_resolved: 0,
         },
         HiddenClass {
             class: "equal links".to_owned(),
             good: 8,
             total: 8,
+            under_resolved: 0,
         },
     ];
     fk.log = vec![LogEntry {

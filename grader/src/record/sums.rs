@@ -289,6 +289,7 @@ mod tests {
             class: "elsewhere".to_owned(),
             good,
             total,
+            under_resolved: 0,
         }
     }
 }

@@ -234,6 +234,7 @@ mod tests {
             class: "elsewhere".to_owned(),
             good: 0,
             total: 3,
+            under_resolved: 0,
         }];
         task.digests.all = "keyed".to_owned();
         [recorded, now]
@@ -322,6 +323,7 @@ mod tests {
             class: "folded".to_owned(),
             good: 1,
             total: 2,
+            under_resolved: 0,
         }];
         task.checks[0].points = 0.5;
         let measure = task.checks[0].measure.as_mut().unwrap();

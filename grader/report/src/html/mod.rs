@@ -298,6 +298,7 @@ mod tests {
             class: class.clone(),
             good: 0,
             total: 1,
+            under_resolved: 0,
         }];
         let message = "in 1 of 1 hidden runs points are lost";
         for check in &mut task.checks {

@@ -13,7 +13,7 @@ use super::viewer::place;
 use super::{foreign, prose};
 use crate::moment::{FirstLoss, first_loss_of, last_before};
 use crate::plot::Plot;
-use crate::text::{kept_words, unresolved};
+use crate::text::{kept_words, unresolved, unresolved_hidden};
 use crate::visible::{file_stem, visible};
 use kinemark_grader::record::grade::{
     CheckGrade, Diagnosis, Divergence, Outcome, Stopped, TaskGrade, TaskKind,
@@ -142,6 +142,7 @@ fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) ->
     let has_others = others().next().is_some();
     html! {
         @if let Some(event) = task.first_unresolved() { p class="lead" { "Note: " (prose(&unresolved(event))) "." } }
+        @if task.unresolved_hidden() > 0 { p class="lead" { "Note: " (unresolved_hidden(task)) "." } }
         @if let Some(differs) = &task.divergence { (differing(differs, of)) }
         @if !task.checks.is_empty() { h3 { "Checks" } }
         @if !lost.is_empty() {
