@@ -181,7 +181,7 @@ fn what_cannot_be_checked_has_its_code_and_a_way_out() {
     let bed = TestBed::new();
     bed.write("bench.toml", SCENE);
     bed.write("broken.toml", "format = 1\nname = \"x\"\nboddies = []\n");
-    let cases: [(&[&str], i32, &str); 10] = [
+    let cases: [(&[&str], i32, &str); 13] = [
         (&["shelf-and-cann"], 2, "did you mean `shelf-and-can`?"),
         (&["bensh.toml"], 2, "did you mean `./bench.toml`?"),
         (&["broken.toml"], 3, "boddies"),
@@ -191,6 +191,17 @@ fn what_cannot_be_checked_has_its_code_and_a_way_out() {
             "no motion task of lab `01-kinematics` has a scene",
         ),
         (&["bench.toml", "--via", "1,2,3"], 2, "--robot"),
+        (&["bench.toml", "--balance"], 2, "--robot ROBOT"),
+        (
+            &["03-knock-with-position", "--ignore-mimic"],
+            2,
+            "leave out --robot and its options",
+        ),
+        (
+            &["bench.toml", "--robot", "rrbot", "--accept-unphysical"],
+            2,
+            "--accept-unphysical is for URDFs",
+        ),
         (
             &["bench.toml", "--robot", "rrbott"],
             2,

@@ -29,6 +29,15 @@ pub(crate) struct RobotArgs {
     /// Density of the links of a joint string, in kg/m³; 0 for links without mass [default: 2700, aluminium]
     #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
     pub(crate) density: Option<f64>,
+    #[command(flatten)]
+    pub(crate) urdf: UrdfArgs,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
+/// How a URDF is read.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub(crate) struct UrdfArgs {
     /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
     #[arg(long = "package", value_name = "NAME=DIR", value_parser = package)]
     pub(crate) packages: Vec<(String, PathBuf)>,
@@ -41,12 +50,10 @@ pub(crate) struct RobotArgs {
     /// Make all three principal moments of such a tensor their mean, as MuJoCo's `balanceinertia` does
     #[arg(long)]
     pub(crate) balance: bool,
-    #[command(flatten)]
-    pub(crate) labs_folder: LabsFolderArgs,
 }
 
 /// Reads `NAME=DIR`.
-pub(crate) fn package(text: &str) -> Result<(String, PathBuf), String> {
+fn package(text: &str) -> Result<(String, PathBuf), String> {
     match text.split_once('=') {
         Some((name, folder)) if !name.is_empty() && !folder.is_empty() => {
             Ok((name.to_owned(), PathBuf::from(folder)))
@@ -155,7 +162,34 @@ fn refuse_joint_string_options(args: &RobotArgs, what: &str) -> Result<(), Failu
     ))
 }
 
-impl RobotArgs {
+impl UrdfArgs {
+    /// An option that was given, with what a robot file has in its place.
+    pub(crate) fn given(&self) -> Option<(&'static str, &'static str)> {
+        if self.ignore_mimic {
+            Some((
+                "--ignore-mimic",
+                "; in a robot file, remove `mimic` from the joint",
+            ))
+        } else if self.accept_unphysical {
+            Some((
+                "--accept-unphysical",
+                "; in a robot file, write `accept_unphysical = true` in the link's `inertia`",
+            ))
+        } else if self.balance {
+            Some((
+                "--balance",
+                "; in a robot file, write `balance = true` in the link's `inertia`",
+            ))
+        } else if !self.packages.is_empty() {
+            Some((
+                "--package",
+                "; in a robot file, paths of meshes start at its own folder",
+            ))
+        } else {
+            None
+        }
+    }
+
     fn read_options(&self) -> ReadOptions {
         ReadOptions {
             ignore_mimic: self.ignore_mimic,
@@ -170,27 +204,7 @@ impl RobotArgs {
 
 /// `--package`, `--ignore-mimic`, `--accept-unphysical` and `--balance` belong to URDFs.
 fn refuse_urdf_options(args: &RobotArgs, what: &str) -> Result<(), Failure> {
-    let (given, instead) = if args.ignore_mimic {
-        (
-            "--ignore-mimic",
-            "; in a robot file, remove `mimic` from the joint",
-        )
-    } else if args.accept_unphysical {
-        (
-            "--accept-unphysical",
-            "; in a robot file, write `accept_unphysical = true` in the link's `inertia`",
-        )
-    } else if args.balance {
-        (
-            "--balance",
-            "; in a robot file, write `balance = true` in the link's `inertia`",
-        )
-    } else if !args.packages.is_empty() {
-        (
-            "--package",
-            "; in a robot file, paths of meshes start at its own folder",
-        )
-    } else {
+    let Some((given, instead)) = args.urdf.given() else {
         return Ok(());
     };
     Err(Failure::usage(
@@ -206,15 +220,16 @@ fn from_file(path: &Path, args: &RobotArgs) -> Result<Loaded, Failure> {
     let format = detect(&source);
     refuse_joint_string_options(args, &format!("`{shown}` is a file"))?;
     if format.is_of_ros {
-        refuse_missing_packages(&args.packages)?;
+        refuse_missing_packages(&args.urdf.packages)?;
     } else {
         refuse_urdf_options(args, &format!("`{shown}` is {}", format.name))?;
     }
-    let options = args.read_options();
+    let options = args.urdf.read_options();
     let folder = folder_of(path);
     let mut meshes = BTreeMap::new();
     let mut read = |name: &str| {
-        let candidates = mesh_candidates((format.mesh_location)(name), &folder, &args.packages)?;
+        let candidates =
+            mesh_candidates((format.mesh_location)(name), &folder, &args.urdf.packages)?;
         let (path, bytes) = first_of(&candidates)?;
         meshes.insert(name.to_owned(), path);
         Ok(bytes)

@@ -34,7 +34,7 @@ pub(crate) struct ScenesToCheck {
 /// Exit code 2 for what was typed, 3 for a file that is not what it should be.
 pub(crate) fn scenes_to_check(args: &Args) -> Result<ScenesToCheck, Failure> {
     if let Some(lab) = lab(args)? {
-        if args.robot.is_some() {
+        if args.robot.is_some() || args.urdf.given().is_some() {
             return Err(Failure::usage(
                 format!("`{}` is a lab, which has its own robot", lab.name),
                 "leave out --robot and its options, or name one of the lab's scenes instead",
@@ -149,17 +149,20 @@ fn of_lab(lab: Lab) -> Result<ScenesToCheck, Failure> {
 
 fn arm(args: &Args) -> Result<Option<ArmInScene>, Failure> {
     let Some(named) = &args.robot else {
-        return Ok(None);
+        return match args.urdf.given() {
+            None => Ok(None),
+            Some((given, _)) => Err(Failure::usage(
+                format!("{given} is for the robot in the scene, and there is none"),
+                "name one: --robot ROBOT",
+            )),
+        };
     };
     let robot = robot_source::load(&RobotArgs {
         robot: named.clone(),
         base: None,
         links: None,
         density: None,
-        packages: args.packages.clone(),
-        ignore_mimic: false,
-        accept_unphysical: false,
-        balance: false,
+        urdf: args.urdf.clone(),
         labs_folder: args.labs_folder.clone(),
     })?
     .robot;

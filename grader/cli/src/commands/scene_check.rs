@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::failure::{Failure, LOST};
 use crate::labs_folder::LabsFolderArgs;
 use crate::output;
-use crate::robot_source::package;
+use crate::robot_source::UrdfArgs;
 use crate::scenes_to_check::scenes_to_check;
 
 /// Check a scene: overlaps at the start, bodies that do not rest, waypoints that are unreachable or in collision
@@ -31,9 +31,8 @@ pub(crate) struct Args {
     /// The robot in the scene: a robot file (.toml or .urdf), or the name of a robot of the labs
     #[arg(long, value_name = "ROBOT")]
     pub(crate) robot: Option<OsString>,
-    /// Folder of a ROS package that the mesh paths of a URDF name; may be given several times
-    #[arg(long = "package", value_name = "NAME=DIR", value_parser = package, requires = "robot")]
-    pub(crate) packages: Vec<(String, PathBuf)>,
+    #[command(flatten)]
+    pub(crate) urdf: UrdfArgs,
     /// Joint positions at the start, in rad or m, separated by commas [default: the robot's home]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, requires = "robot")]
     pub(crate) start: Option<String>,
