@@ -131,6 +131,7 @@ fn benches(criterion: &mut Criterion) {
         qd: vec![0.5, 0.25],
         effort: vec![1.0, 2.0],
         tcp_m: [4.0, 0.1, 0.0],
+        tcp_rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         sensors: Vec::new(),
     };
     let mut group = criterion.benchmark_group("script");

@@ -46,6 +46,8 @@ fn setup(robot: &Robot, gravity_compensation: bool) -> Setup<'_> {
         sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
+        laws: None,
+        pushes: Vec::new(),
         ticks: TICKS,
     }
 }

@@ -40,6 +40,8 @@ fn setup(robot: &Robot, mode: Mode, kp: f64) -> Setup<'_> {
         sensors: Vec::new(),
         start_q: vec![0.3, 0.9],
         start_qd: vec![0.0; 2],
+        laws: None,
+        pushes: Vec::new(),
         ticks: 3000,
     }
 }

@@ -95,6 +95,8 @@ fn held(
         sensors: robot.sensors().to_vec(),
         start_q: start_q.to_vec(),
         start_qd: start_qd.to_vec(),
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let mut recorder = TraceRecorder::new(&setup);

@@ -49,6 +49,8 @@ fn simulate(scenario: &Value, mode: Mode, step_s: f64, duration_s: f64) -> Trace
         sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let reference = numbers(&scenario["ref"]);

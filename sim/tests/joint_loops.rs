@@ -103,6 +103,8 @@ fn turned(
         sensors: Vec::new(),
         start_q: vec![0.0],
         start_qd: vec![0.0],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let mut recorder = TraceRecorder::new(&setup);

@@ -1,6 +1,6 @@
 //! Drag on links: forces and speeds by hand, Jacobians, order and energy of the step, and the same gusts as the bodies feel.
 
-use kinemark_sim::dynamics::drag::LinkDrag;
+use kinemark_sim::dynamics::link_forces::LinkForces;
 use kinemark_sim::dynamics::{GRAVITY_M_S2, energy};
 use kinemark_sim::format::RobotFile;
 use kinemark_sim::joint_space::{JointPositions, JointVelocities};
@@ -84,7 +84,9 @@ fn lift(drag: &str) -> Robot {
 
 fn efforts(robot: &Robot, air: &AirNow, q: &[f64], qd: &[f64]) -> Vec<f64> {
     let mut effort = vec![0.0; robot.n()];
-    LinkDrag::new(robot).add_efforts(robot, q, qd, air, &mut effort);
+    let mut forces = LinkForces::new(robot);
+    forces.set_air(Some(*air));
+    forces.add_efforts(robot, q, qd, &mut effort);
     effort
 }
 
@@ -250,7 +252,7 @@ fn in_still_air_energy_never_grows() {
         let robot = undamped(plain);
         let mut step = SmoothStep::new(&robot, GRAVITY_M_S2, 1e-4);
         step.set_air(Some(air(0.0, 0.0, 0.0)));
-        assert!(step.feels_air());
+        assert!(step.feels_forces());
         let n = robot.n();
         // the loop at home, the others out of their rest
         let mut q = robot.home().to_vec();
@@ -410,7 +412,7 @@ fn without_air_or_drag_that_moves_not_a_bit_changes() {
     ))
     .expect("rrbot");
     let post = robot(&text.replacen("name = \"base\"", &format!("name = \"base\"\n{SAIL}"), 1));
-    assert!(post.links()[0].drag.is_some() && !LinkDrag::new(&post).is_present());
+    assert!(post.links()[0].drag.is_some() && !LinkForces::new(&post).have_drag());
     assert_eq!(run(&post, &wind), expected);
 }
 

@@ -27,7 +27,7 @@ fn four_bar(marks: &str, loops: &str) -> String {
 }
 
 /// Crank, coupler, ground and rocker of these lengths \[m\]; crank, coupler and rocker looked for at `guess` \[rad\].
-fn bars(lengths: [f64; 4], guess: [f64; 3], marks: &str, loops: &str) -> String {
+pub(crate) fn bars(lengths: [f64; 4], guess: [f64; 3], marks: &str, loops: &str) -> String {
     let [crank, coupler, ground, rocker] = lengths;
     let mut text = String::from("format = 1\nname = \"four-bar\"\n[[links]]\nname = \"ground\"\n");
     for (name, length) in [("crank", crank), ("coupler", coupler), ("rocker", rocker)] {

@@ -26,6 +26,7 @@ mod loops;
 mod mesh_files;
 mod mesh_solids;
 mod planar_arms;
+mod prescribed;
 mod range_finders;
 mod robot_files;
 mod runs;

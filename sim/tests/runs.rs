@@ -47,6 +47,8 @@ fn setup<'a>(robot: &'a Robot, scene: Option<&'a Scene>, gains: [f64; 2], ticks:
         sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     }
 }

@@ -245,6 +245,8 @@ fn a_robot_with_loops_moves_as_its_servos_would_move_it_in_a_lab() {
         sensors: Vec::new(),
         start_q: start_q.clone(),
         start_qd: vec![0.0; 3],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     struct Last(Vec<f64>);

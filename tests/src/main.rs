@@ -56,6 +56,7 @@ mod own_lab;
 mod pack;
 mod path_checks;
 mod pictures;
+mod prescribed_lab;
 mod projects;
 mod reference_bands;
 mod report;

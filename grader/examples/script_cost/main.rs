@@ -160,6 +160,7 @@ fn observation() -> Observation {
         qd: vec![0.5, 0.25],
         effort: vec![1.0, 2.0],
         tcp_m: [4.0, 0.1, 0.0],
+        tcp_rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         sensors: Vec::new(),
     }
 }

@@ -86,6 +86,7 @@ typedef struct km_observation {
     const char *task;     /* the name of the task */
     km_map target;        /* what the task sets; a target that is no map is its only field, "target" */
     km_map sensors;       /* readings by the names of the sensors */
+    const double *tcp_rotation; /* 9 numbers: rotation matrix of the TCP in the lab's frame, row by row; its columns are the TCP's axes */
 } km_observation;
 
 /* Where a function of the lab's own writes its answer: with km_answer_number and km_answer_list, below. */

@@ -81,7 +81,7 @@ fn gentler(what: &DivergenceKind, task: &MotionTask) -> String {
         (DivergenceKind::BodyRunaway { .. } | DivergenceKind::InContact { .. }, _) => {
             "press less hard, or more slowly"
         }
-        (_, Mode::Effort) => "command less effort, and take it back in time",
+        (_, Mode::Effort | Mode::Prescribed) => "command less effort, and take it back in time",
         (_, Mode::Position | Mode::Velocity) => "command less, or more slowly",
     };
     help.to_owned()

@@ -11,6 +11,7 @@ use kinemark_sim::run;
 use kinemark_sim::run::{Disturbance, End, Run, Setup};
 use kinemark_sim::trace::{LogLine, PlotSignal, Trace, TraceRecorder};
 use kinemark_sim::watch::event::{Event, EventKind};
+use nalgebra::Matrix3;
 
 use super::function::robot_facts;
 use super::{Attempt, EndReason, Ended};
@@ -63,6 +64,11 @@ pub fn run(
     opening: &Opening,
     host: &mut dyn Host,
 ) -> Attempt<Trace> {
+    let robot = motion.robot_of_run(cell.robot);
+    let cell = Workcell {
+        robot: &robot,
+        ..cell
+    };
     whole(Session::open(cell, motion, opening, host))
 }
 
@@ -75,6 +81,11 @@ pub fn run_disturbed(
     host: &mut dyn Host,
     disturbance: &Disturbance<'_>,
 ) -> Attempt<Trace> {
+    let robot = motion.robot_of_run(cell.robot);
+    let cell = Workcell {
+        robot: &robot,
+        ..cell
+    };
     whole(Session::open_with(
         cell,
         motion,
@@ -109,7 +120,8 @@ pub struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Starts the submission of `opening`; the session is then before the first tick.
+    /// Starts the submission of `opening`; the session is then before the first tick. The robot of `cell` moves with the friction that it
+    /// has there: [`MotionTask::robot_of_run`].
     ///
     /// # Errors
     /// The run without any tick, if the submission does not start.
@@ -134,7 +146,7 @@ impl<'a> Session<'a> {
         let world = &robot.frames()[0];
         let setup = Setup {
             robot,
-            scene: motion.scene.as_ref().map(|scene| &scene.scene),
+            scene: motion.scene_of_run(),
             tcp: robot.tcp(),
             seen_from: robot.frame(cell.frame).unwrap_or(world),
             periods: motion.periods,
@@ -142,7 +154,9 @@ impl<'a> Session<'a> {
             servo: motion.servo.clone(),
             sensors: motion.sensors.clone(),
             start_q: motion.start_q.clone(),
-            start_qd: vec![0.0; robot.n()],
+            start_qd: motion.start_qd.clone(),
+            laws: motion.laws.clone(),
+            pushes: motion.pushes.clone(),
             ticks: motion.ticks,
         };
         let recorder = TraceRecorder::new(&setup);
@@ -210,6 +224,7 @@ impl<'a> Session<'a> {
                     qd: seen.qd.to_vec(),
                     effort: seen.effort.to_vec(),
                     tcp_m: seen.tcp.translation.vector.into(),
+                    tcp_rotation: rows(seen.tcp.rotation.matrix()),
                     sensors: seen.sensors.to_vec(),
                 });
                 let controller = self.controller.as_mut();
@@ -261,11 +276,16 @@ impl<'a> Session<'a> {
     }
 }
 
+/// The rows of a rotation matrix.
+fn rows(rotation: &Matrix3<f64>) -> [[f64; 3]; 3] {
+    rotation.transpose().into()
+}
+
 /// The command of an arm at rest.
 fn rest(motion: &MotionTask) -> Vec<f64> {
     match motion.servo.mode {
         Mode::Position => motion.start_q.clone(),
-        Mode::Velocity | Mode::Effort => vec![0.0; motion.start_q.len()],
+        Mode::Velocity | Mode::Effort | Mode::Prescribed => vec![0.0; motion.start_q.len()],
     }
 }
 

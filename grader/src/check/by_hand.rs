@@ -87,6 +87,8 @@ fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> F
         sensors: Vec::new(),
         start_q: motion.start_q.clone(),
         start_qd: vec![0.0; robot.n()],
+        laws: None,
+        pushes: Vec::new(),
         ticks: motion.ticks,
     };
     let mut recorder = TraceRecorder::new(&setup);

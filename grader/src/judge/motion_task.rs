@@ -30,6 +30,7 @@ use crate::record::verdict::Verdict;
 use crate::submission::handed_in::Submission;
 use crate::submission::host::{Host, InProcess};
 use crate::task::model::{Function, MotionTask};
+use crate::task::workcell::Workcell;
 
 impl Grader<'_> {
     pub(super) fn motion(
@@ -119,7 +120,7 @@ impl Grader<'_> {
         let is_needed = |function: &Function| match work.servo.mode {
             Mode::Velocity => matches!(function, Function::Jacobian(_)),
             Mode::Position => matches!(function, Function::InverseKinematics),
-            Mode::Effort => false,
+            Mode::Effort | Mode::Prescribed => false,
         };
         let before = self
             .lab
@@ -217,9 +218,15 @@ impl Grader<'_> {
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, ended);
         };
+        let cell = self.lab.workcell();
+        let robot = judge.work.robot_of_run(cell.robot);
+        let cell = Workcell {
+            robot: &robot,
+            ..cell
+        };
         let mutants = self.mutants_of(task).filter_map(|mutant| {
             let opening = self.opening(task, &Submission::from(&mutant.source));
-            match Session::open(self.lab.workcell(), judge.work, &opening, &mut InProcess) {
+            match Session::open(cell, judge.work, &opening, &mut InProcess) {
                 Ok(session) => Some((mutant, session)),
                 Err(attempt) => {
                     note(mutant, attempt.ended.as_ref());

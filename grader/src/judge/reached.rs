@@ -125,7 +125,7 @@ impl MotionJudge<'_> {
             match self.work.servo.mode {
                 Mode::Position => units.position(),
                 Mode::Velocity => units.speed(),
-                Mode::Effort => units.effort(),
+                Mode::Effort | Mode::Prescribed => units.effort(),
             }
         };
         !joints.map(unit).any(|unit| unit == curve.unit)

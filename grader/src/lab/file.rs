@@ -118,6 +118,14 @@ pub(super) struct MotionTable {
     pub(super) servo_period_ms: Option<NumberAt>,
     pub(super) control_period_ms: Option<NumberAt>,
     pub(super) start_rad: Option<Spanned<Vec<f64>>>,
+    pub(super) start_rad_s: Option<Spanned<Vec<f64>>>,
+    #[serde(default)]
+    pub(super) laws: Vec<Spanned<LawTable>>,
+    #[serde(default)]
+    pub(super) pushes: Vec<Spanned<PushTable>>,
+    pub(super) gravity_m_s2: Option<Spanned<[f64; 3]>>,
+    pub(super) wind: Option<Spanned<WindTable>>,
+    pub(super) dry_friction: Option<Spanned<FrictionTable>>,
     pub(super) target: Option<Spanned<toml::Value>>,
     #[serde(default)]
     pub(super) goals: Vec<GoalTable>,
@@ -135,6 +143,105 @@ pub(super) struct MotionTable {
 pub(super) struct GoalTable {
     pub(super) position_m: [f64; 3],
     pub(super) dwell_s: NumberAt,
+}
+
+/// The law of a joint in mode `prescribed`: its name, and one kind of law.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LawTable {
+    pub(super) joint: Spanned<String>,
+    pub(super) constant: Option<f64>,
+    pub(super) polynomial: Option<Vec<f64>>,
+    pub(super) sine: Option<SineTable>,
+    pub(super) trapezoid: Option<TrapezoidTable>,
+    pub(super) table: Option<TimesTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SineTable {
+    pub(super) amplitude: f64,
+    pub(super) angular_frequency_rad_s: f64,
+    #[serde(default)]
+    pub(super) phase_rad: f64,
+    #[serde(default)]
+    pub(super) offset: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TrapezoidTable {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) speed: f64,
+    pub(super) acceleration: f64,
+    #[serde(default)]
+    pub(super) start_s: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TimesTable {
+    pub(super) times_s: Vec<f64>,
+    pub(super) positions: Vec<f64>,
+    #[serde(default)]
+    pub(super) ends: EndsTable,
+}
+
+/// How a spline starts and ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum EndsTable {
+    #[default]
+    Rest,
+    Natural,
+}
+
+/// A push on a link or a body.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PushTable {
+    pub(super) on: Spanned<String>,
+    pub(super) at_s: NumberAt,
+    pub(super) for_s: NumberAt,
+    pub(super) force_n: Option<Spanned<[f64; 3]>>,
+    pub(super) moment_n_m: Option<Spanned<[f64; 3]>>,
+    pub(super) point_m: Option<Spanned<[f64; 3]>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WindTable {
+    pub(super) velocity_m_s: Spanned<[f64; 3]>,
+    pub(super) air_density_kg_m3: Option<NumberAt>,
+    pub(super) gust: Option<Spanned<GustTable>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GustTable {
+    pub(super) speed_m_s: NumberAt,
+    pub(super) correlation_s: NumberAt,
+    pub(super) seed: u64,
+}
+
+/// Dry friction of a joint: the same in both directions, or one for each.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(untagged, expecting = "expected an effort, or { positive, negative }")]
+pub(super) enum FrictionAt {
+    Both(f64),
+    Directions { positive: f64, negative: f64 },
+}
+
+/// One for all joints, or one per joint.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected an effort or { positive, negative }, or a list of them, one per joint"
+)]
+pub(super) enum FrictionTable {
+    All(FrictionAt),
+    Each(Vec<FrictionAt>),
 }
 
 #[derive(Debug, Default, Deserialize)]

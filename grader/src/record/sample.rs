@@ -70,6 +70,8 @@ fn trace(robot: &Robot, ticks: u64, slow: f64) -> Trace {
         sensors: Vec::new(),
         start_q: vec![0.0; 2],
         start_qd: vec![0.0; 2],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let (a, b) = (reach(1.4), reach(-1.4));
@@ -229,6 +231,8 @@ pub fn chain(n: usize, ticks: u64, row: impl Fn(u64, usize) -> f64) -> TaskRun {
         sensors: Vec::new(),
         start_q: vec![0.0; n],
         start_qd: vec![0.0; n],
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let mut recorder = TraceRecorder::new(&setup);

@@ -169,6 +169,8 @@ pub struct Observation {
     pub effort: Vec<f64>,
     /// Position of the TCP in the lab's frame \[m\].
     pub tcp_m: [f64; 3],
+    /// Rotation matrix of the TCP in the lab's frame, row by row: its columns are the axes of the TCP.
+    pub tcp_rotation: [[f64; 3]; 3],
     /// All numbers of the sensor readings, in order.
     pub sensors: Vec<f64>,
 }

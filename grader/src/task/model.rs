@@ -1,12 +1,17 @@
 //! What a task asks for: a function with its cases, or a motion with its goals; and the band of partial credit.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
+use kinemark_sim::model::joint_friction::JointFriction;
+use kinemark_sim::model::push::Push;
 use kinemark_sim::model::robot::Robot;
+use kinemark_sim::model::scene::Scene;
 use kinemark_sim::model::sensor::Sensor;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::ticks::Periods;
+use kinemark_sim::trajectory::JointLaw;
 use nalgebra::Vector3;
 
 use super::grant::Grant;
@@ -138,12 +143,22 @@ pub struct MotionTask {
     pub servo: ServoSettings,
     /// What is around the robot, where anything is.
     pub scene: Option<Arc<LabScene>>,
-    /// Gravity in the world: the scene's, or the usual one \[m/s²\].
+    /// The air of a task without a scene, if it states any.
+    pub air: Option<Arc<Scene>>,
+    /// Gravity in the world: the task's, the scene's, or the usual one \[m/s²\].
     pub gravity_m_s2: Vector3<f64>,
+    /// Dry friction of the joints in place of the robot's, shape `(n)`, if the task states it.
+    pub dry_friction: Option<Arc<[JointFriction]>>,
     /// What the robot measures: its own sensors, with the task's in their place or after them.
     pub sensors: Vec<Sensor>,
     /// Joint positions at the start, shape `(n)` \[rad or m\].
     pub start_q: Vec<f64>,
+    /// Joint velocities at the start, shape `(n)` \[rad/s or m/s\].
+    pub start_qd: Vec<f64>,
+    /// In mode `prescribed`, the laws of the independent joints.
+    pub laws: Option<Arc<[JointLaw]>>,
+    /// Pushes on links and bodies.
+    pub pushes: Vec<Push>,
     /// What `observation.target` holds where there are no goals.
     pub target: Value,
     /// Where the TCP is to go, in order.
@@ -155,6 +170,20 @@ pub struct MotionTask {
 }
 
 impl MotionTask {
+    /// The scene of a run: the one that the task names, or nothing but its air.
+    pub fn scene_of_run(&self) -> Option<&Scene> {
+        let named = self.scene.as_ref().map(|scene| &scene.scene);
+        named.or(self.air.as_deref())
+    }
+
+    /// `robot` with the dry friction of this task.
+    pub fn robot_of_run<'r>(&self, robot: &'r Robot) -> Cow<'r, Robot> {
+        match &self.dry_friction {
+            None => Cow::Borrowed(robot),
+            Some(friction) => Cow::Owned(robot.clone().with_dry_friction(friction)),
+        }
+    }
+
     /// The number that the task's target has under this name.
     pub fn target_number(&self, wanted: &str) -> Option<f64> {
         let Value::Map(entries) = &self.target else {

@@ -2,7 +2,7 @@
 
 use kinemark_sim::format::{SceneError, SceneFile};
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::model::scene::Scene;
+use kinemark_sim::model::scene::{Environment, Scene};
 use kinemark_sim::text::Dimension;
 
 use super::files::{Files, read_source};
@@ -20,7 +20,7 @@ pub struct LabScene {
     pub meshes: Vec<MeshFile>,
     /// Dimensions that a lab changes.
     pub dimensions: Vec<(String, Dimension)>,
-    /// The scene as its file states it, but for these dimensions.
+    /// The scene as its file states it, but for these dimensions, and for the gravity and the wind of a task.
     pub scene: Scene,
 }
 
@@ -70,6 +70,13 @@ impl LabScene {
             dimensions,
             ..self
         })
+    }
+
+    /// This scene with another gravity, wind or ground than its file states.
+    pub fn in_environment(&self, environment: Environment) -> Self {
+        let mut changed = self.clone();
+        changed.scene.environment = environment;
+        changed
     }
 
     /// Whether it is the scene of this name with these dimensions.

@@ -22,6 +22,8 @@ pub enum Mode {
     Velocity,
     /// Joint efforts \[N m or N\].
     Effort,
+    /// The joints follow laws. A command moves nothing: it says which efforts the controller expects \[N m or N\].
+    Prescribed,
 }
 
 impl Mode {
@@ -31,6 +33,7 @@ impl Mode {
             Self::Position => "position",
             Self::Velocity => "velocity",
             Self::Effort => "effort",
+            Self::Prescribed => "prescribed",
         }
     }
 }
@@ -273,7 +276,7 @@ impl Servo {
                 continue;
             }
             let u = match self.settings.mode {
-                Mode::Effort => command[i],
+                Mode::Effort | Mode::Prescribed => command[i],
                 Mode::Position => {
                     let memory = (&mut self.integral[i], &mut self.before[i]);
                     let clock = (self.period_s, self.started);

@@ -1,5 +1,5 @@
 //! Rigid-body dynamics, one algorithm a file: inverse ([`rnea`]), mass matrix ([`crba`]), forward ([`ForwardDynamics`]), energy
-//! ([`mod@energy`]), closed loops ([`loops`]), dry friction over a step ([`dry_friction`]), and air drag on links ([`drag`]).
+//! ([`mod@energy`]), closed loops ([`loops`]), dry friction over a step ([`dry_friction`]), and drag and pushes on links ([`link_forces`]).
 //!
 //! All of them work in world axes with every body's own origin as reference point, and with classical accelerations: then only
 //! the angular velocity enters the velocity terms, and the poses are those of forward kinematics. Passive effort is
@@ -11,11 +11,11 @@
 mod aba;
 pub mod crba;
 pub(crate) mod damping_rate;
-pub mod drag;
 pub mod dry_friction;
 pub mod energy;
 mod forward;
 mod gravity;
+pub mod link_forces;
 pub mod loops;
 pub mod rnea;
 

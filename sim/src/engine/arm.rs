@@ -84,6 +84,12 @@ impl Arm {
         self.response = inverse.unwrap_or_else(|| DMatrix::zeros(robot.n(), robot.n()));
     }
 
+    /// Lets no impulse change its motion in this step.
+    pub(super) fn hold(&mut self) {
+        let n = self.row.len();
+        self.response = DMatrix::zeros(n, n);
+    }
+
     /// Writes the change of the joint rates by an impulse of one along `row`.
     pub(super) fn respond(&self, row: &[f64], change: &mut [f64]) {
         for (column, entry) in row.iter().enumerate() {

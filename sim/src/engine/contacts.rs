@@ -155,7 +155,7 @@ impl Contacts {
         for (i, moved) in self.displacement.iter_mut().enumerate() {
             *moved = self.free_displacement[i] + after_s * (self.velocities[i] - self.free[i]);
         }
-        if landing.is_none() {
+        if landing.is_none() && arm.is_some_and(|arm| arm.gives) {
             // a joint that friction holds must not creep by what the smooth step knows better than a trapezoid
             for i in 0..arm.map_or(0, |arm| arm.q.len()) {
                 self.displacement[i] = 0.5 * self.dt_s * (self.before[i] + self.velocities[i]);
@@ -276,7 +276,7 @@ impl Contacts {
                 }
             }
         }
-        if let Some(arm) = arm.filter(|_| with_arm) {
+        if let Some(arm) = arm.filter(|arm| with_arm && arm.gives) {
             self.add_joints(movers, arm);
         }
     }
@@ -472,8 +472,12 @@ impl Contacts {
     /// Computes how everything answers to impulses `at_s` after the start of the step.
     fn weigh(&mut self, movers: &mut Movers<'_>, arm: Option<&ArmStep<'_>>, at_s: f64) {
         let n = arm.map_or(0, |arm| arm.q.len());
-        if let Some(links) = &mut movers.arm {
-            links.weigh(movers.robot);
+        if let (Some(links), Some(arm)) = (&mut movers.arm, arm) {
+            if arm.gives {
+                links.weigh(movers.robot);
+            } else {
+                links.hold();
+            }
         }
         let mut inverse: Vec<(f64, Matrix3<f64>)> = Vec::new();
         for body in movers.free.iter().filter(|body| !body.sleeps) {

@@ -25,6 +25,7 @@ use super::{contact_facts, work};
 use crate::model::air::{AirNow, Drag};
 use crate::model::contact::{ContactFact, Party};
 use crate::model::prescribed_motion::Motion;
+use crate::model::push::{Push, Pushed};
 use crate::model::robot::Robot;
 use crate::model::scene::{BodyKind, Scene, SceneBody};
 use crate::spatial::{Pose, Twist};
@@ -97,6 +98,8 @@ pub(crate) struct ArmStep<'a> {
     pub(crate) next_qd: &'a [f64],
     /// No link travels farther than about this \[m\].
     pub(crate) travel_m: f64,
+    /// Whether contact changes its motion; else it pushes aside what gives, and passes through the rest.
+    pub(crate) gives: bool,
 }
 
 /// All bodies of one run.
@@ -110,6 +113,8 @@ pub(crate) struct World {
     driven: Vec<Driven>,
     /// The dynamic bodies with drag.
     blown: Vec<(usize, Drag)>,
+    /// The forces of pushes on dynamic bodies in the next step, world axes \[N\].
+    pushed: Vec<(usize, Vector3<f64>)>,
     /// The shapes that are surfaces of triangles, where so many triangles could be near moving shapes that memory would not do.
     surfaces: Vec<usize>,
     contacts: Contacts,
@@ -146,6 +151,7 @@ impl World {
             free: Vec::new(),
             driven: Vec::new(),
             blown: Vec::new(),
+            pushed: Vec::new(),
             surfaces: Vec::new(),
             contacts: Contacts::new(robot, dt_s),
             air,
@@ -321,7 +327,7 @@ impl World {
         }
         self.load();
         loop {
-            self.look(arm.is_some(), ahead_m);
+            self.look(arm.map(|arm| arm.gives), ahead_m);
             if !self.wake() {
                 break;
             }
@@ -347,7 +353,29 @@ impl World {
         self.finish()
     }
 
-    /// Sets the accelerations of the dynamic bodies: gravity and drag.
+    /// Sets the pushes in effect during the next step, and wakes what they are on.
+    pub(crate) fn set_pushes<'p>(&mut self, pushes: impl Iterator<Item = &'p Push>) {
+        self.pushed.clear();
+        for push in pushes {
+            let Pushed::Body(body) = push.on else {
+                continue;
+            };
+            let Place::Free(index) = self.places[body] else {
+                continue;
+            };
+            self.pushed.push((index, push.force_n));
+            let (sleeps, island) = (self.free[index].sleeps, self.free[index].island);
+            let together = self
+                .free
+                .iter_mut()
+                .filter(|one| one.sleeps && one.island == island);
+            if sleeps {
+                together.for_each(FreeBody::wake);
+            }
+        }
+    }
+
+    /// Sets the accelerations of the dynamic bodies: gravity, drag and pushes.
     fn load(&mut self) {
         for body in &mut self.free {
             body.acceleration_m_s2 = self.gravity_m_s2;
@@ -362,6 +390,10 @@ impl World {
                 let force = force * (most_n / force.norm().max(most_n).max(f64::MIN_POSITIVE));
                 body.acceleration_m_s2 += force / body.mass_kg;
             }
+        }
+        for (index, force) in &self.pushed {
+            let body = &mut self.free[*index];
+            body.acceleration_m_s2 += force / body.mass_kg;
         }
     }
 
@@ -381,8 +413,10 @@ impl World {
         self.pairs.sort(&self.colliders, moved);
     }
 
-    /// Finds all contact points of what moves.
-    fn look(&mut self, with_arm: bool, ahead_m: f64) {
+    /// Finds all contact points of what moves; the robot takes part if `arm_gives` says whether it gives way.
+    fn look(&mut self, arm_gives: Option<bool>, ahead_m: f64) {
+        let with_arm = arm_gives.is_some();
+        let arm_gives = arm_gives == Some(true);
         let (free, driven) = (&self.free, &self.driven);
         let moves = |collider: &Collider| match collider.carrier {
             Carrier::World => false,
@@ -393,7 +427,11 @@ impl World {
         let meet = |first: &Collider, second: &Collider| {
             let is_link = |one: &Collider| matches!(one.party, Party::Link(_));
             let absent = |one: &Collider| matches!(one.carrier, Carrier::Arm(_)) && !with_arm;
-            let gives = |one: &Collider| matches!(one.carrier, Carrier::Free(_) | Carrier::Arm(_));
+            let gives = |one: &Collider| match one.carrier {
+                Carrier::Free(_) => true,
+                Carrier::Arm(_) => arm_gives,
+                Carrier::World | Carrier::Driven(_) => false,
+            };
             first.carrier != second.carrier
                 && !(is_link(first) && is_link(second))
                 && !(absent(first) || absent(second))

@@ -2,6 +2,9 @@
 
 use nalgebra::Vector3;
 
+/// Density of dry air at 15 °C at sea level, where nothing else is stated \[kg/m³\]; source: ISO 2533:1975.
+pub const AIR_DENSITY_KG_M3: f64 = 1.225;
+
 /// How a body or link resists the air, the same from every side; the force acts at its centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drag {

@@ -10,6 +10,7 @@ pub mod joint_friction;
 pub mod mesh;
 mod perturbed;
 pub mod prescribed_motion;
+pub mod push;
 pub mod robot;
 pub mod scene;
 pub mod sensor;

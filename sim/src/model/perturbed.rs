@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::air::Drag;
 use super::inertia::Inertia;
+use super::joint_friction::JointFriction;
 use super::robot::{JointKind, Robot};
 use crate::spatial::Symmetric3;
 
@@ -46,6 +47,24 @@ impl Robot {
             joint.dry_friction.negative += effort;
             if let Some(body) = self.links[joint.child].attachment.body {
                 self.bodies[body].dry_friction += effort;
+            }
+        }
+        self
+    }
+
+    /// The same robot with `frictions` in place of the dry friction of its joints, one per entry of `q`. Joints that mimic others keep
+    /// theirs.
+    ///
+    /// # Panics
+    /// If there are fewer frictions than entries of `q`.
+    #[must_use]
+    pub fn with_dry_friction(mut self, frictions: &[JointFriction]) -> Self {
+        for (entry, friction) in frictions[..self.n()].iter().enumerate() {
+            let joint = &mut self.joints[self.moving[entry]];
+            joint.dry_friction = *friction;
+            if let Some(body) = self.links[joint.child].attachment.body {
+                self.bodies[body].dry_friction = friction.mean();
+                self.bodies[body].dry_skew = friction.skew();
             }
         }
         self

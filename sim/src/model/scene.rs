@@ -20,6 +20,21 @@ pub struct Scene {
     pub bodies: Vec<SceneBody>,
 }
 
+impl Scene {
+    /// Nothing but air under `gravity_m_s2`, world axes.
+    pub fn of_air(gravity_m_s2: Vector3<f64>, wind: Wind) -> Self {
+        Self {
+            name: "air".to_owned(),
+            environment: Environment {
+                gravity_m_s2,
+                wind: Some(wind),
+                ground: None,
+            },
+            bodies: Vec::new(),
+        }
+    }
+}
+
 /// Gravity, air and ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Environment {

@@ -2,9 +2,11 @@
 
 mod disturbance;
 mod divergence;
+mod prescribed;
 mod stepper;
 mod tick_loop;
 
 pub use disturbance::Disturbance;
 pub use divergence::{DivergenceKind, RUNAWAY_SPEED_M_S};
+pub use prescribed::PrescribedMotion;
 pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, Setup, run};

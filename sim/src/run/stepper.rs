@@ -2,9 +2,10 @@
 
 use super::divergence::DivergenceKind;
 use super::tick_loop::{RunError, Setup};
+use crate::model::push::Push;
 use crate::model::robot::Robot;
 use crate::step::free::FreeStep;
-use crate::step::hybrid::{HybridStep, StepError};
+use crate::step::hybrid::{HybridStep, StepError, StepReport};
 
 #[derive(Debug)]
 pub(super) enum Stepper {
@@ -40,14 +41,37 @@ impl Stepper {
                 step.advance(robot, effort, q, qd)?;
                 Ok(StepOutcome::Advanced)
             }
-            Self::InScene(step) => match step.advance(robot, effort, q, qd) {
-                Ok(_) => Ok(StepOutcome::Advanced),
-                Err(StepError::Singular(singular)) => Err(singular.into()),
-                Err(StepError::Lost { body }) => {
-                    Ok(StepOutcome::Diverged(DivergenceKind::InContact { body }))
-                }
-                Err(StepError::TooManyTriangles) => Err(RunError::TooManyTriangles),
-            },
+            Self::InScene(step) => outcome(step.advance(robot, effort, q, qd)),
+        }
+    }
+
+    /// Advances the robot to the state `next`, which laws prescribe, and the scene with it.
+    pub(super) fn advance_along(
+        &mut self,
+        robot: &Robot,
+        next: (&[f64], &[f64]),
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<StepOutcome, RunError> {
+        match self {
+            Self::Free(_) => {
+                q.copy_from_slice(next.0);
+                qd.copy_from_slice(next.1);
+                Ok(StepOutcome::Advanced)
+            }
+            Self::InScene(step) => outcome(step.advance_along(robot, next, q, qd)),
+        }
+    }
+
+    /// Sets the pushes in effect during the next step.
+    pub(super) fn set_pushes<'p>(
+        &mut self,
+        robot: &Robot,
+        pushes: impl Iterator<Item = &'p Push> + Clone,
+    ) {
+        match self {
+            Self::Free(step) => step.set_pushes(robot, pushes),
+            Self::InScene(step) => step.set_pushes(robot, pushes),
         }
     }
 
@@ -62,5 +86,16 @@ impl Stepper {
             Self::Free(_) => None,
             Self::InScene(step) => Some(step),
         }
+    }
+}
+
+fn outcome(step: Result<&StepReport, StepError>) -> Result<StepOutcome, RunError> {
+    match step {
+        Ok(_) => Ok(StepOutcome::Advanced),
+        Err(StepError::Singular(singular)) => Err(singular.into()),
+        Err(StepError::Lost { body }) => {
+            Ok(StepOutcome::Diverged(DivergenceKind::InContact { body }))
+        }
+        Err(StepError::TooManyTriangles) => Err(RunError::TooManyTriangles),
     }
 }

@@ -1,17 +1,24 @@
 //! The tick loop: observe, control, servo, step. Time is counted, never measured.
 //!
 //! At each tick the controller is called if a control period begins, then the servos if a servo period does; the row is recorded, and the
-//! state advances to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end.
+//! state advances to the next tick. [`Run`] goes tick by tick; [`run`] goes to the end. In mode `Prescribed` laws take the place of servos
+//! and step, and the efforts in a row are those that the motion takes.
+
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
 use super::disturbance::{Disturbance, Disturbed};
 use super::divergence::{DivergenceKind, RunawayGuard};
+use super::prescribed::PrescribedMotion;
 use super::stepper::{StepOutcome, Stepper};
-use crate::control::servo::{Servo, ServoError, ServoSettings};
+use crate::control::servo::{Mode, Servo, ServoError, ServoSettings};
 use crate::dynamics::SingularMassMatrix;
+use crate::dynamics::link_forces::LinkForces;
 use crate::engine::{EngineError, WorkBudget};
 use crate::kinematics::FramePoses;
+use crate::kinematics::closure::LoopError;
+use crate::model::push::Push;
 use crate::model::robot::{Frame, Robot};
 use crate::model::scene::Scene;
 use crate::model::sensor::{Seen, Sensor};
@@ -21,6 +28,7 @@ use crate::spatial::Pose;
 use crate::step::drives::Drives;
 use crate::step::hybrid::{HybridStep, StateFrom};
 use crate::ticks::Periods;
+use crate::trajectory::JointLaw;
 
 /// Everything a run needs but its controller.
 #[derive(Debug, Clone)]
@@ -45,6 +53,10 @@ pub struct Setup<'a> {
     pub start_q: Vec<f64>,
     /// Velocities at tick 0, shape `(n)` \[rad/s or m/s\].
     pub start_qd: Vec<f64>,
+    /// In mode `Prescribed`, and only there: the laws of the independent joints, which say where the run starts, too.
+    pub laws: Option<Arc<[JointLaw]>>,
+    /// Pushes on links and bodies.
+    pub pushes: Vec<Push>,
     /// Ticks to run; the last state is recorded at this tick.
     pub ticks: u64,
 }
@@ -137,6 +149,14 @@ pub enum RunError {
     /// What moves is near more triangles of a surface than fit into memory.
     #[error("too many triangles of a surface are near what moves: give it a coarser mesh")]
     TooManyTriangles,
+    /// Laws that the closed loops of the robot cannot follow.
+    #[error("at {time_s} s the laws of motion leave what the robot can do: {error}")]
+    Loops {
+        /// When \[s\].
+        time_s: f64,
+        /// Why.
+        error: LoopError,
+    },
     /// More work than a run may be.
     #[error(
         "at {time_s} s the run has been more work than a run may be: leave out bodies and shapes that nothing needs, \
@@ -183,6 +203,8 @@ struct State {
     servo: Servo,
     stepper: Stepper,
     drives: Drives,
+    /// The motion in mode `Prescribed`, and the forces on its links.
+    prescribed: Option<(PrescribedMotion, LinkForces)>,
     sensors: Sensors,
     /// Velocities a step ago, for sensors.
     qd_before: Vec<f64>,
@@ -204,10 +226,11 @@ impl<'a> Run<'a> {
     /// A run of `setup` before its first tick.
     ///
     /// # Errors
-    /// [`RunError`] if the robot is for kinematics only, the servo settings do not fit it, or robot and scene cannot have contact.
+    /// [`RunError`] if the robot is for kinematics only, the servo settings do not fit it, its loops cannot follow their laws, or robot
+    /// and scene cannot have contact.
     ///
     /// # Panics
-    /// If a start vector does not have the shape of the robot.
+    /// If a start vector does not have the shape of the robot, or the mode is `Prescribed` without laws.
     pub fn new(setup: Setup<'a>) -> Result<Self, RunError> {
         let Setup {
             robot,
@@ -222,10 +245,17 @@ impl<'a> Run<'a> {
             "a start state per joint that moves"
         );
         robot.check_inertias().map_err(UnphysicalLinks::clone)?;
+        let prescribed = prescribed(&setup)?;
+        let [q, qd] = match &prescribed {
+            None => [&setup.start_q[..], &setup.start_qd],
+            Some((motion, _)) => {
+                let [q, qd, _] = motion.state();
+                [q, qd]
+            }
+        }
+        .map(<[f64]>::to_vec);
         let state = State {
             tick: 0,
-            q: setup.start_q.clone(),
-            qd: setup.start_qd.clone(),
             command: vec![0.0; n],
             driven: vec![0.0; n],
             effort: vec![0.0; n],
@@ -233,9 +263,12 @@ impl<'a> Run<'a> {
             stepper: Stepper::new(&setup)?,
             drives: Drives::new(robot, &setup.servo.gains, gravity_m_s2, periods.step_s),
             sensors: Sensors::new(robot, setup.sensors.clone(), periods.step_s)?,
-            qd_before: setup.start_qd.clone(),
+            prescribed,
+            qd_before: qd.clone(),
             qdd: vec![0.0; n],
-            guard: RunawayGuard::new(robot, &setup.start_q, &setup.start_qd),
+            guard: RunawayGuard::new(robot, &q, &qd),
+            q,
+            qd,
             poses: FramePoses::new(robot),
             budget: WorkBudget::new(WORK + WORK_PER_TICK * setup.ticks),
             stepped: 0,
@@ -309,19 +342,11 @@ impl<'a> Run<'a> {
         {
             return Ok(Some(End::Stopped { tick, why }));
         }
-        if begins(periods.ticks_per_servo) {
-            let (q, qd) = seen(&state.disturbed, &state.q, &state.qd);
-            state
-                .servo
-                .sample(self.known, &state.command, q, qd, &mut state.driven);
+        if state.prescribed.is_some() {
+            state.take_effort(&self.setup)?;
+        } else {
+            state.deliver_effort(&self.setup, self.known, begins(periods.ticks_per_servo));
         }
-        state.effort.copy_from_slice(&state.driven);
-        state.sensors.open_motors(&mut state.effort);
-        state
-            .drives
-            .deliver(robot, &state.q, &state.qd, &mut state.effort);
-        // a drive that brakes cannot do so through an open circuit either
-        state.sensors.open_motors(&mut state.effort);
         recorder.row(Row {
             tick,
             q: &state.q,
@@ -335,12 +360,7 @@ impl<'a> Run<'a> {
         if tick == self.setup.ticks {
             return Ok(Some(End::Finished));
         }
-        let moved = state
-            .stepper
-            .advance(robot, &state.effort, &mut state.q, &mut state.qd)?;
-        let scene = state.stepper.scene();
-        let in_contact = scene.is_some_and(|scene| scene.report().state_from == StateFrom::Contact);
-        state.drives.meet(&state.qd, in_contact);
+        let moved = state.step(&self.setup)?;
         state.count(&self.setup);
         if state.budget.is_spent() {
             let time_s = periods.time_s(tick);
@@ -348,6 +368,8 @@ impl<'a> Run<'a> {
         }
         let lost = match moved {
             StepOutcome::Diverged(what) => Some(what),
+            // laws do not run away
+            StepOutcome::Advanced if state.prescribed.is_some() => None,
             StepOutcome::Advanced => {
                 let scene = state.stepper.scene();
                 state.guard.check(robot, &state.q, &state.qd, scene)
@@ -361,6 +383,73 @@ impl<'a> Run<'a> {
 }
 
 impl State {
+    /// Computes the efforts of a tick: what the servos ask for if they sample now, as the drives deliver it.
+    fn deliver_effort(&mut self, setup: &Setup<'_>, known: &Robot, samples: bool) {
+        if samples {
+            let (q, qd) = seen(&self.disturbed, &self.q, &self.qd);
+            self.servo
+                .sample(known, &self.command, q, qd, &mut self.driven);
+        }
+        self.effort.copy_from_slice(&self.driven);
+        self.sensors.open_motors(&mut self.effort);
+        self.drives
+            .deliver(setup.robot, &self.q, &self.qd, &mut self.effort);
+        // a drive that brakes cannot do so through an open circuit either
+        self.sensors.open_motors(&mut self.effort);
+    }
+
+    /// Computes the efforts that the prescribed motion takes at a tick.
+    ///
+    /// # Errors
+    /// [`RunError::Loops`].
+    fn take_effort(&mut self, setup: &Setup<'_>) -> Result<(), RunError> {
+        let Some((motion, forces)) = &mut self.prescribed else {
+            return Ok(());
+        };
+        let (robot, periods) = (setup.robot, &setup.periods);
+        let scene = self.stepper.scene();
+        forces.set_air(scene.and_then(HybridStep::air_now));
+        forces.set_pushes(robot, pushes_at(setup, self.tick));
+        let contacts = scene.map_or(&[][..], |scene| &scene.report().contacts);
+        forces.set_contacts(robot, contacts, periods.step_s);
+        motion
+            .efforts(robot, &setup.gravity_m_s2, forces, &mut self.effort)
+            .map_err(|error| RunError::Loops {
+                time_s: periods.time_s(self.tick),
+                error,
+            })
+    }
+
+    /// Advances robot and scene from the tick before.
+    ///
+    /// # Errors
+    /// [`RunError`] if a joint moves no inertia, laws leave what the loops allow, or a surface has too many triangles.
+    fn step(&mut self, setup: &Setup<'_>) -> Result<StepOutcome, RunError> {
+        let robot = setup.robot;
+        if !setup.pushes.is_empty() {
+            let pushes = pushes_at(setup, self.tick - 1);
+            self.stepper.set_pushes(robot, pushes);
+        }
+        if let Some((motion, _)) = &mut self.prescribed {
+            let time_s = setup.periods.time_s(self.tick);
+            motion
+                .move_to(robot, time_s)
+                .map_err(|error| RunError::Loops { time_s, error })?;
+            let [next_q, next_qd, _] = motion.state();
+            let next = (next_q, next_qd);
+            return self
+                .stepper
+                .advance_along(robot, next, &mut self.q, &mut self.qd);
+        }
+        let moved = self
+            .stepper
+            .advance(robot, &self.effort, &mut self.q, &mut self.qd)?;
+        let scene = self.stepper.scene();
+        let in_contact = scene.is_some_and(|scene| scene.report().state_from == StateFrom::Contact);
+        self.drives.meet(&self.qd, in_contact);
+        Ok(moved)
+    }
+
     /// Takes what the last tick cost from the budget.
     fn count(&mut self, setup: &Setup<'_>) {
         let robot = setup.robot;
@@ -381,7 +470,10 @@ impl State {
         if self.sensors.is_empty() {
             return;
         }
-        if self.tick > 0 {
+        if let Some((motion, _)) = &self.prescribed {
+            let [_, _, qdd] = motion.state();
+            self.qdd.copy_from_slice(qdd);
+        } else if self.tick > 0 {
             let step_s = setup.periods.step_s;
             for (i, qdd) in self.qdd.iter_mut().enumerate() {
                 *qdd = (self.qd[i] - self.qd_before[i]) / step_s;
@@ -432,6 +524,28 @@ impl State {
         }
         Ok(())
     }
+}
+
+/// The motion of a run in mode `Prescribed`, at its start, and the forces on its links.
+fn prescribed(setup: &Setup<'_>) -> Result<Option<(PrescribedMotion, LinkForces)>, RunError> {
+    assert_eq!(
+        setup.servo.mode == Mode::Prescribed,
+        setup.laws.is_some(),
+        "laws in mode `Prescribed`, and only there"
+    );
+    let Some(laws) = &setup.laws else {
+        return Ok(None);
+    };
+    let robot = setup.robot;
+    let motion = PrescribedMotion::new(robot, Arc::clone(laws))
+        .map_err(|error| RunError::Loops { time_s: 0.0, error })?;
+    Ok(Some((motion, LinkForces::new(robot))))
+}
+
+/// The pushes that act from `tick` to the next.
+fn pushes_at<'s>(setup: &'s Setup<'_>, tick: u64) -> impl Iterator<Item = &'s Push> + Clone {
+    let pushes = setup.pushes.iter();
+    pushes.filter(move |push| push.acts_at(tick))
 }
 
 /// The shapes that a ray may meet.
@@ -533,6 +647,8 @@ mod tests {
             sensors: Vec::new(),
             start_q: vec![0.0],
             start_qd: vec![0.0],
+            laws: None,
+            pushes: Vec::new(),
             ticks: 99,
         };
         let mut run = Run::new(setup).unwrap();

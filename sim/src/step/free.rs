@@ -9,6 +9,7 @@ use super::joint_limits::JointLimitConstraints;
 use super::smooth::SmoothStep;
 use crate::dynamics::SingularMassMatrix;
 use crate::model::air::AirNow;
+use crate::model::push::Push;
 use crate::model::robot::Robot;
 
 /// Integrates one robot with a fixed step, between its joint limits; its memory is allocated once.
@@ -23,8 +24,8 @@ pub(crate) struct FreeStep {
     held: Vec<f64>,
     loose_q: Vec<f64>,
     loose_qd: Vec<f64>,
-    /// Efforts of the drag on links at the start of a step; all zero where no air drags on them.
-    drag: Vec<f64>,
+    /// Efforts of the forces on links at the start of a step; all zero where there are none.
+    forces: Vec<f64>,
     acted: Vec<(usize, f64)>,
 }
 
@@ -42,7 +43,7 @@ impl FreeStep {
             held: room.clone(),
             loose_q: room.clone(),
             loose_qd: room.clone(),
-            drag: room,
+            forces: room,
             acted: Vec::new(),
         }
     }
@@ -50,6 +51,11 @@ impl FreeStep {
     /// Sets the air of the following steps; initially there is none.
     pub(crate) fn set_air(&mut self, air: Option<AirNow>) {
         self.smooth.set_air(air);
+    }
+
+    /// Sets the pushes in effect during the following steps; initially there are none.
+    pub(crate) fn set_pushes<'p>(&mut self, robot: &Robot, pushes: impl Iterator<Item = &'p Push>) {
+        self.smooth.set_pushes(robot, pushes);
     }
 
     /// Advances `(q, qd)` by one step under `effort`, held constant; all slices have shape `(n)`. Allocates nothing without dry friction
@@ -73,19 +79,20 @@ impl FreeStep {
         }
         q.copy_from_slice(&self.start_q);
         qd.copy_from_slice(&self.start_qd);
-        self.hold_with_drag(robot, effort);
+        self.hold_with_forces(robot, effort);
         let added = self.smooth.damping_inertia(robot, q);
         let (gravity, step) = (&self.gravity_m_s2, (self.dt_s, added));
         self.stops
             .hold(robot, gravity, step, (q, qd), &mut self.held)?;
-        if self.smooth.feels_air() {
-            // the step adds it anew
-            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
-                *held -= drag;
+        if self.smooth.feels_forces() {
+            // the step adds them anew
+            for (held, force) in self.held.iter_mut().zip(&self.forces) {
+                *held -= force;
             }
         }
         self.smooth.advance(robot, &self.held, q, qd)?;
-        self.stops.catch(robot, &self.start_q, q, qd);
+        let added = self.smooth.damping_inertia(robot, &self.start_q);
+        self.stops.catch(robot, &self.start_q, added, q, qd);
         let acted = self.stops.impulses().iter().copied().enumerate();
         self.acted
             .extend(acted.filter(|(_, impulse)| *impulse != 0.0));
@@ -107,15 +114,15 @@ impl FreeStep {
         (&self.loose_q, &self.loose_qd)
     }
 
-    /// Sets `held` to `effort` and the drag on links at the start of the step.
-    fn hold_with_drag(&mut self, robot: &Robot, effort: &[f64]) {
+    /// Sets `held` to `effort` and that of the forces on links at the start of the step.
+    fn hold_with_forces(&mut self, robot: &Robot, effort: &[f64]) {
         self.held.copy_from_slice(effort);
-        if self.smooth.feels_air() {
+        if self.smooth.feels_forces() {
             let (q, qd) = (&self.start_q, &self.start_qd);
-            self.drag.fill(0.0);
-            self.smooth.add_drag(robot, q, qd, &mut self.drag);
-            for (held, drag) in self.held.iter_mut().zip(&self.drag) {
-                *held += drag;
+            self.forces.fill(0.0);
+            self.smooth.add_forces(robot, q, qd, &mut self.forces);
+            for (held, force) in self.held.iter_mut().zip(&self.forces) {
+                *held += force;
             }
         }
     }

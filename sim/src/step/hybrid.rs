@@ -13,6 +13,7 @@ use crate::dynamics::SingularMassMatrix;
 use crate::engine::{ArmStep, BodyState, Clearance, EngineError, Ray, StepFault, World};
 use crate::model::air::AirNow;
 use crate::model::contact::{ContactFact, Party};
+use crate::model::push::Push;
 use crate::model::robot::Robot;
 use crate::model::scene::Scene;
 
@@ -132,19 +133,14 @@ impl HybridStep {
         self.report.stops.extend_from_slice(self.free.acted());
 
         let awake = self.world.is_awake();
-        if self.world.is_driven() {
-            self.clearance.forget();
-        }
-        let others_m = if awake {
-            FORCES_MARGIN * self.world.travel_m() + self.falls_m
-        } else {
-            0.0
-        };
-        let world = &self.world;
         let (start_q, _) = self.free.start();
-        let near = self.clearance.is_near(robot, start_q, q, others_m, |list| {
-            world.obstacles(list);
-        });
+        let near = is_near(
+            &mut self.clearance,
+            &self.world,
+            robot,
+            (start_q, q),
+            self.falls_m,
+        );
         let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
         let usable = finite(q) && finite(qd) && finite(start_q) && finite(effort);
         self.report.engine_stepped = awake || (near && usable);
@@ -176,16 +172,12 @@ impl HybridStep {
             next_q: loose_q,
             next_qd: loose_qd,
             travel_m: self.clearance.travel_m(robot, start_q, loose_q),
+            gives: true,
         });
         let facts = &mut self.report.contacts;
         self.world
             .step(robot, arm, facts)
-            .map_err(|fault| match fault {
-                StepFault::Lost(lost) => StepError::Lost {
-                    body: lost.map(|index| self.names[index].clone()),
-                },
-                StepFault::TooManyTriangles => StepError::TooManyTriangles,
-            })?;
+            .map_err(|fault| failed(fault, &self.names))?;
         let pressed = |party: &Party| matches!(party, Party::Link(link) if self.moves[*link]);
         if facts.iter().any(|fact| fact.parties.iter().any(pressed)) {
             self.world.read_arm(q, qd);
@@ -194,6 +186,63 @@ impl HybridStep {
             self.report.stops.clear();
         }
         Ok(())
+    }
+
+    /// Advances the robot to the state `next`, whatever it meets, and the scene with it; all slices have shape `(n)`.
+    ///
+    /// What can move is pushed aside. A robot that cannot give way passes through what cannot either: the ground, bodies that are fixed or
+    /// kinematic.
+    ///
+    /// # Errors
+    /// [`StepError`]: a body that flew apart.
+    pub(crate) fn advance_along(
+        &mut self,
+        robot: &Robot,
+        next: (&[f64], &[f64]),
+        q: &mut [f64],
+        qd: &mut [f64],
+    ) -> Result<&StepReport, StepError> {
+        self.report.state_from = StateFrom::Smooth;
+        self.report.stops.clear();
+        self.report.at_limit.clear();
+        self.air = self.world.air_now();
+        let (next_q, next_qd) = next;
+        let near = is_near(
+            &mut self.clearance,
+            &self.world,
+            robot,
+            (q, next_q),
+            self.falls_m,
+        );
+        self.report.engine_stepped = self.world.is_awake() || near;
+        if self.report.engine_stepped {
+            let arm = near.then(|| ArmStep {
+                q,
+                qd,
+                next_q,
+                next_qd,
+                travel_m: self.clearance.travel_m(robot, q, next_q),
+                gives: false,
+            });
+            self.world
+                .step(robot, arm, &mut self.report.contacts)
+                .map_err(|fault| failed(fault, &self.names))?;
+        } else {
+            self.world.rest();
+        }
+        q.copy_from_slice(next_q);
+        qd.copy_from_slice(next_qd);
+        Ok(&self.report)
+    }
+
+    /// Sets the pushes in effect during the next step; initially there are none. A body that is pushed wakes.
+    pub(crate) fn set_pushes<'p>(
+        &mut self,
+        robot: &Robot,
+        pushes: impl Iterator<Item = &'p Push> + Clone,
+    ) {
+        self.free.set_pushes(robot, pushes.clone());
+        self.world.set_pushes(pushes);
     }
 
     /// The report of the last step.
@@ -217,6 +266,11 @@ impl HybridStep {
     /// If the scene has no such body.
     pub fn body(&self, index: usize) -> BodyState {
         self.world.body(index)
+    }
+
+    /// The air of the next step, if there is any.
+    pub(crate) fn air_now(&self) -> Option<AirNow> {
+        self.world.air_now()
     }
 
     /// The air of the last step; none before the first, or without air.
@@ -248,6 +302,35 @@ impl HybridStep {
     /// Tests `ray` against the bodies of the scene and the ground.
     pub(crate) fn show(&self, ray: &mut Ray) {
         self.world.meet(ray);
+    }
+}
+
+/// Whether a link may come near anything in a step from one position to another, as bodies move and as gravity lets them `fall` \[m\].
+fn is_near(
+    clearance: &mut Clearance,
+    world: &World,
+    robot: &Robot,
+    (from_q, to_q): (&[f64], &[f64]),
+    falls_m: f64,
+) -> bool {
+    if world.is_driven() {
+        clearance.forget();
+    }
+    let others_m = if world.is_awake() {
+        FORCES_MARGIN * world.travel_m() + falls_m
+    } else {
+        0.0
+    };
+    clearance.is_near(robot, from_q, to_q, others_m, |list| world.obstacles(list))
+}
+
+/// The error of a step that the contact engine did not do, in a scene whose bodies have these names.
+fn failed(fault: StepFault, names: &[String]) -> StepError {
+    match fault {
+        StepFault::Lost(lost) => StepError::Lost {
+            body: lost.map(|index| names[index].clone()),
+        },
+        StepFault::TooManyTriangles => StepError::TooManyTriangles,
     }
 }
 

@@ -132,11 +132,13 @@ impl JointLimitConstraints {
         joints.extend((0..q.len()).filter(|&i| limit_sign(self.ranges[i], q[i]) != 0.0));
     }
 
-    /// Sets the joints that a step from `q` took beyond their limits back on them, and removes their velocity into the limit.
+    /// Sets the joints that a step from `q` took beyond their limits back on them, and removes their velocity into the limit. In a step that
+    /// takes damping implicitly, `added` is the inertia that it adds, shape `(n)`: damping resists an impulse, too.
     pub(crate) fn catch(
         &mut self,
         robot: &Robot,
         q: &[f64],
+        added: Option<&[f64]>,
         next_q: &mut [f64],
         next_qd: &mut [f64],
     ) {
@@ -150,7 +152,7 @@ impl JointLimitConstraints {
                 (next_q[i], signs[i]) = (lower, -1.0);
             }
         }
-        let Some(inverse) = self.dynamics.inverse_inertia(robot, next_q, None) else {
+        let Some(inverse) = self.dynamics.inverse_inertia(robot, next_q, added) else {
             return;
         };
         self.efforts.fill(0.0);

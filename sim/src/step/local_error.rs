@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use super::smooth::SmoothStep;
 use crate::dynamics::SingularMassMatrix;
 use crate::model::air::AirNow;
+use crate::model::push::Push;
 use crate::model::robot::Robot;
 
 /// Whole per difference of a step and its two halves: `2⁴ / (2⁴ - 1)`.
@@ -42,7 +43,18 @@ impl LocalError {
         self.whole.damping_inertia(robot, q).is_some()
     }
 
-    /// The errors of the velocities after a step from `(q, qd)` under `effort` in `air`, with their signs, in the order of `q`
+    /// Sets the air and the pushes of the following steps; initially there are none.
+    pub(crate) fn set_forces<'p>(
+        &mut self,
+        robot: &Robot,
+        air: Option<AirNow>,
+        pushes: impl Iterator<Item = &'p Push>,
+    ) {
+        self.whole.set_air(air);
+        self.whole.set_pushes(robot, pushes);
+    }
+
+    /// The errors of the velocities after a step from `(q, qd)` under `effort`, with their signs, in the order of `q`
     /// \[rad/s or m/s\]; all slices have shape `(n)`.
     ///
     /// # Errors
@@ -50,7 +62,6 @@ impl LocalError {
     pub(crate) fn velocities(
         &mut self,
         robot: &Robot,
-        air: Option<AirNow>,
         effort: &[f64],
         (q, qd): (&[f64], &[f64]),
     ) -> Result<impl Iterator<Item = f64> + '_, SingularMassMatrix> {
@@ -59,7 +70,6 @@ impl LocalError {
             end_qd.copy_from_slice(qd);
         }
         let [end_q, end_qd] = &mut self.once;
-        self.whole.set_air(air);
         self.whole.advance(robot, effort, end_q, end_qd)?;
         let [end_q, end_qd] = &mut self.twice;
         for _ in 0..2 {

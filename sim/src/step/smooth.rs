@@ -9,7 +9,7 @@
 //! *Solving Ordinary Differential Equations II* (1996), sec. IV.9. The positions follow the new velocities, as in the symplectic
 //! Euler method, which makes the error of an oscillation a sixth of that of Runge-Kutta.
 //!
-//! The air, if there is any, is constant over a step; its drag follows the motion of the links within the step.
+//! The air, if there is any, and pushes are constant over a step; their efforts follow the motion of the links within the step.
 //!
 //! [`HybridStep`](super::hybrid::HybridStep) adds contact behind the same interface: a state and held efforts in, the next state out.
 
@@ -18,9 +18,10 @@ use nalgebra::Vector3;
 use super::implicit_damping::ImplicitDamping;
 use crate::dynamics::ForwardDynamics;
 use crate::dynamics::SingularMassMatrix;
-use crate::dynamics::drag::LinkDrag;
 use crate::dynamics::dry_friction::DryFriction;
+use crate::dynamics::link_forces::LinkForces;
 use crate::model::air::AirNow;
+use crate::model::push::Push;
 use crate::model::robot::Robot;
 
 /// Weights of the results of 1, 2, 3 and 4 partial steps: `Σ c_k = 1`, and `Σ c_k / kʲ = 0` for `j` from 1 to 3.
@@ -34,11 +35,10 @@ pub struct SmoothStep {
     dynamics: ForwardDynamics,
     damping: ImplicitDamping,
     friction: DryFriction,
-    drag: LinkDrag,
-    /// The air of the step, if any link has drag.
-    air: Option<AirNow>,
+    /// The forces of the air and of pushes.
+    forces: LinkForces,
     held: Vec<f64>,
-    /// Held effort and drag of one stage.
+    /// Held effort, and that of forces on links, of one stage.
     stage_effort: Vec<f64>,
     stage_q: Vec<f64>,
     stage_qd: Vec<f64>,
@@ -57,8 +57,7 @@ impl SmoothStep {
             dynamics: ForwardDynamics::new(robot),
             damping: ImplicitDamping::new(robot, dt_s),
             friction: DryFriction::new(robot),
-            drag: LinkDrag::new(robot),
-            air: None,
+            forces: LinkForces::new(robot),
             held: room(),
             stage_effort: room(),
             stage_q: room(),
@@ -70,18 +69,23 @@ impl SmoothStep {
 
     /// Sets the air of the following steps; initially there is none.
     pub fn set_air(&mut self, air: Option<AirNow>) {
-        self.air = air.filter(|_| self.drag.is_present());
+        self.forces.set_air(air);
     }
 
-    /// Whether drag acts on the robot: there is air, and a moving link has drag.
-    pub fn feels_air(&self) -> bool {
-        self.air.is_some()
+    /// Sets the pushes in effect during the following steps; initially there are none.
+    pub fn set_pushes<'p>(&mut self, robot: &Robot, pushes: impl Iterator<Item = &'p Push>) {
+        self.forces.set_pushes(robot, pushes);
     }
 
-    /// Adds the efforts of the drag at `(q, qd)` to `effort`; all slices have shape `(n)`. Does nothing without air.
-    pub fn add_drag(&mut self, robot: &Robot, q: &[f64], qd: &[f64], effort: &mut [f64]) {
-        if let Some(air) = &self.air {
-            self.drag.add_efforts(robot, q, qd, air, effort);
+    /// Whether forces act on the links: there is air and a moving link has drag, or a push.
+    pub fn feels_forces(&self) -> bool {
+        self.forces.act()
+    }
+
+    /// Adds the efforts of the forces on links at `(q, qd)` to `effort`; all slices have shape `(n)`. Does nothing without any.
+    pub fn add_forces(&mut self, robot: &Robot, q: &[f64], qd: &[f64], effort: &mut [f64]) {
+        if self.forces.act() {
+            self.forces.add_efforts(robot, q, qd, effort);
         }
     }
 
@@ -143,7 +147,7 @@ impl SmoothStep {
         self.advance_held(robot, is_stiff, q, qd)
     }
 
-    /// Advances `(q, qd)` by one step under the efforts that `other` held in its last step, dry friction included, and in its air.
+    /// Advances `(q, qd)` by one step under the efforts that `other` held in its last step, dry friction included, and under its forces.
     ///
     /// # Errors
     /// As [`Self::advance`].
@@ -155,7 +159,7 @@ impl SmoothStep {
         qd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
         self.held.copy_from_slice(&other.held);
-        self.air = other.air;
+        self.forces.set_like(&other.forces);
         let is_stiff = self.damping_inertia(robot, q).is_some();
         self.advance_held(robot, is_stiff, q, qd)
     }
@@ -173,7 +177,7 @@ impl SmoothStep {
             self.extrapolate(robot, q, qd)?;
             return self.dynamics.close_loops(robot, q, qd);
         }
-        if self.air.is_some() {
+        if self.forces.act() {
             self.stages::<true>(robot, q, qd)?;
         } else {
             self.stages::<false>(robot, q, qd)?;
@@ -197,12 +201,11 @@ impl SmoothStep {
     ) -> Result<(), SingularMassMatrix> {
         let dt = self.dt_s;
         let slope = &mut self.slopes[0];
-        let effort = match &self.air {
-            None => effort,
-            Some(air) => {
-                let room = &mut self.stage_effort;
-                with_drag(&mut self.drag, robot, (q, qd), air, effort, room)
-            }
+        let effort = if self.forces.act() {
+            let room = &mut self.stage_effort;
+            with_forces(&mut self.forces, robot, (q, qd), effort, room)
+        } else {
+            effort
         };
         let added = is_stiff.then(|| self.damping.whole_step());
         let (dynamics, gravity) = (&mut self.dynamics, &self.gravity_m_s2);
@@ -239,12 +242,11 @@ impl SmoothStep {
             part_q.copy_from_slice(q);
             part_qd.copy_from_slice(qd);
             for _ in 0..parts {
-                let effort = match &self.air {
-                    Some(air) => {
-                        let (state, room) = ((&*part_q, &*part_qd), &mut self.stage_effort);
-                        with_drag(&mut self.drag, robot, state, air, &self.held, room)
-                    }
-                    None => &self.held,
+                let effort = if self.forces.act() {
+                    let (state, room) = ((&*part_q, &*part_qd), &mut self.stage_effort);
+                    with_forces(&mut self.forces, robot, state, &self.held, room)
+                } else {
+                    &self.held
                 };
                 self.dynamics.acceleration_with(
                     robot,
@@ -271,9 +273,9 @@ impl SmoothStep {
         Ok(())
     }
 
-    /// Velocities and accelerations of the four stages; compiled separately with and without air, so that drag costs nothing without
-    /// air.
-    fn stages<const AIR: bool>(
+    /// Velocities and accelerations of the four stages; compiled separately with and without forces on links, so that these cost nothing
+    /// where there are none.
+    fn stages<const FORCES: bool>(
         &mut self,
         robot: &Robot,
         q: &[f64],
@@ -296,12 +298,11 @@ impl SmoothStep {
                 }
             }
             self.rates[stage][..n].copy_from_slice(stage_qd);
-            let effort = match &self.air {
-                Some(air) if AIR => {
-                    let (state, room) = ((&*stage_q, &*stage_qd), &mut self.stage_effort);
-                    with_drag(&mut self.drag, robot, state, air, &self.held, room)
-                }
-                _ => &self.held,
+            let effort = if FORCES {
+                let (state, room) = ((&*stage_q, &*stage_qd), &mut self.stage_effort);
+                with_forces(&mut self.forces, robot, state, &self.held, room)
+            } else {
+                &self.held
             };
             self.dynamics.acceleration(
                 robot,
@@ -316,16 +317,15 @@ impl SmoothStep {
     }
 }
 
-/// `effort` and the drag at `(q, qd)`, in `room`.
-fn with_drag<'a>(
-    drag: &mut LinkDrag,
+/// `effort` and that of `forces` at `(q, qd)`, in `room`.
+fn with_forces<'a>(
+    forces: &mut LinkForces,
     robot: &Robot,
     (q, qd): (&[f64], &[f64]),
-    air: &AirNow,
     effort: &[f64],
     room: &'a mut [f64],
 ) -> &'a [f64] {
     room.copy_from_slice(&effort[..room.len()]);
-    drag.add_efforts(robot, q, qd, air, room);
+    forces.add_efforts(robot, q, qd, room);
     room
 }

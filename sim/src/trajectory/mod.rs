@@ -9,6 +9,7 @@
 //! | [`jerk_limited`] | rest to rest under limits of speed, acceleration and jerk |
 //! | [`spline`] | via points at given times |
 //! | [`joints`] | several axes that start and end together |
+//! | [`joint_law`] | a law of one joint over a run: polynomial, sine, trapezoid, table |
 //! | [`turn`] | rotation about one fixed axis |
 //! | [`line`](mod@line), [`arc`] | straight and circular paths in task space |
 //! | [`path`] | a path with a time law: pose, twist and its rate |
@@ -22,6 +23,7 @@ pub mod arc;
 pub mod axis;
 pub mod cubic;
 pub mod jerk_limited;
+pub mod joint_law;
 pub mod joints;
 pub mod line;
 pub mod path;
@@ -35,6 +37,7 @@ pub use arc::{Arc, ArcOrientation};
 pub use axis::{JerkLimits, Knot, Limits, RestToRest, Sample, Trajectory};
 pub use cubic::Cubic;
 pub use jerk_limited::JerkLimited;
+pub use joint_law::{JointLaw, Sine};
 pub use joints::{JointSample, JointTrajectory};
 pub use line::Line;
 pub use path::{AlongPath, Path, PathPoint, PoseSample, TwistRate};

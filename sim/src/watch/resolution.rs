@@ -75,6 +75,10 @@ impl<'a> ResolutionWatch<'a> {
 
     /// Takes one tick and gives `emit` its events; ticks come in order and none is left out.
     pub fn observe(&mut self, row: &Row<'_>, emit: &mut impl FnMut(u64, EventKind)) {
+        if self.setup.laws.is_some() {
+            // nothing is integrated
+            return;
+        }
         if row.tick == 0 {
             self.look_at_servo(emit);
         } else if self.is_fast(row) && is_smooth(row.scene) {
@@ -131,8 +135,11 @@ impl<'a> ResolutionWatch<'a> {
         let air: Option<AirNow> = row
             .scene
             .and_then(|scene| scene.air_of_last_step().copied());
+        let pushes = self.setup.pushes.iter();
+        let pushes = pushes.filter(|push| push.acts_at(row.tick - 1));
+        self.error.set_forces(robot, air, pushes);
         // a joint that moves no inertia ends the run
-        let Ok(errors) = self.error.velocities(robot, air, effort, (q, qd)) else {
+        let Ok(errors) = self.error.velocities(robot, effort, (q, qd)) else {
             return;
         };
         for (joint, (error, kept)) in errors.zip(&mut self.joints).enumerate() {

@@ -19,6 +19,7 @@ pub struct Observation {
     task: *const c_char,
     target: Map,
     sensors: Map,
+    tcp_rotation: *const f64,
 }
 
 impl Observation {
@@ -66,6 +67,12 @@ impl Observation {
         unsafe { *self.tcp.cast() }
     }
 
+    /// Rotation matrix of the TCP in the lab's frame, row by row: its columns are the axes of the TCP.
+    pub fn tcp_rotation(&self) -> [[f64; 3]; 3] {
+        // SAFETY: Kinemark gives the address of 9 numbers, at a multiple of 8
+        unsafe { *self.tcp_rotation.cast() }
+    }
+
     /// The name of the task.
     pub fn task(&self) -> &str {
         // SAFETY: Kinemark gives the address of a text, which stays as it is during the call
@@ -87,7 +94,7 @@ impl Observation {
 const _: () = {
     use core::mem::{align_of, offset_of, size_of};
 
-    assert!(size_of::<Observation>() == 64 && align_of::<Observation>() == 8);
+    assert!(size_of::<Observation>() == 72 && align_of::<Observation>() == 8);
     assert!(offset_of!(Observation, tick) == 0);
     assert!(offset_of!(Observation, time) == 8);
     assert!(offset_of!(Observation, dt) == 16);
@@ -99,4 +106,5 @@ const _: () = {
     assert!(offset_of!(Observation, task) == 44);
     assert!(offset_of!(Observation, target) == 48);
     assert!(offset_of!(Observation, sensors) == 56);
+    assert!(offset_of!(Observation, tcp_rotation) == 64);
 };

@@ -1,5 +1,6 @@
 //! A layout for Foxglove and Lichtblick: the moving arm, the plots a student asks for first, and the log.
 
+use kinemark_sim::control::Mode;
 use serde_json::{Map, Value, json};
 
 use super::names::{WORLD, fields};
@@ -18,15 +19,19 @@ pub fn layout(run: &TaskRun) -> String {
         joints.iter().flat_map(field).collect()
     };
     let commanded = match run.mode {
-        kinemark_sim::control::Mode::Position => ["q", "command"],
-        kinemark_sim::control::Mode::Velocity => ["qd", "command"],
-        kinemark_sim::control::Mode::Effort => ["q", "qd"],
+        Mode::Position => ["q", "command"],
+        Mode::Velocity => ["qd", "command"],
+        Mode::Effort | Mode::Prescribed => ["q", "qd"],
+    };
+    let efforts: &[&str] = match run.mode {
+        Mode::Prescribed => &["effort", "command"],
+        Mode::Position | Mode::Velocity | Mode::Effort => &["effort"],
     };
     let error = ["distance_m", "full_m", "zero_m"].map(|field| format!("/errors.{field}"));
     let mut panels = Map::new();
     panels.insert("3D!arm".to_owned(), view());
     panels.insert("Plot!joints".to_owned(), plot("Joints", &of(&commanded)));
-    panels.insert("Plot!effort".to_owned(), plot("Effort", &of(&["effort"])));
+    panels.insert("Plot!effort".to_owned(), plot("Effort", &of(efforts)));
     panels.insert(
         "Plot!error".to_owned(),
         plot("Distance to the goal [m]", &error),

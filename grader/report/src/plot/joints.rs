@@ -48,7 +48,7 @@ impl Of {
             (self, run.mode),
             (Self::Positions, Mode::Position)
                 | (Self::Velocities, Mode::Velocity)
-                | (Self::Efforts, Mode::Effort)
+                | (Self::Efforts, Mode::Effort | Mode::Prescribed)
         )
     }
 
@@ -71,12 +71,14 @@ pub(super) fn joints(run: &TaskRun, of: Of) -> Vec<Timeline> {
             .iter()
             .map(|(i, joint)| joint_panel(run, of, *i, joint))
             .collect();
-        let mut legend = vec![Entry::new(Swatch::Line(BLUE), "measured")];
-        if of == Of::Efforts {
-            legend[0].text = "applied".to_owned();
-        }
+        let (recorded, commanded) = match (of, run.mode) {
+            (Of::Efforts, Mode::Prescribed) => ("taken", "expected"),
+            (Of::Efforts, _) => ("applied", "command"),
+            _ => ("measured", "command"),
+        };
+        let mut legend = vec![Entry::new(Swatch::Line(BLUE), recorded)];
         if of.is_commanded(run) {
-            legend.push(Entry::new(Swatch::Line(VERMILLION), "command"));
+            legend.push(Entry::new(Swatch::Line(VERMILLION), commanded));
         }
         let has_levels = panels.iter().any(|panel| !panel.levels.is_empty());
         if has_levels {

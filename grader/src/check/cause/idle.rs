@@ -10,7 +10,7 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let first = facts.trace.command.at(0);
     let rest = match facts.motion.servo.mode {
         Mode::Position => facts.motion.start_q.clone(),
-        Mode::Velocity | Mode::Effort => vec![0.0; facts.robot.n()],
+        Mode::Velocity | Mode::Effort | Mode::Prescribed => vec![0.0; facts.robot.n()],
     };
     let is_rest = |command: &[f64]| {
         let joints = command.iter().zip(&rest);
@@ -28,7 +28,7 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let what = match facts.motion.servo.mode {
         Mode::Position => "the angles at which the arm starts",
         Mode::Velocity => "no velocity",
-        Mode::Effort => "no effort",
+        Mode::Effort | Mode::Prescribed => "no effort",
     };
     Some(Cause {
         words: format!(

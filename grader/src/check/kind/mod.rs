@@ -71,6 +71,7 @@ kinds! {
     motion steady_error
     motion effort_peak
     motion effort_rms
+    motion effort_match
     motion energy
     motion jerk
     motion joint_speed

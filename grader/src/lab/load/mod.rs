@@ -5,9 +5,12 @@ mod checks;
 mod free_function;
 mod functions;
 mod grants;
+mod laws;
 mod motion;
 mod paths;
+mod pushes;
 mod reading;
+mod surroundings;
 mod target;
 
 use std::ops::Range;

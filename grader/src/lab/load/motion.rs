@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use kinemark_sim::control::{Derivative, GainLists, Mode, ServoError, ServoSettings};
-use kinemark_sim::dynamics::{ForwardDynamics, GRAVITY_M_S2, SingularMassMatrix};
-use kinemark_sim::kinematics::closure::{closed_positions, loop_gap_m};
+use kinemark_sim::dynamics::{ForwardDynamics, SingularMassMatrix};
+use kinemark_sim::kinematics::closure::{closed_positions, closed_velocities, loop_gap_m};
 use kinemark_sim::model::sensor::{Sensor, replaced};
 use kinemark_sim::sensing::Sensors;
 use kinemark_sim::sensor::read_all;
@@ -25,6 +25,8 @@ use crate::task::value::Value;
 
 /// The first step closes a gap of so much without a jolt \[m\]: what four decimals of an angle leave open.
 const MOST_GAP_M: f64 = 1e-3;
+/// Velocities of dependent joints may be off by this \[rad/s or m/s\].
+const MOST_RATE_OFF: f64 = 1e-3;
 /// Physics steps of a task: a quarter of an hour at 1 ms. More would not fit in the memory of a grade.
 const MOST_TICKS: u64 = 900_000;
 
@@ -51,6 +53,8 @@ problems! {
         OpenLoop { robot: String, gap_m: f64, help: String }:
             "lab::start", "a loop of robot `{robot}` is open by {gap_m:.4} m at this start",
             "not a place where the robot can be", help;
+        OpeningLoop { help: String }:
+            "lab::start", "these velocities would open a loop", "the loops do not allow this", help;
         NoInertia { robot: String, link: String, joint: String }:
             "lab::no_inertia", "robot `{robot}` cannot be simulated: link `{link}` has no inertia that its joint `{joint}` could move",
             "has a link without inertia",
@@ -71,26 +75,33 @@ impl Reader<'_> {
         let periods = self.periods(table)?;
         let duration_s = self.positive(&motion.duration_s, "the duration")?;
         let ticks = self.whole_ticks(&periods, duration_s, &motion.duration_s, "the duration")?;
-        let start_q = match &motion.start_rad {
-            None => self.robot.home().to_vec(),
-            Some(start) => {
-                self.counted(start, "start_rad")?;
-                self.closes(start)?;
-                start.get_ref().clone()
+        let is_prescribed = motion.mode == Mode::Prescribed;
+        let (laws, start_q, start_qd) = match self.laws(table, is_prescribed, (&periods, ticks))? {
+            Some(start) => (Some(start.laws), start.q, start.qd),
+            None => {
+                let (q, qd) = self.start(motion)?;
+                (None, q, qd)
             }
         };
         let goals = self.goals(motion, &periods, ticks, duration_s)?;
         self.can_move(&start_q)?;
         let servo = self.motion_servo(table)?;
-        let (scene, gravity_m_s2) = self.scene(motion, &periods)?;
+        let scene = self.scene(motion, &periods)?;
+        let pushes = self.pushes(&motion.pushes, scene.as_deref(), (&periods, ticks))?;
+        let around = self.surroundings(motion, scene)?;
         Ok(MotionTask {
             periods,
             ticks,
             servo,
-            scene,
-            gravity_m_s2,
+            scene: around.scene,
+            air: around.air,
+            gravity_m_s2: around.gravity_m_s2,
+            dry_friction: around.dry_friction,
             sensors: self.sensors(table, &periods)?,
             start_q,
+            start_qd,
+            laws,
+            pushes,
             target: match &motion.target {
                 Some(target) => self.target(target)?,
                 None => Value::List(Vec::new()),
@@ -99,6 +110,27 @@ impl Reader<'_> {
             grants: self.grants(&motion.grants, None)?,
             paths: self.paths(&motion.paths)?,
         })
+    }
+
+    /// Positions and velocities at the start, shape `(n)` each.
+    fn start(&self, motion: &MotionTable) -> Result<(Vec<f64>, Vec<f64>), LabError> {
+        let q = match &motion.start_rad {
+            None => self.robot.home().to_vec(),
+            Some(start) => {
+                self.counted(start, "start_rad")?;
+                self.closes(start)?;
+                start.get_ref().clone()
+            }
+        };
+        let qd = match &motion.start_rad_s {
+            None => vec![0.0; self.robot.n()],
+            Some(start) => {
+                self.counted(start, "start_rad_s")?;
+                self.keeps_closed(start, &q)?;
+                start.get_ref().clone()
+            }
+        };
+        Ok((q, qd))
     }
 
     /// The periods, each a whole number of the one before.
@@ -121,7 +153,7 @@ impl Reader<'_> {
     }
 
     /// `time_s`, typed `at`, in physics steps.
-    fn whole_ticks(
+    pub(super) fn whole_ticks(
         &self,
         periods: &Periods,
         time_s: f64,
@@ -187,24 +219,24 @@ impl Reader<'_> {
         self.servo(motion.mode, servo, at)
     }
 
-    /// The scene, in which the robot can be simulated, and gravity there \[m/s²\].
+    /// The scene, in which the robot can be simulated.
     fn scene(
         &self,
         motion: &MotionTable,
         periods: &Periods,
-    ) -> Result<(Option<Arc<LabScene>>, Vector3<f64>), LabError> {
+    ) -> Result<Option<Arc<LabScene>>, LabError> {
         let Some(named) = &motion.scene else {
-            return Ok((None, GRAVITY_M_S2));
+            return Ok(None);
         };
         let table = named.get_ref();
         let dimensions: Vec<_> = table.dimensions.clone().into_iter().collect();
         let mut scenes = self.scenes.iter();
         let Some(scene) = scenes.find(|scene| scene.is(&table.name, &dimensions)) else {
-            return Ok((None, GRAVITY_M_S2));
+            return Ok(None);
         };
         let gravity_m_s2 = scene.scene.environment.gravity_m_s2;
         match HybridStep::new(self.robot, &scene.scene, gravity_m_s2, periods.step_s) {
-            Ok(_) => Ok((Some(Arc::clone(scene)), gravity_m_s2)),
+            Ok(_) => Ok(Some(Arc::clone(scene))),
             Err(error) => {
                 let error = error.to_string();
                 self.report.refuse_at(named, MotionProblem::Scene { error })
@@ -260,6 +292,27 @@ impl Reader<'_> {
         };
         let robot = robot.name().to_owned();
         let problem = MotionProblem::OpenLoop { robot, gap_m, help };
+        self.report.refuse_at(start, problem)
+    }
+
+    /// Refuses velocities that would open a loop.
+    fn keeps_closed(&self, start: &Spanned<Vec<f64>>, q: &[f64]) -> Result<(), LabError> {
+        let (robot, qd) = (self.robot, start.get_ref());
+        let independent: Vec<f64> = robot.independent().iter().map(|&i| qd[i]).collect();
+        let problem = match closed_velocities(robot, q, &independent) {
+            Ok(closed) => {
+                let off = closed.iter().zip(qd).map(|(a, b)| (a - b).abs());
+                if off.fold(0.0, f64::max) <= MOST_RATE_OFF {
+                    return Ok(());
+                }
+                let closed: Vec<String> = closed.iter().map(|rate| trimmed(*rate, 6)).collect();
+                let help = format!("the loops stay closed at [{}]", closed.join(", "));
+                MotionProblem::OpeningLoop { help }
+            }
+            Err(error) => MotionProblem::OpeningLoop {
+                help: format!("{error}: {}", error.help()),
+            },
+        };
         self.report.refuse_at(start, problem)
     }
 

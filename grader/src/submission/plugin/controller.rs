@@ -63,7 +63,7 @@ struct MotionBlock {
 }
 
 /// Bytes of a `km_observation`.
-const OBSERVATION_BYTES: usize = 64;
+const OBSERVATION_BYTES: usize = 72;
 
 impl PluginController {
     /// Compiles a module, and starts it once.
@@ -154,6 +154,7 @@ impl PluginController {
         let qd = block.numbers(&vec![0.0; n]);
         let effort = block.numbers(&vec![0.0; n]);
         let tcp = block.numbers(&[0.0; 3]);
+        let tcp_rotation = block.numbers(&[0.0; 9]);
         let mut sensors = Vec::new();
         for sensor in &self.sensors {
             let (count, columns) = match sensor.reads {
@@ -180,6 +181,9 @@ impl PluginController {
         }
         block.map_word(target);
         block.map_word(sensors);
+        block.word(tcp_rotation);
+        // a structure with numbers of eight bytes is as long as a multiple of them
+        block.word(0);
         MotionBlock {
             robot,
             task,
@@ -482,10 +486,12 @@ fn changing_numbers(observation: &Observation) -> impl Iterator<Item = f64> {
         qd,
         effort,
         tcp_m,
+        tcp_rotation,
         sensors,
         ..
     } = observation;
-    let parts = [&q[..], &qd[..], &effort[..], &tcp_m[..], &sensors[..]];
+    let rotation = tcp_rotation.as_flattened();
+    let parts = [q, qd, effort, &tcp_m[..], rotation, sensors];
     parts.into_iter().flatten().copied()
 }
 

@@ -149,7 +149,16 @@ pub(super) fn observation_template(opening: &Opening) -> Map {
     map.insert("task".into(), opening.task.as_str().into());
     map.insert("target".into(), to_dynamic(&opening.target));
     map.insert("sensors".into(), Dynamic::from_map(Map::new()));
-    for key in ["tick", "time", "dt", "q", "qd", "effort", "tcp"] {
+    for key in [
+        "tick",
+        "time",
+        "dt",
+        "q",
+        "qd",
+        "effort",
+        "tcp",
+        "tcp_rotation",
+    ] {
         map.insert(key.into(), Dynamic::UNIT);
     }
     map
@@ -172,6 +181,10 @@ pub(super) fn observation(
             "qd" => vector(&observation.qd),
             "effort" => vector(&observation.effort),
             "tcp" => vector(&observation.tcp_m),
+            "tcp_rotation" => {
+                let rotation = &observation.tcp_rotation;
+                Dynamic::from(Matrix::from_fn(3, 3, |i, j| rotation[i][j]))
+            }
             "sensors" => readings(sensors, &observation.sensors),
             _ => continue,
         };

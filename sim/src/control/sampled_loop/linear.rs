@@ -42,7 +42,7 @@ impl<'a> Linear<'a> {
         let velocity_of_velocity = settings.derivative == Derivative::Velocity
             && settings.gains.iter().any(|gains| gains.kd != 0.0);
         match settings.mode {
-            Mode::Effort => return None,
+            Mode::Effort | Mode::Prescribed => return None,
             Mode::Velocity if velocity_of_velocity => return None,
             Mode::Velocity | Mode::Position => {}
         }

@@ -9,7 +9,7 @@ use super::scene_problem::{SceneError, SceneProblem};
 use super::scene_tables::{
     BodyTable, BodyType, EnvironmentTable, SceneFile, SceneTables, WindTable,
 };
-use crate::model::air::Drag;
+use crate::model::air::{AIR_DENSITY_KG_M3, Drag};
 use crate::model::gust::Gust;
 use crate::model::inertia::{Inertia, Solid, principal_moments};
 use crate::model::robot::{Contact, Shape};
@@ -23,9 +23,6 @@ use crate::text::Dimension;
 
 /// A scene has at most this many bodies: far more than a lab needs, and few enough that their contacts fit a step.
 const MOST_BODIES: usize = 1000;
-
-/// Density of dry air at 15 °C at sea level \[kg/m³\]; source: ISO 2533:1975.
-const AIR_DENSITY_KG_M3: f64 = 1.225;
 
 /// Beyond this, forces are lost in rounding \[kg\].
 const MOST_MASS_KG: f64 = 1e9;

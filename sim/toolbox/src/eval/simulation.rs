@@ -50,11 +50,33 @@ pub struct Simulate {
     pub gravity_m_s2: Option<[f64; 3]>,
 }
 
+/// What the commands of a request are: a request has no laws of motion, so that nothing is prescribed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CommandMode {
+    /// Joint positions \[rad or m\].
+    Position,
+    /// Joint velocities \[rad/s or m/s\].
+    Velocity,
+    /// Joint efforts \[N m or N\].
+    Effort,
+}
+
+impl From<CommandMode> for Mode {
+    fn from(mode: CommandMode) -> Self {
+        match mode {
+            CommandMode::Position => Self::Position,
+            CommandMode::Velocity => Self::Velocity,
+            CommandMode::Effort => Self::Effort,
+        }
+    }
+}
+
 /// The joint servos; every number is one for all joints, or one per joint.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct ServoTable {
     /// What commands are.
-    pub mode: Mode,
+    pub mode: CommandMode,
     /// What the derivative term takes; the measurement where it is not given.
     pub derivative: Option<Derivative>,
     /// Proportional gain.
@@ -113,6 +135,8 @@ pub fn simulate(subject: Subject<'_>, request: &Simulate) -> Result<SampledRun, 
         sensors: robot.sensors().to_vec(),
         start_q: q0.as_slice().to_vec(),
         start_qd: qd0.as_slice().to_vec(),
+        laws: None,
+        pushes: Vec::new(),
         ticks,
     };
     let mut sampler = Sampler::new(&setup, stride);
@@ -253,21 +277,23 @@ impl ServoTable {
         }
         let derivative = self.derivative.unwrap_or(Derivative::Measurement);
         let compensates = self.gravity_compensation.unwrap_or(false);
-        ServoSettings::new(robot, self.mode, derivative, &gains, compensates).map_err(|error| {
-            let code = match error {
-                ServoError::Gain { .. } | ServoError::Limit { .. } => Code::OutOfRange,
-                ServoError::Count { .. } => Code::WrongLength,
-                ServoError::VelocityOfVelocity => Code::CannotRun,
-            };
-            // a list of gains is a field of `servo`
-            let message = match &error {
-                ServoError::Gain { what, .. } | ServoError::Limit { what, .. } => error
-                    .to_string()
-                    .replace(&format!("`{what}`"), &format!("`servo.{what}`")),
-                ServoError::Count { .. } | ServoError::VelocityOfVelocity => error.to_string(),
-            };
-            Refusal::new(code, message)
-        })
+        ServoSettings::new(robot, self.mode.into(), derivative, &gains, compensates).map_err(
+            |error| {
+                let code = match error {
+                    ServoError::Gain { .. } | ServoError::Limit { .. } => Code::OutOfRange,
+                    ServoError::Count { .. } => Code::WrongLength,
+                    ServoError::VelocityOfVelocity => Code::CannotRun,
+                };
+                // a list of gains is a field of `servo`
+                let message = match &error {
+                    ServoError::Gain { what, .. } | ServoError::Limit { what, .. } => error
+                        .to_string()
+                        .replace(&format!("`{what}`"), &format!("`servo.{what}`")),
+                    ServoError::Count { .. } | ServoError::VelocityOfVelocity => error.to_string(),
+                };
+                Refusal::new(code, message)
+            },
+        )
     }
 }
 

@@ -3,16 +3,14 @@
 use nalgebra::Vector3;
 
 use kinemark_sim::control::linear_step::Fed;
+use kinemark_sim::model::air::AIR_DENSITY_KG_M3;
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::model::scene::{Environment, Scene, Wind};
+use kinemark_sim::model::scene::{Scene, Wind};
 use kinemark_sim::run;
 use kinemark_sim::run::{End, Recorder, Row, Setup};
 use kinemark_sim::ticks::Periods;
 
 use super::settings::{ResponseError, ResponseSettings};
-
-/// Dry air at 15 °C at sea level \[kg/m³\].
-const AIR_DENSITY_KG_M3: f64 = 1.225;
 
 /// Another joint than the one that gets the step.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,19 +97,12 @@ fn air(settings: &ResponseSettings, robot: &Robot, gravity_m_s2: Vector3<f64>) -
     // drag without wind is that of still air
     let still = (surroundings.drag.is_some() && has_drag).then_some([0.0; 3]);
     let velocity_m_s = surroundings.wind_m_s.or(still)?;
-    Some(Scene {
-        name: "air".to_owned(),
-        environment: Environment {
-            gravity_m_s2,
-            wind: Some(Wind {
-                velocity_m_s: velocity_m_s.into(),
-                air_density_kg_m3: AIR_DENSITY_KG_M3,
-                gust: None,
-            }),
-            ground: None,
-        },
-        bodies: Vec::new(),
-    })
+    let wind = Wind {
+        velocity_m_s: velocity_m_s.into(),
+        air_density_kg_m3: AIR_DENSITY_KG_M3,
+        gust: None,
+    };
+    Some(Scene::of_air(gravity_m_s2, wind))
 }
 
 /// Runs the step on `robot`, which has the friction and the drag of the settings already.
@@ -145,6 +136,8 @@ pub(super) fn run_step(
         sensors: Vec::new(),
         start_q: start_q.to_vec(),
         start_qd: vec![0.0; robot.n()],
+        laws: None,
+        pushes: Vec::new(),
         ticks: (settings.duration_s / step_s).round() as u64,
     };
     let mut curves = Curves {

@@ -72,6 +72,7 @@ fn observation() -> Observation {
         qd: vec![0.3, 0.4],
         effort: vec![0.5, 0.6],
         tcp_m: [0.7, 0.8, 0.9],
+        tcp_rotation: [[0.01, 0.02, 0.03], [0.04, 0.05, 0.06], [0.07, 0.08, 0.09]],
         sensors: vec![1.0, 4.0, 5.0],
     }
 }
@@ -147,6 +148,8 @@ fn an_observation_has_the_layout_of_the_header() {
         (pointer(32, 1), 0.4),
         (pointer(36, 0), 0.5),
         (pointer(40, 2), 0.9),
+        (pointer(64, 0), 0.01),
+        (pointer(64, 8), 0.09),
         // the task's name begins with m
         (
             "(f64.convert_i32_u (i32.load8_u (i32.load offset=44 (local.get 0))))".to_owned(),

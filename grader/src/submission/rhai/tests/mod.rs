@@ -52,6 +52,7 @@ fn observation() -> Observation {
         qd: vec![1.0, 2.0],
         effort: vec![0.5, -0.5],
         tcp_m: [4.0, 0.0, 0.0],
+        tcp_rotation: [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
         sensors: Vec::new(),
     }
 }

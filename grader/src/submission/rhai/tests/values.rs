@@ -94,6 +94,14 @@ fn vectors_calculate_element_by_element() {
         ("[3, 4].norm()", Value::Number(5.0)),
         ("observation.q[1.0]", Value::Number(0.5)),
         ("observation.tcp.x", Value::Number(4.0)),
+        (
+            "observation.tcp_rotation * [1, 0, 0]",
+            numbers([0.0, 1.0, 0.0]),
+        ),
+        (
+            "col(observation.tcp_rotation, 1)",
+            numbers([-1.0, 0.0, 0.0]),
+        ),
         ("max(observation.q)", Value::Number(0.5)),
         (
             "let s = 0; for x in observation.q { s += x; } s",

@@ -38,7 +38,7 @@ fn mistakes_are_reported_with_names_values_and_a_way_out() {
         ),
         (
             "observation.qdd",
-            "`observation` has no `qdd`: did you mean `qd`? | it has dt, effort, q, qd, sensors, target, task, tcp, tick, time",
+            "`observation` has no `qdd`: did you mean `qd`? | it has dt, effort, q, qd, sensors, target, task, tcp, tcp_rotation, tick, time",
         ),
         (
             "this.x",
