@@ -29,7 +29,7 @@ pub(super) enum Request<'r> {
 #[derive(Deserialize)]
 pub(super) enum Received {
     Open(Box<Opening>),
-    Call(Call),
+    Call(Box<Call>),
     Try,
 }
 

@@ -104,7 +104,10 @@ mod tests {
         // sqrt(9 / 2)
         assert!((value(&finding) - 4.5_f64.sqrt()).abs() < 1e-12);
         let evidence = &finding.evidence[0];
-        assert_eq!((evidence.tick, evidence.signal.as_str()), (Some(0), "command[1]"));
+        assert_eq!(
+            (evidence.tick, evidence.signal.as_str()),
+            (Some(0), "command[1]")
+        );
         let shoulder = "effort-match = { joint = \"shoulder\", full_n_m = 1.0, zero_n_m = 5.0 }";
         let finding = judged(MOTION, shoulder, |_| HandRow {
             command: [1.0, 0.0],
