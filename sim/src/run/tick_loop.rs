@@ -368,8 +368,6 @@ impl<'a> Run<'a> {
         }
         let lost = match moved {
             StepOutcome::Diverged(what) => Some(what),
-            // laws do not run away
-            StepOutcome::Advanced if state.prescribed.is_some() => None,
             StepOutcome::Advanced => {
                 let scene = state.stepper.scene();
                 state.guard.check(robot, &state.q, &state.qd, scene)
