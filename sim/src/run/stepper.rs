@@ -6,6 +6,7 @@ use crate::model::push::Push;
 use crate::model::robot::Robot;
 use crate::step::free::FreeStep;
 use crate::step::hybrid::{HybridStep, StepError, StepReport};
+use crate::step::smooth::Foreseen;
 
 #[derive(Debug)]
 pub(super) enum Stepper {
@@ -60,6 +61,14 @@ impl Stepper {
                 Ok(StepOutcome::Advanced)
             }
             Self::InScene(step) => outcome(step.advance_along(robot, next, q, qd)),
+        }
+    }
+
+    /// Takes accelerations that are known: a step that starts there need not compute them.
+    pub(super) fn foresee(&mut self, foreseen: Foreseen<'_>) {
+        match self {
+            Self::Free(step) => step.foresee(foreseen),
+            Self::InScene(step) => step.foresee(foreseen),
         }
     }
 

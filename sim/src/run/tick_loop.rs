@@ -439,6 +439,9 @@ impl State {
                 .stepper
                 .advance_along(robot, next, &mut self.q, &mut self.qd);
         }
+        if let Some(foreseen) = self.drives.foreseen(&self.q, &self.qd) {
+            self.stepper.foresee(foreseen);
+        }
         let moved = self
             .stepper
             .advance(robot, &self.effort, &mut self.q, &mut self.qd)?;

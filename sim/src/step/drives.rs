@@ -18,6 +18,7 @@
 use nalgebra::Vector3;
 
 use super::free::FreeStep;
+use super::smooth::Foreseen;
 use crate::control::Gains;
 use crate::dynamics::ForwardDynamics;
 use crate::dynamics::dry_friction::friction_by_entry;
@@ -138,6 +139,8 @@ pub struct Drives {
     accelerations: Vec<f64>,
     /// What the servos ask for.
     asked: Vec<f64>,
+    /// Whether `accelerations` are those under `asked`.
+    is_foreseen: bool,
     /// Rates at the end of the step with what is asked for, as far as they are foreseen.
     plain: Vec<f64>,
     rates: Vec<f64>,
@@ -192,6 +195,7 @@ impl Drives {
             end_qd: zeros.clone(),
             accelerations: zeros.clone(),
             asked: zeros.clone(),
+            is_foreseen: false,
             plain: zeros.clone(),
             rates: zeros.clone(),
             added: zeros.clone(),
@@ -212,6 +216,7 @@ impl Drives {
         if !self.is_limited {
             return;
         }
+        self.is_foreseen = false;
         let gravity = &self.gravity_m_s2;
         let free =
             self.dynamics
@@ -229,12 +234,24 @@ impl Drives {
             return;
         }
         self.asked.copy_from_slice(effort);
+        self.is_foreseen = true;
         if self.has_friction || !self.none_binds(qd, effort) {
             self.solve(robot, q, qd, effort);
         }
         if self.is_violent(qd, effort) {
             self.correct(robot, q, qd, effort);
         }
+    }
+
+    /// The accelerations at `(q, qd)`, the state of the last call of [`Drives::deliver`], under the efforts that the servos asked for;
+    /// `None` where they were not needed.
+    pub(crate) fn foreseen<'a>(&'a self, q: &'a [f64], qd: &'a [f64]) -> Option<Foreseen<'a>> {
+        self.is_foreseen.then_some(Foreseen {
+            q,
+            qd,
+            effort: &self.asked,
+            qdd: &self.accelerations,
+        })
     }
 
     /// Whether the end of the step may be far from what is foreseen: a drive is at a limit, or a rate changes by much of its limit.

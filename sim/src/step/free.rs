@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::joint_limits::JointLimitConstraints;
-use super::smooth::SmoothStep;
+use super::smooth::{Foreseen, SmoothStep};
 use crate::dynamics::SingularMassMatrix;
 use crate::model::air::AirNow;
 use crate::model::push::Push;
@@ -56,6 +56,11 @@ impl FreeStep {
     /// Sets the pushes in effect during the following steps; initially there are none.
     pub(crate) fn set_pushes<'p>(&mut self, robot: &Robot, pushes: impl Iterator<Item = &'p Push>) {
         self.smooth.set_pushes(robot, pushes);
+    }
+
+    /// Takes accelerations that are known: a step that starts there need not compute them.
+    pub(crate) fn foresee(&mut self, foreseen: Foreseen<'_>) {
+        self.smooth.foresee(foreseen);
     }
 
     /// Advances `(q, qd)` by one step under `effort`, held constant; all slices have shape `(n)`. Allocates nothing without dry friction

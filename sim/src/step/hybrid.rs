@@ -9,6 +9,7 @@
 use nalgebra::Vector3;
 
 use super::free::FreeStep;
+use super::smooth::Foreseen;
 use crate::dynamics::SingularMassMatrix;
 use crate::engine::{ArmStep, BodyState, Clearance, EngineError, Ray, StepFault, World};
 use crate::model::air::AirNow;
@@ -233,6 +234,11 @@ impl HybridStep {
         q.copy_from_slice(next_q);
         qd.copy_from_slice(next_qd);
         Ok(&self.report)
+    }
+
+    /// Takes accelerations of the robot that are known: a step that starts there need not compute them.
+    pub(crate) fn foresee(&mut self, foreseen: Foreseen<'_>) {
+        self.free.foresee(foreseen);
     }
 
     /// Sets the pushes in effect during the next step; initially there are none. A body that is pushed wakes.

@@ -11,6 +11,9 @@
 //!
 //! The air, if there is any, and pushes are constant over a step; their efforts follow the motion of the links within the step.
 //!
+//! Drives foresee a step by the accelerations at its start, which are those of the first stage: they are handed over with the state and
+//! the effort that they belong to, and a stage that is just that, bit for bit, is not computed again.
+//!
 //! [`HybridStep`](super::hybrid::HybridStep) adds contact behind the same interface: a state and held efforts in, the next state out.
 
 use nalgebra::Vector3;
@@ -27,6 +30,48 @@ use crate::model::robot::Robot;
 /// Weights of the results of 1, 2, 3 and 4 partial steps: `Σ c_k = 1`, and `Σ c_k / kʲ = 0` for `j` from 1 to 3.
 const EXTRAPOLATION: [f64; 4] = [-1.0 / 6.0, 4.0, -13.5, 32.0 / 3.0];
 
+/// The accelerations of one state under one effort, as forward dynamics alone has them; all slices have shape `(n)`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Foreseen<'a> {
+    pub(crate) q: &'a [f64],
+    pub(crate) qd: &'a [f64],
+    pub(crate) effort: &'a [f64],
+    pub(crate) qdd: &'a [f64],
+}
+
+/// The last accelerations that were foreseen; none before the first, which no state can equal.
+#[derive(Debug, Clone, Default)]
+struct Known {
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    effort: Vec<f64>,
+    qdd: Vec<f64>,
+}
+
+impl Known {
+    fn set(&mut self, foreseen: Foreseen<'_>) {
+        let Foreseen { q, qd, effort, qdd } = foreseen;
+        for (known, given) in [
+            (&mut self.q, q),
+            (&mut self.qd, qd),
+            (&mut self.effort, effort),
+            (&mut self.qdd, qdd),
+        ] {
+            known.clear();
+            known.extend_from_slice(given);
+        }
+    }
+
+    /// The accelerations at just this state, under just this effort.
+    fn at(&self, q: &[f64], qd: &[f64], effort: &[f64]) -> Option<&[f64]> {
+        let same = |a: &[f64], b: &[f64]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+        };
+        let known = !q.is_empty() && same(&self.q, q);
+        (known && same(&self.qd, qd) && same(&self.effort, effort)).then_some(&self.qdd)
+    }
+}
+
 /// Integrates one robot with a fixed step; its memory is allocated once.
 #[derive(Debug, Clone)]
 pub struct SmoothStep {
@@ -37,6 +82,7 @@ pub struct SmoothStep {
     friction: DryFriction,
     /// The forces of the air and of pushes.
     forces: LinkForces,
+    known: Known,
     held: Vec<f64>,
     /// Held effort, and that of forces on links, of one stage.
     stage_effort: Vec<f64>,
@@ -58,6 +104,7 @@ impl SmoothStep {
             damping: ImplicitDamping::new(robot, dt_s),
             friction: DryFriction::new(robot),
             forces: LinkForces::new(robot),
+            known: Known::default(),
             held: room(),
             stage_effort: room(),
             stage_q: room(),
@@ -75,6 +122,11 @@ impl SmoothStep {
     /// Sets the pushes in effect during the following steps; initially there are none.
     pub fn set_pushes<'p>(&mut self, robot: &Robot, pushes: impl Iterator<Item = &'p Push>) {
         self.forces.set_pushes(robot, pushes);
+    }
+
+    /// Takes accelerations that are known, of this robot under this gravity: a step that starts there need not compute them.
+    pub(super) fn foresee(&mut self, foreseen: Foreseen<'_>) {
+        self.known.set(foreseen);
     }
 
     /// Whether forces act on the links: there is air and a moving link has drag, or a push.
@@ -209,9 +261,10 @@ impl SmoothStep {
         };
         let added = is_stiff.then(|| self.damping.whole_step());
         let (dynamics, gravity) = (&mut self.dynamics, &self.gravity_m_s2);
-        match added {
-            None => dynamics.acceleration(robot, gravity, q, qd, effort, slope)?,
-            Some(added) => {
+        match (added, self.known.at(q, qd, effort)) {
+            (None, Some(qdd)) => slope.copy_from_slice(qdd),
+            (None, None) => dynamics.acceleration(robot, gravity, q, qd, effort, slope)?,
+            (Some(added), _) => {
                 dynamics.acceleration_with(robot, gravity, (q, qd), effort, added, slope)?;
             }
         }
@@ -304,6 +357,12 @@ impl SmoothStep {
             } else {
                 &self.held
             };
+            if stage == 0
+                && let Some(qdd) = self.known.at(stage_q, stage_qd, effort)
+            {
+                self.slopes[0][..n].copy_from_slice(qdd);
+                continue;
+            }
             self.dynamics.acceleration(
                 robot,
                 &self.gravity_m_s2,
@@ -328,4 +387,53 @@ fn with_forces<'a>(
     room.copy_from_slice(&effort[..room.len()]);
     forces.add_efforts(robot, q, qd, room);
     room
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::RobotFile;
+    use crate::text::Source;
+
+    /// The state after a step of a pendulum with friction under 2 N m, after the accelerations `foreseen` for `effort` were handed over.
+    fn step(friction_n_m: f64, effort: f64, foreseen: Option<f64>) -> [f64; 2] {
+        let pendulum = format!(
+            "format = 1\nname = 'p'\n[[links]]\nname = 'base'\n[[links]]\nname = 'bob'\n\
+             inertia = {{ mass_kg = 1.0, com_m = [0.3, 0.0, 0.0], tensor_kg_m2 = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0] }}\n[[joints]]\nname = 'hinge'\ntype = 'revolute'\n\
+             parent = 'base'\nchild = 'bob'\naxis = [0.0, 1.0, 0.0]\ndry_friction = {friction_n_m:?}\n"
+        );
+        let robot = RobotFile::parse(Source::new("p", pendulum)).unwrap();
+        let robot = robot.build(&[]).unwrap();
+        let mut smooth = SmoothStep::new(&robot, Vector3::new(0.0, 0.0, -9.81), 1e-3);
+        let (mut q, mut qd) = ([0.4], [1.5]);
+        let mut known = [0.0];
+        let (mut dynamics, gravity) = (ForwardDynamics::new(&robot), smooth.gravity_m_s2);
+        let computed = dynamics.acceleration(&robot, &gravity, &q, &qd, &[effort], &mut known);
+        assert_eq!(computed, Ok(()));
+        if let Some(wrong_by) = foreseen {
+            smooth.foresee(Foreseen {
+                q: &q,
+                qd: &qd,
+                effort: &[effort],
+                qdd: &[known[0] + wrong_by],
+            });
+        }
+        smooth.advance(&robot, &[2.0], &mut q, &mut qd).unwrap();
+        [q[0], qd[0]]
+    }
+
+    #[test]
+    fn what_is_foreseen_is_taken_where_it_is_the_start_of_the_step_and_changes_no_bit() {
+        for friction_n_m in [0.0, 0.7] {
+            let expected = step(friction_n_m, 2.0, None);
+            assert_eq!(step(friction_n_m, 2.0, Some(0.0)), expected);
+            // it was not computed again: friction would have to turn round for this
+            assert_ne!(step(friction_n_m, 2.0, Some(-3000.0)), expected);
+            // under another effort it is of no use
+            assert_eq!(
+                step(friction_n_m, 2.0_f64.next_up(), Some(-3000.0)),
+                expected
+            );
+        }
+    }
 }
