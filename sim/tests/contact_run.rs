@@ -8,7 +8,7 @@ use crate::contact_scenes::{GRAVITY, reach, shelf_and_can};
 pub(crate) const DT: f64 = 1e-3;
 
 /// Digest of the run of the course's arm. Changing it moves grades: it needs a line in the changelog that says why.
-pub(crate) const DIGEST: &str = "e7ab0e4e10fa434f7471c3f290f5d1241861d8a87137fab8971f43a00dec285d";
+pub(crate) const DIGEST: &str = "e1cebabf8eae74d78a209798130abc46b08cb90eb49f9de4749c33b4d52f6434";
 
 /// What holds the course's arm against gravity.
 pub(crate) fn weight(q: &[f64]) -> [f64; 2] {

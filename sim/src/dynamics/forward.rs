@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::aba::{Aba, SingularMassMatrix};
+use super::crba::Crba;
 use super::loops::Constrained;
 use crate::joint_space::{JointAccelerations, JointEfforts, JointPositions, JointVelocities};
 use crate::model::robot::Robot;
@@ -62,22 +63,69 @@ pub fn moves_nothing(robot: &Robot) -> bool {
 
 /// Forward dynamics of one robot, with its scratch memory. In a loop it allocates nothing for a plain tree.
 #[derive(Debug, Clone)]
-pub struct ForwardDynamics(Algorithm);
+pub struct ForwardDynamics {
+    algorithm: Algorithm,
+    /// The last inverse mass matrix.
+    inverse: DMatrix<f64>,
+}
 
 #[derive(Debug, Clone)]
 enum Algorithm {
-    Tree(Aba),
+    Tree(Aba, TreeMass),
     Coupled(Box<Constrained>),
+}
+
+/// The mass matrix of a plain tree, with scratch memory.
+#[derive(Debug, Clone)]
+struct TreeMass {
+    crba: Crba,
+    matrix: DMatrix<f64>,
+}
+
+impl TreeMass {
+    /// Writes the inverse of the mass matrix with `added` on its diagonal; `None` if it is singular.
+    fn invert(
+        &mut self,
+        robot: &Robot,
+        q: &[f64],
+        added: Option<&[f64]>,
+        inverse: &mut DMatrix<f64>,
+    ) -> Option<()> {
+        let mut matrix = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0));
+        self.crba.fill(robot, q, &mut matrix);
+        for (i, added) in added.into_iter().flatten().enumerate() {
+            matrix[(i, i)] += added;
+        }
+        let factor = matrix.cholesky();
+        if let Some(factor) = &factor {
+            inverse.fill_with_identity();
+            factor.solve_mut(inverse);
+        }
+        let is_regular = factor.is_some();
+        self.matrix = match factor {
+            Some(factor) => factor.unpack_dirty(),
+            None => DMatrix::zeros(robot.n(), robot.n()),
+        };
+        is_regular.then_some(())
+    }
 }
 
 impl ForwardDynamics {
     /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
-        Self(if robot.is_plain_tree() {
-            Algorithm::Tree(Aba::new(robot))
-        } else {
-            Algorithm::Coupled(Box::new(Constrained::new(robot)))
-        })
+        let square = || DMatrix::zeros(robot.n(), robot.n());
+        Self {
+            algorithm: if robot.is_plain_tree() {
+                let mass = TreeMass {
+                    crba: Crba::new(robot),
+                    matrix: square(),
+                };
+                Algorithm::Tree(Aba::new(robot), mass)
+            } else {
+                Algorithm::Coupled(Box::new(Constrained::new(robot)))
+            },
+            inverse: square(),
+        }
     }
 
     /// Writes the accelerations into `qdd`; all slices have shape `(n)`. With viscous damping, without dry friction (whose sign a
@@ -97,8 +145,8 @@ impl ForwardDynamics {
         effort: &[f64],
         qdd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
-        match &mut self.0 {
-            Algorithm::Tree(aba) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
+        match &mut self.algorithm {
+            Algorithm::Tree(aba, _) => aba.acceleration(robot, gravity_m_s2, q, qd, effort, qdd),
             Algorithm::Coupled(coupled) => {
                 coupled.acceleration(robot, gravity_m_s2, (q, qd), effort, None, qdd)
             }
@@ -119,8 +167,8 @@ impl ForwardDynamics {
         added: &[f64],
         qdd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
-        match &mut self.0 {
-            Algorithm::Tree(aba) => {
+        match &mut self.algorithm {
+            Algorithm::Tree(aba, _) => {
                 aba.acceleration_with(robot, gravity_m_s2, state, effort, added, qdd)
             }
             Algorithm::Coupled(coupled) => {
@@ -131,8 +179,8 @@ impl ForwardDynamics {
 
     /// Whether `M + diag(added)` is positive definite at `q`, for the mass matrix of the open tree; both slices have shape `(n)`.
     pub(crate) fn is_positive_with(&mut self, robot: &Robot, q: &[f64], added: &[f64]) -> bool {
-        match &mut self.0 {
-            Algorithm::Tree(aba) => aba.is_positive_with(robot, q, added),
+        match &mut self.algorithm {
+            Algorithm::Tree(aba, _) => aba.is_positive_with(robot, q, added),
             Algorithm::Coupled(coupled) => coupled.is_positive_with(robot, q, added),
         }
     }
@@ -147,8 +195,8 @@ impl ForwardDynamics {
         q: &mut [f64],
         qd: &mut [f64],
     ) -> Result<(), SingularMassMatrix> {
-        match &mut self.0 {
-            Algorithm::Tree(_) => Ok(()),
+        match &mut self.algorithm {
+            Algorithm::Tree(..) => Ok(()),
             Algorithm::Coupled(coupled) => coupled.close(robot, q, qd),
         }
     }
@@ -160,17 +208,13 @@ impl ForwardDynamics {
         robot: &Robot,
         q: &[f64],
         added: Option<&[f64]>,
-    ) -> Option<DMatrix<f64>> {
-        match &mut self.0 {
-            Algorithm::Coupled(coupled) => coupled.inverse_inertia(robot, q, added),
-            Algorithm::Tree(_) => {
-                let q = JointPositions::new(q.iter().copied());
-                let mut matrix = super::mass_matrix(robot, &q);
-                for (i, added) in added.into_iter().flatten().enumerate() {
-                    matrix[(i, i)] += added;
-                }
-                matrix.cholesky().map(|c| c.inverse())
+    ) -> Option<&DMatrix<f64>> {
+        match &mut self.algorithm {
+            Algorithm::Coupled(coupled) => {
+                self.inverse = coupled.inverse_inertia(robot, q, added)?;
             }
+            Algorithm::Tree(_, mass) => mass.invert(robot, q, added, &mut self.inverse)?,
         }
+        Some(&self.inverse)
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct Arm {
     /// Half of what viscous damping takes from a unit of velocity in a step: it resists an impulse that is spread over the step like
     /// inertia \[kg m² or kg\].
     resists: Vec<f64>,
-    /// Joint rates per unit impulse, shape `(n, n)`; empty where the mass matrix is singular.
+    /// Joint rates per unit impulse, shape `(n, n)`; zero where the mass matrix is singular.
     response: DMatrix<f64>,
     /// Room for a row.
     row: Vec<f64>,
@@ -39,7 +39,7 @@ impl Arm {
             middle_q: vec![0.0; robot.n()],
             dynamics: ForwardDynamics::new(robot),
             resists,
-            response: DMatrix::zeros(0, 0),
+            response: DMatrix::zeros(robot.n(), robot.n()),
             row: vec![0.0; robot.n()],
         }
     }
@@ -81,13 +81,15 @@ impl Arm {
     pub(super) fn weigh(&mut self, robot: &Robot) {
         let added = Some(self.resists.as_slice());
         let inverse = self.dynamics.inverse_inertia(robot, &self.middle_q, added);
-        self.response = inverse.unwrap_or_else(|| DMatrix::zeros(robot.n(), robot.n()));
+        match inverse {
+            Some(inverse) => self.response.copy_from(inverse),
+            None => self.response.fill(0.0),
+        }
     }
 
     /// Lets no impulse change its motion in this step.
     pub(super) fn hold(&mut self) {
-        let n = self.row.len();
-        self.response = DMatrix::zeros(n, n);
+        self.response.fill(0.0);
     }
 
     /// Writes the change of the joint rates by an impulse of one along `row`.

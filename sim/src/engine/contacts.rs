@@ -65,6 +65,10 @@ pub(super) struct Contacts {
     velocities: Vec<f64>,
     free_displacement: Vec<f64>,
     displacement: Vec<f64>,
+    /// The displacement with contact before places were corrected.
+    kicked: Vec<f64>,
+    /// What each dynamic body that is awake answers to impulses: its inverse mass and inertia tensor.
+    inverse: Vec<(f64, Matrix3<f64>)>,
     /// Ranges of the joints, and the greatest impulses of their dry friction in a step.
     ranges: Vec<(f64, f64)>,
     frictions: Vec<[f64; 2]>,
@@ -92,6 +96,8 @@ impl Contacts {
             velocities: Vec::new(),
             free_displacement: Vec::new(),
             displacement: Vec::new(),
+            kicked: Vec::new(),
+            inverse: Vec::new(),
             ranges: ranges
                 .iter()
                 .map(|range| (range.lower, range.upper))
@@ -161,10 +167,10 @@ impl Contacts {
                 self.displacement[i] = 0.5 * self.dt_s * (self.before[i] + self.velocities[i]);
             }
         }
-        let kicked = self.displacement.clone();
+        self.kicked.clone_from(&self.displacement);
         self.constraints
             .correct_places(&mut self.displacement, after_s);
-        self.move_all(movers, arm, at_s, &kicked);
+        self.move_all(movers, arm);
         self.remember(pairs);
     }
 
@@ -479,11 +485,12 @@ impl Contacts {
                 links.hold();
             }
         }
-        let mut inverse: Vec<(f64, Matrix3<f64>)> = Vec::new();
-        for body in movers.free.iter().filter(|body| !body.sleeps) {
-            inverse.push((1.0 / body.mass_kg, body.inverse_tensor(at_s)));
+        self.inverse.clear();
+        for body in movers.free.iter_mut().filter(|body| !body.sleeps) {
+            self.inverse
+                .push((1.0 / body.mass_kg, body.turn_to(at_s, self.dt_s)));
         }
-        let links = movers.arm.as_deref();
+        let (links, inverse) = (movers.arm.as_deref(), &self.inverse);
         self.constraints.rows.respond(|at, jacobian, response| {
             if at < n {
                 response.fill(0.0);
@@ -539,14 +546,8 @@ impl Contacts {
         self.limit_memory.fill([0.0; 2]);
     }
 
-    /// Moves everything with the impulses of contact; `kicked` is the displacement before places were corrected.
-    fn move_all(
-        &mut self,
-        movers: &mut Movers<'_>,
-        arm: Option<&ArmStep<'_>>,
-        at_s: f64,
-        kicked: &[f64],
-    ) {
+    /// Moves everything with the impulses of contact.
+    fn move_all(&mut self, movers: &mut Movers<'_>, arm: Option<&ArmStep<'_>>) {
         for (body, at) in movers.free.iter_mut().zip(&self.offsets) {
             let Some(at) = *at else {
                 continue;
@@ -555,11 +556,11 @@ impl Contacts {
                 std::array::from_fn(|i| list[at + i] - base[at + i])
             };
             let kick = six(&self.velocities, &self.free);
-            let moved = six(&self.displacement, kicked);
+            let moved = six(&self.displacement, &self.kicked);
             if kick.iter().chain(&moved).all(|x| *x == 0.0) {
                 body.fly(self.dt_s);
             } else {
-                body.fly_kicked(self.dt_s, at_s, &kick, &moved);
+                body.fly_kicked(&kick, &moved);
             }
         }
         if let Some(arm) = arm {

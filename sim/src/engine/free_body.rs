@@ -36,6 +36,18 @@ pub(super) struct FreeBody {
     pub(super) rested: u32,
     /// What fell asleep together has the same number.
     pub(super) island: u64,
+    kick: Kick,
+}
+
+/// A body at the time within a step at which impulses act on it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Kick {
+    /// Time from the start of the step \[s\], and how long the step is.
+    at_s: f64,
+    dt_s: f64,
+    rotation: Matrix3<f64>,
+    /// Angular momentum before the impulses, world axes.
+    momentum: Vector3<f64>,
 }
 
 impl FreeBody {
@@ -72,6 +84,7 @@ impl FreeBody {
             sleeps: false,
             rested: 0,
             island: 0,
+            kick: Kick::default(),
         })
     }
 
@@ -135,14 +148,17 @@ impl FreeBody {
         [six(v, w), six(&next, w), six(&gone, &turned)]
     }
 
-    /// The inverse inertia tensor in world axes, `time_s` after the start of the step.
-    pub(super) fn inverse_tensor(&self, time_s: f64) -> Matrix3<f64> {
-        self.tensor.inverse_in_world(&self.turned(time_s))
-    }
-
-    fn turned(&self, time_s: f64) -> Matrix3<f64> {
+    /// Prepares for impulses `at_s` after the start of a step of `dt_s`; returns the inverse inertia tensor there, in world axes.
+    pub(super) fn turn_to(&mut self, at_s: f64, dt_s: f64) -> Matrix3<f64> {
         let momentum = self.tensor.momentum(&self.rotation, &self.w);
-        self.tensor.turned(&self.rotation, &momentum, time_s)
+        let rotation = self.tensor.turned(&self.rotation, &momentum, at_s);
+        self.kick = Kick {
+            at_s,
+            dt_s,
+            rotation,
+            momentum,
+        };
+        self.tensor.inverse_in_world(&rotation)
     }
 
     /// Moves it through a step of `dt_s` without contact.
@@ -158,17 +174,21 @@ impl FreeBody {
         }
     }
 
-    /// Moves it through a step of `dt_s` in which a kick `at_s` after the start changes its velocities by `kick` and its displacement,
-    /// besides what follows from the kick, by `moved` (linear, angular each).
-    pub(super) fn fly_kicked(&mut self, dt_s: f64, at_s: f64, kick: &[f64; 6], moved: &[f64; 6]) {
+    /// Moves it through the step of [`FreeBody::turn_to`], in which a kick changes its velocities by `kick` and its displacement, besides
+    /// what follows from the kick, by `moved` (linear, angular each).
+    pub(super) fn fly_kicked(&mut self, kick: &[f64; 6], moved: &[f64; 6]) {
         let linear = |six: &[f64; 6]| Vector3::new(six[0], six[1], six[2]);
         let angular = |six: &[f64; 6]| Vector3::new(six[3], six[4], six[5]);
         let a = self.acceleration_m_s2;
+        let Kick {
+            at_s,
+            dt_s,
+            rotation: then,
+            momentum,
+        } = self.kick;
         let after_s = dt_s - at_s;
         self.x += (self.v + a * (0.5 * dt_s)) * dt_s + linear(kick) * after_s + linear(moved);
         self.v += a * dt_s + linear(kick);
-        let momentum = self.tensor.momentum(&self.rotation, &self.w);
-        let then = self.tensor.turned(&self.rotation, &momentum, at_s);
         let momentum = momentum + self.tensor.momentum(&then, &angular(kick));
         let next = self.tensor.turned(&then, &momentum, after_s);
         let w = self.tensor.rate(&next, &momentum);

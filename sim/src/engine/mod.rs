@@ -19,6 +19,7 @@
 //! | `engine_settings` | parameters of contact |
 //! | `work` | counts what all this costs |
 
+mod anderson;
 mod arm;
 mod clearance;
 mod collider;

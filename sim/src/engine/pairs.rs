@@ -154,6 +154,8 @@ pub(super) struct Pairs {
     /// The shapes without finite bounds.
     boundless: Vec<usize>,
     found: Vec<[usize; 2]>,
+    /// The pairs of the last step, while those of this step are listed.
+    known: Vec<Pair>,
 }
 
 impl Pairs {
@@ -231,7 +233,8 @@ impl Pairs {
 
     /// Keeps the pairs that were found and those of which nothing moves, and adds the new ones.
     fn merge(&mut self, moves: impl Fn(&[usize; 2]) -> bool) {
-        let mut known = std::mem::take(&mut self.pairs).into_iter().peekable();
+        std::mem::swap(&mut self.pairs, &mut self.known);
+        let mut known = self.known.drain(..).peekable();
         let mut found = self.found.iter().peekable();
         loop {
             let next = match (known.peek(), found.peek()) {

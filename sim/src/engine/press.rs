@@ -13,29 +13,28 @@ pub(super) const SOFT: f64 = 1e-9;
 /// Changes of the set of pressed points: far more than a face needs.
 const CHANGES: usize = 4 * MOST;
 
-/// Finds `p >= 0` with `w = matrix p + offset >= -least` and `p · w = 0`, from the feasible start `p`; `matrix` is positive definite, of
-/// `p.len()` rows and columns.
-pub(super) fn press(matrix: &[f64], offset: &[f64], p: &mut [f64], least: f64) {
-    let m = p.len();
-    if let [only] = p {
-        *only = (-offset[0] / matrix[0]).max(0.0);
+/// Finds `p >= 0` with `w = matrix p + offset >= -least` and `p · w = 0`, from the feasible start `p`; `matrix` is symmetric and positive
+/// definite.
+pub(super) fn press<const M: usize>(
+    matrix: &[[f64; M]; M],
+    offset: &[f64; M],
+    p: &mut [f64; M],
+    least: f64,
+) {
+    if M == 1 {
+        p[0] = (-offset[0] / matrix[0][0]).max(0.0);
         return;
     }
-    let at = |p: &[f64], i: usize| -> f64 {
-        let row = &matrix[i * m..(i + 1) * m];
-        offset[i] + row.iter().zip(p).map(|(a, p)| a * p).sum::<f64>()
+    let at = |p: &[f64; M], i: usize| -> f64 {
+        offset[i] + matrix[i].iter().zip(p).map(|(a, p)| a * p).sum::<f64>()
     };
-    let mut pressed = [false; MOST];
-    for i in 0..m {
-        pressed[i] = p[i] > 0.0 || at(p, i) < -least;
-    }
+    let mut pressed: [bool; M] = std::array::from_fn(|i| p[i] > 0.0 || at(p, i) < -least);
     for _ in 0..CHANGES {
-        let mut wanted = [0.0; MOST];
-        solve(matrix, offset, &pressed[..m], &mut wanted[..m]);
+        let wanted = solve(matrix, offset, &pressed);
         // as far towards the solution as no point pulls
         let mut reach = 1.0;
         let mut first = None;
-        for i in 0..m {
+        for i in 0..M {
             if pressed[i] && wanted[i] < 0.0 {
                 let to_zero = p[i] / (p[i] - wanted[i]);
                 if to_zero < reach || first.is_none() {
@@ -43,7 +42,7 @@ pub(super) fn press(matrix: &[f64], offset: &[f64], p: &mut [f64], least: f64) {
                 }
             }
         }
-        for i in 0..m {
+        for i in 0..M {
             p[i] = if pressed[i] {
                 (p[i] + reach * (wanted[i] - p[i])).max(0.0)
             } else {
@@ -56,7 +55,7 @@ pub(super) fn press(matrix: &[f64], offset: &[f64], p: &mut [f64], least: f64) {
             continue;
         }
         let mut worst = (-least, None);
-        for (i, pressed) in pressed[..m].iter().enumerate() {
+        for (i, pressed) in pressed.iter().enumerate() {
             let w = if *pressed { 0.0 } else { at(p, i) };
             if w < worst.0 {
                 worst = (w, Some(i));
@@ -69,34 +68,43 @@ pub(super) fn press(matrix: &[f64], offset: &[f64], p: &mut [f64], least: f64) {
     }
 }
 
-/// Solves the rows and columns of `pressed` for `p`, by Cholesky's factors; the others are zero.
-fn solve(matrix: &[f64], offset: &[f64], pressed: &[bool], p: &mut [f64]) {
-    let m = pressed.len();
-    let mut factor = [[0.0; MOST]; MOST];
-    for i in (0..m).filter(|i| pressed[*i]) {
+/// Solves the rows and columns of `pressed`, by Cholesky's factors; the others are zero.
+fn solve<const M: usize>(
+    matrix: &[[f64; M]; M],
+    offset: &[f64; M],
+    pressed: &[bool; M],
+) -> [f64; M] {
+    let mut p = [0.0; M];
+    let mut factor = [[0.0; M]; M];
+    // inverses of the diagonal
+    let mut per = [0.0; M];
+    for i in (0..M).filter(|i| pressed[*i]) {
         let mut rest = -offset[i];
-        for j in (0..=i).filter(|j| pressed[*j]) {
-            let mut sum = matrix[i * m + j];
-            for k in (0..j).filter(|k| pressed[*k]) {
-                sum -= factor[i][k] * factor[j][k];
+        for j in (0..i).filter(|j| pressed[*j]) {
+            let mut sum = matrix[i][j];
+            // rows and columns that are left out are zero
+            for (a, b) in factor[i][..j].iter().zip(&factor[j][..j]) {
+                sum -= a * b;
             }
-            if i == j {
-                // the softness keeps it positive; rounding may not
-                factor[i][i] = sum.max(f64::MIN_POSITIVE).sqrt();
-            } else {
-                factor[i][j] = sum / factor[j][j];
-                rest -= factor[i][j] * p[j];
-            }
+            factor[i][j] = sum * per[j];
+            rest -= factor[i][j] * p[j];
         }
-        p[i] = rest / factor[i][i];
+        let mut sum = matrix[i][i];
+        for entry in &factor[i][..i] {
+            sum -= entry * entry;
+        }
+        // the softness keeps it positive; rounding may not
+        per[i] = 1.0 / sum.max(f64::MIN_POSITIVE).sqrt();
+        p[i] = rest * per[i];
     }
-    for i in (0..m).rev().filter(|i| pressed[*i]) {
+    for i in (0..M).rev().filter(|i| pressed[*i]) {
         let mut rest = p[i];
-        for k in (i + 1..m).filter(|k| pressed[*k]) {
+        for k in i + 1..M {
             rest -= factor[k][i] * p[k];
         }
-        p[i] = rest / factor[i][i];
+        p[i] = rest * per[i];
     }
+    p
 }
 
 #[cfg(test)]
@@ -105,14 +113,12 @@ mod tests {
     use proptest::prelude::*;
 
     /// Four corners of a square plate of side 2 and unit mass, with its tensor, softened.
-    fn plate() -> Vec<f64> {
+    fn plate() -> [[f64; 4]; 4] {
         let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-        let mut matrix = Vec::new();
-        for (i, a) in corners.iter().enumerate() {
-            for (j, b) in corners.iter().enumerate() {
-                let soft = if i == j { SOFT } else { 0.0 };
-                matrix.push(1.0 + 3.0 * (a[0] * b[0] + a[1] * b[1]) + soft);
-            }
+        let mut matrix =
+            corners.map(|a: [f64; 2]| corners.map(|b| 1.0 + 3.0 * (a[0] * b[0] + a[1] * b[1])));
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row[i] += SOFT;
         }
         matrix
     }
@@ -132,8 +138,6 @@ mod tests {
             (p[0] - 1.0 / 7.0).abs() < 1e-7 && p[1..] == [0.0; 3],
             "{p:?}"
         );
-        let mut p = [];
-        press(&[], &[], &mut p, 0.0);
     }
 
     proptest! {
@@ -144,17 +148,18 @@ mod tests {
             start in proptest::collection::vec(0.0..1.0f64, 5),
         ) {
             // five points on three degrees of freedom
-            let mut matrix = vec![0.0; 25];
+            let mut matrix = [[0.0; 5]; 5];
             for i in 0..5 {
                 for j in 0..5 {
-                    matrix[i * 5 + j] = (0..3).map(|k| entries[i * 3 + k] * entries[j * 3 + k]).sum();
+                    matrix[i][j] = (0..3).map(|k| entries[i * 3 + k] * entries[j * 3 + k]).sum();
                 }
-                matrix[i * 5 + i] += 1e-3;
+                matrix[i][i] += 1e-3;
             }
-            let mut p = start;
+            let mut p: [f64; 5] = start.try_into().unwrap();
+            let offset: [f64; 5] = offset.try_into().unwrap();
             press(&matrix, &offset, &mut p, 1e-12);
             for i in 0..5 {
-                let w: f64 = offset[i] + (0..5).map(|j| matrix[i * 5 + j] * p[j]).sum::<f64>();
+                let w: f64 = offset[i] + (0..5).map(|j| matrix[i][j] * p[j]).sum::<f64>();
                 prop_assert!(p[i] >= 0.0 && w >= -1e-9, "{p:?} {w}");
                 prop_assert!(p[i] * w.abs() < 1e-8, "{p:?} {w}");
             }

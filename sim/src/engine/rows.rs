@@ -103,15 +103,12 @@ impl Rows {
 
     /// What the movers of `row` alone contribute to it: with displacements for `velocities`, the change of a gap.
     pub(super) fn along(&self, row: usize, velocities: &[f64]) -> f64 {
-        let row = &self.rows[row];
-        let mut speed = 0.0;
-        for block in row.blocks.iter().filter(|block| block.len > 0) {
-            speed += dot(
-                &self.jacobian[block.entries()],
-                &velocities[block.velocities()],
-            );
-        }
-        speed
+        let [first, second] = &self.rows[row].blocks;
+        let part = |block: &Block| {
+            let jacobian = &self.jacobian[block.entries()];
+            dot(jacobian, &velocities[block.velocities()])
+        };
+        part(first) + part(second)
     }
 
     /// Change of the speed along `row` by an impulse of one along it.
@@ -131,17 +128,34 @@ impl Rows {
 
     /// Changes `velocities` by an impulse along `row`.
     pub(super) fn push(&self, row: usize, impulse: f64, velocities: &mut [f64]) {
-        for block in self.rows[row].blocks.iter().filter(|block| block.len > 0) {
+        for block in &self.rows[row].blocks {
             let response = &self.response[block.entries()];
-            for (velocity, response) in velocities[block.velocities()].iter_mut().zip(response) {
-                *velocity += response * impulse;
+            let velocities = &mut velocities[block.velocities()];
+            let add = |velocities: &mut [f64], response: &[f64]| {
+                for (velocity, response) in velocities.iter_mut().zip(response) {
+                    *velocity += response * impulse;
+                }
+            };
+            match (<&mut [f64; 6]>::try_from(&mut *velocities), six(response)) {
+                (Ok(velocities), Some(response)) => add(velocities, response),
+                _ => add(velocities, response),
             }
         }
     }
 }
 
+/// Those of a body, whose number the compiler knows.
+fn six(list: &[f64]) -> Option<&[f64; 6]> {
+    list.try_into().ok()
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    match (six(a), six(b)) {
+        (Some(a), Some(b)) => {
+            (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5])
+        }
+        _ => a.iter().zip(b).map(|(a, b)| a * b).sum(),
+    }
 }
 
 #[cfg(test)]

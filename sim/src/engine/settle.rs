@@ -10,7 +10,8 @@
 
 use std::ops::Range;
 
-use super::disk;
+use super::anderson::Anderson;
+use super::disk::Response;
 use super::press::{self, press};
 use super::rows::Rows;
 
@@ -51,8 +52,10 @@ pub(super) struct Point {
     pub(super) impulse: f64,
     /// Impulses along the tangents \[N s\].
     pub(super) rubbed: [f64; 2],
-    /// Softness along the tangents, a symmetric matrix.
-    pub(super) soft: [f64; 3],
+    /// What the tangents answer to impulses along them.
+    pub(super) across: Response,
+    /// Where the last search for friction at its limit ended.
+    pub(super) edge: f64,
 }
 
 /// Points that are settled together.
@@ -69,8 +72,9 @@ pub(super) struct Patch {
 pub(super) struct Rolling {
     pub(super) rows: [usize; 2],
     pub(super) arm_m: f64,
-    pub(super) impulse: [f64; 2],
-    pub(super) soft: [f64; 3],
+    impulse: [f64; 2],
+    across: Response,
+    edge: f64,
 }
 
 impl Rolling {
@@ -79,7 +83,8 @@ impl Rolling {
             rows,
             arm_m,
             impulse: [0.0; 2],
-            soft: [0.0; 3],
+            across: Response::default(),
+            edge: 0.0,
         }
     }
 }
@@ -104,8 +109,16 @@ pub(super) struct Constraints {
     pub(super) frictions: Vec<JointFriction>,
     /// Softness of the normals of each patch.
     blocks: Vec<f64>,
+    acceleration: Acceleration,
     /// Visits of points so far.
     visits: u64,
+}
+
+/// All impulses of one step as a list, and how they are extrapolated.
+#[derive(Debug, Clone, Default)]
+struct Acceleration {
+    anderson: Anderson,
+    impulses: Vec<f64>,
 }
 
 /// Which of the two problems a sweep works on.
@@ -165,11 +178,11 @@ impl Constraints {
                     self.blocks.push(entry);
                 }
                 if let Some(tangents) = self.points[i].tangents {
-                    self.points[i].soft = softness(rows, tangents);
+                    self.points[i].across = response(rows, tangents);
                 }
             }
             if let Some(rolling) = &mut patch.rolling {
-                rolling.soft = softness(rows, rolling.rows);
+                rolling.across = response(rows, rolling.rows);
             }
         }
     }
@@ -211,13 +224,16 @@ impl Constraints {
 
     /// Finds the impulses, starting from those that the points have, and adds their effect to `velocities`.
     pub(super) fn settle(&mut self, velocities: &mut [f64]) {
+        if !self.points.iter().any(|point| point.bounce_m_s > 0.0) {
+            self.settle_once(velocities, 1.0);
+            return;
+        }
         let free = velocities.to_vec();
         let mut bounce = 1.0;
-        let bounces = self.points.iter().any(|point| point.bounce_m_s > 0.0);
         for halving in 0..=HALVINGS {
             self.settle_once(velocities, bounce);
             // Newton's law of restitution may ask for more energy than friction left
-            if !bounces || !self.gains(&free, velocities) {
+            if !self.gains(&free, velocities) {
                 break;
             }
             bounce = if halving + 1 < HALVINGS {
@@ -263,13 +279,12 @@ impl Constraints {
         if self.is_smooth() {
             return;
         }
+        let round = if self.goes_to_and_fro() { 2 } else { 1 };
+        self.acceleration.anderson.start(velocities);
         for sweep in 0..SWEEPS {
             let mut changed = 0.0_f64;
             for turn in 0..self.patches.len() {
-                let index = match sweep % 2 {
-                    0 => turn,
-                    _ => self.patches.len() - 1 - turn,
-                };
+                let index = self.in_turn(sweep, turn);
                 changed = changed.max(self.rub(index, velocities));
                 changed = changed.max(self.roll(index, velocities));
                 changed =
@@ -279,6 +294,64 @@ impl Constraints {
             if changed <= settled {
                 break;
             }
+            if (sweep + 1) % round == 0 {
+                self.accelerate(velocities);
+            }
+        }
+    }
+
+    /// Whether every second sweep goes back: what is on top must reach the bottom, and the bottom the top. Two patches are in turn either
+    /// way, and back and forth would only visit each twice.
+    fn goes_to_and_fro(&self) -> bool {
+        self.patches.len() > 2
+    }
+
+    /// The patch that a sweep visits after `turn` others.
+    fn in_turn(&self, sweep: usize, turn: usize) -> usize {
+        if self.goes_to_and_fro() && sweep % 2 == 1 {
+            self.patches.len() - 1 - turn
+        } else {
+            turn
+        }
+    }
+
+    /// Moves all impulses on to where the sweeps tend, unless a surface would pull.
+    fn accelerate(&mut self, velocities: &mut [f64]) {
+        let Acceleration { anderson, impulses } = &mut self.acceleration;
+        list_impulses(&self.points, &self.patches, &self.frictions, impulses);
+        let points = &self.points;
+        let allows = |list: &[f64]| {
+            let mut list = list.iter();
+            points.iter().all(|point| {
+                let impulse = list.next().copied().unwrap_or(0.0);
+                if point.tangents.is_some() {
+                    list.nth(1);
+                }
+                impulse >= 0.0
+            })
+        };
+        if !anderson.next(impulses, velocities, allows) {
+            return;
+        }
+        let mut list = impulses.iter().copied();
+        let mut take = |impulse: &mut f64| {
+            if let Some(next) = list.next() {
+                *impulse = next;
+            }
+        };
+        for point in &mut self.points {
+            take(&mut point.impulse);
+            if point.tangents.is_some() {
+                point.rubbed.iter_mut().for_each(&mut take);
+            }
+        }
+        let rolling = self
+            .patches
+            .iter_mut()
+            .filter_map(|patch| patch.rolling.as_mut());
+        rolling.for_each(|rolling| rolling.impulse.iter_mut().for_each(&mut take));
+        for friction in &mut self.frictions {
+            take(&mut friction.impulse);
         }
     }
 
@@ -328,11 +401,7 @@ impl Constraints {
         for sweep in 0..SWEEPS {
             let mut changed = 0.0_f64;
             for turn in 0..self.patches.len() {
-                // to and fro: what is on top must reach the bottom, and the bottom the top
-                let index = match sweep % 2 {
-                    0 => turn,
-                    _ => self.patches.len() - 1 - turn,
-                };
+                let index = self.in_turn(sweep, turn);
                 let change = if sweep == 0 {
                     let even = self.press(index, problem, values, bounce, true);
                     even.max(self.press(index, problem, values, bounce, false))
@@ -355,7 +424,6 @@ impl Constraints {
     }
 
     /// Settles the normals of a patch; returns the greatest change of a speed or gap.
-    // long: gathers the block, solves it and spreads the result; each half needs the arrays of the other
     fn press(
         &mut self,
         index: usize,
@@ -364,37 +432,53 @@ impl Constraints {
         bounce: f64,
         evenly: bool,
     ) -> f64 {
-        let patch = &self.patches[index];
-        let count = patch.points.len();
-        let block = &self.blocks[patch.block..patch.block + count * count];
+        let points = self.patches[index].points.clone();
         let mut chosen = [0; press::MOST];
         let mut m = 0;
-        for i in 0..count {
-            if self.points[patch.points.start + i].touches {
+        for i in points {
+            if self.points[i].touches {
                 chosen[m] = i;
                 m += 1;
             }
         }
-        if m == 0 {
-            return 0.0;
-        }
         self.visits += m as u64;
-        let mut matrix = [0.0; press::MOST * press::MOST];
-        let mut p = [0.0; press::MOST];
-        let mut offset = [0.0; press::MOST];
-        let mut most = 0.0_f64;
-        for (a, i) in chosen[..m].iter().enumerate() {
-            most = most.max(block[i * count + i]);
-            for (b, j) in chosen[..m].iter().enumerate() {
-                matrix[a * m + b] = block[i * count + j];
-            }
+        let task = (problem, bounce, evenly);
+        // the size is known to the compiler: most patches have one, two or four points
+        match m {
+            0 => 0.0,
+            1 => self.press_first::<1>(index, &chosen, task, values),
+            2 => self.press_first::<2>(index, &chosen, task, values),
+            3 => self.press_first::<3>(index, &chosen, task, values),
+            4 => self.press_first::<4>(index, &chosen, task, values),
+            5 => self.press_first::<5>(index, &chosen, task, values),
+            6 => self.press_first::<6>(index, &chosen, task, values),
+            7 => self.press_first::<7>(index, &chosen, task, values),
+            _ => self.press_first::<{ press::MOST }>(index, &chosen, task, values),
         }
+    }
+
+    /// Settles the normals of the first `M` of these points of a patch.
+    fn press_first<const M: usize>(
+        &mut self,
+        index: usize,
+        chosen: &[usize; press::MOST],
+        (problem, bounce, evenly): (Problem, f64, bool),
+        values: &mut [f64],
+    ) -> f64 {
+        let chosen: [usize; M] = std::array::from_fn(|a| chosen[a]);
+        let patch = &self.patches[index];
+        let (first, count) = (patch.points.start, patch.points.len());
+        let block = &self.blocks[patch.block..patch.block + count * count];
+        let block = chosen.map(|i| chosen.map(|j| block[(i - first) * count + j - first]));
+        let most = (0..M).map(|a| block[a][a]).fold(0.0, f64::max);
         if most <= 0.0 {
             return 0.0;
         }
+        let mut p = [0.0; M];
+        let mut offset = [0.0; M];
         let mut scale = 0.0_f64;
-        for (a, i) in chosen[..m].iter().enumerate() {
-            let point = &self.points[patch.points.start + i];
+        for (a, i) in chosen.into_iter().enumerate() {
+            let point = &self.points[i];
             (offset[a], p[a]) = match problem {
                 Problem::Places => (
                     point.gap_m - point.least_gap_m + self.rows.along(point.normal, values),
@@ -407,32 +491,26 @@ impl Constraints {
             };
             scale = scale.max(offset[a].abs());
         }
-        for a in 0..m {
+        let mut softened = block;
+        for a in 0..M {
+            softened[a][a] += press::SOFT * most;
             // at first the softness pulls all impulses of the patch towards zero, afterwards towards what they are
-            if !evenly {
-                matrix[a * m + a] += press::SOFT * most;
-            }
-            let row = &matrix[a * m..(a + 1) * m];
-            offset[a] -= row.iter().zip(&p[..m]).map(|(n, p)| n * p).sum::<f64>();
-            if evenly {
-                matrix[a * m + a] += press::SOFT * most;
-            }
+            let known = if evenly { &block[a] } else { &softened[a] };
+            offset[a] -= known.iter().zip(&p).map(|(n, p)| n * p).sum::<f64>();
         }
         let before = p;
-        press(&matrix[..m * m], &offset[..m], &mut p[..m], 1e-14 * scale);
+        press(&softened, &offset, &mut p, 1e-14 * scale);
+        let change: [f64; M] = std::array::from_fn(|a| p[a] - before[a]);
         let mut changed = 0.0_f64;
-        for (a, i) in chosen[..m].iter().enumerate() {
-            let point = &mut self.points[patch.points.start + i];
-            let change = p[a] - before[a];
+        for (a, i) in chosen.into_iter().enumerate() {
+            let point = &mut self.points[i];
             match problem {
                 Problem::Places => point.place = p[a],
                 Problem::Speeds => point.impulse = p[a],
             }
-            if change != 0.0 {
-                self.rows.push(point.normal, change, values);
-                let effect: f64 = (0..m)
-                    .map(|b| block[i * count + chosen[b]] * (p[b] - before[b]))
-                    .sum();
+            if change[a] != 0.0 {
+                self.rows.push(point.normal, change[a], values);
+                let effect: f64 = block[a].iter().zip(&change).map(|(n, p)| n * p).sum();
                 changed = changed.max(effect.abs());
             }
         }
@@ -456,9 +534,9 @@ impl Constraints {
             let change = slide(
                 &self.rows,
                 tangents,
-                point.soft,
+                &point.across,
                 most,
-                &mut point.rubbed,
+                (&mut point.rubbed, &mut point.edge),
                 velocities,
             );
             changed = changed.max(change);
@@ -482,9 +560,9 @@ impl Constraints {
         let change = slide(
             &self.rows,
             rolling.rows,
-            rolling.soft,
+            &rolling.across,
             most,
-            &mut rolling.impulse,
+            (&mut rolling.impulse, &mut rolling.edge),
             velocities,
         );
         change * rolling.arm_m
@@ -513,35 +591,53 @@ impl Constraints {
     }
 }
 
-fn softness(rows: &Rows, [first, second]: [usize; 2]) -> [f64; 3] {
-    [
+/// Writes all impulses, those of points first.
+fn list_impulses(
+    points: &[Point],
+    patches: &[Patch],
+    frictions: &[JointFriction],
+    list: &mut Vec<f64>,
+) {
+    list.clear();
+    for point in points {
+        list.push(point.impulse);
+        if point.tangents.is_some() {
+            list.extend(point.rubbed);
+        }
+    }
+    for rolling in patches.iter().filter_map(|patch| patch.rolling) {
+        list.extend(rolling.impulse);
+    }
+    list.extend(frictions.iter().map(|friction| friction.impulse));
+}
+
+fn response(rows: &Rows, [first, second]: [usize; 2]) -> Response {
+    Response::new([
         rows.softness(first),
         rows.coupling(first, second),
         rows.softness(second),
-    ]
+    ])
 }
 
 /// Finds the impulse along two rows, at most `most`, that leaves them the least energy; returns the change of the speed.
 fn slide(
     rows: &Rows,
     pair: [usize; 2],
-    soft: [f64; 3],
+    across: &Response,
     most: f64,
-    impulse: &mut [f64; 2],
+    (impulse, edge): (&mut [f64; 2], &mut f64),
     velocities: &mut [f64],
 ) -> f64 {
-    let [a, b, d] = soft;
-    let [x, y] = *impulse;
-    let speeds = pair.map(|row| rows.speed(row, velocities));
-    let without = [speeds[0] - a * x - b * y, speeds[1] - b * x - d * y];
-    let next = disk::friction(soft, without, most);
-    let change = [next[0] - x, next[1] - y];
-    *impulse = next;
+    let was = *impulse;
+    let done = across.times(was);
+    let without = [0, 1].map(|i| rows.speed(pair[i], velocities) - done[i]);
+    *impulse = across.friction(without, most, edge);
+    let change = [impulse[0] - was[0], impulse[1] - was[1]];
     for (row, change) in pair.into_iter().zip(change) {
         if change != 0.0 {
             rows.push(row, change, velocities);
         }
     }
-    let effect = [a * change[0] + b * change[1], b * change[0] + d * change[1]];
+    let effect = across.times(change);
     effect[0].abs().max(effect[1].abs())
 }

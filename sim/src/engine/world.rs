@@ -118,6 +118,8 @@ pub(crate) struct World {
     /// The shapes that are surfaces of triangles, where so many triangles could be near moving shapes that memory would not do.
     surfaces: Vec<usize>,
     contacts: Contacts,
+    /// The shapes that moved in the last step.
+    moved: Vec<usize>,
     air: Option<Air>,
     dt_s: f64,
     tick: u64,
@@ -154,6 +156,7 @@ impl World {
             pushed: Vec::new(),
             surfaces: Vec::new(),
             contacts: Contacts::new(robot, dt_s),
+            moved: Vec::new(),
             air,
             dt_s,
             tick: 0,
@@ -497,14 +500,14 @@ impl World {
                 (!body.sleeps).then(|| engine_pose(&body.pose()))
             }
         };
-        let mut list = Vec::new();
+        self.moved.clear();
         for (index, collider) in self.colliders.iter_mut().enumerate() {
             if let Some(pose) = moved(collider) {
                 collider.place(&pose);
-                list.push(index);
+                self.moved.push(index);
             }
         }
-        self.pairs.sort(&self.colliders, list.into_iter());
+        self.pairs.sort(&self.colliders, self.moved.iter().copied());
         for driven in &mut self.driven {
             driven.now = driven.next;
         }

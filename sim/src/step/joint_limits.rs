@@ -96,7 +96,7 @@ impl JointLimitConstraints {
         }
         let at_limits = self.ranges.iter().zip(q);
         let signs: Vec<f64> = at_limits.map(|(range, q)| limit_sign(*range, *q)).collect();
-        solve(&inverse, dt_s, &signs, &mut self.rates, &mut self.efforts);
+        solve(inverse, dt_s, &signs, &mut self.rates, &mut self.efforts);
         for (i, constraint) in self.efforts.iter().enumerate() {
             effort[i] += constraint;
             self.impulses[i] = constraint * dt_s;
@@ -156,7 +156,7 @@ impl JointLimitConstraints {
             return;
         };
         self.efforts.fill(0.0);
-        solve(&inverse, 1.0, &signs, next_qd, &mut self.efforts);
+        solve(inverse, 1.0, &signs, next_qd, &mut self.efforts);
         for i in 0..n {
             self.impulses[i] += self.efforts[i];
             // removes the last rounding, so that a joint on its limit is exactly at rest
