@@ -257,6 +257,49 @@ fn a_prescribed_link_pushes_a_box_as_a_kinematic_body_does_and_feels_it() {
     assert!(trace.events.iter().any(|event| touched(&event.kind)));
 }
 
+/// How the run of the pusher ends, with the greatest speed that the box had from one tick to the next \[m/s\].
+fn pushed_on(law: &[f64], restitution: f64, wall: bool) -> (End<()>, f64) {
+    let (robot, mut ahead) = (pusher(), box_ahead());
+    ahead.bodies[0].contact.restitution = restitution;
+    if wall {
+        let fixed = BodyKind::Fixed;
+        let wall = part("wall", fixed, boxed(0.1, 1.0, 1.0), 1.0, at(0.6, 0.0, 0.5));
+        ahead.bodies.push(wall);
+    }
+    let law = JointLaw::polynomial(law).expect("a law");
+    let setup = prescribed(&robot, Some(&ahead), vec![law], 2000);
+    let mut recorder = TraceRecorder::new(&setup);
+    let still = |_: &run::Observation<'_>, _: &mut [f64]| Ok::<(), ()>(());
+    let end = run::run(&setup, still, &mut recorder).expect("a run");
+    let trace = recorder.finish();
+    let place = |tick: usize| Vector3::from_column_slice(&trace.bodies.at(tick)[..3]);
+    let speeds = (1..trace.len()).map(|tick| (place(tick) - place(tick - 1)).norm() / STEP_S);
+    (end, speeds.fold(0.0, f64::max))
+}
+
+#[test]
+fn a_body_that_a_prescribed_link_makes_too_fast_ends_the_run() {
+    // 0.03 m before the box, with less speed than a robot may have; the box leaves with twice as much
+    let (end, fastest_m_s) = pushed_on(&[0.07, 700.0], 1.0, false);
+    let End::Diverged { tick, what } = end else {
+        panic!("{end:?}");
+    };
+    let run::DivergenceKind::BodyRunaway { body, speed_m_s } = what else {
+        panic!("{what:?}");
+    };
+    assert_eq!((tick, body), (1, 0));
+    assert!((speed_m_s - 1400.0).abs() < 10.0, "{speed_m_s}");
+    assert!(fastest_m_s < 1e-9, "{fastest_m_s}");
+}
+
+#[test]
+fn a_box_that_a_prescribed_link_crushes_against_a_wall_slips_out_and_does_not_fly() {
+    // no mass gives way to laws: the link goes through the wall, and the box has to go somewhere
+    let (end, fastest_m_s) = pushed_on(&[0.0, 0.2], 0.0, true);
+    assert_eq!(end, End::Finished);
+    assert!(fastest_m_s < 1.0, "{fastest_m_s}");
+}
+
 fn robot_without_shapes() -> Robot {
     robot(
         "format = 1\nname = 'far'\n[[links]]\nname = 'base'\n[[links]]\nname = 'bob'\ninertia = { mass_kg = 1.0, com_m = [0, 0, -0.1], \

@@ -3,10 +3,12 @@
 mod disturbance;
 mod divergence;
 mod prescribed;
+mod setup;
 mod stepper;
 mod tick_loop;
 
 pub use disturbance::Disturbance;
 pub use divergence::{DivergenceKind, RUNAWAY_SPEED_M_S};
 pub use prescribed::PrescribedMotion;
-pub use tick_loop::{End, Observation, Recorder, Row, Run, RunError, Setup, run};
+pub use setup::{End, Observation, Recorder, Row, RunError, Setup};
+pub use tick_loop::{Run, run};

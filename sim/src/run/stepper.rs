@@ -1,7 +1,7 @@
 //! Advances a run by one step: the robot alone, or in contact with a scene.
 
 use super::divergence::DivergenceKind;
-use super::tick_loop::{RunError, Setup};
+use super::setup::{RunError, Setup};
 use crate::model::push::Push;
 use crate::model::robot::Robot;
 use crate::step::free::FreeStep;

@@ -125,10 +125,7 @@ impl HybridStep {
         q: &mut [f64],
         qd: &mut [f64],
     ) -> Result<&StepReport, StepError> {
-        self.report.state_from = StateFrom::Smooth;
-        self.report.stops.clear();
-        self.report.at_limit.clear();
-        self.air = self.world.air_now();
+        self.begin();
         self.free.set_air(self.air);
         self.free.advance(robot, effort, q, qd)?;
         self.report.stops.extend_from_slice(self.free.acted());
@@ -152,6 +149,14 @@ impl HybridStep {
         }
         self.free.list_at_limit(q, &mut self.report.at_limit);
         Ok(&self.report)
+    }
+
+    /// Starts a step: nothing has acted yet, and the air is that of the scene.
+    fn begin(&mut self) {
+        self.report.state_from = StateFrom::Smooth;
+        self.report.stops.clear();
+        self.report.at_limit.clear();
+        self.air = self.world.air_now();
     }
 
     fn advance_in_contact(
@@ -203,10 +208,7 @@ impl HybridStep {
         q: &mut [f64],
         qd: &mut [f64],
     ) -> Result<&StepReport, StepError> {
-        self.report.state_from = StateFrom::Smooth;
-        self.report.stops.clear();
-        self.report.at_limit.clear();
-        self.air = self.world.air_now();
+        self.begin();
         let (next_q, next_qd) = next;
         let near = is_near(
             &mut self.clearance,

@@ -5,6 +5,7 @@ pub mod drives;
 pub(crate) mod free;
 pub mod hybrid;
 mod implicit_damping;
+mod joint_drive;
 mod joint_limits;
 pub(crate) mod local_error;
 pub mod smooth;
