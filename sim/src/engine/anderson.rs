@@ -1,6 +1,6 @@
 //! Anderson's acceleration of an iteration: the values of the next sweep, extrapolated from the last two.
 //!
-//! Sweeps over coupled contacts converge like a geometric series: an arm that pushes a can along a shelf needs thirty of them. What two
+//! Sweeps over coupled contacts converge like a geometric series: an arm that pushes a can along a shelf needs 25 of them. What two
 //! of them changed shows the ratio of the series and so where it ends. The values there are a better start of the next sweep, and nothing
 //! more: what a sweep does and when the last one is done is as before.
 //!
