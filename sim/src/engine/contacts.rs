@@ -9,6 +9,7 @@ use super::engine_settings::{
 };
 use super::free_body::FreeBody;
 use super::pairs::{Carrier, Collider, Memory, Pairs};
+use super::rows::PART;
 use super::settle::{Constraints, JointFriction, Point, Rolling};
 use super::world::{ArmStep, Driven, tangents};
 use crate::dynamics::dry_friction::friction_by_entry;
@@ -191,6 +192,14 @@ impl Contacts {
             self.free.extend_from_slice(arm.next_qd);
             let moved = arm.next_q.iter().zip(arm.q).map(|(next, q)| next - q);
             self.free_displacement.extend(moved);
+            let parts = self.before.len().next_multiple_of(PART);
+            for list in [
+                &mut self.before,
+                &mut self.free,
+                &mut self.free_displacement,
+            ] {
+                list.resize(parts, 0.0);
+            }
         }
         for body in movers.free.iter() {
             self.offsets
@@ -495,11 +504,11 @@ impl Contacts {
             if at < n {
                 response.fill(0.0);
                 if let Some(links) = links {
-                    links.respond(jacobian, response);
+                    links.respond(&jacobian[..n], &mut response[..n]);
                 }
                 return;
             }
-            let (inverse_mass, tensor) = &inverse[(at - n) / 6];
+            let (inverse_mass, tensor) = &inverse[(at - n.next_multiple_of(PART)) / PART];
             for i in 0..3 {
                 response[i] = jacobian[i] * inverse_mass;
                 response[3 + i] = (0..3).map(|j| tensor[(i, j)] * jacobian[3 + j]).sum();
