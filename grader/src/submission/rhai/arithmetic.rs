@@ -87,28 +87,60 @@ const POWER: Operator = Operator {
     float: libm::pow,
 };
 
+/// What an operator makes of two values.
+pub(super) type Apply = fn(&Meter, &Dynamic, &Dynamic) -> Result<Dynamic, Problem>;
+
+/// The operators that calculate.
+const CALCULATE: [(&str, Apply); 6] = [
+    ("+", |meter, a, b| calculate(meter, ADD, a, b)),
+    ("-", |meter, a, b| calculate(meter, SUBTRACT, a, b)),
+    ("*", |meter, a, b| calculate(meter, MULTIPLY, a, b)),
+    ("/", |meter, a, b| calculate(meter, DIVIDE, a, b)),
+    ("%", |meter, a, b| calculate(meter, REMAINDER, a, b)),
+    ("**", |meter, a, b| calculate(meter, POWER, a, b)),
+];
+
+/// The operators that compare. NaN has no order, so that every comparison of order with it is false.
+const COMPARE: [(&str, Apply); 6] = [
+    ("<", |_, a, b| compare("<", Ordering::is_lt, a, b)),
+    ("<=", |_, a, b| compare("<=", Ordering::is_le, a, b)),
+    (">", |_, a, b| compare(">", Ordering::is_gt, a, b)),
+    (">=", |_, a, b| compare(">=", Ordering::is_ge, a, b)),
+    ("==", |meter, a, b| Ok(equal(meter, a, b)?.into())),
+    ("!=", |meter, a, b| Ok((!equal(meter, a, b)?).into())),
+];
+
+/// The operator between two values that is written as `symbol`.
+pub(super) fn between(symbol: &str) -> Option<Apply> {
+    let mut known = CALCULATE.iter().chain(&COMPARE);
+    known
+        .find(|(written, _)| *written == symbol)
+        .map(|(_, apply)| *apply)
+}
+
 pub(super) fn register(library: &mut Library) {
-    for operator in [ADD, SUBTRACT, MULTIPLY, DIVIDE, REMAINDER, POWER] {
-        let apply = move |meter: &Meter, arguments: Arguments<'_, '_>| {
-            calculate(meter, operator, arguments[0], arguments[1])
+    let numbers = [TypeId::of::<f64>(), TypeId::of::<INT>()];
+    let numeric = [numbers[0], numbers[1], TypeId::of::<Vector>()];
+    let any = [TypeId::of::<Dynamic>(); 2];
+    let calculate = CALCULATE.iter().map(|operator| (operator, &numeric[..]));
+    let compare = COMPARE.iter().map(|operator| (operator, &numbers[..]));
+    for (&(symbol, apply), mostly) in calculate.chain(compare) {
+        let call = move |meter: &Meter, arguments: Arguments<'_, '_>| {
+            apply(meter, arguments[0], arguments[1])
         };
-        let numeric = [
-            TypeId::of::<f64>(),
-            TypeId::of::<INT>(),
-            TypeId::of::<Vector>(),
-        ];
-        for left in numeric {
-            for right in numeric {
-                library.shortcut(operator.symbol, &[left, right], apply);
+        for left in mostly {
+            for right in mostly {
+                library.shortcut(symbol, &[*left, *right], call);
             }
         }
-        let any = [TypeId::of::<Dynamic>(); 2];
-        library.internal(operator.symbol, &any, apply);
+        library.internal(symbol, &any, call);
+    }
+    for (symbol, apply) in CALCULATE {
         let assign = move |meter: &Meter, arguments: Arguments<'_, '_>| {
-            *arguments[0] = calculate(meter, operator, arguments[0], arguments[1])?;
+            *arguments[0] = apply(meter, arguments[0], arguments[1])?;
             Ok(Dynamic::UNIT)
         };
-        library.internal(&format!("{}=", operator.symbol), &any, assign);
+        library.internal(&format!("{symbol}="), &any, assign);
     }
     for kind in [
         TypeId::of::<f64>(),
@@ -129,44 +161,8 @@ pub(super) fn register(library: &mut Library) {
             ))),
         },
     );
-    register_comparisons(library);
     register_refusals(library);
     register_ranges(library);
-}
-
-fn register_comparisons(library: &mut Library) {
-    let numbers = [TypeId::of::<f64>(), TypeId::of::<INT>()];
-    type Holds = fn(Ordering) -> bool;
-    let comparisons: [(&'static str, Holds); 4] = [
-        ("<", Ordering::is_lt),
-        ("<=", Ordering::is_le),
-        (">", Ordering::is_gt),
-        (">=", Ordering::is_ge),
-    ];
-    let any = [TypeId::of::<Dynamic>(); 2];
-    for (symbol, holds) in comparisons {
-        let compare = move |_: &Meter, arguments: Arguments<'_, '_>| {
-            // NaN has no order, so that every comparison with it is false
-            order(symbol, arguments[0], arguments[1]).map(|order| order.is_some_and(holds).into())
-        };
-        for left in numbers {
-            for right in numbers {
-                library.shortcut(symbol, &[left, right], compare);
-            }
-        }
-        library.internal(symbol, &any, compare);
-    }
-    for (symbol, wanted) in [("==", true), ("!=", false)] {
-        let compare = move |meter: &Meter, arguments: Arguments<'_, '_>| {
-            equal(meter, arguments[0], arguments[1]).map(|equal| (equal == wanted).into())
-        };
-        for left in numbers {
-            for right in numbers {
-                library.shortcut(symbol, &[left, right], compare);
-            }
-        }
-        library.internal(symbol, &any, compare);
-    }
 }
 
 /// Operators with another meaning in other languages, and bitwise operators, which a controller does not need.
@@ -359,6 +355,16 @@ fn negate(meter: &Meter, value: &Dynamic) -> Result<Dynamic, Problem> {
         Operand::Matrix(matrix) => Dynamic::from(matrix.map(|x| -x)),
         Operand::Other => return Err(fault(format!("cannot negate {}", describe(value)))),
     })
+}
+
+fn compare(
+    symbol: &str,
+    holds: fn(Ordering) -> bool,
+    left: &Dynamic,
+    right: &Dynamic,
+) -> Result<Dynamic, Problem> {
+    let order = order(symbol, left, right)?;
+    Ok(order.is_some_and(holds).into())
 }
 
 fn order(symbol: &str, left: &Dynamic, right: &Dynamic) -> Result<Option<Ordering>, Problem> {

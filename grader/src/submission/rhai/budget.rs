@@ -30,10 +30,12 @@ pub(super) struct Meter {
     spent: Cell<u64>,
     /// Operations that this call may use.
     allowed: Cell<u64>,
-    /// The engine's count, which continues from call to call.
+    /// The engine's count, which continues from call to call, and [`Self::more`].
     counted: Cell<u64>,
-    /// The engine's count when this call began.
+    /// The same when this call began.
     counted_before: Cell<u64>,
+    /// Operations that are counted here because the engine does not see them.
+    more: Cell<u64>,
     /// Operations charged by built-ins in this call, in addition to the engine's count.
     charged: Cell<u64>,
     /// The budget that ran out first.
@@ -56,6 +58,7 @@ impl Meter {
             allowed: Cell::new(0),
             counted: Cell::new(0),
             counted_before: Cell::new(0),
+            more: Cell::new(0),
             charged: Cell::new(0),
             exhausted: Cell::new(None),
             position: Cell::new(Position::NONE),
@@ -88,7 +91,18 @@ impl Meter {
     }
 
     /// Updates the engine's count; false if the call has used more than it may.
-    pub(super) fn count(&self, counted: u64) -> bool {
+    pub(super) fn count(&self, by_the_engine: u64) -> bool {
+        self.advance(by_the_engine + self.more.get())
+    }
+
+    /// Counts one operation that the engine does not see.
+    pub(super) fn count_one(&self) -> Result<(), Problem> {
+        self.more.set(self.more.get() + 1);
+        self.within_operations(self.counted.get() + 1)
+    }
+
+    /// Updates the count; false if the call has used more than it may.
+    fn advance(&self, counted: u64) -> bool {
         self.counted.set(counted);
         if (counted - self.counted_before.get()).is_multiple_of(COPIES_EVERY) {
             // a copy of a vector takes about as long as an operation; the few that every call makes are free
@@ -110,7 +124,11 @@ impl Meter {
     /// Charges a built-in a number of operations.
     pub(super) fn operations(&self, cost: u64) -> Result<(), Problem> {
         self.charged.set(self.charged.get().saturating_add(cost));
-        if self.count(self.counted.get()) {
+        self.within_operations(self.counted.get())
+    }
+
+    fn within_operations(&self, counted: u64) -> Result<(), Problem> {
+        if self.advance(counted) {
             Ok(())
         } else {
             Err(Problem::Exhausted)

@@ -107,7 +107,7 @@ pub(super) fn to_dynamic(value: &Value) -> Dynamic {
                 })
                 .collect();
             match numbers {
-                Some(numbers) if !numbers.is_empty() => Dynamic::from(Vector::new(numbers)),
+                Some(numbers) if !numbers.is_empty() => Dynamic::from(Vector::new(&numbers)),
                 _ => Dynamic::from_array(elements.iter().map(to_dynamic).collect()),
             }
         }
@@ -122,7 +122,7 @@ pub(super) fn to_dynamic(value: &Value) -> Dynamic {
 
 /// The map `robot`.
 pub(super) fn robot(facts: &RobotFacts) -> Dynamic {
-    let vector = |elements: &[f64]| Dynamic::from(Vector::new(elements.to_vec()));
+    let vector = |elements: &[f64]| Dynamic::from(Vector::new(elements));
     let mut map: Map = facts
         .dimensions
         .iter()
@@ -171,7 +171,7 @@ pub(super) fn observation(
     observation: &Observation,
 ) -> Dynamic {
     let mut map = template.clone();
-    let vector = |elements: &[f64]| Dynamic::from(Vector::new(elements.to_vec()));
+    let vector = |elements: &[f64]| Dynamic::from(Vector::new(elements));
     for (key, value) in &mut map {
         *value = match key.as_str() {
             "tick" => Dynamic::from_int(observation.tick as rhai::INT),
@@ -208,7 +208,7 @@ fn readings(sensors: &[SensorFacts], values: &[f64]) -> Dynamic {
         let value = match sensor.reads {
             Reads::Truth => (read[0] != 0.0).into(),
             Reads::Number => read[0].into(),
-            Reads::Vector(_) => Dynamic::from(Vector::new(read.to_vec())),
+            Reads::Vector(_) => Dynamic::from(Vector::new(read)),
         };
         map.insert(sensor.name.as_str().into(), value);
     }

@@ -104,7 +104,14 @@ fn set_limits(engine: &mut Engine, budgets: &Budgets, meter: &Rc<Meter>) {
         .set_max_map_size(size(budgets.map_size))
         .set_max_string_size(size(budgets.text_size));
     let meter = Rc::clone(meter);
-    engine.on_progress(move |counted| (!meter.count(counted)).then_some(Dynamic::UNIT));
+    engine.on_progress(move |counted| {
+        // called for every operation: no value is made where the script goes on
+        if meter.count(counted) {
+            None
+        } else {
+            Some(Dynamic::UNIT)
+        }
+    });
 }
 
 #[expect(

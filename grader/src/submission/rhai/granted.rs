@@ -50,7 +50,7 @@ fn answer(
         },
     };
     match model.answer(grant, &q) {
-        Some(Quantity::Vector(numbers)) => Ok(Dynamic::from(Vector::new(numbers))),
+        Some(Quantity::Vector(numbers)) => Ok(Dynamic::from(Vector::new(&numbers))),
         Some(Quantity::Matrix(rows)) => {
             let matrix = Matrix::from_fn(rows.len(), n, |i, j| rows[i][j]);
             Ok(Dynamic::from(matrix))

@@ -34,7 +34,9 @@ fn register_makers(library: &mut Library) {
         library.function(name, 1, move |meter, arguments| {
             let length = count(name, arguments[0])?;
             meter.list(length)?;
-            Ok(Dynamic::from(Vector::new(vec![value; length])))
+            Ok(Dynamic::from(
+                std::iter::repeat_n(value, length).collect::<Vector>(),
+            ))
         });
         library.function(name, 2, move |meter, arguments| {
             let (rows, columns) = size(meter, name, arguments)?;
@@ -101,7 +103,7 @@ fn register_products(library: &mut Library) {
     library.function("cross", 2, |meter, arguments| {
         let (a, b) = two_vectors(meter, "cross", arguments)?;
         match (a.elements(), b.elements()) {
-            ([ax, ay, az], [bx, by, bz]) => Ok(Dynamic::from(Vector::new(vec![
+            ([ax, ay, az], [bx, by, bz]) => Ok(Dynamic::from(Vector::new(&[
                 ay * bz - az * by,
                 az * bx - ax * bz,
                 ax * by - ay * bx,
@@ -318,7 +320,7 @@ fn get_element(meter: &Meter, arguments: Arguments<'_, '_>) -> Result<Dynamic, P
             ))
         })?;
         meter.charge(part.len())?;
-        return Ok(Dynamic::from(Vector::new(part.to_vec())));
+        return Ok(Dynamic::from(Vector::new(part)));
     }
     let index = index(arguments[1], vector.len(), "vector", "elements")?;
     Ok(vector.elements()[index].into())

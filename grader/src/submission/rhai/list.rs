@@ -105,7 +105,7 @@ fn register_changes(library: &mut Library) {
             meter.list(vector.len() + 1)?;
             let mut elements = vector.elements().to_vec();
             elements.push(number);
-            *vector = Vector::new(elements);
+            *vector = Vector::new(&elements);
             return Ok(Dynamic::UNIT);
         }
         let mut list = list_mut("push", arguments[0])?;
@@ -248,7 +248,7 @@ fn in_kind(elements: Array, original: &Dynamic) -> Dynamic {
     if original.read_lock::<Vector>().is_some() {
         let numbers: Option<Vec<f64>> = elements.iter().map(as_number).collect();
         if let Some(numbers) = numbers {
-            return Dynamic::from(Vector::new(numbers));
+            return Dynamic::from(Vector::new(&numbers));
         }
     }
     Dynamic::from_array(elements)

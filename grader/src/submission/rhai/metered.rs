@@ -3,7 +3,7 @@
 //! The engine copies what is read out of `this`, compares a value with every arm of a `switch`, makes whole lists and catches mistakes
 //! in one operation each. So the tree of a script is rewritten before it runs: such an expression is put into another one, which the
 //! engine has evaluated here, and here it is charged. The engine counts the other one, too, which is taken back: so a script in which
-//! nothing is large takes the operations that it has steps.
+//! nothing is large takes the operations that it has steps. Operators are evaluated here for another reason, speed, and count as before.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -13,14 +13,20 @@ use rhai::{
     FnCallExpr, INT, Module, Position, ScriptFuncDef, Shared, Stmt,
 };
 
+use super::arithmetic::{self, Apply};
 use super::budget::Meter;
 use super::hints::Names;
 use super::mistake::{Problem, raise};
 use super::weight::{charge_for_copy, parts};
 use crate::submission::controller::Stop;
 
-/// A value that is copied out of `this`. No script can write this name or one of the next ones.
-const COPIED: &str = "a value out of `this`";
+/// An operator between two values. The engine would look it up among all functions by the types of both, every time.
+///
+/// No script can write this name or one of the next ones. Names are searched in order: those that are used most come first.
+const OPERATOR: &str = "!operator";
+
+/// A value that is copied out of `this`.
+const COPIED: &str = "!value out of `this`";
 
 /// A list or map of constants, which is made element by element: where it is an argument, the engine makes it in one operation.
 const WRITTEN_OUT: &str = "a written list";
@@ -176,6 +182,33 @@ fn register(engine: &mut Engine, meter: &Rc<Meter>, bodies: Vec<Expr>) -> Result
         charge(meter, meter.glance(kept), inputs)?;
         Ok(value)
     })?;
+    hook(engine, meter, OPERATOR, |meter, context, inputs, known| {
+        let [left, right] = inputs else {
+            return Ok(Dynamic::UNIT);
+        };
+        let Some(Operator {
+            apply,
+            position,
+            is_lent,
+        }) = known.read_lock::<Operator>().map(|known| known.clone())
+        else {
+            return Ok(Dynamic::UNIT);
+        };
+        // a variable on the left is lent to the operator, after the right was evaluated
+        let (left, right) = if is_lent {
+            let right = context.eval_expression_tree(right)?;
+            (context.eval_expression_tree(left)?, right)
+        } else {
+            let left = context.eval_expression_tree(left)?;
+            (left, context.eval_expression_tree(right)?)
+        };
+        let counted = meter.count_one();
+        meter.at(position);
+        counted
+            .and_then(|()| meter.glance(parts(&left)))
+            .and_then(|()| apply(meter, &left, &right))
+            .map_err(|problem| raise(problem, position))
+    })?;
     hook(engine, meter, CAUGHT, |meter, context, inputs, is_named| {
         charge(meter, meter.operations(OF_A_MISTAKE), inputs)?;
         // the variable is the newest, and holds a copy of what was thrown
@@ -224,6 +257,15 @@ enum End {
     Property,
     Index,
     Call,
+}
+
+/// An operator in a script.
+#[derive(Clone)]
+struct Operator {
+    apply: Apply,
+    position: Position,
+    /// Whether its left side is a variable.
+    is_lent: bool,
 }
 
 /// The rewriting of a script.
@@ -330,7 +372,14 @@ impl<'n> Rewriting<'n> {
             Expr::And(parts, _) | Expr::Or(parts, _) | Expr::Coalesce(parts, _) => {
                 parts.iter_mut().for_each(|part| self.value(part));
             }
-            Expr::FnCall(call, _) => self.arguments(call),
+            Expr::FnCall(call, position) => {
+                self.arguments(call);
+                let position = *position;
+                if let Some(operator) = operator(call, position) {
+                    let inputs = std::mem::take(&mut call.args);
+                    self.put_all(expr, inputs, OPERATOR, Dynamic::from(operator), position);
+                }
+            }
             Expr::Stmt(block) => self.statements(block.statements_mut()),
             _ => {}
         }
@@ -434,12 +483,24 @@ impl<'n> Rewriting<'n> {
 
     /// Puts an expression into one that is evaluated here.
     fn put(&mut self, expr: &mut Expr, name: &'static str, state: Dynamic) {
-        self.is_changed = true;
         let position = expr.position();
         let inner = std::mem::take(expr);
+        self.put_all(expr, [inner], name, state, position);
+    }
+
+    /// Puts several.
+    fn put_all(
+        &mut self,
+        expr: &mut Expr,
+        inputs: impl IntoIterator<Item = Expr>,
+        name: &'static str,
+        state: Dynamic,
+        position: Position,
+    ) {
+        self.is_changed = true;
         *expr = Expr::Custom(
             Box::new(rhai::CustomExpr {
-                inputs: [inner].into_iter().collect(),
+                inputs: inputs.into_iter().collect(),
                 tokens: [name.into()].into_iter().collect(),
                 state,
                 scope_may_be_changed: false,
@@ -448,6 +509,22 @@ impl<'n> Rewriting<'n> {
             position,
         );
     }
+}
+
+/// The operator of a call between two values; `this` is left to the engine, which lends it.
+fn operator(call: &FnCallExpr, position: Position) -> Option<Operator> {
+    let [left, right] = call.args.as_slice() else {
+        return None;
+    };
+    let is_this = |side: &Expr| matches!(side, Expr::ThisPtr(_));
+    if !call.is_operator_call() || call.capture_parent_scope || is_this(left) || is_this(right) {
+        return None;
+    }
+    Some(Operator {
+        apply: arithmetic::between(call.name.as_str())?,
+        position,
+        is_lent: matches!(left, Expr::Variable(..)),
+    })
 }
 
 /// Whether a chain begins with `this`.

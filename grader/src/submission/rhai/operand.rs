@@ -37,21 +37,17 @@ impl Operand {
     }
 
     fn of_list(list: &Array) -> Self {
-        let numbers: Option<Vec<f64>> = list.iter().map(as_number).collect();
-        if let Some(numbers) = numbers {
-            return Self::Vector(Vector::new(numbers));
+        if let Some(vector) = vector_of(list) {
+            return Self::Vector(vector);
         }
         let rows: Option<Vec<Vector>> = list
             .iter()
             .map(|row| match row.read_lock::<Vector>() {
                 Some(vector) => Some(vector.clone()),
-                None => row
-                    .as_array_ref()
-                    .ok()?
-                    .iter()
-                    .map(as_number)
-                    .collect::<Option<Vec<f64>>>()
-                    .map(Vector::new),
+                None => {
+                    let row = row.as_array_ref().ok()?;
+                    vector_of(&row)
+                }
             })
             .collect();
         rows.and_then(|rows| Matrix::from_rows(&rows))
@@ -75,6 +71,11 @@ impl Operand {
             Self::Matrix(matrix) => matrix.rows() * matrix.columns(),
         }
     }
+}
+
+/// A list of numbers as a vector.
+fn vector_of(list: &Array) -> Option<Vector> {
+    list.iter().map(as_number).collect()
 }
 
 /// A value as a number, integer or not.

@@ -314,8 +314,7 @@ impl Controller for ScriptController {
         if !matches!(call, Call::Init | Call::Control(_)) {
             self.forget();
         }
-        let vector =
-            |elements: &[f64]| Dynamic::from(super::vector::Vector::new(elements.to_vec()));
+        let vector = |elements: &[f64]| Dynamic::from(super::vector::Vector::new(elements));
         let value = match call {
             Call::ForwardKinematics { robot, q } | Call::Jacobian { robot, q } => {
                 let robot = self.robot.of(robot);

@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::copies;
 
@@ -14,7 +14,7 @@ const ELEMENTS_PER_COPY: usize = 8;
 
 /// A column of numbers.
 #[derive(Debug, PartialEq)]
-pub(super) struct Vector(Rc<DVector<f64>>);
+pub(super) struct Vector(Rc<[f64]>);
 
 impl Clone for Vector {
     fn clone(&self) -> Self {
@@ -24,12 +24,12 @@ impl Clone for Vector {
 }
 
 impl Vector {
-    pub(super) fn new(elements: Vec<f64>) -> Self {
-        Self(Rc::new(DVector::from_vec(elements)))
+    pub(super) fn new(elements: &[f64]) -> Self {
+        Self(elements.into())
     }
 
     pub(super) fn elements(&self) -> &[f64] {
-        self.0.as_slice()
+        &self.0
     }
 
     pub(super) fn len(&self) -> usize {
@@ -38,7 +38,7 @@ impl Vector {
 
     /// The elements for modification; copied first if another value shares them.
     pub(super) fn elements_mut(&mut self) -> &mut [f64] {
-        Rc::make_mut(&mut self.0).as_mut_slice()
+        Rc::make_mut(&mut self.0)
     }
 
     pub(super) fn map(&self, function: impl Fn(f64) -> f64) -> Self {
@@ -56,7 +56,7 @@ impl Vector {
 
 impl FromIterator<f64> for Vector {
     fn from_iter<I: IntoIterator<Item = f64>>(elements: I) -> Self {
-        Self::new(elements.into_iter().collect())
+        Self(elements.into_iter().collect())
     }
 }
 
@@ -299,7 +299,7 @@ mod tests {
 
     #[test]
     fn a_shared_vector_is_copied_before_it_changes() {
-        let first = Vector::new(vec![1.0, 2.0]);
+        let first = Vector::new(&[1.0, 2.0]);
         let mut second = first.clone();
         second.elements_mut()[0] = 5.0;
         assert_eq!(first.elements(), [1.0, 2.0]);
@@ -323,7 +323,7 @@ mod tests {
 
     #[test]
     fn rows_of_unequal_length_are_no_matrix() {
-        let rows = [Vector::new(vec![1.0]), Vector::new(vec![1.0, 2.0])];
+        let rows = [Vector::new(&[1.0]), Vector::new(&[1.0, 2.0])];
         assert_eq!(Matrix::from_rows(&rows), None);
         assert_eq!(Matrix::from_rows(&[]), None);
     }

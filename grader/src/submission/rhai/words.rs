@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn values_are_named_with_their_size() {
         assert_eq!(
-            describe(&Dynamic::from(Vector::new(vec![1.0, 2.0]))),
+            describe(&Dynamic::from(Vector::new(&[1.0, 2.0]))),
             "a vector of 2"
         );
         assert_eq!(describe(&Dynamic::UNIT), "nothing `()`");

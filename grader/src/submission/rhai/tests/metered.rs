@@ -10,13 +10,7 @@ use crate::submission::rhai::ScriptController;
 
 /// What two calls come to, one after another: state stays in between.
 fn outcome(source: &str, has_charges: bool) -> (Vec<Result<Answer, Stop>>, Said) {
-    let mut opening = opening(source);
-    opening.budgets.operations_per_call = 10_000_000;
-    let opened = match has_charges {
-        true => ScriptController::open(&opening),
-        false => ScriptController::rewritten(&opening, |_, _, ast, _| Ok(ast.clone())),
-    };
-    let mut script = match opened {
+    let mut script = match open(source, has_charges) {
         Ok(script) => script,
         Err(stop) => return (vec![Err(stop)], Said::default()),
     };
@@ -32,6 +26,15 @@ fn outcome(source: &str, has_charges: bool) -> (Vec<Result<Answer, Stop>>, Said)
     (answers, script.unanswered())
 }
 
+fn open(source: &str, has_charges: bool) -> Result<ScriptController, Stop> {
+    let mut opening = opening(source);
+    opening.budgets.operations_per_call = 10_000_000;
+    match has_charges {
+        true => ScriptController::open(&opening),
+        false => ScriptController::rewritten(&opening, |_, _, ast, _| Ok(ast.clone())),
+    }
+}
+
 /// Expressions; `x` and `n` are variables, `this` has what statements before gave it.
 fn expression() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
@@ -40,7 +43,7 @@ fn expression() -> impl Strategy<Value = String> {
         ])
         .prop_map(str::to_owned),
         1 => (-3_i64..20).prop_map(|number| number.to_string()),
-        1 => prop::sample::select(vec!["1.5", "\"ab\"", "true", "()", "[]", "#{}", "this.none", "this.a[99]"]).prop_map(str::to_owned),
+        1 => prop::sample::select(vec!["1.5", "PI", "[[1, 2], [3, 4]]", "vector([1, 2])", "\"ab\"", "true", "()", "[]", "#{}", "this.none", "this.a[99]"]).prop_map(str::to_owned),
         // a list of constants that is written out
         1 => (14_usize..20).prop_map(|count| format!("[{}]", vec!["7"; count].join(", "))),
     ];
@@ -52,6 +55,15 @@ fn expression() -> impl Strategy<Value = String> {
                 .prop_map(|(a, b)| format!("#{{k: {a}, l: {b}}}")),
             pair.clone().prop_map(|(a, b)| format!("({a}) + ({b})")),
             pair.clone().prop_map(|(a, b)| format!("({a}) == ({b})")),
+            (
+                pair.clone(),
+                prop::sample::select(vec!["-", "*", "/", "%", "**", "<", "<=", ">", ">=", "!="])
+            )
+                .prop_map(|((a, b), operator)| format!("({a}) {operator} ({b})")),
+            // a variable on the left is lent, after the right was evaluated
+            inner
+                .clone()
+                .prop_map(|a| format!("x - {{ x = {a}; n = 2; n }} * n")),
             inner.clone().prop_map(|a| format!("[{a}, n][n]")),
             inner.clone().prop_map(|a| format!("this.a[len([{a}])]")),
             pair.clone().prop_map(|(a, b)| format!("(({a}) ?? ({b}))")),
@@ -134,4 +146,43 @@ proptest! {
         prop_assume!(!charged.0.iter().any(is_over));
         prop_assert_eq!(charged, outcome(&source, false), "{}", source);
     }
+}
+
+/// Nothing here is large: what is done is counted as the engine counts it.
+#[test]
+fn operators_take_the_operations_that_the_engine_counts() {
+    let source = "fn control(o) {
+        let x = o.q[0];
+        let v = vector([x, 2.0]) * 3 - o.q;
+        for k in 0..300 {
+            if x * k + 1.5 >= k ** 2 / 7 || v == [k, k % 3] {
+                x = x - (k - 2 * x) / 3;
+            }
+        }
+        x
+    }";
+    let operations = |has_charges: bool| {
+        let mut script = open(source, has_charges).unwrap();
+        let call = Call::Control(observation());
+        [script.call(&call), script.call(&call)].map(|answer| answer.unwrap().operations)
+    };
+    let counted = operations(true);
+    assert_eq!(counted, operations(false));
+    assert!(counted[0] > 5000, "{counted:?}");
+}
+
+/// What an operator takes is in the budget: the loop ends where it ends without charges.
+#[test]
+fn a_budget_runs_out_in_the_same_operator() {
+    let source =
+        "fn control(o) {\n let x = 0.5;\n while x < 1 {\n x = (x * 0.5\n + 0.1) / 2;\n }\n x\n}";
+    let stop = |has_charges: bool| {
+        let mut script = open(source, has_charges).unwrap();
+        script.call(&Call::Control(observation())).unwrap_err()
+    };
+    let Stop::OverBudget { place, .. } = stop(true) else {
+        panic!("within the budget");
+    };
+    assert!(place.is_some());
+    assert_eq!(stop(true), stop(false));
 }
