@@ -25,23 +25,42 @@ pub struct Crba {
 /// A subtree frozen into one rigid body, about the origin of its first body, in world axes.
 #[derive(Debug, Clone, Copy)]
 struct Node {
+    /// Of a body without a parent: its pose at the joint position 0.
+    unmoved: BodyPose,
     placed: BodyPose,
     mass_kg: f64,
     h: Vector3<f64>,
     inertia: Symmetric3,
+    carrier: Carrier,
+}
+
+/// What the way from a body to the root needs of it.
+#[derive(Debug, Clone, Copy)]
+struct Carrier {
+    parent: Option<usize>,
+    q_index: usize,
+    turns: bool,
+    gear: f64,
 }
 
 impl Crba {
     /// Allocates the scratch memory for `robot`.
     pub fn new(robot: &Robot) -> Self {
-        let node = Node {
+        let nodes = robot.bodies().iter().map(|body| Node {
+            unmoved: BodyPose::unmoved(&BodyPose::WORLD, body),
             placed: BodyPose::WORLD,
             mass_kg: 0.0,
             h: Vector3::zeros(),
             inertia: Symmetric3::default(),
-        };
+            carrier: Carrier {
+                parent: body.parent,
+                q_index: body.q_index,
+                turns: body.turns,
+                gear: body.gear,
+            },
+        });
         Self {
-            nodes: vec![node; robot.bodies().len()],
+            nodes: nodes.collect(),
         }
     }
 
@@ -50,24 +69,31 @@ impl Crba {
     /// # Panics
     /// If `q` or `matrix` does not have the shape of `robot`, or `robot` is not the one of [`Crba::new`].
     pub fn fill(&mut self, robot: &Robot, q: &[f64], matrix: &mut DMatrix<f64>) {
+        let n = robot.n();
+        assert_eq!(matrix.shape(), (n, n), "a mass matrix of {n} joints");
         // cleared as one block: entry by entry would cost as much as the rest
         matrix.as_mut_slice().fill(0.0);
-        for (i, body) in robot.bodies().iter().enumerate() {
-            let parent = body
-                .parent
-                .map_or(BodyPose::WORLD, |p| self.nodes[p].placed);
-            let placed = BodyPose::on_parent(&parent, body, body.position(q));
-            self.nodes[i] = Node {
-                placed,
-                mass_kg: body.mass_kg,
-                h: placed.world_from_body * body.first_moment,
-                inertia: body.inertia.rotated(&placed.world_from_body),
+        let bodies = robot.bodies();
+        let nodes = &mut self.nodes[..bodies.len()];
+        for (i, body) in bodies.iter().enumerate() {
+            let (before, rest) = nodes.split_at_mut(i);
+            let node = &mut rest[0];
+            let position = body.position(q);
+            let placed = match body.parent {
+                Some(parent) => BodyPose::on_parent(&before[parent].placed, body, position),
+                None => node.unmoved.moved(body, position),
             };
+            node.mass_kg = body.mass_kg;
+            node.h = placed.world_from_body * body.first_moment;
+            node.inertia = body.inertia.rotated(&placed.world_from_body);
+            node.placed = placed;
         }
-        for (i, body) in robot.bodies().iter().enumerate().rev() {
-            let node = self.nodes[i];
-            if let Some(p) = body.parent {
-                let parent = &mut self.nodes[p];
+        let entries = matrix.as_mut_slice();
+        for (i, body) in bodies.iter().enumerate().rev() {
+            let (before, rest) = nodes.split_at_mut(i);
+            let node = &rest[0];
+            if let Some(p) = node.carrier.parent {
+                let parent = &mut before[p];
                 let r = node.placed.position - parent.placed.position;
                 // the subtree about the parent's origin: parallel axes with h = m c
                 parent.mass_kg += node.mass_kg;
@@ -77,7 +103,7 @@ impl Crba {
                     .inertia
                     .add(&Symmetric3::of_point_mass(node.mass_kg, &r));
                 let twice = 2.0 * node.h.dot(&r);
-                let (h, t) = (node.h, &mut parent.inertia);
+                let (h, t) = (&node.h, &mut parent.inertia);
                 t.xx += twice - 2.0 * h.x * r.x;
                 t.yy += twice - 2.0 * h.y * r.y;
                 t.zz += twice - 2.0 * h.z * r.z;
@@ -87,27 +113,28 @@ impl Crba {
             }
             // the wrench that a unit acceleration of joint i needs
             let axis = node.placed.axis();
-            let (mut n, f) = if body.turns {
+            let (mut moment, force) = if body.turns {
                 (node.inertia.times(&axis), axis.cross(&node.h))
             } else {
                 (node.h.cross(&axis), axis * node.mass_kg)
             };
             let k = body.q_index;
-            let along = if body.turns { n } else { f };
+            let along = if body.turns { moment } else { force };
             // a mimic joint adds to the row and column of its master
-            matrix[(k, k)] += body.gear * body.gear * (axis.dot(&along) + body.armature);
+            entries[k * n + k] += body.gear * body.gear * (axis.dot(&along) + body.armature);
             // the wrench acts on every joint towards the root
             let mut at = node.placed.position;
-            let mut next = body.parent;
+            let mut next = node.carrier.parent;
             while let Some(p) = next {
-                let carrier = &robot.bodies()[p];
-                let placed = &self.nodes[p].placed;
-                n += (at - placed.position).cross(&f);
+                let Node {
+                    placed, carrier, ..
+                } = &before[p];
+                moment += (at - placed.position).cross(&force);
                 at = placed.position;
-                let along = if carrier.turns { n } else { f };
+                let along = if carrier.turns { moment } else { force };
                 let value = placed.axis().dot(&along) * body.gear * carrier.gear;
-                matrix[(k, carrier.q_index)] += value;
-                matrix[(carrier.q_index, k)] += value;
+                entries[k * n + carrier.q_index] += value;
+                entries[carrier.q_index * n + k] += value;
                 next = carrier.parent;
             }
         }
