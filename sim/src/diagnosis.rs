@@ -1,6 +1,7 @@
-//! The likely cause of a divergence: a servo beyond its sampled-data limit, a feedback that overshoots more at every call, damping that
-//! is stiff for the physics step, or motion that is too fast for it.
+//! The likely cause of a divergence: a servo beyond its sampled-data limit, a feedback that overshoots more at every call or drives a
+//! joint on, damping that is stiff for the physics step, or motion that is too fast for it.
 
+use crate::control::Mode;
 use crate::control::sampled_loop::{SampledLoop, sampled_loop};
 use crate::run::DivergenceKind;
 use crate::run::Setup;
@@ -15,6 +16,9 @@ const CALM_RATE: f64 = 10.0;
 /// The feedback is blamed if this many consecutive calls reverse the command, each with a larger amplitude than the one before. The
 /// number is small because a strong feedback diverges within a few calls.
 const TURNS: usize = 2;
+/// Commanded efforts are blamed if they drove the robot on in this share of the calls since it was last calm, of at least so many.
+const DRIVEN_SHARE: f64 = 0.8;
+const DRIVEN_CALLS: usize = 3;
 /// The step is blamed if a joint moves by this much in the last one \[rad or m\]: Runge-Kutta is then off by 1e-4 of its speed a step.
 const LONG_STEP: f64 = 0.3;
 
@@ -30,6 +34,15 @@ pub enum Cause {
         /// Index of the joint in `q` whose command reverses most.
         joint: usize,
         /// Number of consecutive calls that reversed it, up to the end of the run.
+        calls: usize,
+    },
+    /// The efforts that the controller commands drive the robot on in the direction in which it moves.
+    DrivesOn {
+        /// Index of the joint in `q` that gets most power.
+        joint: usize,
+        /// Number of calls that did so ...
+        driving: usize,
+        /// ... of so many since the robot was last calm.
         calls: usize,
     },
     /// Viscous damping is stiff for the step.
@@ -64,6 +77,14 @@ impl Cause {
             ),
             Self::Feedback { joint, calls } => format!(
                 "the command of `{}` turned round at each of the last {calls} calls of `control`, further each time",
+                names.joint(*joint)
+            ),
+            Self::DrivesOn {
+                joint,
+                driving,
+                calls,
+            } => format!(
+                "the efforts of {driving} of the last {calls} calls of `control` drove the robot on in the direction in which it moved, most of all `{}`, as a feedback with the wrong sign does",
                 names.joint(*joint)
             ),
             Self::StiffDamping { joint, per_step } => format!(
@@ -112,9 +133,10 @@ pub fn likely_cause(setup: &Setup<'_>, what: &DivergenceKind, trace: &Trace) -> 
         return None;
     }
     let state = |tick: usize| (trace.q.at(tick), trace.qd.at(tick));
-    let last_calm = (0..trace.len()).rev().find(|&at| is_calm(trace.qd.at(at)));
-    let last_calm = last_calm.map(state);
+    let calm_at = (0..trace.len()).rev().find(|&at| is_calm(trace.qd.at(at)));
+    let last_calm = calm_at.map(state);
     servo(setup, last_calm.map(|(q, _)| q))
+        .or_else(|| drives_on(setup, trace, calm_at))
         .or_else(|| feedback(setup, trace))
         .or_else(|| motion(setup, state(trace.len().checked_sub(1)?), last_calm))
 }
@@ -202,6 +224,45 @@ fn motion(
         .and_then(fastest)
         .or_else(|| damping(last_calm.unwrap_or(last)))
         .or_else(|| fastest(last))
+}
+
+/// Commanded efforts that drive the robot on in most calls since it was last calm.
+///
+/// A feedback that is only too strong brakes at the moment of each call, and overshoots until the next.
+fn drives_on(setup: &Setup<'_>, trace: &Trace, last_calm: Option<usize>) -> Option<Cause> {
+    if setup.servo.mode != Mode::Effort {
+        return None;
+    }
+    let stride = setup.periods.ticks_per_control.get() as usize;
+    let end = trace.len().div_ceil(stride);
+    let first = last_calm.map_or(0, |tick| tick.div_ceil(stride));
+    // a gain that is far too high needs a few calls from calm to the end
+    let first = first.min(end.saturating_sub(DRIVEN_CALLS));
+    let power = |call: usize, joint: usize| {
+        let tick = call * stride;
+        trace.command.at(tick)[joint] * trace.qd.at(tick)[joint]
+    };
+    let joints = 0..setup.robot.n();
+    // a call at rest drives nothing
+    let moves = |call: &usize| joints.clone().any(|joint| power(*call, joint) != 0.0);
+    let calls: Vec<usize> = (first..end).filter(moves).collect();
+    let drives = |call: &usize| joints.clone().map(|joint| power(*call, joint)).sum::<f64>() > 0.0;
+    let driving = calls.iter().filter(|call| drives(call)).count();
+    if calls.len() < DRIVEN_CALLS || (driving as f64) < DRIVEN_SHARE * calls.len() as f64 {
+        return None;
+    }
+    let sums = joints.map(|joint| {
+        (
+            joint,
+            calls.iter().map(|call| power(*call, joint)).sum::<f64>(),
+        )
+    });
+    let (joint, _) = sums.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    Some(Cause::DrivesOn {
+        joint,
+        driving,
+        calls: calls.len(),
+    })
 }
 
 /// A command that reverses at every call with growing amplitude, up to the end of the run.

@@ -413,3 +413,32 @@ fn an_integral_gain_beyond_its_limit_is_blamed() {
     let cause = likely_cause(&setup, &what, &recorder.finish());
     assert!(matches!(cause, Some(Cause::ServoIntegral(_))), "{cause:?}");
 }
+
+#[test]
+fn a_feedback_of_the_wrong_sign_is_blamed_and_not_the_step_it_ends_at() {
+    let robot = rrbot_without_limits();
+    for gain in [30.0, 60.0, 600.0] {
+        let mut setup = setup(&robot, None, [0.0, 0.0], 60_000);
+        setup.servo.mode = Mode::Effort;
+        for gains in &mut setup.servo.gains {
+            gains.effort_limit = f64::INFINITY;
+        }
+        let mut recorder = TraceRecorder::new(&setup);
+        // measured minus wanted
+        let command = |seen: &Observation<'_>, command: &mut [f64]| {
+            for (command, (q, qd)) in command.iter_mut().zip(seen.q.iter().zip(seen.qd)) {
+                *command = gain * (q - 0.3) + 0.1 * gain * qd;
+            }
+            Ok::<(), ()>(())
+        };
+        let end = run::run(&setup, command, &mut recorder).expect("a run");
+        let End::Diverged { what, .. } = end else {
+            panic!("{gain}: {end:?}")
+        };
+        let cause = likely_cause(&setup, &what, &recorder.finish());
+        assert!(
+            matches!(cause, Some(Cause::DrivesOn { .. })),
+            "{gain}: {cause:?}"
+        );
+    }
+}

@@ -68,6 +68,10 @@ impl DivergedWords for Names<'_> {
                     trimmed(task.periods.control_s() * 1e3, 4)
                 ),
             ),
+            Some(cause @ Cause::DrivesOn { .. }) => (
+                because(cause),
+                "an effort that brakes has the opposite sign of the velocity: compute errors as wanted minus measured".to_owned(),
+            ),
             Some(cause @ Cause::StiffDamping { .. }) => (because(cause), ROBOT_HELP.to_owned()),
             Some(cause @ Cause::LongStep { .. }) => (because(cause), gentler(what, task)),
             None => (lost, gentler(what, task)),
