@@ -79,6 +79,7 @@ mod submit;
 mod tampered_reports;
 mod targets;
 mod testbed;
+mod unresolved_runs;
 mod urdf_labs;
 mod variant_mistakes;
 mod variants;

@@ -20,7 +20,7 @@ use crate::standing::{Standing, Summary};
 pub const INDEX_FILE: &str = "course.sqlite";
 
 /// The version of the tables; docs/book.md describes them.
-const SCHEMA: i64 = 2;
+const SCHEMA: i64 = 3;
 
 const TABLES: &str = include_str!("index.sql");
 
@@ -242,7 +242,7 @@ impl Index {
     fn read_summaries(&self, lab: &str) -> rusqlite::Result<BTreeMap<String, Summary>> {
         let mut summaries = BTreeMap::new();
         let mut query = self.connection.prepare(
-            "SELECT key, verdict, points, max_points, engine, lab_version, staff_version FROM records WHERE lab = ?1",
+            "SELECT key, verdict, points, max_points, engine, lab_version, staff_version, is_under_resolved FROM records WHERE lab = ?1",
         )?;
         let mut rows = query.query(params![lab])?;
         while let Some(row) = rows.next()? {
@@ -255,6 +255,7 @@ impl Index {
                 engine: row.get(4)?,
                 lab_version: row.get(5)?,
                 staff_version: row.get(6)?,
+                is_under_resolved: row.get(7)?,
                 checks: Vec::new(),
             };
             summaries.insert(key, summary);
@@ -334,7 +335,9 @@ fn add(change: &Transaction<'_>, record: &Record) -> rusqlite::Result<()> {
         key, inputs, grade, ..
     } = record;
     change
-        .prepare_cached("INSERT INTO records VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)")?
+        .prepare_cached(
+            "INSERT INTO records VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+        )?
         .execute(params![
             key,
             inputs.lab_name,
@@ -346,6 +349,7 @@ fn add(change: &Transaction<'_>, record: &Record) -> rusqlite::Result<()> {
             grade.verdict.name(),
             grade.points,
             grade.max_points,
+            grade.is_under_resolved(),
         ])?;
     add_tasks(change, key, grade)
 }
@@ -472,7 +476,7 @@ fn write_standings(
     for standing in standings {
         change
             .prepare_cached(
-                "INSERT INTO standings VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
+                "INSERT INTO standings VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
             )?
             .execute(params![
                 standing.student.as_str(),
@@ -487,6 +491,7 @@ fn write_standings(
                 standing.late_s,
                 standing.by_hand.iter().any(|fix| fix.is_stale),
                 standing.is_without_sources,
+                standing.is_under_resolved,
             ])?;
     }
     change.execute(
@@ -498,6 +503,7 @@ fn write_standings(
 
 #[cfg(test)]
 mod tests {
+    use kinemark_grader::record::grade::{EventRecord, HiddenClass};
     use kinemark_grader::record::sample;
 
     use super::*;
@@ -545,6 +551,7 @@ mod tests {
         assert_eq!(summary.points, one.grade.points);
         let checks: usize = one.grade.tasks.iter().map(|task| task.checks.len()).sum();
         assert_eq!(summary.checks.len(), checks);
+        assert!(!summary.is_under_resolved);
         book.put_record(&two).unwrap();
         let index = Index::refresh(&book, &history, "1").unwrap();
         assert_eq!(index.summaries("01").unwrap().len(), 2);
@@ -597,6 +604,30 @@ mod tests {
         let keys = "SELECT count(*) FROM records";
         let seen: i64 = other.query_row(keys, [], |row| row.get(0)).unwrap();
         assert_eq!(seen, 1, "a reader keeps what it opened");
+    }
+
+    #[test]
+    fn a_run_that_is_not_resolved_is_known_of_its_record() {
+        let (accurate, mut hidden, mut visible) = (record("aa"), record("bb"), record("cc"));
+        let task = &mut hidden.grade.tasks[0];
+        task.hidden.push(HiddenClass {
+            class: "far".to_owned(),
+            good: 2,
+            total: 2,
+            under_resolved: 1,
+        });
+        let event = EventRecord {
+            tick: 5,
+            time_s: 0.005,
+            event: "under-resolved".to_owned(),
+            message: "`elbow` turns too fast".to_owned(),
+        };
+        visible.grade.tasks[0].events.push(event);
+        let (_bed, book) = book_with(&[&accurate, &hidden, &visible]);
+        let index = Index::refresh(&book, &History::default(), "1").unwrap();
+        let summaries = index.summaries("01").unwrap();
+        let known = [&accurate, &hidden, &visible].map(|one| summaries[&one.key].is_under_resolved);
+        assert_eq!(known, [false, true, true]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
--- The tables of course.sqlite, version 1. docs/book.md describes every column.
+-- The tables of course.sqlite; their version is `SCHEMA` in index.rs. docs/book.md describes every column.
 CREATE TABLE meta (
     name TEXT PRIMARY KEY,
     value TEXT NOT NULL
@@ -13,7 +13,8 @@ CREATE TABLE records (
     variant_of TEXT,
     verdict TEXT NOT NULL,
     points REAL NOT NULL,
-    max_points REAL NOT NULL
+    max_points REAL NOT NULL,
+    is_under_resolved INTEGER NOT NULL
 ) STRICT;
 CREATE INDEX records_of_lab ON records (lab);
 CREATE TABLE tasks (
@@ -85,5 +86,6 @@ CREATE TABLE standings (
     late_s INTEGER,
     has_stale_fix INTEGER NOT NULL,
     is_without_sources INTEGER NOT NULL,
+    is_under_resolved INTEGER NOT NULL,
     PRIMARY KEY (student, lab)
 ) STRICT;

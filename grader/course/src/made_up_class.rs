@@ -99,6 +99,7 @@ impl MadeUpStudent {
             made_with: None,
             has_other_numbers: false,
             is_without_sources: false,
+            is_under_resolved: false,
             submitted_at: None,
             late_s: self.late_s,
             marked_late: false,

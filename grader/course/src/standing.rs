@@ -90,6 +90,8 @@ pub struct Summary {
     pub lab_version: String,
     /// The version of the staff part.
     pub staff_version: Option<String>,
+    /// Whether the simulation of any of its runs is not accurate to the end.
+    pub is_under_resolved: bool,
     /// Points of each check, by `TASK/CHECK`.
     pub checks: Vec<(String, f64)>,
 }
@@ -130,6 +132,8 @@ pub struct Standing {
     pub has_other_numbers: bool,
     /// Whether it is a module of which no source was handed in.
     pub is_without_sources: bool,
+    /// Whether the simulation of a run of the record that counts is not accurate to the end.
+    pub is_under_resolved: bool,
     /// When it was handed in, where that is known.
     pub submitted_at: Option<Timestamp>,
     /// How late \[s\]: 0 in time, absent where it is not known.
@@ -239,6 +243,9 @@ fn of_person(
         made_with: attempt.and_then(|attempt| attempt.hand_in.made_with.clone()),
         has_other_numbers: attempt.is_some_and(|attempt| attempt.hand_in.has_other_numbers),
         is_without_sources: attempt.is_some_and(|attempt| attempt.hand_in.is_without_sources),
+        is_under_resolved: record
+            .as_ref()
+            .is_some_and(|record| record.is_under_resolved),
         submitted_at: attempt.and_then(|attempt| attempt.hand_in.submitted_at),
         late_s: attempt.and_then(|attempt| late_s(attempt, due)),
         marked_late: attempt.is_some_and(|attempt| attempt.hand_in.marked_late == Some(true)),
@@ -341,6 +348,7 @@ mod tests {
             engine: String::new(),
             lab_version: String::new(),
             staff_version: None,
+            is_under_resolved: false,
             checks: vec![("fk/position".to_owned(), 2.0)],
         })
     }

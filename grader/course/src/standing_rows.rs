@@ -27,6 +27,8 @@ pub struct StandingRow {
     pub has_stale_fix: bool,
     /// Whether it is a module of which no source was handed in.
     pub is_without_sources: bool,
+    /// Whether the simulation of a run of the record that counts is not accurate to the end.
+    pub is_under_resolved: bool,
 }
 
 impl From<&Standing> for StandingRow {
@@ -42,6 +44,7 @@ impl From<&Standing> for StandingRow {
             late_s: standing.late_s,
             has_stale_fix: standing.by_hand.iter().any(|fix| fix.is_stale),
             is_without_sources: standing.is_without_sources,
+            is_under_resolved: standing.is_under_resolved,
         }
     }
 }
@@ -51,7 +54,7 @@ impl From<&Standing> for StandingRow {
 /// # Errors
 /// An index that cannot be read.
 pub fn standing_rows(index: &Index) -> Result<Vec<StandingRow>, IndexError> {
-    let query = "SELECT student, lab, status, attempts, record, points, max_points, late_s, has_stale_fix, is_without_sources \
+    let query = "SELECT student, lab, status, attempts, record, points, max_points, late_s, has_stale_fix, is_without_sources, is_under_resolved \
         FROM standings ORDER BY rowid";
     let rows = index.rows(query, [], |row| {
         let (student, status): (String, String) = (row.get(0)?, row.get(2)?);
@@ -72,6 +75,7 @@ pub fn standing_rows(index: &Index) -> Result<Vec<StandingRow>, IndexError> {
             late_s: row.get(7)?,
             has_stale_fix: row.get(8)?,
             is_without_sources: row.get(9)?,
+            is_under_resolved: row.get(10)?,
         }))
     })?;
     Ok(rows.into_iter().flatten().collect())
@@ -91,6 +95,7 @@ mod tests {
             MadeUpStudent::without("s3", Status::NeedsPerson),
         ]);
         assert_eq!(standing_rows(&class.index).unwrap(), []);
+        class.standings[1].is_under_resolved = true;
         class.index.put_standings(&class.standings).unwrap();
         let expected: Vec<StandingRow> = class.standings.iter().map(StandingRow::from).collect();
         assert_eq!(standing_rows(&class.index).unwrap(), expected);

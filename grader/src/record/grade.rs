@@ -91,6 +91,12 @@ impl Grade {
     pub fn is_without_sources(&self) -> bool {
         self.sources.as_ref().is_some_and(Vec::is_empty)
     }
+
+    /// Whether the simulation of any of its runs, hidden ones included, is not accurate to the end.
+    pub fn is_under_resolved(&self) -> bool {
+        let mut tasks = self.tasks.iter();
+        tasks.any(|task| task.first_unresolved().is_some() || task.unresolved_hidden() > 0)
+    }
 }
 
 impl VariantRecord {

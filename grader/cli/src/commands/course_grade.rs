@@ -361,6 +361,7 @@ fn summary(
         output::print(&text(rules, &of_lab, &open))?;
         output::print(&made_otherwise(lab, &of_lab))?;
         output::print(&without_sources(&of_lab))?;
+        output::print(&under_resolved(&of_lab))?;
     }
     let has_failed =
         |standing: &Standing| matches!(standing.status, Status::HostLimit | Status::GraderFault);
@@ -381,6 +382,21 @@ fn text(rules: &CourseLab, standings: &[Standing], questions: &[Question]) -> St
         out += &format!("{} kinemark course status {}\n", "next:".cyan(), rules.name);
     }
     out
+}
+
+/// Whose grade comes from a simulation that is not accurate to the end, in a line; the report says from where on, and why.
+fn under_resolved(standings: &[Standing]) -> String {
+    let students = standings
+        .iter()
+        .filter(|standing| standing.is_under_resolved);
+    let students: Vec<&str> = students.map(|standing| standing.student.as_str()).collect();
+    match students.len() {
+        0 => String::new(),
+        count => format!(
+            "{count} with a run whose simulation is not accurate to the end: {}\n",
+            named(&students)
+        ),
+    }
 }
 
 /// Who handed in a module that nobody can read, in a line; it is graded as all others.

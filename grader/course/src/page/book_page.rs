@@ -107,6 +107,7 @@ mod tests {
                 late_s: Some(60),
                 has_stale_fix: true,
                 is_without_sources: true,
+                is_under_resolved: true,
             },
             report: Some("reports/01-kinematics/ab.html".to_owned()),
         };
@@ -126,6 +127,7 @@ mod tests {
             "&lt;b&gt;Ann⟨U+202E⟩",
             "17.5 of 24",
             "stale points by hand",
+            "simulation not accurate",
             "href=\"reports/01-kinematics/ab.html\"",
             "href=\"pages/01-kinematics/class.html\"",
         ] {

@@ -139,6 +139,7 @@ fn row(student: &NamedStudent, with_lab: bool) -> Markup {
             td role="cell" data-label="Status" {
                 span class={ "pill " (colour(standing.status)) } { (standing.status.words()) }
                 @if standing.is_without_sources { " " span class="pill partial" { "no sources" } }
+                @if standing.is_under_resolved { " " span class="pill partial" { "simulation not accurate" } }
                 @if standing.has_stale_fix { " " span class="pill partial" { "stale points by hand" } }
             }
             td role="cell" class="number" data-label="Points" data-key=(sort_key(standing.points)) {

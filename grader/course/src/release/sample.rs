@@ -192,6 +192,7 @@ fn missing(student: &StudentId) -> Standing {
         made_with: None,
         has_other_numbers: false,
         is_without_sources: false,
+        is_under_resolved: false,
         submitted_at: None,
         late_s: None,
         marked_late: false,
