@@ -167,6 +167,16 @@ impl Trace {
         nalgebra::Vector3::new(row[0], row[1], row[2])
     }
 
+    /// Rotation of the TCP at a tick, in the frame in which it is reported.
+    ///
+    /// # Panics
+    /// If the tick was not recorded.
+    pub fn tcp_rotation(&self, tick: usize) -> nalgebra::Rotation3<f64> {
+        let row = self.tcp.at(tick);
+        let turn = nalgebra::Quaternion::new(row[3], row[4], row[5], row[6]);
+        nalgebra::UnitQuaternion::from_quaternion(turn).to_rotation_matrix()
+    }
+
     /// Ticks in a simulated second.
     pub fn ticks_per_second(&self) -> usize {
         ((1.0 / self.step_s).round() as usize).max(1)

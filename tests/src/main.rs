@@ -27,6 +27,7 @@ mod eval_golden;
 mod eval_operations;
 mod eval_refusals;
 mod eval_trajectories;
+mod event_checks;
 mod every_case;
 mod exact;
 mod explained;

@@ -61,12 +61,6 @@ fn mistakes_in_a_lab_with_parameters_are_reported_at_their_position() {
             "holds numbers, not expressions",
         ),
         (
-            "goals = [{",
-            "target = 1.0\ngoals = [{",
-            "lab::target",
-            "a task with goals has no target",
-        ),
-        (
             "lengths = [{ from = 0.95, to = 1.05, step = 0.01 }, ",
             "lengths = [",
             "lab::variants",

@@ -20,7 +20,7 @@ use crate::submission::controller::{
     Answer, Call, Controller, Observation, Opening, Reads, RobotFacts, Said, SensorFacts, Stop,
 };
 use crate::submission::host::Host;
-use crate::task::model::MotionTask;
+use crate::task::model::{GoalOrientation, MotionGoal, MotionTask};
 use crate::task::value::Value;
 use crate::task::workcell::Workcell;
 
@@ -43,18 +43,43 @@ pub fn sensors_of(motion: &MotionTask) -> Vec<SensorFacts> {
     motion.sensors.iter().map(facts).collect()
 }
 
-/// The value of `observation.target`: the goals' positions, or the task's value.
+/// The value of `observation.target`: the task's value; without one, the goals' positions, with their orientations where some goal has
+/// one.
 pub fn target_of(motion: &MotionTask) -> Value {
-    let list = |numbers: &[f64]| Value::List(numbers.iter().copied().map(Value::Number).collect());
-    if motion.goals.is_empty() {
-        motion.target.clone()
+    if motion.has_target || motion.goals.is_empty() {
+        return motion.target.clone();
+    }
+    let goals = motion.goals.iter();
+    if goals.clone().any(|goal| goal.orientation.is_some()) {
+        Value::List(goals.map(goal_value).collect())
     } else {
-        let positions = motion
-            .goals
-            .iter()
-            .map(|goal| list(goal.position_m.as_slice()));
+        let positions = goals.map(|goal| list_value(goal.position_m.as_slice()));
         Value::List(positions.collect())
     }
+}
+
+fn list_value(numbers: &[f64]) -> Value {
+    Value::List(numbers.iter().copied().map(Value::Number).collect())
+}
+
+/// A goal as a map, with its rotation matrix as a list of rows, or the axis and where it points.
+fn goal_value(goal: &MotionGoal) -> Value {
+    let entry = |name: &str, value| (name.to_owned(), value);
+    let position = entry("position", list_value(goal.position_m.as_slice()));
+    // in the order of keys
+    Value::Map(match goal.orientation {
+        None => vec![position],
+        Some(GoalOrientation::Rotation(rotation)) => {
+            let rows = rotation.matrix().row_iter();
+            let rows = rows.map(|row| list_value(&[row[0], row[1], row[2]]));
+            vec![position, entry("rotation", Value::List(rows.collect()))]
+        }
+        Some(GoalOrientation::Axis { of_tcp, along }) => vec![
+            entry("along", list_value(along.as_slice())),
+            entry("axis", list_value(of_tcp.as_slice())),
+            position,
+        ],
+    })
 }
 
 /// Runs `motion` under the submission of `opening`.

@@ -72,6 +72,11 @@ pub trait MotionCheck: Debug + Send + Sync {
     /// What earns all points and what earns none, for the table of a brief.
     fn bounds(&self) -> [String; 2];
 
+    /// Its band and the band's unit, if it has one of numbers.
+    fn band(&self) -> Option<(Band, &'static str)> {
+        None
+    }
+
     /// What it finds in a run that came to its end.
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding;
 
@@ -107,6 +112,11 @@ pub trait MotionCheck: Debug + Send + Sync {
 pub trait FunctionCheck: Debug + Send + Sync {
     /// What earns all points and what earns none, for the table of a brief.
     fn bounds(&self) -> [String; 2];
+
+    /// Its band and the band's unit, if it has one.
+    fn band(&self) -> Option<(Band, &'static str)> {
+        None
+    }
 
     /// What it finds in the answers to all cases, hidden ones too.
     fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding;

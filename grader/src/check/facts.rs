@@ -1,5 +1,6 @@
 //! What checks of a motion task look at: a run, and how it went under disturbances.
 
+use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::trace::Trace;
 use nalgebra::Vector3;
@@ -105,6 +106,15 @@ impl MotionFacts<'_> {
         (0..self.trace.len())
             .map(|tick| self.trace.tcp_position(tick))
             .collect()
+    }
+
+    /// Position of the origin of a body of the scene in the lab's frame at a tick \[m\]; `None` if it cannot move.
+    pub fn p_body_in_lab(&self, body: usize, tick: usize) -> Option<Vector3<f64>> {
+        let world_from_body = self.trace.world_from_body(body, tick)?;
+        let mut poses = FramePoses::new(self.robot);
+        poses.update(self.robot, self.trace.q.at(tick));
+        let world_from_lab = poses.world_from(self.robot.frame(self.names.seen_from)?);
+        Some(world_from_lab.inv_mul(&world_from_body).translation.vector)
     }
 
     /// A curve with one value for each of the first ticks, against a band.

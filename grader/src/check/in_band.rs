@@ -55,6 +55,15 @@ problems! {
         Cross:
             "lab::band", "`full` may exceed `zero`, depending on what the reference solution reaches", "this band",
             "name `reference` in both ends, and let `zero` multiply it and add to it no less than `full`";
+        NotRising { full: f64, zero: f64 }:
+            "lab::band", "with `at_least` more is better: a band needs `full` above `zero`, got {full} and {zero}", "this band",
+            "exchange the two numbers, or remove `at_least`";
+        CrossRising:
+            "lab::band", "with `at_least`, `zero` may exceed `full`, depending on what the reference solution reaches", "this band",
+            "name `reference` in both ends, and let `full` multiply it and add to it no less than `zero`";
+        OnlyRising { full: f64, zero: f64 }:
+            "lab::band", "a band needs `full` at or below `zero`, got {full} and {zero}", "this band",
+            "exchange the two numbers; or, if more is better in this check, add `at_least = true`";
     }
 }
 
@@ -65,6 +74,8 @@ pub(crate) struct InBand<M> {
     full: Linear,
     /// What earns none.
     zero: Linear,
+    /// Whether more is better.
+    at_least: bool,
     /// Unit of the band; empty for a ratio.
     unit: &'static str,
     measure: Arc<M>,
@@ -111,6 +122,10 @@ fn up_to(full: String, zero: String) -> [String; 2] {
     [format!("up to {full}"), format!("from {zero}")]
 }
 
+fn from(full: String, zero: String) -> [String; 2] {
+    [format!("from {full}"), format!("up to {zero}")]
+}
+
 impl<T> Reading<'_, T> {
     /// `measure` in the band `[full, zero]` of values in `unit`. `full` does not exceed `zero` whatever the reference reaches from 0 up.
     pub(super) fn in_band<M>(
@@ -130,6 +145,41 @@ impl<T> Reading<'_, T> {
         Ok(InBand {
             full,
             zero,
+            at_least: false,
+            unit,
+            measure: Arc::new(measure),
+        })
+    }
+
+    /// The same where the lab says whether more is better.
+    pub(super) fn in_band_either<M>(
+        &self,
+        at_least: bool,
+        [full, zero]: [BandEnd; 2],
+        unit: &'static str,
+        measure: M,
+    ) -> Result<InBand<M>, LabError> {
+        let (full, zero): (Linear, Linear) = (full.into(), zero.into());
+        let is_of_reference = full.is_of_later() || zero.is_of_later();
+        if !at_least {
+            if !is_of_reference && full.plus > zero.plus {
+                let (full, zero) = (full.plus, zero.plus);
+                return self.refuse(EndsProblem::OnlyRising { full, zero });
+            }
+            return self.in_band([full, zero], unit, measure);
+        }
+        if is_of_reference {
+            if zero.plus > full.plus || zero.times > full.times {
+                return self.refuse(EndsProblem::CrossRising);
+            }
+        } else if !(zero.plus < full.plus && full.plus.is_finite() && zero.plus.is_finite()) {
+            let (full, zero) = (full.plus, zero.plus);
+            return self.refuse(EndsProblem::NotRising { full, zero });
+        }
+        Ok(InBand {
+            full,
+            zero,
+            at_least,
             unit,
             measure: Arc::new(measure),
         })
@@ -138,7 +188,7 @@ impl<T> Reading<'_, T> {
 
 impl<M> InBand<M> {
     /// The band where it depends on no reference; else one of no width, in which nothing but the measured value is of use.
-    fn band(&self) -> Band {
+    fn numbers(&self) -> Band {
         if self.is_of_reference() {
             return Band::default();
         }
@@ -178,21 +228,29 @@ impl<M> InBand<M> {
 impl<M: RunMeasure> MotionCheck for InBand<M> {
     fn bounds(&self) -> [String; 2] {
         let (full, zero) = self.ends();
-        up_to(full, zero)
+        if self.at_least {
+            from(full, zero)
+        } else {
+            up_to(full, zero)
+        }
+    }
+
+    fn band(&self) -> Option<(Band, &'static str)> {
+        (!self.is_of_reference()).then(|| (self.numbers(), self.unit))
     }
 
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
-        self.measure.judge(facts, self.band())
+        self.measure.judge(facts, self.numbers())
     }
 
     fn dwell_band(&self) -> Option<Band> {
         let has_band = self.measure.judges_dwells() && !self.is_of_reference();
-        has_band.then(|| self.band())
+        has_band.then(|| self.numbers())
     }
 
     fn path_band(&self, path: &str) -> Option<Band> {
         let has_band = self.measure.path() == Some(path) && !self.is_of_reference();
-        has_band.then(|| self.band())
+        has_band.then(|| self.numbers())
     }
 
     fn reference_use(&self) -> FromReference {
@@ -207,11 +265,17 @@ impl<M: RunMeasure> MotionCheck for InBand<M> {
 
     fn at_reference(&self, value: f64) -> Option<Arc<dyn MotionCheck>> {
         let [full, zero] = [self.full.at(value), self.zero.at(value)];
-        let is_band = full.is_finite() && zero.is_finite() && full <= zero;
+        let in_order = if self.at_least {
+            zero < full
+        } else {
+            full <= zero
+        };
+        let is_band = full.is_finite() && zero.is_finite() && in_order;
         is_band.then(|| {
             let fixed: Arc<dyn MotionCheck> = Arc::new(Self {
                 full: Linear::constant(full),
                 zero: Linear::constant(zero),
+                at_least: self.at_least,
                 unit: self.unit,
                 measure: Arc::clone(&self.measure),
             });
@@ -226,8 +290,12 @@ impl<M: AnswerMeasure> FunctionCheck for InBand<M> {
         self.measure.bounds(full, zero)
     }
 
+    fn band(&self) -> Option<(Band, &'static str)> {
+        Some((self.numbers(), self.unit))
+    }
+
     fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
-        let (band, unit) = (self.band(), self.unit);
+        let (band, unit) = (self.numbers(), self.unit);
         self.measure.judge(&Cases {
             function,
             cases,
@@ -237,6 +305,6 @@ impl<M: AnswerMeasure> FunctionCheck for InBand<M> {
     }
 
     fn answer_band(&self) -> Option<Band> {
-        self.measure.is_of_single_answers().then(|| self.band())
+        self.measure.is_of_single_answers().then(|| self.numbers())
     }
 }

@@ -15,6 +15,7 @@ mod finding;
 mod hints;
 mod in_band;
 pub mod kind;
+mod occurrence;
 mod path_following;
 mod prediction;
 mod prelude;
@@ -28,6 +29,7 @@ mod signal;
 mod sliding;
 mod step_keys;
 mod step_response;
+mod touching;
 
 pub use contract::{
     Check, Criterion, FromReference, FunctionCheck, MotionCheck, answer_band, dwell_band,

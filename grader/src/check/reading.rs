@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::model::sensor::Measured;
 use kinemark_sim::text::Problem;
 use kinemark_sim::ticks::whole_ratio;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -89,6 +90,19 @@ impl<T> Deref for Reading<'_, T> {
     }
 }
 
+/// A number that sensors read.
+#[derive(Debug, Clone)]
+pub(super) struct Channel {
+    /// The sensor's name, with that of the part if one is named.
+    pub(super) name: String,
+    /// Its index among all numbers that sensors read.
+    pub(super) index: usize,
+    /// Whether it is 1 or 0.
+    pub(super) is_switch: bool,
+    /// Its unit; empty for a switch.
+    pub(super) unit: &'static str,
+}
+
 problems! {
     /// A name or a time in the table of a check that does not fit the task, the robot or the scene.
     enum ReadingProblem {
@@ -113,6 +127,18 @@ problems! {
         NoSegment { path: String, count: usize, segment: u64 }:
             "lab::path", "path `{path}` has segments 1 to {count}, got {segment}", "not a segment of this path",
             "leave `segment` out to have the worst one counted";
+        NoSensors { sensor: String }:
+            "lab::unknown_sensor", "this task has no sensor `{sensor}`: it has none at all", "not a sensor of this task",
+            "add one in [[tasks.motion.sensors]], or to the robot file";
+        UnknownSensor { sensor: String, known: Vec<String> }:
+            "lab::unknown_sensor", "this task has no sensor `{sensor}`", "not a sensor of this task",
+            near(sensor, "sensors", known);
+        UnknownPart { sensor: String, part: String, known: Vec<String> }:
+            "lab::unknown_sensor", "sensor `{sensor}` has no part `{part}`", "not a part of this sensor",
+            match known.is_empty() {
+                true => "it reads one number: leave `part` out".to_owned(),
+                false => near(part, "parts", known),
+            };
         NotWholeSteps { time_s: f64, step_s: f64 }:
             "lab::periods", "{time_s} s is not an integer multiple of the physics step of {step_s} s", "does not divide";
         LongerThanRun { time_s: f64 }:
@@ -244,6 +270,82 @@ impl MotionReading<'_> {
             segment: *typed.get_ref(),
         };
         self.refuse_at(typed, problem)
+    }
+
+    /// The number that the sensor called `name` reads, or a part of what it reads.
+    pub(super) fn channel(
+        &self,
+        name: &Spanned<String>,
+        part: Option<&At<String>>,
+    ) -> Result<Channel, LabError> {
+        let sensors = &self.motion.sensors;
+        let sensor = name.get_ref().clone();
+        let Some(index) = sensors.iter().position(|known| known.name == sensor) else {
+            let known: Vec<String> = sensors.iter().map(|known| known.name.clone()).collect();
+            let problem = match known.is_empty() {
+                true => ReadingProblem::NoSensors { sensor },
+                false => ReadingProblem::UnknownSensor { sensor, known },
+            };
+            return self.refuse_at(name, problem);
+        };
+        let before = sensors[..index].iter();
+        let before = before.map(|known| known.kind.measured().channels());
+        let first: usize = before.sum();
+        let kind = &sensors[index].kind;
+        let measured = kind.measured();
+        let channel = |name, offset| Channel {
+            name,
+            index: first + offset,
+            is_switch: measured == Measured::Switch,
+            unit: kind.unit(self.robot, offset),
+        };
+        let Some(typed) = part else {
+            return Ok(channel(sensor, 0));
+        };
+        let known: &[&str] = match measured {
+            Measured::Parts(names) => names,
+            Measured::Switch | Measured::Number => &[],
+        };
+        let part = typed.get_ref().clone();
+        if let Some(offset) = known.iter().position(|known| *known == part) {
+            return Ok(channel(format!("{sensor}.{part}"), offset));
+        }
+        let known = known.iter().map(|part| (*part).to_owned()).collect();
+        let problem = ReadingProblem::UnknownPart {
+            sensor,
+            part,
+            known,
+        };
+        self.refuse_at(typed, problem)
+    }
+
+    /// The first and the last tick of a part of the run, of the whole run where nothing is typed; `turned` is the problem of a part that
+    /// ends before it begins, at these times \[s\].
+    pub(super) fn part_of_run(
+        &self,
+        from_s: Option<&At<f64>>,
+        to_s: Option<&At<f64>>,
+        turned: impl FnOnce(f64, f64) -> Box<dyn Problem>,
+    ) -> Result<[usize; 2], LabError> {
+        let first = match from_s {
+            None => 0,
+            // a part may begin at the start
+            Some(typed) if typed.get_ref().abs() <= 0.0 => 0,
+            Some(typed) => self.ticks(typed, "`from_s`")?,
+        };
+        let last = match to_s {
+            None => self.motion.ticks,
+            Some(typed) => self.ticks(typed, "`to_s`")?,
+        };
+        if last < first {
+            let [from_s, to_s] = [first, last].map(|tick| self.motion.periods.time_s(tick));
+            return Err(LabError::new(
+                turned(from_s, to_s),
+                self.report.source,
+                self.at.clone(),
+            ));
+        }
+        Ok([first as usize, last as usize])
     }
 
     /// A time within the run, in ticks; `what` names it in the message.

@@ -1,5 +1,5 @@
 //! The moment at which a check of a motion task began to lose points: when the curve it judged left the band of full points, or the
-//! earliest moment of its evidence.
+//! earliest moment of its evidence. Where more is better, a curve that is too low at some moment may still rise: then the evidence says it.
 
 use kinemark_sim::ticks::Periods;
 
@@ -10,7 +10,9 @@ use crate::record::graded::Curve;
 /// The moment at which a check began to lose points in the visible run, if its curve or its evidence gives one.
 pub(super) fn first_lost(finding: &Finding, periods: &Periods) -> Option<Instant> {
     let times = || finding.evidence.iter().filter_map(|fact| fact.time_s);
-    let left = finding.curve.as_ref().zip(finding.statistic);
+    let falls = |curve: &&Curve| curve.full <= curve.zero;
+    let curve = finding.curve.as_ref().filter(falls);
+    let left = curve.zip(finding.statistic);
     let left = left.and_then(|(curve, statistic)| match statistic {
         Statistic::Greatest => first_beyond(curve),
         Statistic::RootMeanSquare => mean_left(curve).or_else(|| {

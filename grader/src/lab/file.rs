@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use super::parameters::NumbersTable;
 use crate::check::registry::CheckTable;
+use crate::task::law::{LawOf, SineTable, TimesTable, TrapezoidTable};
 
 /// A number as typed, whole or not.
 pub(super) type NumberAt = Spanned<f64>;
@@ -143,6 +144,16 @@ pub(super) struct MotionTable {
 pub(super) struct GoalTable {
     pub(super) position_m: [f64; 3],
     pub(super) dwell_s: NumberAt,
+    pub(super) rpy_deg: Option<Spanned<[f64; 3]>>,
+    pub(super) axis: Option<Spanned<AxisTable>>,
+}
+
+/// An axis of the TCP and where it points.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AxisTable {
+    pub(super) of_tcp: [f64; 3],
+    pub(super) along: [f64; 3],
 }
 
 /// The law of a joint in mode `prescribed`: its name, and one kind of law.
@@ -157,44 +168,17 @@ pub(super) struct LawTable {
     pub(super) table: Option<TimesTable>,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SineTable {
-    pub(super) amplitude: f64,
-    pub(super) angular_frequency_rad_s: f64,
-    #[serde(default)]
-    pub(super) phase_rad: f64,
-    #[serde(default)]
-    pub(super) offset: f64,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TrapezoidTable {
-    pub(super) from: f64,
-    pub(super) to: f64,
-    pub(super) speed: f64,
-    pub(super) acceleration: f64,
-    #[serde(default)]
-    pub(super) start_s: f64,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TimesTable {
-    pub(super) times_s: Vec<f64>,
-    pub(super) positions: Vec<f64>,
-    #[serde(default)]
-    pub(super) ends: EndsTable,
-}
-
-/// How a spline starts and ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum EndsTable {
-    #[default]
-    Rest,
-    Natural,
+impl LawTable {
+    /// Its law, without the joint.
+    pub(super) fn law(&self) -> LawOf {
+        LawOf {
+            constant: self.constant,
+            polynomial: self.polynomial.clone(),
+            sine: self.sine.clone(),
+            trapezoid: self.trapezoid.clone(),
+            table: self.table.clone(),
+        }
+    }
 }
 
 /// A push on a link or a body.

@@ -4,6 +4,7 @@ pub mod files;
 pub mod grant;
 pub mod jacobian;
 pub mod joint_units;
+pub(crate) mod law;
 pub mod mesh_file;
 pub mod model;
 pub mod problem;

@@ -12,7 +12,7 @@ use kinemark_sim::model::sensor::Sensor;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trajectory::JointLaw;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::grant::Grant;
 use super::scene::LabScene;
@@ -159,8 +159,10 @@ pub struct MotionTask {
     pub laws: Option<Arc<[JointLaw]>>,
     /// Pushes on links and bodies.
     pub pushes: Vec<Push>,
-    /// What `observation.target` holds where there are no goals.
+    /// What `observation.target` holds, unless that is the goals.
     pub target: Value,
+    /// Whether the lab states the target.
+    pub has_target: bool,
     /// Where the TCP is to go, in order.
     pub goals: Vec<MotionGoal>,
     /// Functions of `robot` that it grants.
@@ -203,9 +205,45 @@ pub struct MotionGoal {
     pub position_m: Vector3<f64>,
     /// Ticks to stay.
     pub dwell_ticks: u64,
+    /// How the TCP is to be turned there, if that matters.
+    pub orientation: Option<GoalOrientation>,
 }
 
-/// A band of linear partial credit: `full` and better earn everything, `zero` and worse nothing.
+/// How the TCP is to be turned at a goal, in the lab's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GoalOrientation {
+    /// Exactly so.
+    Rotation(Rotation3<f64>),
+    /// One of its axes points somewhere; turning about it makes no difference. Both are unit vectors.
+    Axis {
+        /// In the frame of the TCP.
+        of_tcp: Vector3<f64>,
+        /// Where it points.
+        along: Vector3<f64>,
+    },
+}
+
+impl GoalOrientation {
+    /// The angle by which `lab_from_tcp` is off, in `[0, π]` \[rad\].
+    pub fn angle_rad(&self, lab_from_tcp: &Rotation3<f64>) -> f64 {
+        match self {
+            Self::Rotation(wanted) => {
+                let off = (wanted.inverse() * lab_from_tcp).into_inner();
+                // sine and cosine of the angle: each is well known where the other is not
+                let twice_sine =
+                    Vector3::new(off.m32 - off.m23, off.m13 - off.m31, off.m21 - off.m12);
+                libm::atan2(0.5 * twice_sine.norm(), 0.5 * (off.trace() - 1.0))
+            }
+            Self::Axis { of_tcp, along } => {
+                let axis = lab_from_tcp * of_tcp;
+                libm::atan2(axis.cross(along).norm(), axis.dot(along))
+            }
+        }
+    }
+}
+
+/// A band of linear partial credit: `full` and better earn everything, `zero` and worse nothing. Less is better where `full` is at or
+/// below `zero`, and more where it is above.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Band {
     /// The value that earns all points.
@@ -215,8 +253,16 @@ pub struct Band {
 }
 
 impl Band {
-    /// The share of points that `value` earns, in `[0, 1]`; NaN and infinity earn nothing.
+    /// The share of points that `value` earns, in `[0, 1]`; NaN earns nothing, and so does infinity, which stands for what never happened.
     pub fn score(&self, value: f64) -> f64 {
+        if self.more_is_better() {
+            return match value {
+                value if value.is_infinite() => 0.0,
+                value if value >= self.full => 1.0,
+                value if value > self.zero => (value - self.zero) / (self.full - self.zero),
+                _ => 0.0,
+            };
+        }
         if value <= self.full {
             1.0
         } else if value < self.zero {
@@ -224,6 +270,16 @@ impl Band {
         } else {
             0.0
         }
+    }
+
+    /// Whether greater values earn more.
+    pub fn more_is_better(&self) -> bool {
+        self.full > self.zero
+    }
+
+    /// `lower` where a value is to become less, `raise` where it is to become more.
+    pub(crate) fn advice<T>(&self, lower: T, raise: T) -> T {
+        if self.more_is_better() { raise } else { lower }
     }
 }
 
@@ -243,6 +299,41 @@ mod tests {
         assert_eq!(band.score(f64::NAN), 0.0);
         assert_eq!(band.score(f64::INFINITY), 0.0);
         assert_eq!(band.score(f64::NEG_INFINITY), 1.0);
+    }
+
+    #[test]
+    fn a_band_where_more_is_better_rises_linearly() {
+        let band = Band {
+            full: 4.0,
+            zero: 2.0,
+        };
+        for (value, score) in [(1.0, 0.0), (2.0, 0.0), (3.0, 0.5), (4.0, 1.0), (9.0, 1.0)] {
+            assert_eq!(band.score(value), score);
+        }
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(band.score(value), 0.0);
+        }
+    }
+
+    #[test]
+    fn an_orientation_is_off_by_the_angle_between() {
+        let about_z = |angle: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+        let exact = GoalOrientation::Rotation(about_z(0.3));
+        for angle in [0.3, 0.3 + 1e-9, 0.8, -2.0, 0.3 + std::f64::consts::PI] {
+            let off = exact.angle_rad(&about_z(angle));
+            assert!((off - (angle - 0.3).abs()).abs() < 1e-12, "{angle}: {off}");
+        }
+        let axis = GoalOrientation::Axis {
+            of_tcp: Vector3::x(),
+            along: Vector3::y(),
+        };
+        // a quarter turn about z takes x to y; a turn about the axis itself makes no difference
+        let quarter = about_z(std::f64::consts::FRAC_PI_2);
+        let turned = quarter * Rotation3::from_axis_angle(&Vector3::x_axis(), 1.1);
+        for right in [quarter, turned] {
+            assert!(axis.angle_rad(&right) < 1e-12);
+        }
+        assert!((axis.angle_rad(&about_z(1.0)) - 0.570_796_326_794_896_6).abs() < 1e-12);
     }
 
     #[test]

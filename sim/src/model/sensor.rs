@@ -67,6 +67,9 @@ pub trait SensorKind: fmt::Debug + Send + Sync {
         Measured::Number
     }
 
+    /// The unit of the number `channel` of its reading, counted from 0; empty for a switch.
+    fn unit(&self, robot: &Robot, channel: usize) -> &'static str;
+
     /// Its own keys in a robot file, a line each; `robot` is the one that it was read for.
     fn keys(&self, robot: &Robot) -> String;
 

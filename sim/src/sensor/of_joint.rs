@@ -16,6 +16,8 @@ use crate::part::toml_text::quoted;
 pub(super) trait JointNumber: fmt::Debug + Clone + Copy + Send + Sync + 'static {
     /// The word of `type`.
     const NAME: &'static str;
+    /// Its unit for a joint that turns, and for one that slides.
+    const UNITS: [&'static str; 2];
 
     /// The number, of the joint that moves `body`.
     fn of(body: &Body, seen: &Seen<'_>) -> f64;
@@ -62,6 +64,15 @@ pub(super) struct OfJoint<N> {
 }
 
 impl<N: JointNumber> SensorKind for OfJoint<N> {
+    fn unit(&self, robot: &Robot, _: usize) -> &'static str {
+        let [turning, sliding] = N::UNITS;
+        if robot.joints()[self.joint].kind.turns() {
+            turning
+        } else {
+            sliding
+        }
+    }
+
     fn keys(&self, robot: &Robot) -> String {
         format!("joint = {}\n", quoted(&robot.joints()[self.joint].name))
     }

@@ -3,28 +3,11 @@
 //! Measured is the sum of the normal impulses of all contacts of the two, `Σ ∫ F dt`. Two that could touch but never did
 //! have 0, and two that can never touch are refused. An arm that stays where it is touches nothing, so let this check need another.
 
-use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::watch::ContactSpan;
-use toml::Spanned;
 
 use crate::check::prelude::*;
-use crate::task::scene::LabScene;
+use crate::check::touching::two_that_touch;
 use crate::task::watched::TouchingParty;
-
-problems! {
-    /// Two that cannot press on each other, or a name of neither.
-    enum PartyProblem {
-        NeverPress { first: String, second: String, why: &'static str }:
-            "lab::contact_impulse", "no contact of `{first}` and `{second}` can be: {why}", "this one with the other",
-            "name the arm and a body, or a dynamic body and another";
-        NoGround { scene: String }:
-            "lab::unknown_party", "scene `{scene}` has no ground", "not in this scene",
-            "give the scene a `ground` in [environment]";
-        Unknown { name: String, robot: String, scene: String, known: Vec<String> }:
-            "lab::unknown_party", "`{name}` is neither a link of robot `{robot}` nor a body of scene `{scene}`",
-            "nothing that could touch", near(name, "links and bodies", known);
-    }
-}
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -32,6 +15,9 @@ problems! {
 pub(crate) struct Table {
     /// The two: `arm` (any link of the robot), a link, a body of the scene, or `ground`.
     between: [At<String>; 2],
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Impulse that earns all points \[N s\].
     full_n_s: BandEnd,
     /// Impulse that earns none \[N s\].
@@ -43,21 +29,9 @@ impl MotionTable for Table {
     type Check = InBand<ContactImpulse>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        let scene = reading.scene(Self::NAME)?;
-        let [first, second] = &self.between;
-        let between = [
-            party(reading, scene, first)?,
-            party(reading, scene, second)?,
-        ];
-        if let Some(why) = never_press(between, scene) {
-            let problem = PartyProblem::NeverPress {
-                first: first.get_ref().clone(),
-                second: second.get_ref().clone(),
-                why,
-            };
-            return reading.refuse_at(second, problem);
-        }
-        reading.in_band(
+        let between = two_that_touch(reading, Self::NAME, &self.between)?;
+        reading.in_band_either(
+            self.at_least,
             [self.full_n_s, self.zero_n_s],
             "N s",
             ContactImpulse(between),
@@ -68,63 +42,6 @@ impl MotionTable for Table {
 /// The impulse between these two.
 #[derive(Debug)]
 pub(crate) struct ContactImpulse([TouchingParty; 2]);
-
-/// Why two never press on each other, if they do not.
-fn never_press(between: [TouchingParty; 2], scene: &LabScene) -> Option<&'static str> {
-    let gives_way = |party: TouchingParty| match party {
-        TouchingParty::Arm | TouchingParty::Link(_) => true,
-        TouchingParty::Body(index) => {
-            matches!(scene.scene.bodies[index].kind, BodyKind::Free)
-        }
-        TouchingParty::Ground => false,
-    };
-    let is_link =
-        |party: &TouchingParty| matches!(party, TouchingParty::Arm | TouchingParty::Link(_));
-    if between.iter().all(is_link) {
-        Some("links of one robot do not touch each other")
-    } else if between[0] == between[1] {
-        Some("nothing touches itself")
-    } else if !between.into_iter().any(gives_way) {
-        Some("neither of them gives way, so they never press on each other")
-    } else {
-        None
-    }
-}
-
-/// `arm`, `ground`, a link of the robot, or a body of the scene.
-fn party(
-    reading: &MotionReading<'_>,
-    scene: &LabScene,
-    name: &Spanned<String>,
-) -> Result<TouchingParty, LabError> {
-    let wanted = name.get_ref().as_str();
-    let links = reading.robot.links().iter().map(|link| link.name.as_str());
-    let bodies = scene.scene.bodies.iter().map(|body| body.name.as_str());
-    if wanted == "arm" {
-        return Ok(TouchingParty::Arm);
-    }
-    if wanted == "ground" {
-        if scene.scene.environment.ground.is_some() {
-            return Ok(TouchingParty::Ground);
-        }
-        let scene = scene.name.clone();
-        return reading.refuse_at(name, PartyProblem::NoGround { scene });
-    }
-    if let Some(index) = links.clone().position(|link| link == wanted) {
-        return Ok(TouchingParty::Link(index));
-    }
-    if let Some(index) = bodies.clone().position(|body| body == wanted) {
-        return Ok(TouchingParty::Body(index));
-    }
-    let known = ["arm", "ground"].into_iter().chain(links).chain(bodies);
-    let problem = PartyProblem::Unknown {
-        name: wanted.to_owned(),
-        robot: reading.robot.name().to_owned(),
-        scene: scene.name.clone(),
-        known: known.map(str::to_owned).collect(),
-    };
-    reading.refuse_at(name, problem)
-}
 
 /// All contacts of two, together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -179,8 +96,16 @@ impl RunMeasure for ContactImpulse {
                 (message(facts, &touches), "contacts".to_owned(), first)
             });
         }
+        if found.is_none() && finding.is_lost() {
+            let message = format!("{a} and {b} never pressed on each other");
+            let last = facts.last_tick();
+            finding = finding.with(facts.evidence(message, "contacts".to_owned(), last));
+        }
         finding
-            .advise(format!("Leave more room between {a} and {b} on the way."))
+            .advise(band.advice(
+                format!("Leave more room between {a} and {b} on the way."),
+                format!("Let {a} and {b} press on each other harder, or for longer."),
+            ))
             .drawn(curve)
     }
 }

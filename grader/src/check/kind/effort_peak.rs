@@ -10,6 +10,9 @@ use crate::check::prelude::*;
 pub(crate) struct Table {
     /// The joint; the one with the greatest effort where it is left out.
     joint: Option<At<String>>,
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Effort that earns all points \[N m, or N of a prismatic joint\].
     full_n_m: BandEnd,
     /// Effort that earns none.
@@ -23,7 +26,12 @@ impl MotionTable for Table {
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let joint = reading.maybe_joint(self.joint.as_ref())?;
         let unit = reading.units(joint).effort();
-        reading.in_band([self.full_n_m, self.zero_n_m], unit, EffortPeak(joint))
+        reading.in_band_either(
+            self.at_least,
+            [self.full_n_m, self.zero_n_m],
+            unit,
+            EffortPeak(joint),
+        )
     }
 }
 
@@ -51,7 +59,10 @@ impl RunMeasure for EffortPeak {
                 );
                 (message, format!("effort[{worst}]"), tick)
             })
-            .advise("Ask for the step less suddenly, or lower the gains.")
+            .advise(band.advice(
+                "Ask for the step less suddenly, or lower the gains.",
+                "Drive the joint harder where it needs it most.",
+            ))
     }
 }
 

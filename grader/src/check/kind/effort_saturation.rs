@@ -1,4 +1,4 @@
-//! effort-saturation: for how long some joint's effort is at its limit \[s\].
+//! effort-saturation: for how long the effort of a joint is at its limit \[s\].
 
 use crate::check::prelude::*;
 
@@ -6,6 +6,8 @@ use crate::check::prelude::*;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
+    /// The joint; any joint where it is left out.
+    joint: Option<At<String>>,
     /// Time that earns all points \[s\].
     full_s: BandEnd,
     /// Time that earns none \[s\].
@@ -17,20 +19,23 @@ impl MotionTable for Table {
     type Check = InBand<EffortSaturation>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        reading.in_band([self.full_s, self.zero_s], "s", EffortSaturation)
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        reading.in_band([self.full_s, self.zero_s], "s", EffortSaturation(joint))
     }
 }
 
-/// The time at a limit.
+/// The time at a limit, of the joint of this index in `q`; of any where there is none.
 #[derive(Debug)]
-pub(crate) struct EffortSaturation;
+pub(crate) struct EffortSaturation(Option<usize>);
 
 impl RunMeasure for EffortSaturation {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let gains = &facts.motion.servo.gains;
         let at_limit = |tick: usize| {
-            let mut efforts = facts.trace.effort.at(tick).iter().zip(gains);
-            efforts.position(|(effort, gains)| effort.abs() >= gains.effort_limit)
+            let efforts = facts.trace.effort.at(tick).iter().zip(gains).enumerate();
+            let mut efforts = efforts.filter(|(joint, _)| self.0.is_none_or(|of| of == *joint));
+            let found = efforts.find(|(_, (effort, gains))| effort.abs() >= gains.effort_limit);
+            found.map(|(joint, _)| joint)
         };
         // ticks with a joint at its limit there
         let saturated: Vec<(usize, usize)> = (0..facts.applied_ticks())
@@ -40,9 +45,17 @@ impl RunMeasure for EffortSaturation {
             let count = saturated.partition_point(|(saturated, _)| *saturated <= tick);
             facts.time_s(count)
         };
-        let what = "time with an effort at its limit";
+        let what = match self.0 {
+            Some(joint) => {
+                format!(
+                    "time with the effort of joint `{}` at its limit",
+                    facts.joint_name(joint)
+                )
+            }
+            None => "time with an effort at its limit".to_owned(),
+        };
         let so_far = (0..facts.trace.len()).map(so_far_s).collect();
-        let curve = facts.curve(what, "s", so_far, band);
+        let curve = facts.curve(what.clone(), "s", so_far, band);
         let mut finding = Finding::of_curve(band, Statistic::SoFar, "s", what, curve);
         let used_up = (0..saturated.len()).find(|count| facts.time_s(count + 1) > band.full);
         if let Some(&(tick, joint)) = used_up.and_then(|index| saturated.get(index)) {
@@ -61,5 +74,32 @@ impl RunMeasure for EffortSaturation {
             });
         }
         finding.advise("Ask for smaller steps: spread the move over more time.")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::by_hand::{HandRow, judged, value};
+
+    #[test]
+    fn of_a_joint_that_is_named_only_its_own_effort_counts() {
+        let motion = "mode = \"effort\"\nduration_s = 1.0\nservo = { effort_limit = [5.0, 2.0] }";
+        let row = |t_s: f64| HandRow {
+            effort: [5.0, if t_s < 0.25 { -2.0 } else { 0.0 }],
+            ..HandRow::default()
+        };
+        let of = |joint: &str| {
+            let kind = format!("effort-saturation = {{ {joint}full_s = 0.1, zero_s = 0.4 }}");
+            judged(motion, &kind, row)
+        };
+        assert!((value(&of("")) - 1.0).abs() < 1e-9);
+        let elbow = of("joint = \"elbow\", ");
+        assert!((value(&elbow) - 0.25).abs() < 1e-9 && (elbow.score - 0.5).abs() < 1e-9);
+        assert!(
+            elbow.evidence[0]
+                .message
+                .contains("by joint `elbow` at -2 N m"),
+            "{elbow:?}"
+        );
     }
 }

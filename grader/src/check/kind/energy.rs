@@ -9,6 +9,9 @@ use crate::check::prelude::*;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Work that earns all points \[J\].
     full_j: BandEnd,
     /// Work that earns none \[J\].
@@ -20,7 +23,7 @@ impl MotionTable for Table {
     type Check = InBand<Energy>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        reading.in_band([self.full_j, self.zero_j], "J", Energy)
+        reading.in_band_either(self.at_least, [self.full_j, self.zero_j], "J", Energy)
     }
 }
 
@@ -56,7 +59,10 @@ impl RunMeasure for Energy {
                 );
                 (message, format!("effort[{worst}]"), facts.last_tick())
             })
-            .advise("Take a shorter way, or a slower one that needs less braking.")
+            .advise(band.advice(
+                "Take a shorter way, or a slower one that needs less braking.",
+                "Let the motors do more: move further or faster.",
+            ))
     }
 }
 

@@ -6,6 +6,9 @@ use crate::check::prelude::*;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Time that earns all points \[s\].
     full_s: BandEnd,
     /// Time that earns none \[s\].
@@ -21,7 +24,7 @@ impl MotionTable for Table {
     }
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        reading.in_band([self.full_s, self.zero_s], "s", FinishTime)
+        reading.in_band_either(self.at_least, [self.full_s, self.zero_s], "s", FinishTime)
     }
 }
 
@@ -53,6 +56,9 @@ impl RunMeasure for FinishTime {
             );
             finding = finding.with(facts.evidence(message, "tcp".to_owned(), facts.last_tick()));
         }
-        finding.advise("Start the next move as soon as the dwell is over.")
+        finding.advise(band.advice(
+            "Start the next move as soon as the dwell is over.",
+            "Move more slowly, or stay longer before the next move.",
+        ))
     }
 }

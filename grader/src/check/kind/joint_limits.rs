@@ -9,6 +9,8 @@ use crate::check::prelude::*;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
+    /// The joint; the one that is furthest beyond its limits where it is left out.
+    joint: Option<At<String>>,
     /// Distance beyond a limit that earns all points \[rad, or m of a prismatic joint\].
     full_rad: BandEnd,
     /// Distance that earns none.
@@ -20,21 +22,23 @@ impl MotionTable for Table {
     type Check = InBand<JointLimits>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        let unit = reading.units(None).position();
-        reading.in_band([self.full_rad, self.zero_rad], unit, JointLimits)
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let unit = reading.units(joint).position();
+        reading.in_band([self.full_rad, self.zero_rad], unit, JointLimits(joint))
     }
 }
 
-/// The distance beyond the limits of any joint.
+/// The distance beyond the limits of the joint of this index in `q`; of any where there is none.
 #[derive(Debug)]
-pub(crate) struct JointLimits;
+pub(crate) struct JointLimits(Option<usize>);
 
 impl RunMeasure for JointLimits {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let trace = facts.trace;
         let mut worst = (f64::NEG_INFINITY, 0, 0); // value, tick, joint
         let mut breach: Option<(usize, usize)> = None;
-        for (index, joint) in facts.robot.moving_joints().enumerate() {
+        let joints = facts.robot.moving_joints().enumerate();
+        for (index, joint) in joints.filter(|(index, _)| self.0.is_none_or(|of| of == *index)) {
             let lower = joint.limits.lower.unwrap_or(f64::NEG_INFINITY);
             let upper = joint.limits.upper.unwrap_or(f64::INFINITY);
             let outside = |position: f64| (position - upper).max(lower - position);
@@ -53,9 +57,13 @@ impl RunMeasure for JointLimits {
                 }
             }
         }
-        let (value, tick, joint) = worst;
+        let (value, tick, joint) = (worst.0, worst.1, self.0.unwrap_or(worst.2));
         let unit = facts.units(joint).position();
-        let quantity = "greatest violation of a joint limit (negative: within the limits)";
+        let of = match self.0 {
+            Some(joint) => format!("of the limits of joint `{}`", facts.joint_name(joint)),
+            None => "of a joint limit".to_owned(),
+        };
+        let quantity = format!("greatest violation {of} (negative: within the limits)");
         let mut finding = Finding::against(band, value, unit, quantity);
         if let (Some((first, first_joint)), true) = (breach, finding.is_lost()) {
             let message = format!(
@@ -79,5 +87,22 @@ impl RunMeasure for JointLimits {
                 "Take angles between the limits: `wrap_pi` brings an angle into (-pi, pi]."
             }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::by_hand::{HandRow, judged_sliding, value};
+
+    #[test]
+    fn a_joint_that_is_named_is_judged_alone_and_in_its_unit() {
+        // the arm's joints have no limits of their own: what is below all of them is as far within as can be
+        let motion = "mode = \"effort\"\nduration_s = 1.0";
+        let kind = "joint-limits = { joint = \"elbow\", full_rad = 0.0, zero_rad = 0.1 }";
+        let finding = judged_sliding(motion, kind, |_| HandRow::default());
+        let measure = finding.measure.as_ref().expect("a measure");
+        assert_eq!(measure.unit, "m");
+        assert!(measure.quantity.contains("joint `elbow`"), "{measure:?}");
+        assert!(!value(&finding).is_nan());
     }
 }

@@ -4,6 +4,14 @@
 
 use crate::check::prelude::*;
 
+problems! {
+    /// Turns of a joint that slides.
+    enum TurnsProblem {
+        Slides { joint: String }:
+            "lab::joint_reached", "joint `{joint}` slides: it makes no turns", "this joint", "leave `turns` out";
+    }
+}
+
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -14,6 +22,9 @@ pub(crate) struct Table {
     position_rad: f64,
     /// The part at the end of the run that counts \[s\]; a multiple of the physics step.
     hold_s: At<f64>,
+    /// Whether whole turns make no difference, as where it may end at -π as well as at π; false where it is left out.
+    #[serde(default)]
+    turns: bool,
     /// Distance that earns all points.
     full_rad: BandEnd,
     /// Distance that earns none.
@@ -25,9 +36,15 @@ impl MotionTable for Table {
     type Check = InBand<JointReached>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
+        let joint = reading.joint(&self.joint)?;
+        if self.turns && reading.units(Some(joint)) == JointUnits::Sliding {
+            let joint = self.joint.get_ref().clone();
+            return reading.refuse_at(&self.joint, TurnsProblem::Slides { joint });
+        }
         let measure = JointReached {
-            joint: reading.joint(&self.joint)?,
+            joint,
             position: self.position_rad,
+            turns: self.turns,
             hold_ticks: reading.ticks(&self.hold_s, "`hold_s`")? as usize,
         };
         let unit = reading.units(Some(measure.joint)).position();
@@ -42,6 +59,8 @@ pub(crate) struct JointReached {
     joint: usize,
     /// Where it should stand \[rad or m\].
     position: f64,
+    /// Whether whole turns make no difference.
+    turns: bool,
     /// Ticks at the end in which it must stand there.
     hold_ticks: usize,
 }
@@ -53,12 +72,15 @@ impl RunMeasure for JointReached {
         let position = trimmed(self.position, 4);
         let last = facts.last_tick();
         let first = last.saturating_sub(self.hold_ticks);
-        let error_at = |tick: usize| (facts.trace.q.at(tick)[joint] - self.position).abs();
+        let error_at = |tick: usize| self.distance(facts.trace.q.at(tick)[joint]);
         let worst = (first..=last)
             .max_by(|a, b| error_at(*a).total_cmp(&error_at(*b)))
             .unwrap_or(last);
         let value = error_at(worst);
-        let quantity = format!("distance of joint `{name}` from {position} {unit}");
+        let mut quantity = format!("distance of joint `{name}` from {position} {unit}");
+        if self.turns {
+            quantity += ", but for whole turns";
+        }
         let mut finding = Finding::against(band, value, unit, quantity);
         if finding.is_lost() {
             let message = self.message(facts, value, (first, worst));
@@ -82,6 +104,16 @@ impl RunMeasure for JointReached {
 }
 
 impl JointReached {
+    /// How far `q` is off \[rad or m\].
+    fn distance(&self, q: f64) -> f64 {
+        let away = q - self.position;
+        if self.turns {
+            libm::remainder(away, std::f64::consts::TAU).abs()
+        } else {
+            away.abs()
+        }
+    }
+
     /// Why points are lost: `value` off at tick `worst`, of those from `first` on.
     fn message(
         &self,
@@ -97,7 +129,7 @@ impl JointReached {
         let last = facts.last_tick();
         let at_end = facts.trace.q.at(last)[self.joint];
         let started = facts.trace.q.at(0)[self.joint];
-        let is_to_move = (self.position - started).abs() > 1e-3;
+        let is_to_move = self.distance(started) > 1e-3;
         if is_to_move && (at_end - started).abs() < 1e-3 {
             format!(
                 "joint `{name}` is where it began at the end, at {} {unit}: {position} {unit} was asked for",
@@ -111,5 +143,32 @@ impl JointReached {
                 seconds(facts.time_s(last - first)),
             )
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::by_hand::{HandRow, judged, value};
+
+    const MOTION: &str = "mode = \"effort\"\nduration_s = 1.0";
+
+    #[test]
+    fn whole_turns_make_no_difference_where_the_lab_says_so() {
+        let kind = |turns| {
+            format!(
+                "joint-reached = {{ joint = \"elbow\", position_rad = 3.1, hold_s = 0.5, {turns}full_rad = 0.1, zero_rad = 1.0 }}"
+            )
+        };
+        let below = |_: f64| HandRow {
+            q: [0.0, -3.2],
+            ..HandRow::default()
+        };
+        let modulo = judged(MOTION, &kind("turns = true, "), below);
+        // -3.2 is 3.0832 but for a turn
+        assert!((value(&modulo) - (6.3 - std::f64::consts::TAU)).abs() < 1e-12);
+        assert_eq!(modulo.score, 1.0);
+        let plain = judged(MOTION, &kind(""), below);
+        assert!((value(&plain) - 6.3).abs() < 1e-12);
+        assert_eq!(plain.score, 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! joint-speed: the greatest speed of any joint over the run \[rad/s or m/s\]. A speed that is no number earns nothing.
+//! joint-speed: the greatest speed of a joint over the run \[rad/s or m/s\]. A speed that is no number earns nothing.
 
 use crate::check::prelude::*;
 
@@ -6,6 +6,11 @@ use crate::check::prelude::*;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Table {
+    /// The joint; the fastest one where it is left out.
+    joint: Option<At<String>>,
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Speed that earns all points \[rad/s, or m/s of a prismatic joint\].
     full_rad_s: BandEnd,
     /// Speed that earns none.
@@ -17,44 +22,72 @@ impl MotionTable for Table {
     type Check = InBand<JointSpeed>;
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
-        let unit = reading.units(None).speed();
-        reading.in_band([self.full_rad_s, self.zero_rad_s], unit, JointSpeed)
+        let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let unit = reading.units(joint).speed();
+        reading.in_band_either(
+            self.at_least,
+            [self.full_rad_s, self.zero_rad_s],
+            unit,
+            JointSpeed(joint),
+        )
     }
 }
 
-/// The speed of the fastest joint.
+/// The speed of the joint of this index in `q`; of the fastest one where there is none.
 #[derive(Debug)]
-pub(crate) struct JointSpeed;
+pub(crate) struct JointSpeed(Option<usize>);
 
 impl RunMeasure for JointSpeed {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
-        let speeds = |tick: usize| facts.trace.qd.at(tick).iter().map(|speed| speed.abs());
-        let fastest = |tick: usize| greatest(speeds(tick)).unwrap_or_default();
+        let fastest = |tick: usize| {
+            let qd = facts.trace.qd.at(tick);
+            facts.worst_joint(self.0, |joint| qd[joint].abs())
+        };
         let values: Vec<f64> = (0..facts.trace.len()).map(|tick| fastest(tick).1).collect();
         let (tick, value) = greatest(values.iter().copied()).unwrap_or_default();
         let first_above = values.iter().position(|speed| *speed > band.full);
+        let first_above = first_above.filter(|_| !band.more_is_better());
         let (joint, _) = fastest(tick);
         let unit = facts.units(joint).speed();
         let moves = match facts.units(joint) {
             JointUnits::Sliding => "slides",
             JointUnits::Turning | JointUnits::Mixed => "turns",
         };
-        let unit_of_all = JointUnits::of_all(facts.robot).speed();
-        let curve = facts.curve("speed of the fastest joint", unit_of_all, values, band);
-        let quantity = "greatest speed of a joint";
+        let name = facts.joint_name(joint);
+        let (title, unit_of_curve, quantity) = match self.0 {
+            Some(_) => (
+                format!("speed of joint `{name}`"),
+                unit,
+                format!("greatest speed of joint `{name}`"),
+            ),
+            None => (
+                "speed of the fastest joint".to_owned(),
+                JointUnits::of_all(facts.robot).speed(),
+                "greatest speed of a joint".to_owned(),
+            ),
+        };
+        let curve = facts.curve(title, unit_of_curve, values, band);
         Finding::of_curve(band, Statistic::Greatest, unit, quantity, curve)
             .shown_at(facts, || {
-                let message = format!(
-                    "joint `{}` {moves} at {} {unit} at {}; {} {unit} are first passed at {}",
-                    facts.joint_name(joint),
+                let mut message = format!(
+                    "joint `{name}` {moves} at {} {unit} at {}",
                     trimmed(value, 3),
                     seconds(facts.time_s(tick)),
-                    trimmed(band.full, 3),
-                    seconds(facts.time_s(first_above.unwrap_or(tick))),
                 );
+                message += &match first_above {
+                    Some(first) => format!(
+                        "; {} {unit} are first passed at {}",
+                        trimmed(band.full, 3),
+                        seconds(facts.time_s(first)),
+                    ),
+                    None => ", its greatest speed".to_owned(),
+                };
                 (message, format!("qd[{joint}]"), tick)
             })
-            .advise("Scale all joint velocities down together where the largest is too high: the direction of the hand stays.")
+            .advise(band.advice(
+                "Scale all joint velocities down together where the largest is too high: the direction of the hand stays.",
+                "Give the fastest part of the move less time.",
+            ))
     }
 }
 
@@ -80,6 +113,21 @@ mod tests {
             "{message}"
         );
         assert_eq!(judged(MOTION, KIND, |_| HandRow::default()).score, 1.0);
+    }
+
+    #[test]
+    fn a_joint_that_is_named_counts_alone_and_more_may_be_better() {
+        let kind = "joint-speed = { joint = \"shoulder\", at_least = true, full_rad_s = 1.0, zero_rad_s = 0.0 }";
+        let finding = judged(MOTION, kind, |t_s| HandRow {
+            qd: [0.5 * t_s, 4.0],
+            ..HandRow::default()
+        });
+        assert!((value(&finding) - 0.5).abs() < 1e-12 && (finding.score - 0.5).abs() < 1e-12);
+        assert_eq!(
+            finding.evidence[0].message,
+            "joint `shoulder` turns at 0.5 rad/s at 1 s, its greatest speed"
+        );
+        assert!(finding.next_step.ends_with("less time."), "{finding:?}");
     }
 
     #[test]

@@ -50,14 +50,20 @@ kinds! {
     function ik_unreachable
     function jacobian_match
     motion pose_reached
+    motion orientation_reached
     motion finish_time
     motion overshoot
     motion effort_saturation
     motion joint_limits
     motion trajectory_match
     motion response_match
+    motion joint_tracking
     motion body_falls
     motion contact_impulse
+    motion body_reached
+    motion never
+    motion order
+    motion sensor_reads
     motion tcp_speed
     motion path_deviation
     motion path_coverage

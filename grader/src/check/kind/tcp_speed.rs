@@ -5,7 +5,6 @@
 //! touches the fastest counts, up to the body's first fall: a gentle touch does not pay for a blow after it. An arm that never touches
 //! has no such speed and earns nothing.
 
-use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::trace::Trace;
 
 use super::time_limit::fell;
@@ -39,6 +38,9 @@ pub(crate) struct Table {
     at: Moment,
     /// A body of the scene, at a `touch`.
     body: Option<At<String>>,
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Speed that earns all points \[m/s\].
     full_m_s: BandEnd,
     /// Speed that earns none \[m/s\].
@@ -58,7 +60,12 @@ impl MotionTable for Table {
             }
             (Moment::Touch, None) => return reading.refuse(BodyProblem::Missing),
         };
-        reading.in_band([self.full_m_s, self.zero_m_s], "m/s", measure)
+        reading.in_band_either(
+            self.at_least,
+            [self.full_m_s, self.zero_m_s],
+            "m/s",
+            measure,
+        )
     }
 }
 
@@ -85,7 +92,10 @@ impl RunMeasure for TcpSpeed {
                         let message = message(facts, tick, speed_m_s, "its greatest speed");
                         (message, "tcp".to_owned(), tick)
                     })
-                    .advise("Give the fastest part of the move more time.")
+                    .advise(band.advice(
+                        "Give the fastest part of the move more time.",
+                        "Give the fastest part of the move less time.",
+                    ))
             }
             Self::AtTouch(body) => at_touch(facts, speeds, *body, band),
         }
@@ -136,18 +146,16 @@ fn at_touch(facts: &MotionFacts<'_>, speeds: Vec<f64>, body: usize, band: Band) 
         .shown_at(facts, || {
             (message(facts, tick, value, &what), "tcp".to_owned(), tick)
         })
-        .advise(format!("Come to `{name}` more slowly: a push is enough."))
+        .advise(band.advice(
+            format!("Come to `{name}` more slowly: a push is enough."),
+            format!("Come to `{name}` faster: begin further away from it."),
+        ))
 }
 
 /// When the hand is nearest to the middle of a body, and how near \[m\].
 fn nearest(facts: &MotionFacts<'_>, body: usize) -> Option<(usize, f64)> {
-    let q = facts.robot.positions(facts.trace.q.at(0)).ok()?;
-    let poses = forward_kinematics(facts.robot, &q);
-    // the lab's frame is fixed to the base
-    let world_from_lab = poses.world_from(facts.robot.frame(facts.names.seen_from)?);
     let away_m = |tick: usize| {
-        let body = facts.trace.world_from_body(body, tick)?;
-        let p_body_in_lab = world_from_lab.inv_mul(&body).translation.vector;
+        let p_body_in_lab = facts.p_body_in_lab(body, tick)?;
         Some((facts.trace.tcp_position(tick) - p_body_in_lab).norm())
     };
     let distances = (0..facts.trace.len())

@@ -37,6 +37,9 @@ pub(crate) struct Table {
     body: Option<At<String>>,
     /// A path of `[tasks.motion.paths]`.
     path: Option<At<String>>,
+    /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
+    #[serde(default)]
+    at_least: bool,
     /// Time that earns all points \[s\].
     full_s: BandEnd,
     /// Time that earns none \[s\].
@@ -65,7 +68,7 @@ impl MotionTable for Table {
                 };
             }
         };
-        reading.in_band([self.full_s, self.zero_s], "s", until)
+        reading.in_band_either(self.at_least, [self.full_s, self.zero_s], "s", until)
     }
 }
 

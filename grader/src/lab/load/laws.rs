@@ -6,11 +6,11 @@ use kinemark_sim::model::robot::Joint;
 use kinemark_sim::run::PrescribedMotion;
 use kinemark_sim::text::number::trimmed;
 use kinemark_sim::ticks::Periods;
-use kinemark_sim::trajectory::{JointLaw, Limits, Sine, SplineEnds, TrajectoryError};
+use kinemark_sim::trajectory::{JointLaw, TrajectoryError};
 use toml::Spanned;
 
 use super::Reader;
-use crate::lab::file::{EndsTable, LawTable, MotionTable};
+use crate::lab::file::{LawTable, MotionTable};
 use crate::task::problem::{LabError, near, problems};
 
 /// A law may pass a limit by this, which is rounding \[rad or m\].
@@ -143,39 +143,8 @@ impl Reader<'_> {
     }
 
     fn law(&self, typed: &Spanned<LawTable>) -> Result<JointLaw, LabError> {
-        let LawTable {
-            joint: _,
-            constant,
-            polynomial,
-            sine,
-            trapezoid,
-            table,
-        } = typed.get_ref();
-        let law = match (constant, polynomial, sine, trapezoid, table) {
-            (Some(position), None, None, None, None) => JointLaw::constant(*position),
-            (None, Some(coefficients), None, None, None) => JointLaw::polynomial(coefficients),
-            (None, None, Some(sine), None, None) => JointLaw::sine(Sine {
-                amplitude: sine.amplitude,
-                angular_frequency_rad_s: sine.angular_frequency_rad_s,
-                phase_rad: sine.phase_rad,
-                offset: sine.offset,
-            }),
-            (None, None, None, Some(trapezoid), None) => {
-                let limits = Limits {
-                    speed: trapezoid.speed,
-                    acceleration: trapezoid.acceleration,
-                };
-                let (from, to) = (trapezoid.from, trapezoid.to);
-                JointLaw::trapezoid(from, to, &limits, trapezoid.start_s)
-            }
-            (None, None, None, None, Some(table)) => {
-                let ends = match table.ends {
-                    EndsTable::Rest => SplineEnds::AT_REST,
-                    EndsTable::Natural => SplineEnds::Natural,
-                };
-                JointLaw::table(&table.times_s, &table.positions, ends)
-            }
-            _ => return self.report.refuse_at(typed, LawProblem::Kind),
+        let Some(law) = typed.get_ref().law().law() else {
+            return self.report.refuse_at(typed, LawProblem::Kind);
         };
         law.or_else(|error| {
             self.report

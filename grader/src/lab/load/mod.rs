@@ -35,7 +35,8 @@ use crate::task::reporter::Reporter;
 use crate::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
 use crate::task::scene::{LabScene, scene_names};
 
-pub(super) use reading::{refuse_not_finite, tables};
+pub(super) use reading::refuse_not_finite;
+pub(crate) use reading::tables;
 
 problems! {
     /// What is wrong with a lab file as a whole, whatever its tasks are.

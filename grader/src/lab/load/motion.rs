@@ -9,16 +9,17 @@ use kinemark_sim::kinematics::closure::{closed_positions, closed_velocities, loo
 use kinemark_sim::model::sensor::{Sensor, replaced};
 use kinemark_sim::sensing::Sensors;
 use kinemark_sim::sensor::read_all;
+use kinemark_sim::spatial::{direction, rotation_from_rpy_deg};
 use kinemark_sim::step::hybrid::HybridStep;
 use kinemark_sim::text::Problem;
 use kinemark_sim::text::number::trimmed;
 use kinemark_sim::ticks::{Periods, whole_ratio};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use toml::Spanned;
 
 use super::{Reader, numbers};
-use crate::lab::file::{MotionTable, NumberAt, PerJoint, ServoTable};
-use crate::task::model::{MotionGoal, MotionTask};
+use crate::lab::file::{GoalTable, MotionTable, NumberAt, PerJoint, ServoTable};
+use crate::task::model::{GoalOrientation, MotionGoal, MotionTask};
 use crate::task::problem::{LabError, problems};
 use crate::task::scene::LabScene;
 use crate::task::value::Value;
@@ -41,9 +42,10 @@ problems! {
         TooLong { what: &'static str, time_s: f64, step_s: f64 }:
             "lab::periods", "{what} of {time_s} s has more than {MOST_TICKS} physics steps of {step_s} s", "too long",
             format!("write {} s at most: a run is kept whole in memory", trimmed(MOST_TICKS as f64 * step_s, 3));
-        GoalsAndTarget:
-            "lab::target", "a task with goals has no target: `observation.target` holds the goals' positions", "never given",
-            "leave out `target` or `goals`";
+        TwoOrientations:
+            "lab::goal", "a goal has one orientation", "the second one", "leave out `rpy_deg` or `axis`";
+        NoDirection { what: &'static str }:
+            "lab::goal", "`{what}` has no direction", "too short, or not finite", "such as [0, 0, -1]: its length makes no difference";
         Dwells { dwells_s: f64, run_s: f64 }:
             "lab::periods", "the dwells take {dwells_s} s of a run of {run_s} s", "shorter than its dwells";
         Scene { error: String }:
@@ -106,6 +108,7 @@ impl Reader<'_> {
                 Some(target) => self.target(target)?,
                 None => Value::List(Vec::new()),
             },
+            has_target: motion.target.is_some(),
             goals,
             grants: self.grants(&motion.grants, None)?,
             paths: self.paths(&motion.paths)?,
@@ -177,7 +180,7 @@ impl Reader<'_> {
         self.report.refuse_at(at, problem)
     }
 
-    /// The goals, whose dwells fit into the run; a task with goals has no target.
+    /// The goals, whose dwells fit into the run.
     fn goals(
         &self,
         motion: &MotionTable,
@@ -185,16 +188,13 @@ impl Reader<'_> {
         ticks: u64,
         duration_s: f64,
     ) -> Result<Vec<MotionGoal>, LabError> {
-        if let (Some(target), false) = (&motion.target, motion.goals.is_empty()) {
-            let problem = MotionProblem::GoalsAndTarget;
-            return self.report.refuse_at(target, problem);
-        }
         let mut goals = Vec::new();
         for goal in &motion.goals {
             let dwell_s = self.positive(&goal.dwell_s, "the dwell")?;
             goals.push(MotionGoal {
                 position_m: Vector3::from(goal.position_m),
                 dwell_ticks: self.whole_ticks(periods, dwell_s, &goal.dwell_s, "the dwell")?,
+                orientation: self.goal_orientation(goal)?,
             });
         }
         let dwells: u64 = goals.iter().map(|goal| goal.dwell_ticks).sum();
@@ -206,6 +206,36 @@ impl Reader<'_> {
             return self.report.refuse_at(&motion.duration_s, problem);
         }
         Ok(goals)
+    }
+
+    /// How the TCP is to be turned at a goal, if the lab says so.
+    fn goal_orientation(&self, goal: &GoalTable) -> Result<Option<GoalOrientation>, LabError> {
+        match (&goal.rpy_deg, &goal.axis) {
+            (None, None) => Ok(None),
+            (Some(_), Some(axis)) => self.report.refuse_at(axis, MotionProblem::TwoOrientations),
+            (Some(rpy_deg), None) => {
+                let rotation = rotation_from_rpy_deg(*rpy_deg.get_ref());
+                if !rotation.iter().all(|entry| entry.is_finite()) {
+                    let problem = MotionProblem::NoDirection { what: "rpy_deg" };
+                    return self.report.refuse_at(rpy_deg, problem);
+                }
+                let rotation = Rotation3::from_matrix_unchecked(rotation);
+                Ok(Some(GoalOrientation::Rotation(rotation)))
+            }
+            (None, Some(typed)) => {
+                let axis = typed.get_ref();
+                let unit = |what, numbers: [f64; 3]| match direction(Vector3::from(numbers)) {
+                    Some(unit) => Ok(unit),
+                    None => self
+                        .report
+                        .refuse_at(typed, MotionProblem::NoDirection { what }),
+                };
+                Ok(Some(GoalOrientation::Axis {
+                    of_tcp: unit("of_tcp", axis.of_tcp)?,
+                    along: unit("along", axis.along)?,
+                }))
+            }
+        }
     }
 
     /// The servos, which the robot can have.

@@ -23,7 +23,7 @@ problems! {
 }
 
 /// Reads TOML into its tables.
-pub(in crate::lab) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
+pub(crate) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
     refuse_not_finite(source)?;
     toml::from_str(source.text()).map_err(|error| refused(source, &error))
 }
@@ -83,7 +83,7 @@ impl Reporter<'_> {
         self.refuse(at, TextProblem::Json { refusal, help })
     }
 
-    pub(in crate::lab) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
+    pub(crate) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
         match *format.get_ref() {
             1 => Ok(()),
             found => self.refuse_at(format, TextProblem::Format { found }),

@@ -36,6 +36,10 @@ pub(super) struct Contact {
 }
 
 impl SensorKind for Contact {
+    fn unit(&self, _: &Robot, _: usize) -> &'static str {
+        "N"
+    }
+
     fn keys(&self, robot: &Robot) -> String {
         format!("link = {}\n", quoted(&robot.links()[self.link].name))
     }

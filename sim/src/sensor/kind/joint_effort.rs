@@ -11,6 +11,7 @@ pub(super) struct Effort;
 
 impl JointNumber for Effort {
     const NAME: &'static str = "joint-effort";
+    const UNITS: [&'static str; 2] = ["N m", "N"];
 
     fn of(body: &Body, seen: &Seen<'_>) -> f64 {
         seen.effort[body.q_index]

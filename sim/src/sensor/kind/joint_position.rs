@@ -11,6 +11,7 @@ pub(super) struct Position;
 
 impl JointNumber for Position {
     const NAME: &'static str = "joint-position";
+    const UNITS: [&'static str; 2] = ["rad", "m"];
 
     fn of(body: &Body, seen: &Seen<'_>) -> f64 {
         body.position(seen.q)

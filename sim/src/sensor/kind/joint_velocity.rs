@@ -11,6 +11,7 @@ pub(super) struct Velocity;
 
 impl JointNumber for Velocity {
     const NAME: &'static str = "joint-velocity";
+    const UNITS: [&'static str; 2] = ["rad/s", "m/s"];
 
     fn of(body: &Body, seen: &Seen<'_>) -> f64 {
         body.rate(seen.qd)

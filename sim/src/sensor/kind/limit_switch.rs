@@ -125,6 +125,10 @@ impl SensorKind for LimitSwitch {
         Measured::Switch
     }
 
+    fn unit(&self, _: &Robot, _: usize) -> &'static str {
+        ""
+    }
+
     fn keys(&self, robot: &Robot) -> String {
         let joint = quoted(&robot.joints()[self.joint].name);
         let (at, side) = (self.at, self.side.name());

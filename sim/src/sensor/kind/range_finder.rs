@@ -52,6 +52,10 @@ pub(super) struct RangeFinder {
 }
 
 impl SensorKind for RangeFinder {
+    fn unit(&self, _: &Robot, _: usize) -> &'static str {
+        "m"
+    }
+
     fn keys(&self, robot: &Robot) -> String {
         let frame = quoted(&robot.frames()[self.frame].name);
         let (axis, range_m) = (triple(&self.axis), self.range_m);

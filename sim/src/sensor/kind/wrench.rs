@@ -68,6 +68,10 @@ impl SensorKind for Wrench {
         Measured::Parts(&["fx", "fy", "fz", "mx", "my", "mz"])
     }
 
+    fn unit(&self, _: &Robot, channel: usize) -> &'static str {
+        if channel < 3 { "N" } else { "N m" }
+    }
+
     fn keys(&self, robot: &Robot) -> String {
         format!("joint = {}\n", quoted(&robot.joints()[self.joint].name))
     }

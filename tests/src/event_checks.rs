@@ -1,0 +1,296 @@
+//! Checks of where a body ends, of what must never happen, of what must happen in order, and of what sensors read.
+
+use crate::own_lab::{OwnLab, check, message};
+
+const LAB: &str = r#"
+format = 1
+name = "92-put"
+title = "Push it along"
+robot = "rrbot"
+frame = "lab"
+
+[[tasks]]
+name = "push"
+title = "Along the shelf"
+
+[tasks.motion]
+mode = "position"
+scene = "shelf-and-can"
+duration_s = 3.0
+start_rad = [1.3444, 2.0236]
+servo = { kp = 1000.0, kd = 30.0, derivative = "velocity", gravity_compensation = true, effort_limit = 100.0 }
+
+[[tasks.motion.sensors]]
+name = "elbow_encoder"
+type = "joint-position"
+joint = "elbow"
+
+[[tasks.motion.sensors]]
+name = "stretched"
+type = "limit-switch"
+joint = "elbow"
+at = 1.7
+side = "lower"
+opens_motor = false
+
+[[tasks.motion.sensors]]
+name = "wrist"
+type = "wrench"
+joint = "elbow"
+
+[[tasks.checks]]
+name = "place"
+title = "The can stands 5 cm further out"
+points = 4.0
+body-reached = { body = "can", position_m = [1.25, 1.05, 0.05], hold_s = 0.5, upright_deg = 20.0, released = true, full_m = 0.005, zero_m = 0.025 }
+
+[[tasks.checks]]
+name = "safe"
+title = "The can stays on the shelf"
+points = 2.0
+never = { event = "body-fell", body = "can" }
+
+[[tasks.checks]]
+name = "shelf"
+title = "The shelf is touched once at most"
+points = 1.0
+never = { touch = ["arm", "shelf"], at_most = 1 }
+
+[[tasks.checks]]
+name = "unstretched"
+title = "The arm is never stretched"
+points = 1.0
+never = { sensor = "stretched", becomes = true }
+
+[[tasks.checks]]
+name = "steps"
+title = "It is touched, it moves, and the elbow passes 1.79 rad, in this order"
+points = 3.0
+order = { events = [{ touch = ["arm", "can"] }, { event = "moved", body = "can" }, { sensor = "elbow_encoder", becomes = { below = 1.79 } }] }
+
+[[tasks.checks]]
+name = "pressed"
+title = "The switch is not pressed at the end"
+points = 1.0
+sensor-reads = { sensor = "stretched", value = false }
+
+[[tasks.checks]]
+name = "elbow"
+title = "The elbow ends at 2 rad"
+points = 2.0
+sensor-reads = { sensor = "elbow_encoder", value = 2.0236, full = 0.05, zero = 0.25 }
+
+[[tasks.checks]]
+name = "loaded"
+title = "The elbow carries the forearm"
+points = 1.0
+sensor-reads = { sensor = "wrist", part = "fx", of = "max", from_s = 0.5, to_s = 1.0, at_least = true, full = 0.1, zero = 0.0 }
+
+[[tasks.checks]]
+name = "pushed"
+title = "The can was pushed"
+points = 1.0
+contact-impulse = { between = ["arm", "can"], at_least = true, full_n_s = 0.02, zero_n_s = 0.0 }
+"#;
+
+/// A submission whose tip is `out` from the post, an expression of the time `t`, at the height of the can.
+fn tip(out: &str) -> String {
+    format!(
+        "fn init(robot, task) {{ this.height = robot.base_height; }}
+fn control(observation) {{
+    let t = observation.time;
+    let u = 1.25 - this.height;
+    let out = {out};
+    let q2 = acos((u * u + out * out - 2.0) / 2.0);
+    [atan2(out, u) - atan2(sin(q2), 1.0 + cos(q2)), q2]
+}}
+"
+    )
+}
+
+fn own_lab() -> OwnLab {
+    OwnLab::new("92-put", LAB)
+}
+
+/// The tip touches the can at 0.958, takes it along, lets it slide on for some millimetres, and goes back.
+const GOOD: &str =
+    "if t < 1.3 { 0.75 + 0.25 * max(t - 0.3, 0.0) } else { max(1.0 - 0.3 * (t - 1.3), 0.75) }";
+
+#[test]
+fn an_arm_that_stays_earns_what_needs_no_motion() {
+    let task = own_lab().graded(&tip("0.75"), 1);
+    assert_eq!(
+        message(check(&task, "place")),
+        "`can` is where it began at the end, at [1.25, 1, 0.05]: it was to be at [1.25, 1.05, 0.05]"
+    );
+    for name in ["safe", "shelf", "unstretched", "pressed", "elbow"] {
+        assert_eq!(check(&task, name)["outcome"], "full", "{name}: {task}");
+    }
+    assert_eq!(check(&task, "steps")["points"], 0.0);
+    assert_eq!(
+        message(check(&task, "steps")),
+        "this is to happen first, and never did: the arm touches `can`"
+    );
+    assert_eq!(
+        message(check(&task, "pushed")),
+        "the arm and `can` never pressed on each other"
+    );
+}
+
+#[test]
+fn a_push_to_the_place_and_back_is_right() {
+    let task = own_lab().graded(&tip(GOOD), 1);
+    let place = check(&task, "place");
+    let away_m = place["measure"]["value"].as_f64().expect("a distance");
+    // the can goes on a little when the tip stops
+    assert!(away_m < 0.025, "{place}");
+    for name in ["safe", "shelf", "pushed"] {
+        assert_eq!(check(&task, name)["outcome"], "full", "{name}: {task}");
+    }
+    let steps = check(&task, "steps");
+    assert!(steps["points"].as_f64() >= Some(2.0), "{steps}");
+}
+
+#[test]
+fn a_can_that_falls_a_hand_that_stays_and_a_wrong_reading_are_told() {
+    let over = own_lab().graded(&tip("min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)"), 1);
+    let place = message(check(&over, "place"));
+    assert!(place.starts_with("`can` is tilted by "), "{place}");
+    let safe = check(&over, "safe");
+    assert!(message(safe).starts_with("`can` falls at "), "{safe}");
+    assert_eq!(safe["points"], 0.0);
+    assert_eq!(check(&over, "steps")["outcome"], "full", "{over}");
+    let stretched = message(check(&over, "unstretched"));
+    assert!(
+        stretched.starts_with("`stretched` becomes true at 1."),
+        "{stretched}"
+    );
+    let pressed = message(check(&over, "pressed"));
+    assert_eq!(
+        pressed,
+        "the last reading of `stretched`, at 3 s, is true; it was to be false"
+    );
+    let elbow = message(check(&over, "elbow"));
+    assert!(
+        elbow.starts_with("the last reading of `elbow_encoder`, at 3 s, is 1.")
+            && elbow.ends_with(" rad; it was to be 2.0236 rad"),
+        "{elbow}"
+    );
+
+    // not let go
+    let held = own_lab().graded(&tip("0.75 + 0.25 * min(max(t - 0.3, 0.0), 1.0)"), 1);
+    let place = message(check(&held, "place"));
+    assert!(
+        place.starts_with("the arm touches `can` at ") || place.starts_with("`can` is at "),
+        "{place}"
+    );
+}
+
+#[test]
+fn what_cannot_happen_is_refused_at_its_place() {
+    let cases = [
+        (
+            "event = \"body-fell\", body = \"can\"",
+            "event = \"body-fel\", body = \"can\"",
+            "lab::occurrence",
+            "did you mean `body-fell`?",
+        ),
+        (
+            "event = \"body-fell\", body = \"can\"",
+            "event = \"body-fell\", body = \"shelf\"",
+            "lab::body_falls",
+            "not dynamic",
+        ),
+        (
+            "event = \"body-fell\", body = \"can\"",
+            "event = \"body-fell\", joint = \"elbow\"",
+            "lab::occurrence",
+            "`joint` has no meaning",
+        ),
+        (
+            "event = \"body-fell\", body = \"can\"",
+            "event = \"near-singular\", joint = \"elbow\"",
+            "lab::occurrence",
+            "`joint` has no meaning",
+        ),
+        (
+            "event = \"body-fell\", body = \"can\"",
+            "body = \"can\"",
+            "lab::occurrence",
+            "one of `event`, `touch` and `sensor`",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "sensor = \"streched\", becomes = true",
+            "lab::unknown_sensor",
+            "did you mean `stretched`?",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "sensor = \"stretched\", becomes = { above = 1.0 }",
+            "lab::occurrence",
+            "true or false",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "sensor = \"wrist\", part = \"fz\", becomes = true",
+            "lab::occurrence",
+            "reads numbers",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "sensor = \"wrist\", part = \"gz\", becomes = { above = 1.0 }",
+            "lab::unknown_sensor",
+            "fx",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "sensor = \"stretched\"",
+            "lab::occurrence",
+            "`becomes` is missing",
+        ),
+        (
+            "{ event = \"moved\", body = \"can\" }, ",
+            "{ event = \"moved\", touch = [\"arm\", \"can\"] }, ",
+            "lab::occurrence",
+            "one of",
+        ),
+        (
+            "value = false }",
+            "value = false, full = 0.5, zero = 1.0 }",
+            "lab::sensor_reads",
+            "right or wrong",
+        ),
+        (
+            "value = 2.0236, full = 0.05, zero = 0.25",
+            "value = true, full = 0.05, zero = 0.25",
+            "lab::sensor_reads",
+            "reads numbers",
+        ),
+        (
+            "from_s = 0.5, to_s = 1.0",
+            "from_s = 1.5, to_s = 1.0",
+            "lab::sensor_reads",
+            "before it begins",
+        ),
+        (
+            "full = 0.1, zero = 0.0",
+            "full = 0.0, zero = 0.1",
+            "lab::band",
+            "more is better",
+        ),
+        (
+            "at_least = true, full_n_s = 0.02",
+            "full_n_s = 0.02",
+            "lab::band",
+            "at_least = true",
+        ),
+        (
+            "upright_deg = 20.0",
+            "upright_deg = 0.0",
+            "lab::body_reached",
+            "above 0",
+        ),
+    ];
+    own_lab().is_refused(&tip("0.75"), &cases);
+}
