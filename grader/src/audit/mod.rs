@@ -6,6 +6,7 @@
 
 mod hidden_losses;
 mod practice_file;
+mod rubric;
 mod staff_code;
 mod variants;
 
@@ -18,7 +19,7 @@ use crate::lab::Lab;
 use crate::lab::TaskWork;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::staff::{Mutant, Staff};
-use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped, TaskGrade};
+use crate::record::grade::{Evidence, Grade, HiddenClass, Outcome, Stopped, TaskGrade};
 use crate::record::graded::GradedRun;
 use crate::record::quantity::points;
 use crate::record::verdict::Verdict;
@@ -27,6 +28,7 @@ use crate::submission::host::InProcess;
 
 pub use self::hidden_losses::LostDraw;
 pub use self::practice_file::{PracticeError, practice_forms};
+pub use self::rubric::{Accepted, Doubt, Rubric, zeros};
 pub use self::staff_code::staff_code;
 pub use self::variants::{RelativeBand, VariantMargin, Variants};
 
@@ -66,6 +68,8 @@ pub enum Tried {
     Mutants,
     /// A mutant in one task.
     Mutant,
+    /// The rubric itself, by one rule.
+    Rubric,
 }
 
 impl Tried {
@@ -78,6 +82,7 @@ impl Tried {
             Self::Practice => "practice",
             Self::Mutants => "mutants",
             Self::Mutant => "mutant",
+            Self::Rubric => "rubric",
         }
     }
 }
@@ -190,10 +195,8 @@ impl Audit {
     }
 
     /// Tries the starter: it must run, earn almost nothing, and be diagnosed with no mistake.
-    pub fn starter(&mut self, lab: &Lab, staff: &Staff, starter: &Source) {
-        let Some(GradedRun { grade, .. }) = graded(lab, staff, starter) else {
-            return;
-        };
+    pub fn starter(&mut self, lab: &Lab, staff: &Staff, starter: &Source) -> Option<Grade> {
+        let GradedRun { grade, .. } = graded(lab, staff, starter)?;
         let failed = grade
             .tasks
             .iter()
@@ -227,6 +230,7 @@ impl Audit {
         };
         let earned = Some((grade.points, grade.max_points));
         self.add((Tried::Starter, ""), None, earned, problem);
+        Some(grade)
     }
 
     /// Looks into the starter of a compiled language, which is not built here: it should define what the tasks call. `defines` says
@@ -265,26 +269,25 @@ impl Audit {
     }
 
     /// Tries every mutant in each of its tasks: it must lose points, show in enough cases, and be named.
-    pub fn mutants(&mut self, lab: &Lab, staff: &Staff) {
+    pub fn mutants(&mut self, lab: &Lab, staff: &Staff) -> Vec<Grade> {
         let count = staff.mutants.len();
         let few = (count < LEAST_MUTANTS).then(|| {
             let what = format!("{count} mutants, and a lab needs at least {LEAST_MUTANTS}");
             (what, "add what students really do wrong to mutants.toml")
         });
         self.add((Tried::Mutants, ""), None, None, few);
-        for mutant in &staff.mutants {
-            self.mutant(lab, staff, mutant);
-        }
+        let mutants = staff.mutants.iter();
+        mutants
+            .filter_map(|mutant| self.mutant(lab, staff, mutant))
+            .collect()
     }
 
-    /// Tries one mutant.
-    pub fn mutant(&mut self, lab: &Lab, staff: &Staff, mutant: &Mutant) {
+    /// Tries one mutant; its grade in its own tasks.
+    pub fn mutant(&mut self, lab: &Lab, staff: &Staff, mutant: &Mutant) -> Option<Grade> {
         // run only the tasks of the mutant
         let mut part = lab.clone();
         part.tasks.retain(|task| mutant.tasks.contains(&task.name));
-        let Some(GradedRun { grade, .. }) = graded(&part, staff, &mutant.source) else {
-            return;
-        };
+        let GradedRun { grade, .. } = graded(&part, staff, &mutant.source)?;
         for task in &grade.tasks {
             let earned = Some((task.points, task.max_points));
             let problem = mutant_problem(lab, staff, task, mutant);
@@ -295,6 +298,7 @@ impl Audit {
                 problem,
             );
         }
+        Some(grade)
     }
 }
 
@@ -308,6 +312,12 @@ fn graded(lab: &Lab, staff: &Staff, submission: &Source) -> Option<GradedRun> {
         &mut InProcess,
     )
     .ok()
+}
+
+/// The grade of a submission that answers zeros.
+pub fn grade_of_zeros(lab: &Lab, staff: &Staff) -> Option<Grade> {
+    let source = Source::new("zeros.rhai", zeros(lab));
+    graded(lab, staff, &source).map(|run| run.grade)
 }
 
 /// What is wrong where the reference solution does not pass `task`.

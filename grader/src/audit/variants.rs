@@ -41,6 +41,8 @@ pub struct VariantMargin {
     pub least: f64,
     /// The greatest such margin.
     pub greatest: f64,
+    /// Whether the reference solution has hardly any room in some variant.
+    pub is_thin: bool,
     /// The band where it depends on the reference, as numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<RelativeBand>,
@@ -80,6 +82,25 @@ impl RelativeBand {
             (*low, *high) = (low.min(other_low), high.max(other_high));
         }
     }
+}
+
+/// Margins below this share of a band are thin.
+const THIN: f64 = 0.05;
+
+/// Whether a measure that earns all points has hardly any room to the value where it would not. What is as good as can be is not thin,
+/// however near `full` is to it: an answer without error, a path that is wholly covered.
+pub(super) fn is_thin(measure: &Measure) -> bool {
+    let (Some(margin), Some(value)) = (margin_of(measure), measure.value) else {
+        return false;
+    };
+    let best_is_near = if measure.full > measure.zero {
+        value >= 1.0 && measure.unit.is_empty()
+    } else if measure.full > 0.0 {
+        value <= 0.5 * measure.full
+    } else {
+        value >= measure.full
+    };
+    (0.0..THIN).contains(&margin) && !best_is_near
 }
 
 /// The margin of a measure; `None` if it has no value or its band has no width.
@@ -158,6 +179,7 @@ impl Variants {
                         check: check.name.clone(),
                         least: margin,
                         greatest: margin,
+                        is_thin: check.measure.as_ref().is_some_and(is_thin),
                         relative: check.measure.as_ref().and_then(RelativeBand::of),
                     });
                 }
@@ -173,6 +195,7 @@ impl Variants {
             Some(known) => {
                 known.least = known.least.min(margin.least);
                 known.greatest = known.greatest.max(margin.greatest);
+                known.is_thin |= margin.is_thin;
                 match (&mut known.relative, &margin.relative) {
                     (Some(known), Some(other)) => known.widen(other),
                     (known, other) => *known = known.take().or_else(|| other.clone()),
@@ -235,12 +258,28 @@ mod tests {
     }
 
     #[test]
+    fn what_is_as_good_as_can_be_is_not_thin() {
+        // an answer without error, in a band that begins at 1 % of its width
+        assert!(!is_thin(&measure(1e-16, 0.01, 1.0)));
+        assert!(is_thin(&measure(0.009, 0.01, 1.0)));
+        assert!(is_thin(&measure(1.95, 2.0, 4.0)));
+        assert!(!is_thin(&measure(1.8, 2.0, 4.0)));
+        // nothing touched, and nothing may be
+        assert!(!is_thin(&measure(0.0, 0.0, 0.5)));
+        // a whole path, and nearly one
+        assert!(!is_thin(&measure(1.0, 0.98, 0.5)));
+        assert!(is_thin(&measure(0.99, 0.98, 0.5)));
+        assert!(!is_thin(&measure(0.97, 0.98, 0.5)), "that loses points");
+    }
+
+    #[test]
     fn students_that_were_tried_apart_are_joined() {
         let margin = |least, greatest| VariantMargin {
             task: "line".to_owned(),
             check: "speed".to_owned(),
             least,
             greatest,
+            is_thin: false,
             relative: Some(
                 RelativeBand::of(&Measure {
                     reference: Some(least),

@@ -17,15 +17,19 @@ const SAME: (f64, f64) = (0.05, 0.01);
 
 /// Whether and how a point is reached.
 #[derive(Debug)]
-pub(super) enum Reach {
+pub enum Reach {
     /// In these branches, at least one, each a `q` of shape `(n)`.
     In(Vec<Vec<f64>>),
-    /// In none; this is the distance left at the nearest configuration found \[m\].
-    Not { residual_m: f64 },
+    /// In none.
+    Not {
+        /// The distance left at the nearest configuration found \[m\].
+        residual_m: f64,
+    },
 }
 
 /// Finds the branches of one robot's TCP.
-pub(super) struct BranchFinder<'r> {
+#[derive(Debug)]
+pub struct BranchFinder<'r> {
     robot: &'r Robot,
     start_q: &'r [f64],
     /// Tries start after start until one converges.
@@ -36,11 +40,15 @@ pub(super) struct BranchFinder<'r> {
     /// Entries of `q` that move the TCP.
     carries: Vec<bool>,
     /// How often it has looked for a configuration.
-    pub(super) solved: u64,
+    pub(crate) solved: u64,
 }
 
 impl<'r> BranchFinder<'r> {
-    pub(super) fn new(robot: &'r Robot, start_q: &'r [f64]) -> Result<Self, IkError> {
+    /// A finder that starts from `start_q`, shape `(n)`, and looks around it.
+    ///
+    /// # Errors
+    /// [`IkError`] for a robot whose loops cannot be closed.
+    pub fn new(robot: &'r Robot, start_q: &'r [f64]) -> Result<Self, IkError> {
         let goal = Goal {
             frame: robot.tcp(),
             target: Target::Position(Vector3::zeros()),
@@ -61,8 +69,11 @@ impl<'r> BranchFinder<'r> {
         })
     }
 
-    /// The branches that reach `p_in_world`.
-    pub(super) fn reach(&mut self, p_in_world: &Vector3<f64>) -> Result<Reach, IkError> {
+    /// The branches that reach `p_in_world`, within the limits of the joints; with 16 of them there may be more.
+    ///
+    /// # Errors
+    /// [`IkError`] for a point without finite numbers.
+    pub fn reach(&mut self, p_in_world: &Vector3<f64>) -> Result<Reach, IkError> {
         let target = Target::Position(*p_in_world);
         self.stubborn.set_target(0, target)?;
         self.solved += 1;
@@ -108,9 +119,11 @@ impl<'r> BranchFinder<'r> {
 
     /// The configuration near `q` that brings the TCP to `p_in_world`.
     ///
+    /// The inner result is the residual \[m\] if there is none.
+    ///
     /// # Errors
-    /// The residual \[m\] if there is none.
-    pub(super) fn follow(
+    /// [`IkError`] for a point without finite numbers.
+    pub fn follow(
         &mut self,
         q: &[f64],
         p_in_world: &Vector3<f64>,
@@ -125,7 +138,7 @@ impl<'r> BranchFinder<'r> {
     }
 
     /// Whether entry `entry` of `q` is of a revolute joint.
-    pub(super) fn turns(&self, entry: usize) -> bool {
+    pub(crate) fn turns(&self, entry: usize) -> bool {
         self.ranges[entry].turns
     }
 

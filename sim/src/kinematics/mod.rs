@@ -4,6 +4,7 @@
 
 pub mod analytic;
 pub(crate) mod body_motion;
+pub mod branches;
 pub mod centre_of_mass;
 pub mod chain;
 pub mod closure;

@@ -5,13 +5,11 @@
 //! |---|---|
 //! | `finding` | [`Finding`]: what a check can find |
 //! | `settle` | ten seconds of the scene alone |
-//! | `branch` | the branches in which a robot reaches a point |
 //! | `via` | via points, and the straight lines between them |
 //! | `progress` | how far a check is, and how much work it may be |
 //!
 //! Nothing here is random: the same scene has the same findings, in the same order.
 
-mod branch;
 mod checks;
 mod finding;
 mod progress;

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::branch::{BranchFinder, Reach};
 use super::checks::{TOUCH_M, Work, not_checked};
 use super::finding::{Finding, Kind, LineStop, LineStopCause, Severity, Unchecked};
 use super::progress::{Progress, Stage, Watch};
 use crate::engine::{Layout, Overlap, WorkBudget};
+use crate::kinematics::branches::{BranchFinder, Reach};
 use crate::kinematics::{FramePoses, IkError};
 use crate::model::contact::Party;
 use crate::model::robot::Robot;

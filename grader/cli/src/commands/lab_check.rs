@@ -9,8 +9,10 @@ use std::thread::ScopedJoinHandle;
 use indicatif::ProgressBar;
 use kinemark_course::language::Language;
 use kinemark_grader::audit::{
-    Audit, PracticeError, Row, Tried, Variants, depends_on_salt, practice_forms,
+    Accepted, Audit, PracticeError, Row, Rubric, Tried, Variants, depends_on_salt, grade_of_zeros,
+    practice_forms,
 };
+use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::practice::{PRACTICE_SALT, practice_student};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::quantity::{points, with_unit};
@@ -96,7 +98,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();
     let formula = formulas.first().map(ToString::to_string);
     audit.brief(&lab, brief.as_deref(), formula.as_deref());
-    audit.starter(&lab, &own, &starter);
+    let starter_grade = audit.starter(&lab, &own, &starter);
     for language in [Language::Rust, Language::C] {
         let path = format!("{}/{}", lab.name, language.starter());
         let text = files.read(&path);
@@ -106,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             audit.compiled_starter(&lab, language.starter(), &defines);
         }
     }
-    audit.reference(&lab, &own, "own hidden cases");
+    let reference_run = audit.reference(&lab, &own, "own hidden cases");
     audit_practice(&mut audit, files.as_ref(), &lab, &own)?;
     let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
     for draw in 1..=draws {
@@ -117,7 +119,24 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let salt = Staff::salt(&reference, &lab.name, None)?.unwrap_or_default();
         audit.variants(variants(&lab, &reference, &salt, args.variants)?);
     }
-    audit.mutants(&lab, &own);
+    let mutants = audit.mutants(&lab, &own);
+    let salt = Staff::salt(&reference, &lab.name, None)?;
+    let margins = audit.rooms.clone();
+    let known_salts = known_salts(&reference, &lab);
+    let zeros = grade_of_zeros(&lab, &own);
+    let rubric = Rubric {
+        lab: &lab,
+        staff: &own,
+        salt: salt.as_deref(),
+        known_salts: &known_salts,
+        brief: brief.as_deref(),
+        starter: starter_grade.as_ref(),
+        zeros: zeros.as_ref(),
+        reference: reference_run.as_ref().map(|run| &run.grade),
+        mutants: &mutants,
+        margins: &margins,
+    };
+    audit.rubric(&rubric, &Accepted::load(&reference, &lab)?);
 
     if args.json {
         output::print_json(&audit)?;
@@ -126,6 +145,26 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let bad = audit.problems().next().is_some();
     Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// Salts that others know: that of the documentation, those of the labs that everybody has, and those of the other labs beside this one.
+fn known_salts(reference: &Folder, lab: &Lab) -> Vec<(String, String)> {
+    let example = "change this every year, and make it long";
+    let mut known = vec![(example.to_owned(), "the documentation".to_owned())];
+    for name in lab_names(&labs_folder::built_in()) {
+        known.push((
+            format!("kinemark-{name}"),
+            format!("the shipped lab `{name}`"),
+        ));
+    }
+    for name in reference.list("") {
+        // a broken file of another lab is no problem of this one
+        let salt = Staff::salt(reference, &name, None);
+        if let (Ok(Some(salt)), true) = (salt, name != lab.name) {
+            known.push((salt, format!("lab `{name}`")));
+        }
+    }
+    known
 }
 
 /// Compares `practice.json` with what the reference solution gives now.
@@ -279,6 +318,7 @@ fn push(out: &mut String, row: &Row) {
         Tried::Practice => "is what the reference solution gives",
         Tried::Mutants => "enough of them",
         Tried::Mutant => "loses and is named",
+        Tried::Rubric => Audit::rule_in_words(&row.name),
     };
     let comment = if row.problem.is_some() { "" } else { right };
     let line = format!(

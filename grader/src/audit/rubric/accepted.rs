@@ -1,0 +1,104 @@
+//! Doubts that the course staff accept, with a reason: `accepted.toml` in their part of the lab.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::{Doubt, RULES};
+use crate::lab::Lab;
+use crate::lab::load::tables;
+use crate::task::files::{Files, read_source};
+use crate::task::problem::{LoadError, near, problems};
+use crate::task::reporter::Reporter;
+
+problems! {
+    /// What is wrong with an entry.
+    enum AcceptedProblem {
+        UnknownRule { rule: String, known: Vec<String> }:
+            "staff::accepted", "no rule is called `{rule}`", "not a rule", near(rule, "rules", known);
+        NoReason { of: String }:
+            "staff::accepted", "no reason is given for `{of}`", "no words",
+            "say why it is right here: whoever has the lab next year wants to know";
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileTable {
+    format: Spanned<i64>,
+    #[serde(default)]
+    accepted: Vec<EntryTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EntryTable {
+    rule: Spanned<String>,
+    of: String,
+    because: Spanned<String>,
+}
+
+/// A doubt that is accepted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Entry {
+    /// The rule.
+    pub rule: String,
+    /// What it is about.
+    pub of: String,
+    /// Why it is right here.
+    pub because: String,
+}
+
+/// The doubts that are accepted.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Accepted(Vec<Entry>);
+
+impl Accepted {
+    /// Loads `accepted.toml` of `lab`; empty where there is none.
+    ///
+    /// # Errors
+    /// [`LoadError`] for a file that cannot be read, an unknown rule, and an entry without a reason.
+    pub fn load(files: &dyn Files, lab: &Lab) -> Result<Self, LoadError> {
+        let path = format!("{}/accepted.toml", lab.name);
+        let Some(source) = read_source(files, &path)? else {
+            return Ok(Self::default());
+        };
+        let table: FileTable = tables(&source)?;
+        let report = Reporter { source: &source };
+        report.format(&table.format)?;
+        for entry in &table.accepted {
+            let rule = entry.rule.get_ref().clone();
+            if !RULES.iter().any(|(known, ..)| *known == rule) {
+                let known = RULES
+                    .iter()
+                    .map(|(known, ..)| (*known).to_owned())
+                    .collect();
+                let problem = AcceptedProblem::UnknownRule { rule, known };
+                report.refuse_at::<(), _>(&entry.rule, problem)?;
+            }
+            if entry.because.get_ref().trim().is_empty() {
+                let of = entry.of.clone();
+                report.refuse_at::<(), _>(&entry.because, AcceptedProblem::NoReason { of })?;
+            }
+        }
+        let entries = table.accepted.into_iter().map(|entry| Entry {
+            rule: entry.rule.into_inner(),
+            of: entry.of,
+            because: entry.because.into_inner(),
+        });
+        Ok(Self(entries.collect()))
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub(super) fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.0.iter()
+    }
+
+    /// The entry that accepts `doubt`, if one does.
+    pub(super) fn position(&self, doubt: &Doubt) -> Option<usize> {
+        let accepts = |entry: &Entry| entry.rule == doubt.rule && entry.of == doubt.of;
+        self.0.iter().position(accepts)
+    }
+}

@@ -1,0 +1,127 @@
+//! Bands in which nobody can lose, and bands in which the reference solution has hardly any room.
+
+use kinemark_sim::kinematics::workspace::sample_workspace;
+use nalgebra::Vector3;
+
+use super::{Doubt, Rubric};
+use crate::audit::variants::is_thin;
+use crate::lab::{Lab, Task, TaskWork};
+use crate::record::quantity::with_unit;
+use crate::task::model::{Band, MotionTask};
+
+/// A distance of this share of the workspace is no precision any more.
+const SHARE_OF_REACH: f64 = 0.25;
+/// The same of an angle \[rad\]: an eighth of a turn.
+const WIDE_RAD: f64 = std::f64::consts::FRAC_PI_4;
+/// Points of the workspace.
+const SAMPLES: usize = 2000;
+
+/// Bands whose end of full points nobody can miss.
+pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let reach_m = reach_m(rubric.lab);
+    for task in &rubric.lab.tasks {
+        match &task.work {
+            TaskWork::Function(_, checks) => {
+                for check in checks {
+                    if let Some(band) = check.kind.band() {
+                        doubts.extend(doubt(task, &check.name, band, None, reach_m));
+                    }
+                }
+            }
+            TaskWork::Motion(motion, checks) => {
+                for check in checks {
+                    if let Some(band) = check.kind.band() {
+                        doubts.extend(doubt(task, &check.name, band, Some(motion), reach_m));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The radius of the workspace about its middle \[m\].
+fn reach_m(lab: &Lab) -> f64 {
+    let workspace = sample_workspace(&lab.robot, lab.robot.tcp(), SAMPLES);
+    let points = workspace.points_m();
+    let Some(first) = points.first() else {
+        return f64::INFINITY;
+    };
+    let fold =
+        |f: fn(f64, f64) -> f64| points.iter().fold(*first, |so_far, p| so_far.zip_map(p, f));
+    let middle: Vector3<f64> = (fold(f64::min) + fold(f64::max)) * 0.5;
+    let far = points.iter().map(|p| (p - middle).norm());
+    far.fold(0.0, f64::max)
+}
+
+fn doubt(
+    task: &Task,
+    check: &str,
+    (band, unit): (Band, &'static str),
+    motion: Option<&MotionTask>,
+    reach_m: f64,
+) -> Option<Doubt> {
+    // where more is better, a band beyond what can be is one that the reference solution does not reach
+    if band.more_is_better() {
+        return None;
+    }
+    let most_effort = motion.map(|motion| {
+        let gains = motion.servo.gains.iter();
+        gains.map(|gains| gains.effort_limit).fold(0.0, f64::max)
+    });
+    let run_s = motion.map(|motion| motion.periods.time_s(motion.ticks));
+    let (limit, words) = match unit {
+        "s" => (run_s?, "the whole run takes"),
+        "m" => (
+            SHARE_OF_REACH * reach_m,
+            "a quarter of the robot's reach is",
+        ),
+        "rad" => (WIDE_RAD, "an eighth of a turn is"),
+        "N m" | "N" | "N m or N" => (most_effort?, "no effort is greater than"),
+        "" => (1.0, "that is the whole of it:"),
+        _ => return None,
+    };
+    (limit.is_finite() && band.full >= limit).then(|| Doubt {
+        rule: "band",
+        of: format!("{}/{check}", task.name),
+        what: format!(
+            "all points up to {}, and {words} {}: hardly anybody can lose one",
+            with_unit(band.full, unit),
+            with_unit(limit, unit)
+        ),
+        help: "narrow the band: `full` is the worst that still earns everything".to_owned(),
+    })
+}
+
+/// Bands in which the reference solution has hardly any room, in its own numbers or in some variant.
+pub(super) fn margins(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let mut thin = |task: &str, check: &str, margin: f64, whose: &str| {
+        let of = format!("{task}/{check}");
+        if doubts
+            .iter()
+            .all(|doubt| doubt.rule != "margin" || doubt.of != of)
+        {
+            doubts.push(Doubt {
+                rule: "margin",
+                of,
+                what: format!(
+                    "{whose} the reference solution is {} of the band's width from losing points: who solves it otherwise may lose some",
+                    with_unit(margin, "")
+                ),
+                help: "widen the band, or mend the solution".to_owned(),
+            });
+        }
+    };
+    for margin in rubric.margins.iter().filter(|margin| margin.is_thin) {
+        let (task, check) = (&margin.task, &margin.check);
+        thin(task, check, margin.least.max(0.0), "in a variant");
+    }
+    for task in rubric.reference.iter().flat_map(|grade| &grade.tasks) {
+        for check in &task.checks {
+            if let Some(measure) = check.measure.as_ref().filter(|measure| is_thin(measure)) {
+                let margin =
+                    measure.margin().unwrap_or_default() / (measure.zero - measure.full).abs();
+                thin(&task.name, &check.name, margin, "with the lab's numbers");
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Checks that nobody loses, and checks that are earned for nothing: by the starter, or by a submission that answers zeros.
+
+use super::{Doubt, Rubric};
+use crate::lab::{Lab, TaskWork};
+use crate::record::grade::{CheckGrade, Grade, Outcome, TaskGrade};
+use crate::record::quantity::points;
+use crate::task::model::{Function, Given};
+
+/// Less than this share of a check's points is luck: zeros are near the answer of some case.
+const LUCK: f64 = 0.05;
+
+/// Who lost in which check.
+pub(super) struct Losses<'a> {
+    rubric: &'a Rubric<'a>,
+}
+
+impl<'a> Losses<'a> {
+    pub(super) fn of(rubric: &'a Rubric<'a>) -> Self {
+        Self { rubric }
+    }
+
+    /// The grades of this check, of all who were judged in it and should lose.
+    fn of_check(&self, task: &str, check: &str) -> impl Iterator<Item = &'a CheckGrade> {
+        let grades = self.rubric.starter.into_iter();
+        let grades = grades.chain(self.rubric.zeros).chain(self.rubric.mutants);
+        grades.filter_map(move |grade| check_of(grade, task, check))
+    }
+}
+
+fn check_of<'g>(grade: &'g Grade, task: &str, check: &str) -> Option<&'g CheckGrade> {
+    let task: &TaskGrade = grade.tasks.iter().find(|known| known.name == task)?;
+    task.checks.iter().find(|known| known.name == check)
+}
+
+/// Checks in which neither the starter, nor a submission of zeros, nor any mutant loses a point.
+pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    // without mutants nobody has tried to lose
+    if rubric.mutants.is_empty() {
+        return;
+    }
+    let losses = rubric.losses();
+    for task in &rubric.lab.tasks {
+        for check in task.checks() {
+            let mut grades = losses.of_check(&task.name, &check.name);
+            let is_lost =
+                |grade: &CheckGrade| matches!(grade.outcome, Outcome::Partial | Outcome::None);
+            if grades.any(is_lost) {
+                continue;
+            }
+            doubts.push(Doubt {
+                rule: "dead",
+                of: format!("{}/{}", task.name, check.name),
+                what: "neither the starter nor any mutant loses a point in it".to_owned(),
+                help: "add a mutant that loses here, or narrow the band, or remove the check"
+                    .to_owned(),
+            });
+        }
+    }
+}
+
+/// Checks in which the starter, or a submission of zeros, earns something.
+pub(super) fn free(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let tried = [
+        ("the starter", rubric.starter),
+        ("a submission that answers zeros", rubric.zeros),
+    ];
+    for task in &rubric.lab.tasks {
+        for check in task.checks() {
+            let earned = tried.iter().find_map(|(who, grade)| {
+                let grade = check_of((*grade)?, &task.name, &check.name)?;
+                (grade.points > LUCK * check.points).then_some((who, grade.points))
+            });
+            if let Some((who, earned)) = earned {
+                doubts.push(Doubt {
+                    rule: "free",
+                    of: format!("{}/{}", task.name, check.name),
+                    what: format!(
+                        "{who} earns {} of {} points in it",
+                        points(earned),
+                        points(check.points)
+                    ),
+                    help: "let it need a check that is not earned for nothing".to_owned(),
+                });
+            }
+        }
+    }
+}
+
+/// A submission that answers zeros to everything, in the shapes that the tasks of `lab` ask for.
+pub fn zeros(lab: &Lab) -> String {
+    let mut text = String::new();
+    let mut defined: Vec<&str> = Vec::new();
+    for task in &lab.tasks {
+        let (name, arguments, answer) = match &task.work {
+            TaskWork::Motion(..) => ("control", "observation", list(lab.robot.n())),
+            TaskWork::Function(function, _) => {
+                let name = function.function.name();
+                match &function.function {
+                    Function::ForwardKinematics => (name, "robot, q", list(3)),
+                    Function::InverseKinematics => (
+                        name,
+                        "robot, position",
+                        format!("[{}]", list(lab.robot.n())),
+                    ),
+                    Function::Jacobian(rows) => {
+                        let row = list(lab.robot.n());
+                        let rows = vec![row; rows.indices().count()];
+                        (name, "robot, q", format!("[{}]", rows.join(", ")))
+                    }
+                    Function::Free(_) => {
+                        let first = function.cases.first().map(|case| &case.given);
+                        let answer = match first {
+                            Some(Given::Values { expected, .. }) => of_entries(expected),
+                            _ => "0".to_owned(),
+                        };
+                        (name, "given", answer)
+                    }
+                }
+            }
+        };
+        if !defined.contains(&name) {
+            defined.push(name);
+            text += &format!("fn {name}({arguments}) {{ {answer} }}\n");
+        }
+    }
+    text
+}
+
+fn list(count: usize) -> String {
+    format!("[{}]", vec!["0.0"; count].join(", "))
+}
+
+fn of_entries(entries: &[(String, kinemark_sim::text::Dimension)]) -> String {
+    use kinemark_sim::text::Dimension;
+    let zero = |value: &Dimension| match value {
+        Dimension::Number(_) => "0.0".to_owned(),
+        Dimension::List(values) => list(values.len()),
+    };
+    match entries {
+        [(name, value)] if name.is_empty() => zero(value),
+        entries => {
+            let entries = entries
+                .iter()
+                .map(|(name, value)| format!("{name}: {}", zero(value)));
+            format!("#{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+        }
+    }
+}

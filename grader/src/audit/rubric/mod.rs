@@ -1,0 +1,155 @@
+//! What is probably wrong with a rubric, whoever hands in: found without a submission, or in what the course staff's own lose.
+//!
+//! | file | what it looks for |
+//! |---|---|
+//! | `band` | bands in which nobody can lose, and margins that are too narrow |
+//! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
+//! | `unused` | parameters, variants and paths that nothing uses |
+//! | `hidden` | hidden cases and runs that are the visible ones, or leave the limits of joints; a salt that is short or known |
+//! | `settings` | a robot without a TCP, gains where they do nothing |
+//! | `brief` | what is graded and not mentioned |
+//! | `lost` | checks that nobody loses, and checks that are earned for nothing |
+//!
+//! The course staff may accept a doubt, with a reason: [`Accepted`].
+
+mod accepted;
+mod band;
+mod brief;
+mod hidden;
+mod lost;
+mod reach;
+mod settings;
+mod unused;
+
+use serde::Serialize;
+
+pub use self::accepted::Accepted;
+use self::lost::Losses;
+pub use self::lost::zeros;
+use super::{Audit, Problem, Tried, VariantMargin};
+use crate::lab::{Lab, Staff};
+use crate::record::grade::Grade;
+
+/// What is probably wrong.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Doubt {
+    /// The rule that found it.
+    pub rule: &'static str,
+    /// What it is about: a parameter, or a task with one of its checks or cases, as in `fk/position`.
+    pub of: String,
+    /// In words, with numbers.
+    pub what: String,
+    /// What to do.
+    pub help: String,
+}
+
+/// What the rules look at.
+#[derive(Debug)]
+pub struct Rubric<'a> {
+    /// The lab.
+    pub lab: &'a Lab,
+    /// The course staff's part of it.
+    pub staff: &'a Staff,
+    /// The salt of its hidden numbers.
+    pub salt: Option<&'a str>,
+    /// Salts that others know, each with where it is from.
+    pub known_salts: &'a [(String, String)],
+    /// The brief.
+    pub brief: Option<&'a str>,
+    /// The grade of the starter.
+    pub starter: Option<&'a Grade>,
+    /// The grade of a submission that answers zeros.
+    pub zeros: Option<&'a Grade>,
+    /// The grade of the reference solution.
+    pub reference: Option<&'a Grade>,
+    /// The grades of the mutants, each in its own tasks.
+    pub mutants: &'a [Grade],
+    /// The margins of the reference solution over the variants that were tried.
+    pub margins: &'a [VariantMargin],
+}
+
+/// A rule: its name, what it makes sure of, and what it finds.
+type Rule = (&'static str, &'static str, fn(&Rubric<'_>, &mut Vec<Doubt>));
+
+/// The rules, in their order.
+const RULES: &[Rule] = &[
+    (
+        "settings",
+        "the robot has a TCP, gains do something",
+        settings::rule,
+    ),
+    ("unused", "every parameter and path is used", unused::rule),
+    (
+        "reach",
+        "cases, goals and paths can be reached",
+        reach::reach,
+    ),
+    (
+        "branches",
+        "as many branches as the robot has",
+        reach::branches,
+    ),
+    ("cases", "no case is there twice", hidden::double_cases),
+    (
+        "hidden",
+        "what is hidden differs from what is visible",
+        hidden::rule,
+    ),
+    ("salt", "nobody can guess it", hidden::salt),
+    ("brief", "mentions what is graded", brief::rule),
+    ("band", "points can be lost", band::rule),
+    (
+        "margin",
+        "the reference has room in every band",
+        band::margins,
+    ),
+    ("dead", "every check is lost by somebody", lost::dead),
+    ("free", "no check is earned for nothing", lost::free),
+];
+
+impl Rubric<'_> {
+    fn losses(&self) -> Losses<'_> {
+        Losses::of(self)
+    }
+}
+
+impl Audit {
+    /// Looks at the rubric itself: a row for each doubt, and one for each rule that has none. What `accepted` accepts is no problem; what
+    /// it accepts and nobody doubts is.
+    pub fn rubric(&mut self, rubric: &Rubric<'_>, accepted: &Accepted) {
+        let mut used = vec![false; accepted.len()];
+        for (name, _, find) in RULES {
+            let mut doubts = Vec::new();
+            find(rubric, &mut doubts);
+            let before = self.rows.len();
+            for doubt in doubts {
+                if let Some(index) = accepted.position(&doubt) {
+                    used[index] = true;
+                    continue;
+                }
+                let what = format!("{}: {}", doubt.of, doubt.what);
+                let problem = Problem::from((what, doubt.help));
+                self.add((Tried::Rubric, name), None, None, Some(problem));
+            }
+            if self.rows.len() == before {
+                self.add((Tried::Rubric, name), None, None, None::<Problem>);
+            }
+        }
+        for (entry, used) in accepted.entries().zip(used) {
+            if !used {
+                let what = format!(
+                    "accepted.toml accepts `{}` of `{}`, and nobody doubts it",
+                    entry.rule, entry.of
+                );
+                let problem = Problem::from((what, "remove the entry"));
+                self.add((Tried::Rubric, &entry.rule), None, None, Some(problem));
+            }
+        }
+    }
+
+    /// What the rule called `name` makes sure of, in words.
+    pub fn rule_in_words(name: &str) -> &'static str {
+        let rule = RULES.iter().find(|(known, ..)| *known == name);
+        rule.map_or("", |(_, words, _)| words)
+    }
+}

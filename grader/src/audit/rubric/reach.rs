@@ -1,0 +1,275 @@
+//! What the robot is asked to reach: cases of inverse kinematics, goals, points of paths; and where on the way it is nearly singular.
+
+use kinemark_sim::kinematics::branches::{BranchFinder, Reach};
+use kinemark_sim::kinematics::forward_kinematics;
+use kinemark_sim::kinematics::joint_samples::JointSamples;
+use kinemark_sim::kinematics::manipulability::{LINEAR, Manipulability};
+use kinemark_sim::model::robot::Robot;
+use kinemark_sim::text::number::{list, metres, trimmed};
+use nalgebra::{Matrix6xX, Vector3};
+
+use super::{Doubt, Rubric};
+use crate::attempt::branches::{beyond_limit, count_distinct};
+use crate::lab::{Lab, Staff, Task, TaskWork};
+use crate::task::model::{Case, Given, MotionTask};
+
+/// A singular value below this share of the greatest that the robot has anywhere is nearly zero.
+const NEARLY_SINGULAR: f64 = 0.02;
+/// Configurations at which the greatest singular values are looked for.
+const SAMPLES: usize = 256;
+/// Places on a segment of a path that are tried.
+const ON_A_SEGMENT: usize = 20;
+/// Hidden cases of a draw that are tried: they are alike.
+const OF_A_DRAW: usize = 10;
+/// As many branches may be a continuum: then nobody can count them.
+const CONTINUUM: usize = 16;
+
+/// What is out of reach, beyond limits, or reached only where the robot is nearly singular.
+pub(super) fn reach(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let Rubric { lab, staff, .. } = *rubric;
+    for task in &lab.tasks {
+        match &task.work {
+            TaskWork::Function(function, _) => {
+                for case in &function.cases {
+                    doubts.extend(angles_within_limits(lab, task, case));
+                }
+            }
+            TaskWork::Motion(motion, _) => of_motion(lab, task, motion, doubts),
+        }
+    }
+    for (task, case) in hidden_cases(lab, staff) {
+        if let Some(doubt) = angles_within_limits(lab, task, case)
+            && !doubts.contains(&doubt)
+        {
+            doubts.push(doubt);
+        }
+    }
+}
+
+/// The first hidden cases of each draw, with their tasks.
+fn hidden_cases<'a>(lab: &'a Lab, staff: &'a Staff) -> impl Iterator<Item = (&'a Task, &'a Case)> {
+    staff.draws.iter().flat_map(move |draw| {
+        let task = lab.tasks.iter().find(|task| task.name == draw.task);
+        let cases = draw.cases.iter().take(OF_A_DRAW);
+        cases.filter_map(move |case| Some((task?, case)))
+    })
+}
+
+/// What a case is called: its name, or its class where it is hidden, so that all of a class are one.
+fn case_name(task: &Task, case: &Case) -> String {
+    let name = case.hidden_class.as_deref().unwrap_or(&case.name);
+    format!("{}/{name}", task.name)
+}
+
+fn robot_of<'a>(lab: &'a Lab, case: &'a Case) -> &'a Robot {
+    case.robot.as_deref().unwrap_or(&lab.robot)
+}
+
+fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
+    let Given::Q(q) = &case.given else {
+        return None;
+    };
+    let beyond = beyond_limit(robot_of(lab, case), q)?;
+    Some(Doubt {
+        rule: "reach",
+        of: case_name(task, case),
+        what: format!("at {}, {beyond}", list(q)),
+        help: match case.hidden_class {
+            Some(_) => "narrow the ranges of the draw in hidden.toml to the limits of the joints",
+            None => "take angles within the limits of the joints",
+        }
+        .to_owned(),
+    })
+}
+
+/// A place of the lab's frame in the world.
+fn in_world(lab: &Lab, start_q: &[f64], p_in_lab: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let q = lab.robot.positions(start_q).ok()?;
+    let poses = forward_kinematics(&lab.robot, &q);
+    let world_from_lab = poses.world_from(lab.robot.frame(&lab.frame)?);
+    Some(world_from_lab.transform_point(&(*p_in_lab).into()).coords)
+}
+
+fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt>) {
+    let robot = &lab.robot;
+    let Ok(mut finder) = BranchFinder::new(robot, &motion.start_q) else {
+        return;
+    };
+    let greatest = greatest_singular_values(robot);
+    let goals = motion.goals.iter().enumerate();
+    let goals = goals.map(|(i, goal)| (format!("goal {}", i + 1), vec![goal.position_m]));
+    let paths = motion.paths.iter().map(|path| {
+        let on_segment = |ends: &[Vector3<f64>]| {
+            let [from, to] = [ends[0], ends[1]];
+            (0..=ON_A_SEGMENT).map(move |k| from + (to - from) * (k as f64 / ON_A_SEGMENT as f64))
+        };
+        let points = path.points_m.windows(2).flat_map(on_segment).collect();
+        (path.name.clone(), points)
+    });
+    for (name, points) in goals.chain(paths) {
+        let of = format!("{}/{name}", task.name);
+        let mut least: Option<(f64, Vector3<f64>)> = None;
+        for point in points {
+            let Some(p_in_world) = in_world(lab, &motion.start_q, &point) else {
+                continue;
+            };
+            let place = list(point.as_slice());
+            match finder.reach(&p_in_world) {
+                Ok(Reach::Not { residual_m }) => {
+                    doubts.push(Doubt {
+                        rule: "reach",
+                        of: of.clone(),
+                        what: format!(
+                            "{place} is out of reach by {}, within the limits of the joints",
+                            metres(residual_m)
+                        ),
+                        help: "move it to where the robot can be: `kinemark robot workspace` shows where".to_owned(),
+                    });
+                    least = None;
+                    break;
+                }
+                Ok(Reach::In(branches)) => {
+                    // the best branch, which a solution may take
+                    let best = branches.iter().map(|q| least_share(robot, q, &greatest));
+                    let best = best.fold(0.0, f64::max);
+                    if least.is_none_or(|(share, _)| best < share) {
+                        least = Some((best, point));
+                    }
+                }
+                Err(_) => {}
+            }
+        }
+        if let Some((share, point)) = least.filter(|(share, _)| *share < NEARLY_SINGULAR) {
+            doubts.push(Doubt {
+                rule: "reach",
+                of,
+                what: format!(
+                    "at {} every branch is nearly singular: the least singular value of the Jacobian is {} % of the greatest that the \
+                     robot has anywhere",
+                    list(point.as_slice()),
+                    trimmed(100.0 * share, 2),
+                ),
+                help: "move it away from the boundary of the workspace, unless that is what the task is about".to_owned(),
+            });
+        }
+    }
+}
+
+fn singular_values(robot: &Robot, q: &[f64]) -> Vec<f64> {
+    let Ok(positions) = robot.positions(q) else {
+        return Vec::new();
+    };
+    let poses = forward_kinematics(robot, &positions);
+    let mut jacobian = Matrix6xX::zeros(robot.n());
+    kinemark_sim::kinematics::jacobian::fill(robot, &poses, robot.tcp(), &mut jacobian);
+    Manipulability::of(&jacobian, LINEAR)
+        .singular_values()
+        .to_vec()
+}
+
+/// Each singular value of the linear Jacobian where it is greatest, over the joint ranges: how many are not zero is the number of
+/// directions in which the robot can move its TCP at all.
+fn greatest_singular_values(robot: &Robot) -> Vec<f64> {
+    let mut samples = JointSamples::new(robot);
+    let mut q = vec![0.0; robot.n()];
+    let mut greatest: Vec<f64> = Vec::new();
+    for _ in 0..SAMPLES {
+        samples.next_into(&mut q);
+        let values = singular_values(robot, &q);
+        greatest.resize(values.len(), 0.0);
+        for (most, value) in greatest.iter_mut().zip(values) {
+            *most = most.max(value);
+        }
+    }
+    greatest
+}
+
+/// The least singular value at `q` as a share of the greatest that it has anywhere, among those that are not always zero.
+fn least_share(robot: &Robot, q: &[f64], greatest: &[f64]) -> f64 {
+    let scale = greatest.first().copied().unwrap_or(0.0);
+    let values = singular_values(robot, q);
+    let pairs = values.iter().zip(greatest);
+    let shares = pairs.filter(|(_, most)| **most > 1e-6 * scale);
+    shares.map(|(value, most)| value / most).fold(1.0, f64::min)
+}
+
+/// Cases of inverse kinematics whose number of branches is not what the engine finds.
+pub(super) fn branches(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let Rubric { lab, staff, .. } = *rubric;
+    let mut known: Vec<String> = Vec::new();
+    let visible = lab.tasks.iter().flat_map(|task| {
+        let cases = match &task.work {
+            TaskWork::Function(function, _) => &function.cases[..],
+            TaskWork::Motion(..) => &[],
+        };
+        cases.iter().map(move |case| (task, case))
+    });
+    for (task, case) in visible.chain(hidden_cases(lab, staff)) {
+        let of = case_name(task, case);
+        if let Some(what) = wrong_count(lab, case)
+            && !known.contains(&of)
+        {
+            known.push(of.clone());
+            doubts.push(Doubt {
+                rule: "branches",
+                of,
+                what,
+                help: match case.hidden_class {
+                    Some(_) => "change `branches` or the ranges of the draw in hidden.toml",
+                    None => "change `branches`, or the position",
+                }
+                .to_owned(),
+            });
+        }
+    }
+}
+
+fn wrong_count(lab: &Lab, case: &Case) -> Option<String> {
+    let Given::Position {
+        position_m,
+        branches,
+    } = &case.given
+    else {
+        return None;
+    };
+    let robot = robot_of(lab, case);
+    let home = robot.home().to_vec();
+    let position = Vector3::from(*position_m);
+    let p_in_world = in_world_of(lab, robot, &home, &position)?;
+    let mut finder = BranchFinder::new(robot, &home).ok()?;
+    let stated = *branches as usize;
+    let place = list(position_m);
+    match finder.reach(&p_in_world).ok()? {
+        Reach::Not { .. } if stated == 0 => None,
+        Reach::Not { residual_m } => Some(format!(
+            "{place} is out of reach by {}, within the limits of the joints, and {stated} branches are stated",
+            metres(residual_m)
+        )),
+        Reach::In(found) => {
+            let count = count_distinct(robot, &found);
+            // some of a continuum, or more than a search may find
+            if count >= CONTINUUM || count == stated || (stated > count && count > 2) {
+                return None;
+            }
+            let found = match count {
+                1 => "one branch reaches".to_owned(),
+                count => format!("{count} branches reach"),
+            };
+            Some(format!(
+                "{found} {place} within the limits of the joints, and {stated} are stated"
+            ))
+        }
+    }
+}
+
+fn in_world_of(
+    lab: &Lab,
+    robot: &Robot,
+    q: &[f64],
+    p_in_lab: &Vector3<f64>,
+) -> Option<Vector3<f64>> {
+    let q = robot.positions(q).ok()?;
+    let poses = forward_kinematics(robot, &q);
+    let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
+    Some(world_from_lab.transform_point(&(*p_in_lab).into()).coords)
+}

@@ -1,0 +1,442 @@
+//! Rubrics with a fault each, in a lab that has none: `lab check` finds it, and says where and with which numbers.
+
+use kinemark_grader::audit::{Accepted, Audit, Row, Rubric};
+use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::task::files::Files;
+
+use crate::every_case::every_case;
+use crate::own_lab::OwnLab;
+
+const LAB: &str = r#"
+format = 1
+name = "94-rubric"
+title = "A rubric without faults"
+robot = "rrbot"
+frame = "lab"
+
+[parameters]
+out = 1.2
+
+[variants]
+out = { from = 1.1, to = 1.3, step = 0.01 }
+
+[[tasks]]
+name = "fk"
+title = "Forward kinematics"
+
+[tasks.function]
+call = "forward_kinematics"
+cases = [
+    { name = "both bent", q_rad = [0.7, -1.1] },
+    { name = "to the left", q_rad = [-0.9, 0.4] },
+]
+
+[[tasks.checks]]
+name = "position"
+title = "The position of the TCP"
+points = 4.0
+fk-error = { full_m = 1e-4, zero_m = 5e-3 }
+
+[[tasks]]
+name = "ik"
+title = "Inverse kinematics"
+
+[tasks.function]
+call = "inverse_kinematics"
+cases = [
+    { name = "to the right", position_m = [2.0, 1.4, 0.05] },
+    { name = "far away", position_m = [6.0, 1.0, 0.05], branches = 0 },
+]
+
+[[tasks.checks]]
+name = "reach"
+title = "One branch reaches"
+points = 2.0
+ik-reach = { full_m = 1e-3, zero_m = 1e-2 }
+
+[[tasks]]
+name = "touch"
+title = "Touch and follow"
+
+[tasks.motion]
+mode = "position"
+duration_s = 3.0
+goals = [{ position_m = [2.5, "= out", 0.05], dwell_s = 0.5 }]
+paths = { line = { points_m = [[2.5, 0.8, 0.05], [2.5, 1.2, 0.05]], trim_m = 0.05 } }
+servo = { kp = 1000.0, kd = 30.0, derivative = "velocity", gravity_compensation = true, effort_limit = 100.0 }
+
+[[tasks.checks]]
+name = "pose"
+title = "There"
+points = 2.0
+pose-reached = { full_m = 0.002, zero_m = 0.02 }
+
+[[tasks.checks]]
+name = "time"
+title = "In time"
+points = 1.0
+finish-time = { full_s = 2.0, zero_s = 3.0 }
+
+[[tasks.checks]]
+name = "line"
+title = "Along the line"
+points = 1.0
+path-deviation = { path = "line", full_m = 0.008, zero_m = 0.03 }
+
+[[tasks.checks]]
+name = "saturation"
+title = "Within the motors' limits"
+points = 1.0
+effort-saturation = { full_s = 0.1, zero_s = 1.0 }
+
+[[tasks]]
+name = "push"
+title = "Push"
+
+[tasks.motion]
+mode = "effort"
+duration_s = 1.0
+target = { effort_n_m = 2.0 }
+grants = ["gravity"]
+servo = { effort_limit = 50.0 }
+
+[[tasks.checks]]
+name = "peak"
+title = "Gently"
+points = 1.0
+effort-peak = { full_n_m = 10.0, zero_n_m = 20.0 }
+"#;
+
+const HIDDEN: &str = r#"
+format = 1
+salt = "a long one that nobody can guess"
+
+[[draws]]
+task = "fk"
+class = "other angles"
+count = 5
+q_rad = [[-3.0, 3.0], [-3.0, 3.0]]
+
+[[draws]]
+task = "ik"
+class = "somewhere within reach"
+count = 5
+q_rad = [[0.2, 0.9], [0.5, 1.5]]
+branches = 2
+
+[[draws]]
+task = "ik"
+class = "out of reach"
+count = 5
+position_m = [[4.5, 5.0], [1.0, 2.0], [0.05, 0.05]]
+branches = 0
+
+[[runs]]
+task = "touch"
+class = "another place"
+count = 1
+parameters = { out = [1.05, 1.25] }
+"#;
+
+const BRIEF: &str = "Write `forward_kinematics`, `inverse_kinematics` and `control`. `observation.target.effort_n_m` is in N m; \
+                     `robot.gravity(q)` is there in the last task.\n";
+
+const SOLUTION: &str = "fn control(observation) { [0.0, 0.0] }\n";
+
+fn own_lab() -> OwnLab {
+    OwnLab::new("94-rubric", LAB)
+        .and("hidden.toml", HIDDEN)
+        .and("solution.rhai", SOLUTION)
+}
+
+fn staff_of(own: &OwnLab, lab: &Lab) -> Staff {
+    own.staff(lab).expect("the course staff's part")
+}
+
+/// The rows of the rules that need no grade.
+fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
+    let lab = own.lab();
+    let staff = staff_of(own, &lab);
+    let salt = Staff::salt(own as &dyn Files, &lab.name, None).expect("hidden.toml");
+    let known = [(
+        "kinemark-01-kinematics".to_owned(),
+        "the shipped lab `01-kinematics`".to_owned(),
+    )];
+    let mut audit = Audit::new(&lab);
+    audit.rubric(
+        &Rubric {
+            lab: &lab,
+            staff: &staff,
+            salt: salt.as_deref(),
+            known_salts: &known,
+            brief: Some(brief),
+            starter: None,
+            zeros: None,
+            reference: None,
+            mutants: &[],
+            margins: &[],
+        },
+        accepted,
+    );
+    audit.rows
+}
+
+fn problems(rows: &[Row]) -> Vec<(String, String)> {
+    let bad = rows
+        .iter()
+        .filter_map(|row| Some((row, row.problem.clone()?)));
+    bad.map(|(row, problem)| (row.name.clone(), problem))
+        .collect()
+}
+
+#[test]
+fn a_rubric_without_faults_raises_no_doubt() {
+    let found = rows(&own_lab(), BRIEF, &Accepted::default());
+    assert_eq!(problems(&found), [], "{found:#?}");
+    assert!(found.len() >= 12, "a row for every rule: {found:#?}");
+}
+
+#[test]
+fn every_fault_is_found_with_its_place_and_numbers() {
+    // file, from, to; rule, words
+    let faults = [
+        (
+            "lab.toml",
+            "full_s = 0.1, zero_s = 1.0",
+            "full_s = 100.0, zero_s = 200.0",
+            "band",
+            "touch/saturation: all points up to 100 s",
+        ),
+        (
+            "lab.toml",
+            "full_s = 2.0, zero_s = 3.0",
+            "full_s = 100.0, zero_s = 200.0",
+            "band",
+            "the whole run takes 3 s",
+        ),
+        (
+            "lab.toml",
+            "full_m = 0.008, zero_m = 0.03",
+            "full_m = 1.0, zero_m = 2.0",
+            "band",
+            "touch/line: all points up to 1.000 m",
+        ),
+        (
+            "lab.toml",
+            "full_m = 0.002, zero_m = 0.02",
+            "full_m = 0.6, zero_m = 1.0",
+            "band",
+            "touch/pose",
+        ),
+        (
+            "lab.toml",
+            "full_m = 1e-4, zero_m = 5e-3",
+            "full_m = 0.7, zero_m = 1.0",
+            "band",
+            "fk/position",
+        ),
+        (
+            "lab.toml",
+            "full_n_m = 10.0, zero_n_m = 20.0",
+            "full_n_m = 60.0, zero_n_m = 80.0",
+            "band",
+            "no effort is greater than 50 N m",
+        ),
+        (
+            "lab.toml",
+            "position_m = [2.5, \"= out\", 0.05]",
+            "position_m = [4.5, \"= out\", 0.05]",
+            "reach",
+            "touch/goal 1: [4.5, 1.2, 0.05] is out of reach by",
+        ),
+        (
+            "lab.toml",
+            "position_m = [2.5, \"= out\", 0.05]",
+            "position_m = [3.6, \"= out\", 0.05]",
+            "reach",
+            "nearly singular",
+        ),
+        (
+            "lab.toml",
+            "[2.5, 1.2, 0.05]], trim_m",
+            "[2.5, 3.0, 0.05]], trim_m",
+            "reach",
+            "touch/line: [",
+        ),
+        (
+            "lab.toml",
+            "position_m = [2.0, 1.4, 0.05] }",
+            "position_m = [2.0, 1.4, 0.05], branches = 1 }",
+            "branches",
+            "2 branches reach [2, 1.4, 0.05]",
+        ),
+        (
+            "lab.toml",
+            "position_m = [6.0, 1.0, 0.05], branches = 0",
+            "position_m = [6.0, 1.0, 0.05]",
+            "branches",
+            "ik/far away: [6, 1, 0.05] is out of reach by",
+        ),
+        (
+            "lab.toml",
+            "position_m = [6.0, 1.0, 0.05], branches = 0",
+            "position_m = [2.5, 1.0, 0.05], branches = 0",
+            "branches",
+            "and 0 are stated",
+        ),
+        (
+            "lab.toml",
+            "{ name = \"to the left\", q_rad = [-0.9, 0.4] }",
+            "{ name = \"again\", q_rad = [0.7, -1.1] }",
+            "cases",
+            "fk/again: the same numbers as case \"both bent\"",
+        ),
+        (
+            "lab.toml",
+            "[parameters]\nout = 1.2",
+            "[parameters]\nout = 1.2\nin = 0.3",
+            "unused",
+            "in: no expression",
+        ),
+        (
+            "lab.toml",
+            "\"= out\"",
+            "1.2",
+            "unused",
+            "differs from student to student",
+        ),
+        (
+            "lab.toml",
+            "path-deviation = { path = \"line\", full_m = 0.008, zero_m = 0.03 }",
+            "overshoot = { full = 0.01, zero = 0.1 }",
+            "unused",
+            "touch/line: no check follows this path",
+        ),
+        (
+            "lab.toml",
+            "servo = { effort_limit = 50.0 }",
+            "servo = { kp = 10.0, effort_limit = 50.0 }",
+            "settings",
+            "push/servo: kp, ki and kd do nothing",
+        ),
+        (
+            "lab.toml",
+            "target = { effort_n_m = 2.0 }",
+            "target = { effort_n_m = 2.0, speed_m_s = 1.0 }",
+            "brief",
+            "does not mention `speed_m_s`",
+        ),
+        (
+            "lab.toml",
+            "grants = [\"gravity\"]",
+            "grants = [\"gravity\", \"mass_matrix\"]",
+            "brief",
+            "`mass_matrix`, which task \"Push\" lends",
+        ),
+        (
+            "hidden.toml",
+            "parameters = { out = [1.05, 1.25] }",
+            "parameters = { out = [1.2, 1.2] }",
+            "hidden",
+            "touch/another place: a hidden run has the numbers of the visible one",
+        ),
+        (
+            "hidden.toml",
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "q_rad = [[0.3, 0.3], [0.5, 0.5]]",
+            "hidden",
+            "its ranges have no width",
+        ),
+        (
+            "hidden.toml",
+            "count = 5\nq_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "count = 1\nq_rad = [[0.7, 0.7], [-1.1, -1.1]]",
+            "hidden",
+            "a hidden case has the numbers of a visible one",
+        ),
+        (
+            "hidden.toml",
+            "position_m = [[4.5, 5.0], [1.0, 2.0], [0.05, 0.05]]",
+            "position_m = [[2.5, 5.0], [1.0, 2.0], [0.05, 0.05]]",
+            "branches",
+            "ik/out of reach",
+        ),
+        (
+            "hidden.toml",
+            "q_rad = [[0.2, 0.9], [0.5, 1.5]]\nbranches = 2",
+            "q_rad = [[0.2, 0.9], [0.5, 1.5]]\nbranches = 1",
+            "branches",
+            "ik/somewhere within reach: 2 branches reach",
+        ),
+        (
+            "hidden.toml",
+            "a long one that nobody can guess",
+            "a",
+            "salt",
+            "1 of at least 12 characters",
+        ),
+        (
+            "hidden.toml",
+            "a long one that nobody can guess",
+            "kinemark-01-kinematics",
+            "salt",
+            "others know it",
+        ),
+    ];
+    let faults: Vec<_> = faults
+        .iter()
+        .map(|fault| (fault.2.to_owned(), *fault))
+        .collect();
+    every_case(&faults, |&(file, from, to, rule, words)| {
+        let found = problems(&rows(
+            &own_lab().with(file, from, to),
+            BRIEF,
+            &Accepted::default(),
+        ));
+        let hit = |(name, problem): &(String, String)| name == rule && problem.contains(words);
+        assert!(found.iter().any(hit), "{rule}, {words}: {found:#?}");
+    });
+}
+
+#[test]
+fn a_brief_without_its_functions_is_doubted_once_each() {
+    let found = problems(&rows(&own_lab(), "Good luck.", &Accepted::default()));
+    let of: Vec<&str> = found
+        .iter()
+        .filter_map(|(_, problem)| problem.split_once(": "))
+        .map(|(of, _)| of)
+        .collect();
+    assert_eq!(
+        of,
+        [
+            "forward_kinematics",
+            "inverse_kinematics",
+            "control",
+            "effort_n_m",
+            "gravity"
+        ]
+    );
+}
+
+#[test]
+fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
+    let faulty = own_lab().with("hidden.toml", "a long one that nobody can guess", "a");
+    let entry = |rule: &str, because: &str| {
+        format!(
+            "format = 1\n[[accepted]]\nrule = \"{rule}\"\nof = \"salt\"\nbecause = \"{because}\"\n"
+        )
+    };
+    let load = |own: OwnLab| {
+        let lab = own.lab();
+        Accepted::load(&own, &lab).map(|accepted| problems(&rows(&own, BRIEF, &accepted)))
+    };
+    let accepted = faulty.and("accepted.toml", entry("salt", "a test"));
+    assert_eq!(load(accepted).expect("a file"), []);
+    let idle = own_lab().and("accepted.toml", entry("salt", "a test"));
+    let found = load(idle).expect("a file");
+    assert!(found[0].1.contains("nobody doubts it"), "{found:?}");
+    for (rule, because, words) in [("sald", "a test", "UnknownRule"), ("salt", " ", "NoReason")] {
+        let error = load(own_lab().and("accepted.toml", entry(rule, because))).expect_err(words);
+        assert!(format!("{error:?}").contains(words), "{error:?}");
+    }
+}
