@@ -87,6 +87,9 @@ impl RelativeBand {
 /// Margins below this share of a band are thin.
 const THIN: f64 = 0.05;
 
+/// A value of this share of what still earns everything has room, however wide the band is beyond.
+const NOT_SPENT: f64 = 0.75;
+
 /// Whether a measure that earns all points has hardly any room to the value where it would not. What is as good as can be is not thin,
 /// however near `full` is to it: an answer without error, a path that is wholly covered.
 pub(super) fn is_thin(measure: &Measure) -> bool {
@@ -96,7 +99,7 @@ pub(super) fn is_thin(measure: &Measure) -> bool {
     let best_is_near = if measure.full > measure.zero {
         value >= 1.0 && measure.unit.is_empty()
     } else if measure.full > 0.0 {
-        value <= 0.5 * measure.full
+        value <= NOT_SPENT * measure.full
     } else {
         value >= measure.full
     };
