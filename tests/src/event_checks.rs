@@ -152,7 +152,7 @@ fn a_push_to_the_place_and_back_is_right() {
 }
 
 #[test]
-fn a_can_that_falls_a_hand_that_stays_and_a_wrong_reading_are_told() {
+fn a_can_that_falls_a_hand_that_stays_and_a_wrong_reading_lose_with_words() {
     let over = own_lab().graded(&tip("min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)"), 1);
     let place = message(check(&over, "place"));
     assert!(place.starts_with("`can` is tilted by "), "{place}");
