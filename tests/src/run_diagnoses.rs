@@ -142,7 +142,11 @@ fn bed() -> TestBed {
     bed.write("labs/90-sweep/starter.rhai", STARTER);
     bed.write(
         "labs/90-sweep/brief.md",
-        "# Sweep\n\n<!-- grading: begin -->\n<!-- grading: end -->\n",
+        "# Sweep\n\nWrite `control`.\n\n<!-- grading: begin -->\n<!-- grading: end -->\n",
+    );
+    bed.write(
+        "reference/90-sweep/accepted.toml",
+        "format = 1\n[[accepted]]\nrule = \"dead\"\nof = \"sweep/calm\"\nbecause = \"no mutant here saturates\"\n",
     );
     bed.write("reference/90-sweep/solution.rhai", SWEEP);
     let mut table = "format = 1\n".to_owned();

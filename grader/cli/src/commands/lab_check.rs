@@ -15,6 +15,7 @@ use kinemark_grader::audit::{
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::practice::{PRACTICE_SALT, practice_student};
 use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::submission::rhai::STACK_BYTES;
 use kinemark_grader::task::files::{Files, UNREAD_HELP};
@@ -99,15 +100,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let formula = formulas.first().map(ToString::to_string);
     audit.brief(&lab, brief.as_deref(), formula.as_deref());
     let starter_grade = audit.starter(&lab, &own, &starter);
-    for language in [Language::Rust, Language::C] {
-        let path = format!("{}/{}", lab.name, language.starter());
-        let text = files.read(&path);
-        let text = text.map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
-        if let Some(text) = text {
-            let defines = |name: &str| language.defines(&text, name);
-            audit.compiled_starter(&lab, language.starter(), &defines);
-        }
-    }
+    audit_compiled_starters(&mut audit, files.as_ref(), &lab)?;
     let reference_run = audit.reference(&lab, &own, "own hidden cases");
     audit_practice(&mut audit, files.as_ref(), &lab, &own)?;
     let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
@@ -120,23 +113,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         audit.variants(variants(&lab, &reference, &salt, args.variants)?);
     }
     let mutants = audit.mutants(&lab, &own);
-    let salt = Staff::salt(&reference, &lab.name, None)?;
-    let margins = audit.rooms.clone();
-    let known_salts = known_salts(&reference, &lab);
-    let zeros = grade_of_zeros(&lab, &own);
-    let rubric = Rubric {
-        lab: &lab,
-        staff: &own,
-        salt: salt.as_deref(),
-        known_salts: &known_salts,
-        brief: brief.as_deref(),
-        starter: starter_grade.as_ref(),
-        zeros: zeros.as_ref(),
-        reference: reference_run.as_ref().map(|run| &run.grade),
-        mutants: &mutants,
-        margins: &margins,
+    let graded = Graded {
+        starter: starter_grade,
+        reference: reference_run.map(|run| run.grade),
+        mutants,
     };
-    audit.rubric(&rubric, &Accepted::load(&reference, &lab)?);
+    audit_rubric(
+        &mut audit,
+        &reference,
+        (&lab, &own),
+        brief.as_deref(),
+        &graded,
+    )?;
 
     if args.json {
         output::print_json(&audit)?;
@@ -145,6 +133,54 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let bad = audit.problems().next().is_some();
     Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// Looks into the starters of compiled languages, where there are any.
+fn audit_compiled_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> Result<(), Failure> {
+    for language in [Language::Rust, Language::C] {
+        let path = format!("{}/{}", lab.name, language.starter());
+        let text = files.read(&path);
+        let text = text.map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
+        if let Some(text) = text {
+            let defines = |name: &str| language.defines(&text, name);
+            audit.compiled_starter(lab, language.starter(), &defines);
+        }
+    }
+    Ok(())
+}
+
+/// What was graded on the way, as far as it came to a grade.
+struct Graded {
+    starter: Option<Grade>,
+    reference: Option<Grade>,
+    mutants: Vec<Grade>,
+}
+
+/// Looks at the rubric itself.
+fn audit_rubric(
+    audit: &mut Audit,
+    reference: &Folder,
+    (lab, staff): (&Lab, &Staff),
+    brief: Option<&str>,
+    graded: &Graded,
+) -> Result<(), Failure> {
+    let salt = Staff::salt(reference, &lab.name, None)?;
+    let margins = audit.rooms.clone();
+    let (known_salts, zeros) = (known_salts(reference, lab), grade_of_zeros(lab, staff));
+    let rubric = Rubric {
+        lab,
+        staff,
+        salt: salt.as_deref(),
+        known_salts: &known_salts,
+        brief,
+        starter: graded.starter.as_ref(),
+        zeros: zeros.as_ref(),
+        reference: graded.reference.as_ref(),
+        mutants: &graded.mutants,
+        margins: &margins,
+    };
+    audit.rubric(&rubric, &Accepted::load(reference, lab)?);
+    Ok(())
 }
 
 /// Salts that others know: that of the documentation, those of the labs that everybody has, and those of the other labs beside this one.
