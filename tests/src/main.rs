@@ -6,6 +6,7 @@
 )]
 
 mod architecture;
+mod authoring_slips;
 mod bad_rubrics;
 mod book_robustness;
 mod brief_pictures;

@@ -104,6 +104,13 @@ impl KindTable {
     pub(super) fn function<T: FunctionTable>(table: Spanned<T>) -> Self {
         Self::Function(Box::new(table))
     }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Motion(table) => table.name(),
+            Self::Function(table) => table.name(),
+        }
+    }
 }
 
 /// A [`MotionTable`] whose type is not known.
@@ -266,9 +273,12 @@ problems! {
         UnknownNeed { needed: String, known: Vec<String> }:
             "lab::unknown_check", "no earlier check of this task is called `{needed}`", "must stand before this check",
             near(needed, "earlier checks", known);
-        NotOneKind { check: String }:
-            "lab::check_kind", "check `{check}` must have exactly one kind", "this check",
-            "add one table, such as [tasks.checks.pose-reached]";
+        NoKind { check: String, example: &'static str }:
+            "lab::check_kind", "check `{check}` has no kind", "this check",
+            format!("add the table of one, such as `{example}`");
+        TwoKinds { check: String, first: &'static str, second: &'static str }:
+            "lab::check_kind", "check `{check}` has two kinds, `{first}` and `{second}`", "this check",
+            "keep one of them, and give the other a check of its own";
         Misfit { check: String, kind: &'static str, wanted: String }:
             "lab::check_kind", "check `{check}` of kind `{kind}` needs {wanted}", "this check";
     }
@@ -283,7 +293,8 @@ pub(crate) fn motion_checks(
     let mut checks: Vec<Check<dyn MotionCheck>> = Vec::new();
     for table in tables {
         let table = table.get_ref();
-        let kind = match table.kind(report)? {
+        let example = "pose-reached = { full_m = 0.002, zero_m = 0.02 }";
+        let kind = match table.kind(report, example)? {
             KindTable::Motion(kind) => match kind.lacks(of.motion) {
                 None => kind,
                 Some(lacks) => return table.misfit(report, kind.name(), lacks.to_owned()),
@@ -320,7 +331,13 @@ pub(crate) fn function_checks(
     let mut checks: Vec<Check<dyn FunctionCheck>> = Vec::new();
     for table in tables {
         let table = table.get_ref();
-        let kind = match table.kind(report)? {
+        let example = match task.function.known_name() {
+            Some("inverse_kinematics") => "ik-reach = { full_m = 1e-3, zero_m = 1e-2 }",
+            Some("jacobian") => "jacobian-match = { full = 0.01, zero = 0.1 }",
+            Some(_) => "fk-error = { full_m = 1e-4, zero_m = 5e-3 }",
+            None => "function-cases = { full = 0.01, zero = 0.1 }",
+        };
+        let kind = match table.kind(report, example)? {
             KindTable::Function(kind) if kind.function() == task.function.known_name() => kind,
             KindTable::Function(kind) => {
                 return table.misfit(report, kind.name(), task_of(kind.function()));
@@ -338,8 +355,8 @@ pub(crate) fn function_checks(
 }
 
 impl CheckTable {
-    /// Its one kind; its points are in range.
-    fn kind(&self, report: Reporter<'_>) -> Result<&KindTable, LabError> {
+    /// Its one kind; its points are in range. `example` is a kind that it could have.
+    fn kind(&self, report: Reporter<'_>, example: &'static str) -> Result<&KindTable, LabError> {
         let check = self.name.get_ref().clone();
         let points = *self.points.get_ref();
         if !(points > 0.0 && points <= 1000.0) {
@@ -347,7 +364,16 @@ impl CheckTable {
         }
         match &self.kinds[..] {
             [kind] => Ok(kind),
-            _ => report.refuse(self.name.span(), CheckProblem::NotOneKind { check }),
+            [] => report.refuse(self.name.span(), CheckProblem::NoKind { check, example }),
+            [first, second, ..] => {
+                let [first, second] = [first, second].map(KindTable::name);
+                let problem = CheckProblem::TwoKinds {
+                    check,
+                    first,
+                    second,
+                };
+                report.refuse(self.name.span(), problem)
+            }
         }
     }
 

@@ -89,10 +89,11 @@ pub(super) struct FunctionTable {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(
     untagged,
-    expecting = "expected one number, or a table of numbers and lists of numbers"
+    expecting = "`expected` is a number, a list of numbers, or a table of these"
 )]
 pub(super) enum ExpectedTable {
     One(f64),
+    Whole(Vec<f64>),
     Entries(BTreeMap<String, kinemark_sim::text::Dimension>),
 }
 

@@ -161,8 +161,34 @@ pub(super) fn refused(source: &Source, error: &toml::de::Error) -> LabError {
     refusal_at(source, TomlRefusal::from_error(error, source.text()))
 }
 
+/// Keys of a lab itself, which come before its first table.
+const OF_LAB: [&str; 7] = [
+    "format",
+    "name",
+    "title",
+    "summary",
+    "robot",
+    "frame",
+    "kept_after_stop",
+];
+
+/// What to do about an unknown key that is one of the lab itself, but stands in a table.
+fn strayed(source: &Source, at: &std::ops::Range<usize>) -> Option<String> {
+    let text = source.text();
+    let key = text.get(at.clone())?;
+    let mut before = text.get(..at.start)?.lines().rev().map(str::trim);
+    let table = before.find(|line| line.starts_with('['))?;
+    OF_LAB.contains(&key).then(|| {
+        format!("this line stands in {table}: keys of the lab come before the first table")
+    })
+}
+
 fn refusal_at(source: &Source, refusal: TomlRefusal) -> LabError {
     let TomlRefusal { message, help, at } = refusal;
+    let help = match message.starts_with("unknown key") {
+        true => strayed(source, &at).or(help),
+        false => help,
+    };
     let problem = ReadersProblem {
         code: "lab::toml",
         message,
@@ -197,7 +223,7 @@ text = "a = b"
 a = "= x * 2 + l[1]"
 count = "=l[0]+1"
 list = [["= x", 1], [2.0, "= -x"]]
-deep = { far = ["= l[1]", 0.5] }
+deep = { far = "= l" }
 parameters = { x = 0.1, l = [1, 2.5] }
 "#;
 
@@ -214,7 +240,8 @@ parameters = { x = 0.1, l = [1, 2.5] }
         assert_eq!(&TEXT[table.a.span()], "\"= x * 2 + l[1]\"");
         assert_eq!(table.list, [[0.1, 1.0], [2.0, -0.1]]);
         assert_eq!(table.count, 2);
-        assert_eq!(table.deep.far, [2.5, 0.5]);
+        // the name of a list is the whole list
+        assert_eq!(table.deep.far, [1.0, 2.5]);
         assert_eq!(table.text, "a = b");
     }
 

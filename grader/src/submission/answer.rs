@@ -146,6 +146,7 @@ pub fn named_entries(
             Some((_, Value::List(items))) => items.len(),
             _ => 0,
         },
+        Value::List(items) if name.is_empty() => items.len(),
         _ => 0,
     };
     let expected: Vec<(String, Dimension)> = like

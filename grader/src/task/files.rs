@@ -34,11 +34,15 @@ pub const UNREAD_HELP: &str =
 /// A file's bytes as text.
 ///
 /// # Errors
-/// At which byte it stops being UTF-8, in words.
+/// The line and the column at which it stops being UTF-8, in words.
 pub fn text(bytes: Vec<u8>) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        format!("not text: byte {at} is no UTF-8")
+        let before = String::from_utf8_lossy(&error.as_bytes()[..at]);
+        let line = before.matches('\n').count() + 1;
+        let last = before.rsplit('\n').next().unwrap_or_default();
+        let column = last.chars().count() + 1;
+        format!("not text: what stands in line {line}, column {column}, is no UTF-8: was it saved as Windows-1252?")
     })
 }
 

@@ -220,6 +220,13 @@ impl Reader<'_> {
         let name_at = start..self.at;
         let dimensions = self.dimensions;
         let Some(dimension) = dimensions.get(name) else {
+            if self.text[self.at..].trim_start().starts_with('(') {
+                return Err(problem(
+                    format!("`{name}` cannot be called: an expression has + - * / and parentheses"),
+                    Some(format!("write the number, or a {} that has it", self.noun)),
+                    name_at,
+                ));
+            }
             return Err(problem(
                 format!("no {} is called `{name}`", self.noun),
                 Some(crate::text::suggest(

@@ -1,4 +1,5 @@
-//! TOML in which a string that begins with `=` is an expression: each is replaced by its number before the tables are read.
+//! TOML in which a string that begins with `=` is an expression: each is replaced by its number before the tables are read, and the name
+//! of a list alone by the list.
 //!
 //! An expression over a number that is not known yet, such as what a reference run will reach, is replaced by a [`super::Linear`] instead.
 
@@ -8,7 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::expression::{ExpressionProblem, MARK, evaluate_in};
 use super::linear::{linear_in, names};
-use super::{Dimensions, Source, TomlRefusal};
+use super::{Dimension, Dimensions, Source, TomlRefusal};
 
 /// Why tables could not be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,6 +43,9 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
             let at = value.span();
             numbers.push(if names(text, later) {
                 linear_in(source, &at, text, named, (noun, later))?.as_toml()
+            } else if let Some(list) = whole_list(text, named) {
+                let items: Vec<String> = list.iter().copied().map(as_toml).collect();
+                format!("[{}]", items.join(", "))
             } else {
                 as_toml(evaluate_in(source, &at, text, named, noun)?)
             });
@@ -59,6 +63,15 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
         replace(value, &mut next);
     }
     T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
+}
+
+/// The list that an expression names, if it is nothing but the name of one.
+fn whole_list<'n>(text: &str, named: &'n Dimensions) -> Option<&'n [f64]> {
+    let name = text.strip_prefix(MARK)?.trim();
+    match named.get(name)? {
+        Dimension::List(values) => Some(values),
+        Dimension::Number(_) => None,
+    }
 }
 
 /// An unknown key of the tables of `T`, found by reading every expression as zero.

@@ -41,7 +41,7 @@ impl TomlRefusal {
             ("a comma in a number".to_owned(), help)
         } else {
             unknown(message, given, text, &at)
-                .or_else(|| key(message, given, line_of(text, at.start).1))
+                .or_else(|| key(message, given, text, at.start))
                 .or_else(|| value(message, given, expressions))
                 .unwrap_or_else(|| syntax(message, text, at.start))
         };
@@ -73,22 +73,42 @@ fn unknown(message: &str, given: &str, text: &str, at: &Range<usize>) -> Option<
     let present = keys_beside(text, at);
     let free = known.iter().copied();
     let free = free.filter(|name| !present.iter().any(|key| key == name));
-    let help = match nearest(name, free) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known here: {}", known.join(", ")),
+    let of_turning = |stem: &str| {
+        known
+            .iter()
+            .copied()
+            .find(|known| *known == format!("{stem}_rad"))
+    };
+    let sliding = name.strip_suffix("_m").and_then(of_turning);
+    let help = match (sliding, nearest(name, free)) {
+        (Some(known), _) => format!("write `{known}`: of a joint that slides it holds metres"),
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) => format!("known here: {}", known.join(", ")),
     };
     Some((format!("unknown {what} `{name}`"), help))
 }
 
 /// A key that is missing or duplicate.
-fn key(message: &str, given: &str, line: &str) -> Option<Words> {
+fn key(message: &str, given: &str, text: &str, at: usize) -> Option<Words> {
     if message == "duplicate key" {
-        let is_table = line.trim_start().starts_with(&format!("[{given}]"));
-        let help = match is_table {
-            true => format!(
+        let (_, line) = line_of(text, at);
+        let once = format!("[{given}]");
+        let is_table = line.trim_start().starts_with(&once);
+        let is_item = line.trim_start().starts_with(&format!("[[{given}]]"));
+        let first = text
+            .lines()
+            .position(|line| line.trim_start().starts_with(&once));
+        let help = match (is_table, first) {
+            (true, _) => format!(
                 "keep one of the two; each item of a list is [[{given}]], with two brackets"
             ),
-            false => "keep one of the two".to_owned(),
+            (false, Some(first)) if is_item => {
+                format!(
+                    "line {} has [{given}]: write [[{given}]] there, with two brackets",
+                    first + 1
+                )
+            }
+            (false, _) => "keep one of the two".to_owned(),
         };
         return Some((format!("the key `{given}` is defined twice"), help));
     }

@@ -64,8 +64,7 @@ impl Reader<'_> {
             || table.branches.is_some()
             || !table.dimensions.is_empty();
         let (Some(given), Some(expected), false) = (&table.given, &table.expected, foreign) else {
-            let known = ["forward_kinematics", "inverse_kinematics", "jacobian"];
-            if let (true, Some(near)) = (foreign, nearest(function.get_ref(), known.into_iter())) {
+            if let (true, Some(near)) = (foreign, near_built_in(function.get_ref())) {
                 let problem = FunctionProblem::NearName {
                     name: function.get_ref().clone(),
                     near: near.to_owned(),
@@ -78,6 +77,7 @@ impl Reader<'_> {
         };
         let expected = match expected {
             ExpectedTable::One(number) => vec![(String::new(), Dimension::Number(*number))],
+            ExpectedTable::Whole(list) => vec![(String::new(), Dimension::List(list.clone()))],
             ExpectedTable::Entries(entries) => entries
                 .iter()
                 .map(|(k, v)| (k.clone(), v.clone()))
@@ -100,11 +100,32 @@ impl Reader<'_> {
     }
 }
 
-/// The names of what a case gives and expects.
+/// The built-in function that is meant by this name, if it is near to one or another word for it.
+fn near_built_in(name: &str) -> Option<&'static str> {
+    let known = ["forward_kinematics", "inverse_kinematics", "jacobian"];
+    match name {
+        "fk" | "fkine" | "forward" => Some(known[0]),
+        "ik" | "ikine" | "inverse" => Some(known[1]),
+        "jac" | "jacob" | "geometric_jacobian" => Some(known[2]),
+        name => nearest(name, known.into_iter()),
+    }
+}
+
+/// Stands for the name of an answer that is a list: no entry can be called so.
+const LIST: &str = "[]";
+
+fn named((name, value): &(String, Dimension)) -> &str {
+    match value {
+        Dimension::List(_) if name.is_empty() => LIST,
+        _ => name,
+    }
+}
+
+/// The names of what a case gives and expects; of an answer without names, what it is.
 fn shape(case: &Case) -> [Vec<&str>; 2] {
     match &case.given {
         Given::Values { given, expected } => {
-            [given, expected].map(|entries| entries.iter().map(|(name, _)| name.as_str()).collect())
+            [given, expected].map(|entries| entries.iter().map(named).collect())
         }
         _ => [Vec::new(), Vec::new()],
     }
@@ -128,6 +149,7 @@ fn difference(verb: &str, of_case: &[&str], of_first: &[&str]) -> Option<String>
         let only: Vec<String> = only
             .map(|name| match *name {
                 "" => "one number".to_owned(),
+                LIST => "a list".to_owned(),
                 name => format!("`{name}`"),
             })
             .collect();

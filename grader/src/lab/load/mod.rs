@@ -46,7 +46,10 @@ problems! {
             format!("write `name = \"{folder}\"`, or rename the folder");
         UnknownRobot { path: String, name: String, known: Vec<String> }:
             "lab::unknown_robot", "no robot file `{path}`", "no such robot",
-            near(name, "robots", known);
+            match name.strip_suffix(".toml") {
+                Some(name) if known.iter().any(|known| known == name) => format!("leave out `.toml`: write `robot = \"{name}\"`"),
+                _ => near(name, "robots", known),
+            };
         UnknownFrame { robot: String, frame: String, known: Vec<String> }:
             "lab::unknown_frame", "robot `{robot}` has no frame `{frame}`", "not a frame of this robot",
             near(frame, "frames", known);
