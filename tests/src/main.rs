@@ -55,6 +55,7 @@ mod module_reports;
 mod module_sources;
 mod moments;
 mod named_submissions;
+mod new_lab;
 mod own_lab;
 mod pack;
 mod path_checks;

@@ -10,7 +10,7 @@ use kinemark_course::staffed_lab::engine_id;
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
     course_page, course_regrade, course_release, course_status, doctor, grade, hint, lab_check,
-    lab_draws, lab_fill, lab_list, lab_pack, lab_variant, log_export, new, robot_convert,
+    lab_draws, lab_fill, lab_list, lab_new, lab_pack, lab_variant, log_export, new, robot_convert,
     robot_eval, robot_response, robot_show, scene_check, submit, verify, view, watch,
 };
 use crate::failure::Failure;
@@ -61,7 +61,7 @@ pub(crate) enum Command {
     /// Read the log of a run
     #[command(subcommand)]
     Log(LogCommand),
-    /// Check a lab, list what is hidden in it, generate a student's variant of it, or pack it to hand out: for course staff
+    /// Start a lab, check it, list what is hidden in it, generate a student's variant of it, or pack it to hand out: for course staff
     #[command(subcommand)]
     Lab(LabCommand),
     /// Grade a class: from what the LMS exported to what it takes back: for course staff
@@ -98,6 +98,7 @@ pub(crate) enum LogCommand {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum LabCommand {
+    New(lab_new::Args),
     Check(lab_check::Args),
     Draws(lab_draws::Args),
     Fill(lab_fill::Args),
@@ -138,6 +139,7 @@ impl CommandLine {
             Command::Robot(RobotCommand::Response(args)) => robot_response::run(&args),
             Command::Scene(SceneCommand::Check(args)) => scene_check::run(&args),
             Command::Log(LogCommand::Export(args)) => log_export::run(&args),
+            Command::Lab(LabCommand::New(args)) => lab_new::run(&args),
             Command::Lab(LabCommand::Check(args)) => lab_check::run(&args),
             Command::Lab(LabCommand::Draws(args)) => lab_draws::run(&args),
             Command::Lab(LabCommand::Fill(args)) => lab_fill::run(&args),

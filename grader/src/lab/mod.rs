@@ -1,5 +1,5 @@
 //! Labs: the TOML types ([`mod@file`]), what they become ([`Lab`]), the way from one to the other ([`load`]), and the cases that
-//! hidden draws add ([`draw`]). A student's numbers ([`variant`]) make a lab like any other: nothing downstream knows.
+//! hidden draws add ([`draw`]). What somebody begins a lab with is [`new_lab`]. A student's numbers ([`variant`]) make a lab like any other: nothing downstream knows.
 
 pub mod brief;
 pub mod copies;
@@ -8,6 +8,7 @@ pub mod file;
 mod hints;
 pub mod load;
 mod model;
+pub mod new_lab;
 mod parameters;
 pub mod practice;
 pub mod staff;

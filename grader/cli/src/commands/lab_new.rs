@@ -1,0 +1,214 @@
+//! `kinemark lab new`: a folder with the files of a lab that somebody begins to write.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use kinemark_grader::lab::new_lab::{NewLab, NewTask, NewTaskKind, Unfit};
+use kinemark_grader::task::files::Files;
+use kinemark_grader::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
+use kinemark_sim::text::suggest;
+use serde::Serialize;
+
+use crate::failure::{Failure, note_in_words};
+use crate::fresh_folder::FreshFolder;
+use crate::labs_folder::{self, LabsFolderArgs};
+use crate::output;
+
+/// Start a new lab: files with numbers that fit its robot, and a TODO wherever you have to decide
+#[derive(Debug, Clone, clap::Args)]
+#[command(
+    after_help = "Examples:\n  kinemark lab new 10-first --robot rrbot --task fk --task motion:turn\n  \
+    kinemark lab new 11-arm --robot uarm --task ik:where --task velocity --task function:gear-ratio\n\n\
+    Kinds of tasks: fk, ik, jacobian, function, motion (joint positions), velocity (joint velocities). A name follows after a colon.\n\
+    Writes labs/NAME for students and reference/NAME for course staff. Without a folder `labs` here or above it makes one, with the \
+    robot in it. Then `kinemark watch NAME reference/NAME/solution.rhai` follows what you write, and `kinemark lab check NAME` \
+    lists what is missing.\n\
+    Exit codes: 0 done, 2 usage, 3 the robot is broken, 4 a file cannot be written."
+)]
+pub(crate) struct Args {
+    /// Name of the lab, which is that of its folder: lower-case letters, digits and `-`, such as 10-first
+    pub(crate) name: String,
+    /// The robot: a name in labs/robots, or a URDF there with its ending
+    #[arg(long, default_value = "rrbot")]
+    pub(crate) robot: String,
+    /// A task, in the order in which they are graded: KIND or KIND:NAME
+    #[arg(long = "task", value_name = "KIND[:NAME]", required = true)]
+    pub(crate) tasks: Vec<String>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Folder of the course staff's part [default: `reference` beside the labs folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) reference: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) labs_folder: LabsFolderArgs,
+}
+
+#[derive(Serialize)]
+struct Written<'a> {
+    lab: &'a str,
+    written: Vec<PathBuf>,
+}
+
+/// Writes the folders.
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let name = plain_name("lab", &args.name)?;
+    let tasks = tasks(&args.tasks)?;
+    let (files, found) = labs_folder::open(&args.labs_folder)?;
+    let labs = found.clone().unwrap_or_else(|| PathBuf::from("labs"));
+    let beside = labs.parent().unwrap_or(Path::new("")).join("reference");
+    let reference = args.reference.clone().unwrap_or(beside);
+    let robot = robot(files.as_ref(), &args.robot)?;
+    let salt = salt()?;
+    let new = NewLab {
+        name,
+        robot_name: &args.robot,
+        robot: &robot,
+        tasks: &tasks,
+        salt: &salt,
+    };
+    let content = new.files().map_err(|error| {
+        let help = match error {
+            Unfit::CannotMove { .. } => {
+                "give its links an `inertia`, or choose another robot, such as --robot rrbot"
+            }
+            Unfit::Loops { .. } => {
+                "choose another robot, or begin with --task function and add the rest by docs/lab-format.md"
+            }
+        };
+        Failure::usage(error.to_string(), help)
+    })?;
+    let folders = [
+        (labs.join(name), content.lab),
+        (reference.join(name), content.reference),
+    ];
+    for (folder, _) in &folders {
+        if folder.symlink_metadata().is_ok() {
+            return Err(Failure::usage(
+                format!("`{}` already exists", folder.display()),
+                "choose another name: a lab that was begun is never replaced",
+            ));
+        }
+    }
+    let mut written = Vec::new();
+    if found.is_none() {
+        written.extend(copy_robot(files.as_ref(), &args.robot)?);
+        note_in_words("there is no folder `labs` here or above: it is made, with this robot in it");
+    }
+    for (folder, files) in &folders {
+        let whole = || -> std::io::Result<()> {
+            let fresh = FreshFolder::beside(folder)?;
+            for (name, text) in files {
+                fresh.write(name, text.as_bytes())?;
+            }
+            fresh.put_in_place(&[])
+        };
+        whole().map_err(|error| {
+            output::unwritten(
+                folder,
+                &error,
+                "choose another folder with --labs and --reference",
+            )
+        })?;
+        written.extend(files.iter().map(|(name, _)| folder.join(name)));
+    }
+    if args.json {
+        let lab = name;
+        output::print_json(&Written { lab, written })?;
+    } else {
+        let lines: String = written
+            .iter()
+            .map(|path| format!("wrote {}\n", output::path(path)))
+            .collect();
+        let solution = reference.join(name).join("solution.rhai");
+        output::print(&format!(
+            "{lines}\nnext: write the solution, and follow it with\n  kinemark watch {name} {}\nthen see what is missing with\n  kinemark lab check {name}\n",
+            output::path(&solution)
+        ))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A name that files and links can have.
+fn plain_name<'n>(what: &str, name: &'n str) -> Result<&'n str, Failure> {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if !name.is_empty() && name.len() <= 60 && !name.starts_with('-') && name.chars().all(plain) {
+        return Ok(name);
+    }
+    Err(Failure::usage(
+        format!("`{name}` cannot be the name of a {what}"),
+        "use lower-case letters, digits and `-`, 60 at most, such as 10-first",
+    ))
+}
+
+/// The tasks as typed.
+fn tasks(typed: &[String]) -> Result<Vec<NewTask>, Failure> {
+    let mut tasks: Vec<NewTask> = Vec::new();
+    for text in typed {
+        let (word, name) = match text.split_once(':') {
+            Some((word, name)) => (word, Some(name)),
+            None => (text.as_str(), None),
+        };
+        let found = NewTaskKind::ALL.iter().find(|(known, _)| *known == word);
+        let Some((known, kind)) = found else {
+            let words = NewTaskKind::ALL.iter().map(|(known, _)| *known);
+            return Err(Failure::usage(
+                format!("no kind of task is called `{word}`"),
+                &suggest(word, "kinds", words),
+            ));
+        };
+        let name = plain_name("task", name.unwrap_or(known))?.to_owned();
+        if *kind == NewTaskKind::Function && !name.starts_with(|c: char| c.is_ascii_lowercase()) {
+            return Err(Failure::usage(
+                format!("a function cannot be called `{name}`"),
+                "begin its name with a letter, such as --task function:gear-ratio",
+            ));
+        }
+        if tasks.iter().any(|task| task.name == name) {
+            return Err(Failure::usage(
+                format!("two tasks are called `{name}`"),
+                &format!("name each, such as --task {word}:{name}-2"),
+            ));
+        }
+        tasks.push(NewTask { kind: *kind, name });
+    }
+    Ok(tasks)
+}
+
+fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Robot, Failure> {
+    let Some(found) = LabRobot::load(files, name, &RobotOptions::default())? else {
+        let known = robot_names(files);
+        return Err(Failure::usage(
+            format!("there is no robot file `{}`", robot_path(name)),
+            &suggest(name, "robots", known.iter().map(String::as_str)),
+        ));
+    };
+    found
+        .file
+        .build(&[])
+        .map_err(|error| Failure::broken(error.to_string(), "correct the robot"))
+}
+
+/// Copies a robot that is built in, so that the new lab has it.
+fn copy_robot(files: &dyn Files, name: &str) -> Result<Option<PathBuf>, Failure> {
+    let path = robot_path(name);
+    let Ok(Some(bytes)) = files.bytes(&path) else {
+        return Ok(None);
+    };
+    let out = Path::new("labs").join(&path);
+    if let Some(folder) = out.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| {
+            output::unwritten(folder, &error, "go to a folder that you may write to")
+        })?;
+    }
+    output::write_file(&out, &bytes, "go to a folder that you may write to")?;
+    Ok(Some(out))
+}
+
+/// A salt that nobody can guess.
+fn salt() -> Result<String, Failure> {
+    let mut bytes = [0_u8; 16];
+    getrandom::fill(&mut bytes)
+        .map_err(|error| Failure::fault(format!("no random numbers: {error}"), "try again"))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}

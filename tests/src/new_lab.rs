@@ -1,0 +1,170 @@
+//! `kinemark lab new`: what it writes loads, and `lab check` finds nothing in it but what its TODOs say.
+
+use serde_json::Value as Json;
+
+use crate::testbed::TestBed;
+
+const TASKS: [&str; 8] = [
+    "--task",
+    "fk",
+    "--task",
+    "ik",
+    "--task",
+    "motion:pick",
+    "--task",
+    "velocity",
+];
+
+/// The rows of `lab check` with a problem.
+fn problems(bed: &TestBed, lab: &str) -> Vec<(String, String, String)> {
+    let ran = bed.run(&["lab", "check", lab, "--json"]);
+    assert!(matches!(ran.code, Some(0 | 1)), "{ran:?}");
+    let audit: Json = serde_json::from_str(&ran.stdout).expect("JSON");
+    let rows = audit["rows"].as_array().expect("rows").iter();
+    let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
+    let bad = rows.filter(|row| !row["problem"].is_null());
+    bad.map(|row| {
+        (
+            text(&row["tried"]),
+            text(&row["name"]),
+            text(&row["problem"]),
+        )
+    })
+    .collect()
+}
+
+/// Forward and inverse kinematics of the course's arm.
+const KINEMATICS: &str = "
+fn forward_kinematics(robot, q) {
+    let l = robot.link_lengths;
+    [robot.base_height + l[0] * cos(q[0]) + l[1] * cos(q[0] + q[1]),
+     l[0] * sin(q[0]) + l[1] * sin(q[0] + q[1]), 2 * robot.link_offset]
+}
+fn inverse_kinematics(robot, position) {
+    let l = robot.link_lengths;
+    let u = position[0] - robot.base_height;
+    let v = position[1];
+    let c = (u * u + v * v - l[0] * l[0] - l[1] * l[1]) / (2 * l[0] * l[1]);
+    if abs(c) > 1 { return []; }
+    let branches = [];
+    for q2 in [acos(c), -acos(c)] {
+        branches.push([atan2(v, u) - atan2(l[1] * sin(q2), l[0] + l[1] * cos(q2)), q2]);
+    }
+    branches
+}
+";
+
+#[test]
+fn a_new_lab_has_no_problem_but_its_todos_and_none_of_those_once_they_are_done() {
+    let bed = TestBed::new();
+    let ran = bed.run(&[&["lab", "new", "10-first"], &TASKS[..]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(
+        ran.stdout.contains("kinemark lab check 10-first"),
+        "{ran:?}"
+    );
+    assert!(
+        bed.path("labs/robots/rrbot.toml").is_file(),
+        "the robot is there"
+    );
+
+    // what students begin with runs, and misses
+    let ran = bed.run(&[
+        "grade",
+        "10-first",
+        "labs/10-first/starter.rhai",
+        "--practice",
+    ]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+
+    let solution =
+        std::fs::read_to_string(bed.path("reference/10-first/solution.rhai")).expect("a solution");
+    // before the functions are written, the solution stops in them
+    let found = problems(&bed, "10-first");
+    let (tried, _, problem) = found
+        .iter()
+        .find(|row| row.0 == "reference")
+        .expect("the solution stops");
+    assert!(problem.contains("TODO"), "{tried}: {problem}");
+
+    let control = solution.split_once("fn control").expect("a controller").1;
+    bed.write(
+        "reference/10-first/solution.rhai",
+        format!("{KINEMATICS}fn control{control}"),
+    );
+    let found = problems(&bed, "10-first");
+    let kinds: Vec<(&str, &str)> = found
+        .iter()
+        .map(|row| (row.0.as_str(), row.1.as_str()))
+        .collect();
+    assert_eq!(kinds, [("mutants", "")], "{found:#?}");
+
+    // it is never replaced
+    let ran = bed.run(&["lab", "new", "10-first", "--task", "fk"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("already exists"), "{ran:?}");
+}
+
+#[test]
+fn a_lab_can_be_begun_with_every_robot_of_the_course() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    for (robot, tasks) in [
+        ("puma560", &["fk", "ik", "jacobian"][..]),
+        ("rppr", &["fk", "motion"]),
+        ("rppr_gripper", &["fk", "velocity"]),
+        ("uarm", &["function:gear-ratio"]),
+    ] {
+        let name = format!("11-{}", robot.replace('_', "-"));
+        let mut args = vec!["lab", "new", &name, "--robot", robot];
+        args.extend(tasks.iter().flat_map(|task| ["--task", task]));
+        let ran = bed.run(&args);
+        assert_eq!(ran.code, Some(0), "{robot}: {ran:?}");
+        let ran = bed.run(&[
+            "grade",
+            &name,
+            &format!("labs/{name}/starter.rhai"),
+            "--practice",
+        ]);
+        assert_eq!(ran.code, Some(1), "{robot}: {ran:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_begun_is_refused_and_nothing_is_written() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    for (args, words) in [
+        (
+            &["lab", "new", "My Lab", "--task", "fk"][..],
+            "lower-case letters",
+        ),
+        (
+            &["lab", "new", "12-x", "--task", "fks"],
+            "did you mean `fk`?",
+        ),
+        (
+            &["lab", "new", "12-x", "--task", "fk", "--task", "fk"],
+            "--task fk:fk-2",
+        ),
+        (
+            &["lab", "new", "12-x", "--task", "function:2nd"],
+            "begin its name with a letter",
+        ),
+        (
+            &["lab", "new", "12-x", "--robot", "rrbott", "--task", "fk"],
+            "did you mean `rrbot`?",
+        ),
+        (
+            &["lab", "new", "12-x", "--robot", "uarm", "--task", "fk"],
+            "closed loops",
+        ),
+        (&["lab", "new", "12-x"], "--task"),
+    ] {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(2), "{args:?}: {ran:?}");
+        let shown = ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(shown.contains(words), "{args:?}: {shown}");
+    }
+    assert!(!bed.path("labs/12-x").exists() && !bed.path("reference/12-x").exists());
+}
