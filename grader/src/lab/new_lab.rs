@@ -12,6 +12,7 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::number::{list, trimmed};
 use nalgebra::Vector3;
 
+use crate::attempt::branches::count_distinct;
 use crate::task::tcp::tcp_in;
 
 /// Angular frequency of the closed loops that gains are chosen for \[rad/s\].
@@ -207,7 +208,11 @@ impl NewLab<'_> {
         let branches = self.in_world(&Vector3::from(place)).and_then(|p_in_world| {
             let mut finder = BranchFinder::new(self.robot, home).ok()?;
             match finder.reach(&p_in_world).ok()? {
-                Reach::In(found) => Some(found.len()),
+                Reach::In(found) => match count_distinct(self.robot, &found) {
+                    // nobody can list a continuum: one answer will do
+                    count if count >= CONTINUUM => Some(1),
+                    count => Some(count),
+                },
                 Reach::Not { .. } => Some(0),
             }
         });

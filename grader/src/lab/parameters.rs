@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use kinemark_sim::text::expression::{ExpressionProblem, MARK};
 use kinemark_sim::text::{
-    Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, TomlRefusal,
+    Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, TomlRefusal, nearest,
     read_with_marked_numbers,
 };
 use serde::Deserialize;
@@ -120,6 +120,16 @@ pub(super) fn tables_with<T: DeserializeOwned>(
             )
         }
         MarkedNumbersProblem::Refused(refusal) => refusal_at(source, refusal),
+        // what a misspelt table defines is missed first
+        MarkedNumbersProblem::Expression(_) if let Some(at) = misspelt(source) => {
+            let typed = &source.text()[at.clone()];
+            let refusal = TomlRefusal {
+                message: format!("unknown key `{typed}`"),
+                help: Some("did you mean `parameters`?".to_owned()),
+                at,
+            };
+            refusal_at(source, refusal)
+        }
         MarkedNumbersProblem::Expression(ExpressionProblem { message, help, at }) => {
             let problem = ReadersProblem {
                 code: "lab::expression",
@@ -130,6 +140,19 @@ pub(super) fn tables_with<T: DeserializeOwned>(
             LabError::new(Box::new(problem), source, at)
         }
     })
+}
+
+/// Where the table of parameters stands, if its name is misspelt.
+fn misspelt(source: &Source) -> Option<std::ops::Range<usize>> {
+    const TABLE: &str = "parameters";
+    let table = DeTable::parse(source.text()).ok()?;
+    let table = table.get_ref();
+    if table.contains_key(TABLE) {
+        return None;
+    }
+    let mut keys = table.keys();
+    let near = keys.find(|key| nearest(key.get_ref(), [TABLE].into_iter()).is_some())?;
+    Some(near.span())
 }
 
 /// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.

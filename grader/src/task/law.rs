@@ -23,10 +23,14 @@ pub(crate) struct LawOf {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SineTable {
+    /// Greatest distance from the offset \[rad, or m of a prismatic joint\].
     amplitude: f64,
+    /// Angular frequency `ω` \[rad/s\].
     angular_frequency_rad_s: f64,
+    /// Phase at time zero \[rad\]; 0 where it is left out.
     #[serde(default)]
     phase_rad: f64,
+    /// Position about which it swings; 0 where it is left out.
     #[serde(default)]
     offset: f64,
 }
@@ -34,10 +38,15 @@ pub(crate) struct SineTable {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TrapezoidTable {
+    /// Where it starts.
     from: f64,
+    /// Where it ends.
     to: f64,
+    /// Greatest speed \[rad/s, or m/s of a prismatic joint\].
     speed: f64,
+    /// Acceleration and deceleration \[rad/s², or m/s² of a prismatic joint\].
     acceleration: f64,
+    /// When it starts \[s\]; 0 where it is left out.
     #[serde(default)]
     start_s: f64,
 }
@@ -45,8 +54,11 @@ pub(crate) struct TrapezoidTable {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimesTable {
+    /// Times \[s\], each after the one before.
     times_s: Vec<f64>,
+    /// Positions at these times.
     positions: Vec<f64>,
+    /// `rest`: it starts and ends at rest; `natural`: without acceleration; `rest` where it is left out.
     #[serde(default)]
     ends: EndsTable,
 }

@@ -276,8 +276,10 @@ fn text(audit: &Audit) -> String {
         audit.lab.bold(),
         points(audit.max_points)
     );
-    for row in &audit.rows {
-        push(&mut out, row);
+    for (i, row) in audit.rows.iter().enumerate() {
+        let is_same = |known: &&Row| known.tried == row.tried && known.problem == row.problem;
+        let is_known = row.problem.is_some() && audit.rows[..i].iter().any(|known| is_same(&known));
+        push(&mut out, row, is_known);
     }
     if !audit.rooms.is_empty() {
         let _ = writeln!(
@@ -335,7 +337,8 @@ fn push_relative(out: &mut String, audit: &Audit) {
     }
 }
 
-fn push(out: &mut String, row: &Row) {
+/// `is_known`: a row before has the same problem, which is not said again.
+fn push(out: &mut String, row: &Row, is_known: bool) {
     let mark = if row.problem.is_some() {
         "-".red().to_string()
     } else {
@@ -356,13 +359,20 @@ fn push(out: &mut String, row: &Row) {
         Tried::Mutant => "loses and is named",
         Tried::Rubric => Audit::rule_in_words(&row.name),
     };
-    let comment = if row.problem.is_some() { "" } else { right };
+    let comment = match row.problem {
+        None => right,
+        Some(_) if is_known => "as above",
+        Some(_) => "",
+    };
     let line = format!(
         "{mark} {:<14} {:<26} {task:<12} {earned:>9}  {comment}",
         row.tried.name(),
         row.name
     );
     let _ = writeln!(out, "{}", line.trim_end());
+    if is_known {
+        return;
+    }
     if let Some(problem) = &row.problem {
         let _ = writeln!(out, "    {problem}");
     }
