@@ -17,8 +17,8 @@ use crate::output;
 /// Start a new lab: files with numbers that fit its robot, and a TODO wherever you have to decide
 #[derive(Debug, Clone, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark lab new 10-first --robot rrbot --task fk --task motion:turn\n  \
-    kinemark lab new 11-arm --robot uarm --task ik:where --task velocity --task function:gear-ratio\n\n\
+    after_help = "Examples:\n  kinemark lab new first-lab --robot rrbot --task fk --task motion:turn\n  \
+    kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n\n\
     Kinds of tasks: fk, ik, jacobian, function, motion (joint positions), velocity (joint velocities). A name follows after a colon.\n\
     Writes labs/NAME for students and reference/NAME for course staff. Without a folder `labs` here or above it makes one, with the \
     robot in it. Then `kinemark watch NAME reference/NAME/solution.rhai` follows what you write, and `kinemark lab check NAME` \
