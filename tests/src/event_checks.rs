@@ -117,6 +117,16 @@ const GOOD: &str =
     "if t < 1.3 { 0.75 + 0.25 * max(t - 0.3, 0.0) } else { max(1.0 - 0.3 * (t - 1.3), 0.75) }";
 
 #[test]
+fn the_same_thing_twice_has_to_happen_twice() {
+    let twice = "{ event = \"moved\", body = \"can\" }, { event = \"moved\", body = \"can\" }, ";
+    let lab = own_lab().with("lab.toml", "{ event = \"moved\", body = \"can\" }, ", twice);
+    let task = lab.graded(&tip(GOOD), 1);
+    // it is touched and moves once, and the second time is missing
+    let steps = check(&task, "steps");
+    assert_eq!(steps["measure"]["value"], 0.5, "{steps}");
+}
+
+#[test]
 fn an_arm_that_stays_earns_what_needs_no_motion() {
     let task = own_lab().graded(&tip("0.75"), 1);
     assert_eq!(

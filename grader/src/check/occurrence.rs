@@ -81,7 +81,7 @@ pub(super) enum Becomes {
 }
 
 /// Something that may happen, as read.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Occurrence {
     /// An event of this name; of this joint or body, or of any.
     Event {

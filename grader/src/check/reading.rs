@@ -91,7 +91,7 @@ impl<T> Deref for Reading<'_, T> {
 }
 
 /// A number that sensors read.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Channel {
     /// The sensor's name, with that of the part if one is named.
     pub(super) name: String,

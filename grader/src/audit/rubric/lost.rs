@@ -34,8 +34,8 @@ fn check_of<'g>(grade: &'g Grade, task: &str, check: &str) -> Option<&'g CheckGr
 
 /// Checks in which neither the starter, nor a submission of zeros, nor any mutant loses a point.
 pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    // without mutants nobody has tried to lose
-    if rubric.mutants.is_empty() {
+    // then nobody has tried to lose
+    if rubric.starter.is_none() && rubric.zeros.is_none() && rubric.mutants.is_empty() {
         return;
     }
     let losses = rubric.losses();

@@ -82,14 +82,6 @@ fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
     })
 }
 
-/// A place of the lab's frame in the world.
-fn in_world(lab: &Lab, start_q: &[f64], p_in_lab: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let q = lab.robot.positions(start_q).ok()?;
-    let poses = forward_kinematics(&lab.robot, &q);
-    let world_from_lab = poses.world_from(lab.robot.frame(&lab.frame)?);
-    Some(world_from_lab.transform_point(&(*p_in_lab).into()).coords)
-}
-
 fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt>) {
     let robot = &lab.robot;
     let Ok(mut finder) = BranchFinder::new(robot, &motion.start_q) else {
@@ -110,7 +102,7 @@ fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt
         let of = format!("{}/{name}", task.name);
         let mut least: Option<(f64, Vector3<f64>)> = None;
         for point in points {
-            let Some(p_in_world) = in_world(lab, &motion.start_q, &point) else {
+            let Some(p_in_world) = in_world(lab, robot, &motion.start_q, &point) else {
                 continue;
             };
             let place = list(point.as_slice());
@@ -123,7 +115,7 @@ fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt
                             "{place} is out of reach by {}, within the limits of the joints",
                             metres(residual_m)
                         ),
-                        help: "move it to where the robot can be: `kinemark robot workspace` shows where".to_owned(),
+                        help: "move it to where the robot can be: the operation `workspace` of `kinemark robot eval` says where".to_owned(),
                     });
                     least = None;
                     break;
@@ -235,7 +227,7 @@ fn wrong_count(lab: &Lab, case: &Case) -> Option<String> {
     let robot = robot_of(lab, case);
     let home = robot.home().to_vec();
     let position = Vector3::from(*position_m);
-    let p_in_world = in_world_of(lab, robot, &home, &position)?;
+    let p_in_world = in_world(lab, robot, &home, &position)?;
     let mut finder = BranchFinder::new(robot, &home).ok()?;
     let stated = *branches as usize;
     let place = list(position_m);
@@ -262,12 +254,8 @@ fn wrong_count(lab: &Lab, case: &Case) -> Option<String> {
     }
 }
 
-fn in_world_of(
-    lab: &Lab,
-    robot: &Robot,
-    q: &[f64],
-    p_in_lab: &Vector3<f64>,
-) -> Option<Vector3<f64>> {
+/// A place of the lab's frame in the world.
+fn in_world(lab: &Lab, robot: &Robot, q: &[f64], p_in_lab: &Vector3<f64>) -> Option<Vector3<f64>> {
     let q = robot.positions(q).ok()?;
     let poses = forward_kinematics(robot, &q);
     let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);

@@ -52,11 +52,13 @@ impl MotionCheck for Order {
     fn judge(&self, facts: &MotionFacts<'_>) -> Finding {
         let mut after: Option<usize> = None;
         let mut found = 0;
-        for event in &self.0 {
-            let ticks = event.ticks(facts);
-            let next = ticks
-                .into_iter()
-                .find(|tick| after.is_none_or(|after| *tick >= after));
+        for (i, event) in self.0.iter().enumerate() {
+            // two things may happen at once, but not the same thing twice
+            let is_again = i > 0 && self.0[i - 1] == *event;
+            let follows = |tick: &usize| {
+                after.is_none_or(|after| *tick > after || (*tick == after && !is_again))
+            };
+            let next = event.ticks(facts).into_iter().find(follows);
             let Some(tick) = next else { break };
             after = Some(tick);
             found += 1;
