@@ -1,12 +1,12 @@
 //! What the course staff see of hidden cases and runs is what was graded: counts and scores of the exposed draws make the grade.
 
-use kinemark_grader::attempt::measure::as_slice;
 use kinemark_grader::judge::explain;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::explanation::{ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{HiddenClass, TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::whole_hundredths;
 use kinemark_grader::submission::host::InProcess;
+use kinemark_grader::task::entry::Entry;
 use kinemark_report::explain_text::text;
 use kinemark_report::html::{OVERVIEW_FILE, ViewerCode, explanation};
 use kinemark_report::student_reply::paragraph;
@@ -149,7 +149,7 @@ fn a_paragraph_for_a_student_has_no_hidden_number() {
         let draws = explained.draws();
         let numbers = draws.flat_map(|explained| {
             let numbers = explained.draw.numbers.iter();
-            numbers.flat_map(|(_, value)| as_slice(value)).copied()
+            numbers.flat_map(|(_, value)| Entry::from(value.clone()).numbers())
         });
         let numbers: Vec<f64> = numbers.collect();
         assert!(!numbers.is_empty());

@@ -181,6 +181,7 @@ fn hidden_targets_lie_inside_the_boundary() {
             let Given::Position {
                 position_m: [x, y, _],
                 branches,
+                ..
             } = case.given
             else {
                 panic!("{case:?}");

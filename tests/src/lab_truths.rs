@@ -3,19 +3,19 @@
 
 use kinemark_grader::judge::with_expected;
 use kinemark_grader::lab::TaskWork;
+use kinemark_grader::task::entry::Entry;
 use kinemark_grader::task::model::Given;
 use kinemark_reference::joint_loop::{DerivativeOn, JointPlant, PidGains, PidLoop};
-use kinemark_sim::text::Dimension;
 
 use crate::testbed::{lab, staff};
 
 /// Numbers of a case by name.
-struct Numbers<'c>(&'c [(String, Dimension)]);
+struct Numbers<'c>(&'c [(String, Entry)]);
 
 impl Numbers<'_> {
     fn of(&self, name: &str) -> f64 {
         match self.0.iter().find(|(known, _)| known == name) {
-            Some((_, Dimension::Number(number))) => *number,
+            Some((_, Entry::Number(number))) => *number,
             other => panic!("{name}: {other:?}"),
         }
     }

@@ -67,6 +67,7 @@ mod report;
 mod report_links;
 mod robot_docs;
 mod robot_files;
+mod robot_functions;
 mod robot_response;
 mod run_diagnoses;
 mod scene_check;

@@ -3,32 +3,53 @@
 use std::fmt::Write as _;
 
 use kinemark_grader::lab::{Lab, TaskWork};
-use kinemark_grader::task::model::Function;
+use kinemark_grader::task::model::{Function, FunctionTask};
 
 use crate::language::Language;
 
 /// A function that the lab calls.
-#[derive(Debug, Clone, PartialEq)]
-enum Called {
-    Function(Function),
+#[derive(Debug, Clone)]
+enum Called<'l> {
+    /// One of the three functions that every submission can have.
+    Usual(&'l Function),
+    /// One that is given a map: of the lab's own, of poses, of a quantity.
+    Named(&'l FunctionTask),
     Control,
 }
 
-impl Called {
+impl Called<'_> {
     fn name(&self) -> &str {
         match self {
-            Self::Function(function) => function.name(),
+            Self::Usual(function) => function.name(),
+            Self::Named(task) => task.name(),
             Self::Control => "control",
         }
     }
 }
 
+/// The names of what a function is given, where they are not those of the cases: `, under q, qd and robot.NAME`.
+fn names_of_given(task: &FunctionTask) -> String {
+    let parameters = task.parameters();
+    let (robot, others) = match parameters.split_first() {
+        Some((&"robot", others)) => (
+            ", and what is known of the robot under \"robot.NAME\"",
+            others,
+        ),
+        _ => ("", &parameters[..]),
+    };
+    match others {
+        ["given"] => robot.to_owned(),
+        others => format!(" ({}{robot})", others.join(", ")),
+    }
+}
+
 /// The functions that the tasks of a lab call, each once, and the tasks that call them.
-fn called(lab: &Lab) -> Vec<(Called, Vec<&str>)> {
-    let mut all: Vec<(Called, Vec<&str>)> = Vec::new();
+fn called(lab: &Lab) -> Vec<(Called<'_>, Vec<&str>)> {
+    let mut all: Vec<(Called<'_>, Vec<&str>)> = Vec::new();
     for task in &lab.tasks {
         let one = match &task.work {
-            TaskWork::Function(function, _) => Called::Function(function.function.clone()),
+            TaskWork::Function(task, _) if task.is_usual() => Called::Usual(&task.function),
+            TaskWork::Function(task, _) => Called::Named(task),
             TaskWork::Motion(..) => Called::Control,
         };
         match all.iter_mut().find(|(known, _)| known.name() == one.name()) {
@@ -61,7 +82,7 @@ fn of_tasks(tasks: &[&str]) -> String {
     format!("{word} {}", names.join(", "))
 }
 
-fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
+fn in_c(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
     let build = Language::C.build_line().unwrap_or_default();
     let mut text = format!(
         "/* {}\n *\n * brief.html says what is asked for, kinemark.h what there is to call.\n *\n *     {build}\n *     kinemark grade\n */\n#include \"kinemark.h\"\n",
@@ -71,20 +92,20 @@ fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
         let of = of_tasks(tasks);
         // into a string: nothing can fail
         let _ = match one {
-            Called::Function(Function::ForwardKinematics) => write!(
+            Called::Usual(Function::ForwardKinematics(_)) => write!(
                 text,
                 "\n/* {of}: write x, y and z of the TCP in metres. */\n\
                  void km_forward_kinematics(const km_robot *robot, const double *q, double *position) {{\n    \
                  (void)robot, (void)q;\n    position[0] = 0.0, position[1] = 0.0, position[2] = 0.0;\n}}\n"
             ),
-            Called::Function(Function::InverseKinematics) => write!(
+            Called::Usual(Function::InverseKinematics(_)) => write!(
                 text,
                 "\n/* {of}: write every way to get to position = {{x, y, z}}, one joint position after the other, and return how many ways \
                  there are. */\n\
                  km_u32 km_inverse_kinematics(const km_robot *robot, const double *position, double *branches, km_u32 most) {{\n    \
                  (void)robot, (void)position, (void)branches, (void)most;\n    return 0;\n}}\n"
             ),
-            Called::Function(Function::Jacobian(rows)) => {
+            Called::Usual(Function::Jacobian(rows)) => {
                 let names: Vec<&str> = rows.names().collect();
                 write!(
                     text,
@@ -95,12 +116,21 @@ fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
                     rows = names.len()
                 )
             }
-            Called::Function(Function::Free(name)) => write!(
+            Called::Named(task) => write!(
                 text,
-                "\n/* {of}: km_number(*given, \"NAME\") and km_numbers(*given, \"NAME\") are what is given, \
+                "\n/* {of}: km_number(*given, \"NAME\") and km_numbers(*given, \"NAME\") are what is given{}, \
                  km_answer_number(answer, \"NAME\", x) and\n * km_answer_list write the answer; without a name it is the answer itself. */\n\
-                 KM_EXPORT(km_{name}) void km_{name}(const km_map *given, km_answer *answer) {{\n    (void)given, (void)answer;\n}}\n"
+                 KM_EXPORT(km_{name}) void {own}(const km_map *given, km_answer *answer) {{\n    (void)given, (void)answer;\n}}\n",
+                names_of_given(task),
+                name = task.name(),
+                // kinemark.h declares some of the usual names for what it grants
+                own = match task.function {
+                    Function::Free(_) => format!("km_{}", task.name()),
+                    _ => task.name().to_owned(),
+                }
             ),
+            // every usual function stands above
+            Called::Usual(_) => Ok(()),
             Called::Control => write!(
                 text,
                 "\n/* {of}, called every control period: write one number for each joint. */\n\
@@ -113,21 +143,21 @@ fn in_c(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
 }
 
 /// A function in Rust: what it imports, and its text.
-fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
+fn rust_function(one: &Called<'_>, of: &str) -> (&'static [&'static str], String) {
     match one {
-        Called::Function(Function::ForwardKinematics) => (
+        Called::Usual(Function::ForwardKinematics(_)) => (
             &["Robot"],
             format!(
                 "\n    // {of}: return [x, y, z] of the TCP in metres.\n    fn forward_kinematics(&mut self, robot: &Robot, q: &[f64]) -> [f64; 3] {{\n        [0.0, 0.0, 0.0]\n    }}\n"
             ),
         ),
-        Called::Function(Function::InverseKinematics) => (
+        Called::Usual(Function::InverseKinematics(_)) => (
             &["Robot", "Rows"],
             format!(
                 "\n    // {of}: push the joint positions of every way to get to `position`.\n    fn inverse_kinematics(&mut self, robot: &Robot, position: [f64; 3], branches: &mut Rows) {{}}\n"
             ),
         ),
-        Called::Function(Function::Jacobian(rows)) => {
+        Called::Usual(Function::Jacobian(rows)) => {
             let names: Vec<&str> = rows.names().collect();
             let text = format!(
                 "\n    // {of}: push the rows of the Jacobian ({}), one number a joint in each.\n    fn jacobian(&mut self, robot: &Robot, q: &[f64], rows: &mut Rows) {{\n        \
@@ -137,13 +167,17 @@ fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
             );
             (&["Robot", "Rows"], text)
         }
-        Called::Function(Function::Free(name)) => (
+        Called::Named(task) => (
             &["Answer", "Map"],
             format!(
-                "\n    // {of}: given.number(\"NAME\") and given.numbers(\"NAME\") are what is given, answer.number(\"NAME\", x) and\n    \
-                 // answer.list write the answer; without a name it is the answer itself.\n    fn {name}(&mut self, given: &Map, answer: &mut Answer) {{}}\n"
+                "\n    // {of}: given.number(\"NAME\") and given.numbers(\"NAME\") are what is given{}, answer.number(\"NAME\", x) and\n    \
+                 // answer.list write the answer; without a name it is the answer itself.\n    fn {name}(&mut self, given: &Map, answer: &mut Answer) {{}}\n",
+                names_of_given(task),
+                name = task.name()
             ),
         ),
+        // every usual function stands above
+        Called::Usual(_) => (&[], String::new()),
         Called::Control => (
             &["Observation"],
             format!(
@@ -153,7 +187,7 @@ fn rust_function(one: &Called, of: &str) -> (&'static [&'static str], String) {
     }
 }
 
-fn in_rust(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
+fn in_rust(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
     let build = Language::Rust.build_line().unwrap_or_default();
     let mut imports = vec!["Submission", "export"];
     let (mut exported, mut own) = (Vec::new(), Vec::new());
@@ -161,7 +195,7 @@ fn in_rust(lab: &Lab, called: &[(Called, Vec<&str>)]) -> String {
     for (one, tasks) in called {
         let (imported, text) = rust_function(one, &of_tasks(tasks));
         imports.extend(imported);
-        if matches!(one, Called::Function(Function::Free(_))) {
+        if matches!(one, Called::Named(_)) {
             own.push(one.name());
             of_type += &text;
         } else {

@@ -165,7 +165,7 @@ fn arm_shows(lab: &Lab) -> ArmShows {
     let functions: Vec<&Function> = functions.collect();
     let asks_for = |is: fn(&Function) -> bool| functions.iter().any(|function| is(function));
     ArmShows {
-        branches: asks_for(|function| matches!(function, Function::InverseKinematics)),
+        branches: asks_for(|function| matches!(function, Function::InverseKinematics(_))),
         jacobian: asks_for(|function| matches!(function, Function::Jacobian(_))),
     }
 }

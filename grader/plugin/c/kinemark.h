@@ -377,6 +377,12 @@ KM_HELPER void km_answer_list(km_answer *answer, const char *name, const double 
     for (km_u32 i = 0; i < count; i++) answer->numbers[answer->used++] = numbers[i];
 }
 
+/* Adds a matrix to an answer: its numbers row by row, so many in a row. */
+KM_HELPER void km_answer_matrix(km_answer *answer, const char *name, const double *numbers, km_u32 rows, km_u32 columns) {
+    km_answer_list(answer, name, numbers, rows * columns);
+    answer->fields[answer->count - 1].columns = columns;
+}
+
 /* Adds a number to an answer. */
 KM_HELPER void km_answer_number(km_answer *answer, const char *name, double number) {
     km_answer_list(answer, name, &number, 1);

@@ -4,12 +4,13 @@
 //! or a gripper, can stand anywhere and makes no branch.
 
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::number::trimmed;
+use kinemark_sim::text::number::{list, trimmed};
 
 use crate::submission::answer;
 use crate::task::jacobian::jacobian_in;
 use crate::task::joint_units::JointUnits;
 use crate::task::model::Rows;
+use crate::task::task_joints::TaskJoints;
 use crate::task::value::Value;
 
 /// Longer lists are not accepted as a list of branches.
@@ -25,17 +26,31 @@ const TRIED: usize = 6;
 /// A joint moves the TCP if it does so by more than this \[m/rad or m/m\].
 const LEAST_MOTION: f64 = 1e-9;
 
-/// Branches, of which at most `most` may differ by more than full turns, so that an answer cannot try every combination of signs.
+/// Branches as positions of all joints, of which at most `most` may differ by more than full turns, so that an answer cannot try every combination of signs.
 ///
 /// # Errors
 /// In words: a value of another shape, and too many branches.
 pub(super) fn distinct_branches(
     value: &Value,
     robot: &Robot,
-    most: usize,
+    joints: &TaskJoints,
+    (most, is_turned): (usize, bool),
 ) -> Result<Vec<Vec<f64>>, String> {
-    let branches = answer::branches(value, robot.n(), MOST_LISTED)?;
-    match count_distinct(robot, &branches) {
+    let answered = answer::branches(value, joints.count(), MOST_LISTED)?;
+    let whole = |branch: &Vec<f64>| {
+        joints.positions(robot, branch).ok_or_else(|| {
+            format!(
+                "the branch {}, at which the robot's loops cannot be closed",
+                list(branch)
+            )
+        })
+    };
+    let branches: Vec<Vec<f64>> = answered.iter().map(whole).collect::<Result<_, _>>()?;
+    let count = match is_turned {
+        true => count_different(robot, &branches),
+        false => count_distinct(robot, &branches),
+    };
+    match count {
         distinct if distinct > most => Err(format!(
             "{distinct} different branches where at most {most} exist: return the right ones only"
         )),
@@ -45,11 +60,19 @@ pub(super) fn distinct_branches(
 
 /// The number of branches that differ by more than full turns and rounding, in joints that move the TCP.
 pub fn count_distinct(robot: &Robot, branches: &[Vec<f64>]) -> usize {
-    let moves = joints_that_move_the_tcp(robot);
+    distinct(robot, branches, &joints_that_move_the_tcp(robot))
+}
+
+/// The number of branches that differ by more than full turns and rounding in any joint, for poses that all joints make together.
+pub fn count_different(robot: &Robot, branches: &[Vec<f64>]) -> usize {
+    distinct(robot, branches, &vec![true; robot.n()])
+}
+
+fn distinct(robot: &Robot, branches: &[Vec<f64>], counts: &[bool]) -> usize {
     let mut distinct: Vec<&Vec<f64>> = Vec::new();
     for branch in branches {
         let mut known = distinct.iter();
-        if !known.any(|known| agree(robot, &moves, branch, known)) {
+        if !known.any(|known| agree(robot, counts, branch, known)) {
             distinct.push(branch);
         }
     }

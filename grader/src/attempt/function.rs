@@ -1,7 +1,6 @@
 //! Runs a function task: calls the submission on every case and measures each answer.
 
-use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Dimension;
+use kinemark_sim::model::robot::{Joint, Robot};
 
 use super::answers::{Answered, Answers, CaseFacts};
 use super::measure::measure;
@@ -13,17 +12,20 @@ use crate::submission::controller::{
 };
 use crate::submission::host::Host;
 use crate::submission::rhai::ScriptController;
-use crate::task::model::{Case, Function, Given};
+use crate::task::entry::Entry;
+use crate::task::model::{Case, Function, FunctionTask, Given};
+use crate::task::quantity::STATE;
+use crate::task::task_joints::TaskJoints;
 use crate::task::value::Value;
 use crate::task::workcell::Workcell;
 
 /// After this many calls that used up their budget the submission is not called again: the reason is known, and each costs time.
 const MOST_EXHAUSTED: usize = 3;
 
-/// Calls the submission of `opening` on `cases`.
+/// Calls the submission of `opening` on `cases` of `task`.
 pub fn run<'a>(
     cell: Workcell<'a>,
-    function: &Function,
+    task: &FunctionTask,
     cases: &'a [Case],
     opening: &Opening,
     host: &mut dyn Host,
@@ -42,7 +44,7 @@ pub fn run<'a>(
     for (i, case) in cases.iter().enumerate() {
         let is_visible = case.hidden_class.is_none();
         let robot = case.robot.as_deref().unwrap_or(cell.robot);
-        let reply = calls.reply(i, &call_of(function, robot, case));
+        let reply = calls.reply(i, &call_of(task, robot, case));
         let (value, said) = match reply {
             Reply::Answered(answer) => {
                 // the operations of a loop whose length is a hidden number would reveal it
@@ -61,7 +63,7 @@ pub fn run<'a>(
         // output in a hidden case could reveal its numbers
         let lines = said.log.into_iter().filter(|_| is_visible);
         log.extend(lines.map(|text| LogEntry { at: i as u64, text }));
-        facts.push(measure(cell.frame, function, case, robot, value.as_ref()));
+        facts.push(measure(cell.frame, task, case, robot, value.as_ref()));
     }
     Attempt {
         ended: calls.stop.or_else(|| first_invalid(&facts, &log)),
@@ -88,6 +90,7 @@ fn first_invalid(facts: &[CaseFacts<'_>], log: &[LogEntry]) -> Option<Ended> {
             Some(Ended::because(EndReason::InvalidOutput(what), at))
         }
         Answered::Position(_)
+        | Answered::Pose(_)
         | Answered::Branches(_)
         | Answered::Matrix(_)
         | Answered::Entries(_)
@@ -148,57 +151,98 @@ impl Calls<'_> {
     }
 }
 
-/// The answers of the submission of `opening` to cases of a free function, computed in this process.
+/// The answers of the submission of `opening` to cases of a function of the lab's own, computed in this process.
 ///
 /// # Errors
 /// The first [`Stop`].
-pub fn answers(function: &Function, cases: &[Case], opening: &Opening) -> Result<Vec<Value>, Stop> {
+pub fn answers(
+    cell: Workcell<'_>,
+    task: &FunctionTask,
+    cases: &[Case],
+    opening: &Opening,
+) -> Result<Vec<Value>, Stop> {
     let mut script = ScriptController::open(opening)?;
     let mut answers = Vec::new();
     for case in cases {
-        if let Given::Values { given, .. } = &case.given {
-            answers.push(script.call(&free_call(function, given))?.value);
+        if let Given::Values { .. } = &case.given {
+            let robot = case.robot.as_deref().unwrap_or(cell.robot);
+            answers.push(script.call(&call_of(task, robot, case))?.value);
         }
     }
     Ok(answers)
 }
 
-fn free_call(function: &Function, given: &[(String, Dimension)]) -> Call {
-    Call::Free {
-        function: function.name().to_owned(),
+fn call_of(task: &FunctionTask, robot: &Robot, case: &Case) -> Call {
+    let joints = TaskJoints::of(robot, &task.about.ignored);
+    let of_task =
+        |q: &[f64]| -> Vec<f64> { joints.entries().iter().map(|&entry| q[entry]).collect() };
+    let robot = facts_of(robot, joints.entries(), None);
+    let list = |numbers: &[f64]| Entry::List(numbers.to_vec()).value();
+    let given = match (&case.given, &task.function) {
+        (Given::Q(q), Function::Jacobian(_)) if task.is_usual() => {
+            let q = of_task(q);
+            return Call::Jacobian { robot, q };
+        }
+        (Given::Q(q), _) if task.is_usual() => {
+            let q = of_task(q);
+            return Call::ForwardKinematics { robot, q };
+        }
+        (Given::Position { position_m, .. }, _) if task.is_usual() => {
+            let position_m = *position_m;
+            return Call::InverseKinematics { robot, position_m };
+        }
+        (Given::Values { given, .. }, _) => {
+            let given = given.iter();
+            return Call::Free {
+                function: task.name().to_owned(),
+                robot: task.about.gives_robot.then_some(robot),
+                given: given
+                    .map(|(name, value)| (name.clone(), value.value()))
+                    .collect(),
+            };
+        }
+        (Given::Q(q), _) => vec![("q", list(&of_task(q)))],
+        (Given::Motion(state), _) => {
+            let state = STATE.iter().zip(state);
+            state
+                .map(|((name, _), values)| (*name, list(values)))
+                .collect()
+        }
+        (Given::Position { pose, .. }, Function::InverseKinematics(form)) => {
+            let name = task.parameters().last().copied().unwrap_or("pose");
+            vec![(name, form.value(pose))]
+        }
+        (Given::Position { pose, .. }, _) => vec![("position", list(pose))],
+    };
+    let given = given.into_iter();
+    Call::OfRobot {
+        function: task.name().to_owned(),
+        robot,
         given: given
-            .iter()
-            .map(|(name, value)| (name.clone(), value_of(value)))
+            .map(|(name, value)| (name.to_owned(), value))
             .collect(),
     }
 }
 
-fn call_of(function: &Function, robot: &Robot, case: &Case) -> Call {
-    let robot = robot_facts(robot, None);
-    match &case.given {
-        Given::Q(q) if matches!(function, Function::Jacobian(_)) => Call::Jacobian {
-            robot,
-            q: q.clone(),
-        },
-        Given::Q(q) => Call::ForwardKinematics {
-            robot,
-            q: q.clone(),
-        },
-        Given::Position { position_m, .. } => Call::InverseKinematics {
-            robot,
-            position_m: *position_m,
-        },
-        Given::Values { given, .. } => free_call(function, given),
-    }
+/// The facts about `robot` for a submission, of all its joints; `effort_limits` are those of the task, else those of the robot.
+pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts {
+    let all: Vec<usize> = (0..robot.n()).collect();
+    facts_of(robot, &all, effort_limits)
 }
 
-/// The facts about `robot` for a submission; `effort_limits` are those of the task, else those of the robot.
-pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts {
+/// The facts about `robot` for a submission to `task`: of the joints of the task.
+pub fn facts_of_task(robot: &Robot, task: &FunctionTask) -> RobotFacts {
+    let joints = TaskJoints::of(robot, &task.about.ignored);
+    facts_of(robot, joints.entries(), None)
+}
+
+fn facts_of(robot: &Robot, entries: &[usize], effort_limits: Option<Vec<f64>>) -> RobotFacts {
     let dimensions = robot
         .dimensions()
         .iter()
-        .map(|(name, dimension)| (name.to_owned(), value_of(dimension)));
-    let joints = || robot.moving_joints();
+        .map(|(name, dimension)| (name.to_owned(), Entry::from(dimension.clone()).value()));
+    let all: Vec<&Joint> = robot.moving_joints().collect();
+    let joints = || entries.iter().map(|&entry| all[entry]);
     RobotFacts {
         name: robot.name().to_owned(),
         joint_names: joints().map(|joint| joint.name.clone()).collect(),
@@ -214,14 +258,6 @@ pub fn robot_facts(robot: &Robot, effort_limits: Option<Vec<f64>>) -> RobotFacts
                 .map(|j| j.limits.effort.unwrap_or(f64::INFINITY))
                 .collect()
         }),
-    }
-}
-
-/// A number or a list of numbers as a value for submissions.
-fn value_of(dimension: &Dimension) -> Value {
-    match dimension {
-        Dimension::Number(number) => Value::Number(*number),
-        Dimension::List(list) => Value::List(list.iter().copied().map(Value::Number).collect()),
     }
 }
 

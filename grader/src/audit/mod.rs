@@ -238,7 +238,7 @@ impl Audit {
     pub fn compiled_starter(&mut self, lab: &Lab, file: &str, defines: &dyn Fn(&str) -> bool) {
         let missing = lab.tasks.iter().find_map(|task| {
             let function = match &task.work {
-                TaskWork::Function(function, _) => function.function.name(),
+                TaskWork::Function(function, _) => function.name(),
                 TaskWork::Motion(..) => "control",
             };
             (!defines(function)).then_some((function, &task.name))

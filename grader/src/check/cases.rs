@@ -3,7 +3,7 @@
 use super::finding::Finding;
 use crate::attempt::answers::{Answered, CaseFacts};
 use crate::record::grade::Evidence;
-use crate::task::model::{Band, Function};
+use crate::task::model::{Band, FunctionTask};
 
 /// What is wrong with an answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,7 @@ impl WrongAnswer {
             Answered::Invalid(_) => "invalid",
             Answered::Stopped => "stopped",
             Answered::Branches(branches) if branches.is_empty() => "empty",
-            _ if facts.case.dimensions.is_empty() => "wrong",
+            _ if facts.case.dimensions.is_empty() && facts.case.row.is_none() => "wrong",
             _ => "wrong for another robot",
         };
         Self {
@@ -99,8 +99,8 @@ const SHOWN: usize = 3;
 
 /// The answers to all cases of a task, and the band of a check over them.
 pub(crate) struct Cases<'a> {
-    /// The function of the task.
-    pub(super) function: &'a Function,
+    /// The task.
+    pub(super) task: &'a FunctionTask,
     /// One entry per case, hidden ones too.
     pub(super) cases: &'a [CaseFacts<'a>],
     /// The band of a single case.
@@ -195,7 +195,7 @@ impl Cases<'_> {
     fn of_case(&self, case: &str, message: String, value: Option<f64>) -> Evidence {
         Evidence {
             message,
-            signal: self.function.name().to_owned(),
+            signal: self.task.name().to_owned(),
             case: Some(case.to_owned()),
             value,
             limit: Some(self.band.full),
@@ -235,6 +235,7 @@ pub(super) fn without_answer(facts: &CaseFacts<'_>) -> Option<String> {
         Answered::Invalid(what) => Some(format!("{}: {what}", facts.label())),
         Answered::Stopped => Some(format!("{}: no answer", facts.label())),
         Answered::Position(_)
+        | Answered::Pose(_)
         | Answered::Branches(_)
         | Answered::Matrix(_)
         | Answered::Entries(_) => None,

@@ -10,7 +10,7 @@ use super::facts::MotionFacts;
 use super::finding::Finding;
 use super::kind::robustness::Sweep;
 use crate::attempt::answers::CaseFacts;
-use crate::task::model::{Band, Function};
+use crate::task::model::{Band, FunctionTask};
 
 /// What a lab file says of a check, whatever its kind.
 #[derive(Debug, Clone)]
@@ -119,7 +119,7 @@ pub trait FunctionCheck: Debug + Send + Sync {
     }
 
     /// What it finds in the answers to all cases, hidden ones too.
-    fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding;
+    fn judge(&self, task: &FunctionTask, cases: &[CaseFacts<'_>]) -> Finding;
 
     /// The band by which a single answer is called good or wrong, if this check has one.
     fn answer_band(&self) -> Option<Band>;

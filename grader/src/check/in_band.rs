@@ -20,7 +20,7 @@ use super::finding::Finding;
 use super::reading::Reading;
 use crate::attempt::answers::CaseFacts;
 use crate::record::quantity::with_unit;
-use crate::task::model::{Band, Function};
+use crate::task::model::{Band, FunctionTask};
 use crate::task::problem::{LabError, problems};
 
 /// An end of the band of a run as typed: a number, or an expression over `reference`.
@@ -294,10 +294,10 @@ impl<M: AnswerMeasure> FunctionCheck for InBand<M> {
         Some((self.numbers(), self.unit))
     }
 
-    fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
+    fn judge(&self, task: &FunctionTask, cases: &[CaseFacts<'_>]) -> Finding {
         let (band, unit) = (self.numbers(), self.unit);
         self.measure.judge(&Cases {
-            function,
+            task,
             cases,
             band,
             unit,

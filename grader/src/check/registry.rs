@@ -185,7 +185,7 @@ impl<T: FunctionTable> ReadFunction for Spanned<T> {
 fn task_of(function: Option<&str>) -> String {
     match function {
         Some(name) => format!("a function task of `{name}`"),
-        None => "a function task of the lab's own, with `given` and `expected`".to_owned(),
+        None => "a function task of a quantity such as `torque`, or of the lab's own, with `given` and `expected`".to_owned(),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::lab::TaskWork;
 use crate::lab::{Lab, Task};
 use crate::submission::answer::named_entries;
 use crate::submission::handed_in::Submission;
-use crate::task::model::{Case, Function, FunctionTask, Given};
+use crate::task::model::{Case, Function, Given};
 
 /// `cases` of `task` with their expected entries, in the form of the visible cases.
 ///
@@ -22,30 +22,25 @@ pub fn with_expected(
     solution: &Source,
 ) -> Result<Vec<Case>, String> {
     let mut cases = cases.to_vec();
-    let TaskWork::Function(
-        FunctionTask {
-            function: function @ Function::Free(_),
-            cases: visible,
-            ..
-        },
-        _,
-    ) = &task.work
-    else {
+    let TaskWork::Function(work, _) = &task.work else {
         return Ok(cases);
     };
+    if !matches!(work.function, Function::Free(_)) {
+        return Ok(cases);
+    }
     let Some(Given::Values {
         expected: names, ..
-    }) = visible.first().map(|case| &case.given)
+    }) = work.cases.first().map(|case| &case.given)
     else {
         return Ok(cases);
     };
     let opening = opening(lab, task, &Submission::from(solution));
-    let answers = function::answers(function, &cases, &opening)
+    let answers = function::answers(lab.workcell(), work, &cases, &opening)
         .map_err(|stop| record_of(&stop, solution.text()).message)?;
     for (case, answer) in cases.iter_mut().zip(answers) {
         if let Given::Values { expected, .. } = &mut case.given {
             *expected = named_entries(&answer, names)
-                .map_err(|what| format!("`{}` of the solution returned {what}", function.name()))?;
+                .map_err(|what| format!("`{}` of the solution returned {what}", work.name()))?;
         }
     }
     Ok(cases)

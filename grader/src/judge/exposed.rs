@@ -1,9 +1,10 @@
 //! What is hidden in a lab, exposed for the course staff: a lab of one task whose visible cases, or whose run, are the hidden ones. It
 //! is graded and shown like any other.
 
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::{Dimension, Dimensions};
 
-use super::case_grades::{case_grade, entries, given_in_words};
+use super::case_grades::{case_grade, entries, given_in_words, of_task};
 use super::expected::with_expected;
 use super::opening::opening;
 use crate::attempt::function;
@@ -14,7 +15,9 @@ use crate::record::explanation::HiddenDraw;
 use crate::record::grade::TaskKind;
 use crate::submission::handed_in::Submission;
 use crate::submission::host::InProcess;
-use crate::task::model::{Case, FunctionTask, Given};
+use crate::task::entry::Entry;
+use crate::task::model::{About, Case, FunctionTask, Given};
+use crate::task::quantity::STATE;
 
 /// A lab of one task that shows what is hidden in another lab.
 #[derive(Debug, Clone)]
@@ -80,7 +83,12 @@ fn run(hidden: &HiddenRun, task: &str) -> Option<ExposedLab> {
         class: hidden.class.clone(),
         number: hidden.number,
         numbers: Dimensions::from_pairs(hidden.drawn.iter().cloned()),
-        words: entries(&hidden.drawn),
+        words: entries(
+            hidden
+                .drawn
+                .iter()
+                .map(|(name, value)| (name.as_str(), Entry::from(value.clone()))),
+        ),
         expected: None,
     };
     let task = hidden.lab.tasks.iter().find(|known| known.name == task)?;
@@ -119,8 +127,16 @@ fn cases(
                 kind: TaskKind::Function,
                 class,
                 number,
-                numbers: numbers_of(&case),
-                words: given_in_words(&case),
+                numbers: numbers_of(
+                    &case,
+                    case.robot.as_deref().unwrap_or(&lab.robot),
+                    &work.about,
+                ),
+                words: given_in_words(
+                    &case,
+                    case.robot.as_deref().unwrap_or(&lab.robot),
+                    &work.about,
+                ),
                 expected: None,
             });
             all.push(case);
@@ -153,12 +169,12 @@ fn expected(exposed: &ExposedLab, staff: &Staff) -> Vec<Option<String>> {
     };
     let opening = opening(lab, task, &Submission::from(&staff.solution));
     let cell = lab.workcell();
-    let attempt = function::run(cell, &work.function, &work.cases, &opening, &mut InProcess);
+    let attempt = function::run(cell, work, &work.cases, &opening, &mut InProcess);
     let band = check::answer_band(checks);
     let facts = attempt.recorded.facts.iter();
     facts
         .map(|facts| {
-            let case = case_grade(lab, facts, band);
+            let case = case_grade(lab, work, facts, band);
             let of_solution = case.good.then_some(case.answer);
             case.expected.or(of_solution)
         })
@@ -166,14 +182,29 @@ fn expected(exposed: &ExposedLab, staff: &Staff) -> Vec<Option<String>> {
 }
 
 /// What was drawn for a case, by name.
-fn numbers_of(case: &Case) -> Dimensions {
+fn numbers_of(case: &Case, robot: &Robot, about: &About) -> Dimensions {
+    let list = |name: &str, numbers: &[f64]| (name.to_owned(), Dimension::List(numbers.to_vec()));
     let given = match &case.given {
-        Given::Q(q) => vec![("q".to_owned(), Dimension::List(q.clone()))],
-        Given::Position { position_m, .. } => {
-            let position = Dimension::List(position_m.to_vec());
-            vec![("position_m".to_owned(), position)]
+        Given::Q(q) => vec![list("q", &of_task(q, robot, about))],
+        Given::Motion(state) => {
+            let named = STATE.iter().zip(state);
+            named
+                .map(|((name, _), values)| list(name, values))
+                .collect()
         }
-        Given::Values { given, .. } => given.clone(),
+        Given::Position {
+            position_m, pose, ..
+        } => match pose.as_slice() {
+            position if position == position_m => vec![list("position_m", position_m)],
+            pose => vec![list("pose", pose)],
+        },
+        Given::Values { given, .. } => given
+            .iter()
+            .map(|(name, entry)| match entry {
+                Entry::Number(number) => (name.clone(), Dimension::Number(*number)),
+                entry => list(name, &entry.numbers()),
+            })
+            .collect(),
     };
     Dimensions::from_pairs(given.into_iter().chain(case.dimensions.iter().cloned()))
 }

@@ -21,7 +21,7 @@ use crate::record::verdict::Verdict;
 use crate::submission::controller::Stop;
 use crate::submission::handed_in::Submission;
 use crate::submission::host::{Host, InProcess};
-use crate::task::model::{Band, Case, Function, FunctionTask};
+use crate::task::model::{Band, Case, FunctionTask};
 
 impl Grader<'_> {
     pub(super) fn function(
@@ -34,7 +34,7 @@ impl Grader<'_> {
         let (cases, fault) = self.cases(task, work);
         let opening = self.opening(task, self.submission);
         let cell = self.lab.workcell();
-        let mut attempt = function::run(cell, &work.function, &cases, &opening, host);
+        let mut attempt = function::run(cell, work, &cases, &opening, host);
         if let Some(fault) = fault {
             attempt.ended = Some(Ended::stopped_by(Stop::GraderFault(fault), 0));
         }
@@ -42,7 +42,7 @@ impl Grader<'_> {
         let facts = &attempt.recorded.facts;
         let can_be_judged = verdict.is_decided() && !is_without_function(attempt.ended.as_ref());
         let mut judged = judge(checks, can_be_judged, &[], |check| {
-            check.kind.judge(&work.function, facts)
+            check.kind.judge(work, facts)
         });
         if !all_full(&judged) {
             verdict = verdict.min(Verdict::Missed);
@@ -51,10 +51,10 @@ impl Grader<'_> {
         let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
             Vec::new()
         } else {
-            self.function_diagnoses(task, (&work.function, band), &cases, &attempt)
+            self.function_diagnoses(task, (work, band), &cases, &attempt)
         };
         if diagnoses.is_empty() {
-            self.name_cause(&work.function, facts, band, &mut judged);
+            self.name_cause(work, facts, band, &mut judged);
         }
         // a stop explains the cases that it stopped, and no wrong answer to another one
         let is_wrong = |facts: &CaseFacts<'_>| {
@@ -66,7 +66,7 @@ impl Grader<'_> {
         let scores = TaskScores {
             checks: judged.iter().map(|check| check.score).collect(),
             cases: if self.judges_each_case {
-                single_cases(self.lab, checks, &work.function, facts)
+                single_cases(self.lab, checks, work, facts)
             } else {
                 Vec::new()
             },
@@ -74,7 +74,7 @@ impl Grader<'_> {
         let checks = function_checks(checks, &judged, explained);
         let outcome = (verdict, stopped);
         Ok(GradedTask {
-            grade: self.function_grade((task, band), outcome, checks, diagnoses, attempt),
+            grade: self.function_grade((task, work, band), outcome, checks, diagnoses, attempt),
             run: None,
             scores,
         })
@@ -118,7 +118,7 @@ impl Grader<'_> {
 
     fn function_grade(
         &self,
-        (task, band): (&Task, Band),
+        (task, work, band): (&Task, &FunctionTask, Band),
         (verdict, stopped): (Verdict, Option<Stopped>),
         checks: Vec<CheckGrade>,
         diagnoses: Vec<Diagnosis>,
@@ -143,7 +143,7 @@ impl Grader<'_> {
             checks,
             diagnoses,
             cases: visible
-                .map(|facts| case_grade(self.lab, facts, band))
+                .map(|facts| case_grade(self.lab, work, facts, band))
                 .collect(),
             hidden: hidden_classes(&facts, band),
             events: Vec::new(),
@@ -163,7 +163,7 @@ impl Grader<'_> {
     /// Says what all answers together show at the first check that lost points.
     fn name_cause(
         &self,
-        function: &Function,
+        work: &FunctionTask,
         facts: &[CaseFacts<'_>],
         band: Band,
         judged: &mut [JudgedCheck],
@@ -174,21 +174,21 @@ impl Grader<'_> {
         };
         let cause = cause::of_answers(&self.lab.frame, facts, |facts| is_good(facts, band));
         if let Some(cause) = cause {
-            cause.explains(function, finding);
+            cause.explains(work, finding);
         }
     }
 
     fn function_diagnoses(
         &self,
         task: &Task,
-        (function, band): (&Function, Band),
+        (work, band): (&FunctionTask, Band),
         cases: &[Case],
         student: &Attempt<Answers<'_>>,
     ) -> Vec<Diagnosis> {
         let mutants = self.mutants_of(task).map(|mutant| {
             let opening = self.opening(task, &Submission::from(&mutant.source));
             let cell = self.lab.workcell();
-            let run = function::run(cell, function, cases, &opening, &mut InProcess);
+            let run = function::run(cell, work, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
             (mutant, run.recorded.facts)

@@ -119,7 +119,7 @@ impl Grader<'_> {
     fn unsolved_before(&self, task: &Task, work: &MotionTask) -> Option<&str> {
         let is_needed = |function: &Function| match work.servo.mode {
             Mode::Velocity => matches!(function, Function::Jacobian(_)),
-            Mode::Position => matches!(function, Function::InverseKinematics),
+            Mode::Position => matches!(function, Function::InverseKinematics(_)),
             Mode::Effort | Mode::Prescribed => false,
         };
         let before = self

@@ -6,17 +6,17 @@ use crate::attempt::function;
 use crate::attempt::motion;
 use crate::lab::TaskWork;
 use crate::lab::{Lab, Task};
-use crate::submission::controller::{Granted, Opening};
+use crate::submission::controller::{AskedFunction, Granted, Opening};
 use crate::submission::handed_in::Submission;
 use crate::task::mesh_file::MeshFile;
-use crate::task::model::{Function, FunctionTask};
+use crate::task::model::FunctionTask;
 use crate::task::value::Value;
 
 /// The opening of a submission for `task` of `lab`.
 pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Submission) -> Opening {
     let (robot, target, sensors) = match &task.work {
-        TaskWork::Function(..) => (
-            function::robot_facts(&lab.robot, None),
+        TaskWork::Function(task, _) => (
+            function::facts_of_task(&lab.robot, task),
             Value::Nothing,
             Vec::new(),
         ),
@@ -36,15 +36,18 @@ pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Submission) -> Openin
         budgets: lab.budgets.clone(),
         granted: granted(lab, &task.work),
         function: match &task.work {
-            TaskWork::Function(
-                FunctionTask {
-                    function: Function::Free(name),
-                    ..
-                },
-                _,
-            ) => Some(name.clone()),
-            _ => None,
+            TaskWork::Function(task, _) => (!task.is_usual()).then(|| asked(task)),
+            TaskWork::Motion(..) => None,
         },
+    }
+}
+
+/// The function of a task.
+fn asked(task: &FunctionTask) -> AskedFunction {
+    let parameters = task.parameters().into_iter();
+    AskedFunction {
+        name: task.name().to_owned(),
+        parameters: parameters.map(str::to_owned).collect(),
     }
 }
 

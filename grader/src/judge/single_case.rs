@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::attempt::answers::{Answered, CaseFacts};
 use crate::check::{Check, Finding, FunctionCheck};
 use crate::lab::Lab;
-use crate::task::model::{Function, Given};
+use crate::task::model::{FunctionTask, Given};
 use crate::task::tcp::tcp_in;
 
 /// One case, judged by itself.
@@ -21,12 +21,12 @@ pub(super) struct SingleCase {
 pub(super) fn single_cases(
     lab: &Lab,
     checks: &[Check<dyn FunctionCheck>],
-    function: &Function,
+    task: &FunctionTask,
     facts: &[CaseFacts<'_>],
 ) -> Vec<SingleCase> {
     let cases = facts.iter().map(|facts| {
         let findings = checks.iter().map(|check| {
-            let finding = check.kind.judge(function, std::slice::from_ref(facts));
+            let finding = check.kind.judge(task, std::slice::from_ref(facts));
             // a case that loses points always has its evidence
             let was_judged = !finding.is_lost() || !finding.evidence.is_empty();
             was_judged.then_some(finding)

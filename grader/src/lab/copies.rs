@@ -81,8 +81,11 @@ impl Lab {
     fn copies_with(&self, lab_text: &str, practice: &Practice) -> Copies {
         let mut copies = Copies::default();
         copies.add(self.source.name(), lab_text);
-        let robot = self.robot_file.source();
-        copies.add(robot.name(), robot.text());
+        // a row of joints stands in the lab itself
+        if !self.robot_file.is_row() {
+            let robot = self.robot_file.source();
+            copies.add(robot.name(), robot.text());
+        }
         let form = practice::form(self.variant.as_ref(), practice.clone());
         // a value that JSON has no number for was not read from JSON
         if let Ok(text) = practice::file_text(&[form])

@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use super::parameters::NumbersTable;
 use crate::check::registry::CheckTable;
+use crate::task::entry::Entry;
 use crate::task::law::{LawOf, SineTable, TimesTable, TrapezoidTable};
 
 /// A number as typed, whole or not.
@@ -78,35 +79,59 @@ pub(super) struct TaskTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct FunctionTable {
     pub(super) call: Spanned<String>,
+    pub(super) r#as: Option<Spanned<String>>,
     pub(super) rows: Option<Spanned<Vec<String>>>,
+    pub(super) pose: Option<Spanned<String>>,
+    pub(super) axis: Option<Spanned<[f64; 3]>>,
+    pub(super) frame: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) ignore: Vec<Spanned<String>>,
+    pub(super) within_limits: Option<Spanned<bool>>,
+    pub(super) gravity_m_s2: Option<Spanned<[f64; 3]>>,
+    pub(super) with_robot: Option<Spanned<bool>>,
+    pub(super) turns: Option<Spanned<TurnsTable>>,
+    pub(super) least_size: Option<NumberAt>,
     #[serde(default)]
     pub(super) grants: Vec<Spanned<String>>,
     #[serde(default)]
     pub(super) cases: Vec<Spanned<CaseTable>>,
 }
 
+/// Which entries are angles: the answer itself, or those of these names.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged, expecting = "`turns` is true, or a list of names of entries")]
+pub(super) enum TurnsTable {
+    Whole(bool),
+    Entries(Vec<String>),
+}
+
 /// What a free function is to answer.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(
     untagged,
-    expecting = "`expected` is a number, a list of numbers, or a table of these"
+    expecting = "`expected` is a number, a list of numbers or of rows, or a table of these"
 )]
 pub(super) enum ExpectedTable {
-    One(f64),
-    Whole(Vec<f64>),
-    Entries(BTreeMap<String, kinemark_sim::text::Dimension>),
+    Whole(Entry),
+    Entries(BTreeMap<String, Entry>),
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CaseTable {
     pub(super) name: Spanned<String>,
+    pub(super) robot: Option<Spanned<String>>,
     pub(super) q_rad: Option<Spanned<Vec<f64>>>,
+    pub(super) qd_rad_s: Option<Spanned<Vec<f64>>>,
+    pub(super) qdd_rad_s2: Option<Spanned<Vec<f64>>>,
     pub(super) position_m: Option<[f64; 3]>,
+    pub(super) yaw_deg: Option<NumberAt>,
+    pub(super) axis: Option<Spanned<[f64; 3]>>,
+    pub(super) rpy_deg: Option<Spanned<[f64; 3]>>,
     pub(super) branches: Option<Spanned<u64>>,
     #[serde(default)]
     pub(super) dimensions: BTreeMap<String, kinemark_sim::text::Dimension>,
-    pub(super) given: Option<BTreeMap<String, kinemark_sim::text::Dimension>>,
+    pub(super) given: Option<BTreeMap<String, Entry>>,
     pub(super) expected: Option<ExpectedTable>,
 }
 
@@ -286,7 +311,11 @@ pub(super) struct DrawTable {
     pub(super) task: Spanned<String>,
     pub(super) class: Spanned<String>,
     pub(super) count: Spanned<u32>,
+    #[serde(default)]
+    pub(super) robots: Vec<Spanned<String>>,
     pub(super) q_rad: Option<Spanned<Vec<[f64; 2]>>>,
+    pub(super) qd_rad_s: Option<Spanned<Vec<[f64; 2]>>>,
+    pub(super) qdd_rad_s2: Option<Spanned<Vec<[f64; 2]>>>,
     pub(super) position_m: Option<Spanned<[[f64; 2]; 3]>>,
     pub(super) branches: Option<u32>,
     #[serde(default)]

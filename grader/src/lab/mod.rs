@@ -2,6 +2,7 @@
 //! hidden draws add ([`draw`]). What somebody begins a lab with is [`new_lab`]. A student's numbers ([`variant`]) make a lab like any other: nothing downstream knows.
 
 pub mod brief;
+mod case_robot;
 pub mod copies;
 pub mod draw;
 pub mod file;

@@ -80,7 +80,7 @@ pub struct Task {
 #[derive(Debug, Clone)]
 pub enum TaskWork {
     /// A function called on cases.
-    Function(FunctionTask, Vec<Check<dyn FunctionCheck>>),
+    Function(Box<FunctionTask>, Vec<Check<dyn FunctionCheck>>),
     /// A run under `control`.
     Motion(Box<MotionTask>, Vec<Check<dyn MotionCheck>>),
 }

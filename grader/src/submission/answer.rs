@@ -1,10 +1,11 @@
 //! Parses the return value of a submission: checks its shape and finiteness, or describes the invalid value.
 
-use kinemark_sim::text::Dimension;
-use kinemark_sim::text::number::trimmed;
+use kinemark_sim::text::number::{list, trimmed};
 use nalgebra::Vector3;
 
 use crate::submission::controller::Value;
+use crate::task::entry::Entry;
+use crate::task::pose::PoseForm;
 
 /// How the log says that the result of a built-in is no number: the end of its line.
 pub const NOT_A_NUMBER: &str = "the result is not a number";
@@ -96,13 +97,35 @@ pub fn matrix(value: &Value, rows: usize, columns: usize) -> Result<Vec<Vec<f64>
     }
 }
 
-/// The expected entries of a map, in their order: each is a finite number, or a list with the expected length. A single entry without a
-/// name is the answer itself.
+/// The numbers of a pose in this form, those of a matrix row by row; the last row of a matrix must be that of a pose.
+///
+/// # Errors
+/// A description of the invalid value.
+pub fn pose(value: &Value, form: PoseForm) -> Result<Vec<f64>, String> {
+    if form == PoseForm::Full {
+        let rows = matrix(value, 4, 4)?;
+        let [.., last] = rows.as_slice() else {
+            return Err(instead(value, form.expected()));
+        };
+        if *last != [0.0, 0.0, 0.0, 1.0] {
+            let message = format!("a matrix with the last row {}", list(last));
+            return Err(format!("{message}, expected [0, 0, 0, 1] there"));
+        }
+        return Ok(rows.concat());
+    }
+    match numbers(value) {
+        Some(found) if found.len() == form.numbers() => finite(value, &found).map(|()| found),
+        _ => Err(instead(value, form.expected())),
+    }
+}
+
+/// The expected entries of a map, in their order: each is a finite number, or a list or matrix with the expected shape, its numbers row
+/// by row. A single entry without a name is the answer itself.
 ///
 /// A description of the invalid value, for each entry or for all of them.
-pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Vec<f64>, String>> {
+pub fn entries(value: &Value, expected: &[(String, Entry)]) -> Vec<Result<Vec<f64>, String>> {
     let names = || expected.iter().map(|(name, _)| name.as_str());
-    let entry = |(name, should): &(String, Dimension)| {
+    let entry = |(name, should): &(String, Entry)| {
         let (found, of) = match (value, name.as_str()) {
             (value, "") => (value, String::new()),
             (Value::Map(map), name) => {
@@ -116,16 +139,28 @@ pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Ve
                 return Err(instead(value, &format!("a map of {}", names.join(", "))));
             }
         };
-        let (numbers, wanted) = match (should, found) {
-            (Dimension::Number(_), Value::Number(number)) => (Some(vec![*number]), String::new()),
-            (Dimension::Number(_), _) => (None, "a number".to_owned()),
-            (Dimension::List(list), found) => (
-                numbers(found).filter(|found| found.len() == list.len()),
-                format!("a list of {} numbers", list.len()),
-            ),
+        let numbers = match (should, found) {
+            (Entry::Number(_), Value::Number(number)) => Some(vec![*number]),
+            (Entry::Number(_), _) => None,
+            // one joint has one number, with brackets or without
+            (Entry::List(list), Value::Number(number)) if list.len() == 1 => Some(vec![*number]),
+            (Entry::List(list), found) => numbers(found).filter(|found| found.len() == list.len()),
+            (Entry::Matrix(rows), found) => {
+                let columns = rows.first().map_or(0, Vec::len);
+                let answered = matrix(found, rows.len(), columns);
+                return answered
+                    .map(|rows| rows.concat())
+                    .map_err(|what| match of.as_str() {
+                        "" => what,
+                        of => format!("{what}{of}"),
+                    });
+            }
         };
         match numbers {
-            None => Err(format!("{}{of}, expected {wanted}", describe(found))),
+            None => {
+                let (found, wanted) = (describe(found), should.shape());
+                Err(format!("{found}{of}, expected {wanted}"))
+            }
             Some(numbers) if numbers.iter().all(|number| number.is_finite()) => Ok(numbers),
             Some(_) => Err(format!("{}{of}, expected finite numbers", describe(found))),
         }
@@ -133,14 +168,15 @@ pub fn entries(value: &Value, expected: &[(String, Dimension)]) -> Vec<Result<Ve
     expected.iter().map(entry).collect()
 }
 
-/// The entries of an answer under the names of `like`, numbers where that has numbers and lists where it has lists of any length.
+/// The entries of an answer under the names of `like`: numbers where that has numbers, lists of any length where it has lists, and
+/// matrices of its shape where it has matrices.
 ///
 /// # Errors
 /// A description of the invalid value.
 pub fn named_entries(
     value: &Value,
-    like: &[(String, Dimension)],
-) -> Result<Vec<(String, Dimension)>, String> {
+    like: &[(String, Entry)],
+) -> Result<Vec<(String, Entry)>, String> {
     let length = |name: &str| match value {
         Value::Map(map) => match map.iter().find(|(key, _)| key == name) {
             Some((_, Value::List(items))) => items.len(),
@@ -149,21 +185,18 @@ pub fn named_entries(
         Value::List(items) if name.is_empty() => items.len(),
         _ => 0,
     };
-    let expected: Vec<(String, Dimension)> = like
+    let expected: Vec<(String, Entry)> = like
         .iter()
         .map(|(name, like)| match like {
-            Dimension::Number(_) => (name.clone(), like.clone()),
-            Dimension::List(_) => (name.clone(), Dimension::List(vec![0.0; length(name)])),
+            Entry::List(_) => (name.clone(), Entry::List(vec![0.0; length(name)])),
+            like => (name.clone(), like.clone()),
         })
         .collect();
     let found = entries(value, &expected);
     let found: Vec<Vec<f64>> = found.into_iter().collect::<Result<_, _>>()?;
     let filled = expected.into_iter().zip(found);
     Ok(filled
-        .map(|((name, kind), numbers)| match kind {
-            Dimension::Number(_) => (name, Dimension::Number(numbers[0])),
-            Dimension::List(_) => (name, Dimension::List(numbers)),
-        })
+        .map(|((name, kind), numbers)| (name, kind.with(&numbers)))
         .collect())
 }
 
@@ -266,23 +299,23 @@ fn plain(value: &Value, depth: usize) -> String {
 mod tests {
     use super::*;
 
-    fn list(values: &[f64]) -> Value {
+    fn numbers_of(values: &[f64]) -> Value {
         Value::List(values.iter().copied().map(Value::Number).collect())
     }
 
     #[test]
     fn a_position_is_three_finite_numbers() {
         assert_eq!(
-            position(&list(&[1.0, 2.0, 3.0])),
+            position(&numbers_of(&[1.0, 2.0, 3.0])),
             Ok(Vector3::new(1.0, 2.0, 3.0))
         );
         assert!(
-            position(&list(&[1.0, 2.0]))
+            position(&numbers_of(&[1.0, 2.0]))
                 .unwrap_err()
                 .starts_with("[1, 2], expected")
         );
         assert!(
-            position(&list(&[1.0, f64::NAN, 0.0]))
+            position(&numbers_of(&[1.0, f64::NAN, 0.0]))
                 .unwrap_err()
                 .contains("[1, NaN, 0]")
         );
@@ -291,41 +324,47 @@ mod tests {
 
     #[test]
     fn branches_may_be_bare_many_or_none() {
-        let bare = list(&[1.0, 2.0]);
-        let both = Value::List(vec![list(&[1.0, 2.0]), list(&[3.0, 4.0])]);
+        let bare = numbers_of(&[1.0, 2.0]);
+        let both = Value::List(vec![numbers_of(&[1.0, 2.0]), numbers_of(&[3.0, 4.0])]);
         assert_eq!(branches(&bare, 2, 2), Ok(vec![vec![1.0, 2.0]]));
         assert_eq!(branches(&both, 2, 2).map(|b| b.len()), Ok(2));
-        assert_eq!(branches(&list(&[]), 2, 2), Ok(vec![]));
+        assert_eq!(branches(&numbers_of(&[]), 2, 2), Ok(vec![]));
         assert!(branches(&both, 2, 1).is_err());
-        assert!(branches(&list(&[1.0, 2.0, 3.0]), 2, 2).is_err());
+        assert!(branches(&numbers_of(&[1.0, 2.0, 3.0]), 2, 2).is_err());
         assert!(branches(&Value::Number(1.0), 2, 2).is_err());
     }
 
     #[test]
     fn a_matrix_has_its_rows_and_columns() {
-        let both = Value::List(vec![list(&[1.0, 2.0, 3.0]), list(&[4.0, 5.0, 6.0])]);
+        let both = Value::List(vec![
+            numbers_of(&[1.0, 2.0, 3.0]),
+            numbers_of(&[4.0, 5.0, 6.0]),
+        ]);
         let rows = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
         assert_eq!(matrix(&both, 2, 3), Ok(rows));
         assert_eq!(
             matrix(&both, 3, 2).unwrap_err(),
             "2 x 3 numbers [[1, 2, 3], [4, 5, 6]], expected 3 x 2 numbers (rows x columns)"
         );
-        let uneven = Value::List(vec![list(&[1.0, 2.0]), list(&[4.0])]);
+        let uneven = Value::List(vec![numbers_of(&[1.0, 2.0]), numbers_of(&[4.0])]);
         assert!(
             matrix(&uneven, 2, 2)
                 .unwrap_err()
                 .starts_with("[[1, 2], [4]], expected")
         );
-        assert_eq!(matrix(&list(&[1.0, 2.0]), 1, 2), Ok(vec![vec![1.0, 2.0]]));
-        assert!(matrix(&list(&[1.0, 2.0]), 2, 1).is_err());
+        assert_eq!(
+            matrix(&numbers_of(&[1.0, 2.0]), 1, 2),
+            Ok(vec![vec![1.0, 2.0]])
+        );
+        assert!(matrix(&numbers_of(&[1.0, 2.0]), 2, 1).is_err());
         assert!(matrix(&Value::Nothing, 1, 1).is_err());
-        let nan = Value::List(vec![list(&[1.0, f64::NAN])]);
+        let nan = Value::List(vec![numbers_of(&[1.0, f64::NAN])]);
         assert!(matrix(&nan, 1, 2).unwrap_err().contains("finite"));
     }
 
     #[test]
     fn entries_are_found_by_name_each_for_itself() {
-        let number = |name: &str, x| (name.to_owned(), Dimension::Number(x));
+        let number = |name: &str, x| (name.to_owned(), Entry::Number(x));
         let map = |entries: &[(&str, Value)]| {
             Value::Map(
                 entries
@@ -336,14 +375,14 @@ mod tests {
         };
         let expected = [
             number("a", 1.0),
-            ("b".to_owned(), Dimension::List(vec![1.0, 2.0])),
+            ("b".to_owned(), Entry::List(vec![1.0, 2.0])),
         ];
-        let answer = map(&[("b", list(&[3.0, 4.0])), ("c", Value::Nothing)]);
+        let answer = map(&[("b", numbers_of(&[3.0, 4.0])), ("c", Value::Nothing)]);
         let found = entries(&answer, &expected);
         assert_eq!(found[0], Err("a map of b, c, without `a`".to_owned()));
         assert_eq!(found[1], Ok(vec![3.0, 4.0]));
         let found = entries(
-            &map(&[("a", Value::Number(f64::NAN)), ("b", list(&[1.0]))]),
+            &map(&[("a", Value::Number(f64::NAN)), ("b", numbers_of(&[1.0]))]),
             &expected,
         );
         assert_eq!(
@@ -369,7 +408,7 @@ mod tests {
         assert_eq!(command(&Value::Number(1.5), 1), Ok(vec![1.5]));
         assert!(command(&Value::Number(1.5), 2).is_err());
         assert!(
-            command(&list(&[1.0, f64::INFINITY]), 2)
+            command(&numbers_of(&[1.0, f64::INFINITY]), 2)
                 .unwrap_err()
                 .contains("infinity")
         );

@@ -51,8 +51,17 @@ pub struct Opening {
     pub budgets: Budgets,
     /// The functions of the robot's model that the task grants, if any.
     pub granted: Option<Granted>,
-    /// The lab's own function that is called, if any.
-    pub function: Option<String>,
+    /// The function that is called, if it is not one that every submission can have.
+    pub function: Option<AskedFunction>,
+}
+
+/// A function that the tasks of one lab ask for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AskedFunction {
+    /// Its name.
+    pub name: String,
+    /// Names of its parameters.
+    pub parameters: Vec<String>,
 }
 
 /// The granted functions, and the files of the robot's model; its dimensions are those of [`RobotFacts`].
@@ -115,11 +124,22 @@ pub enum Call {
         /// Joint positions \[rad or m\].
         q: Vec<f64>,
     },
-    /// A function of the lab's own: `function(given)`.
+    /// A function of the robot that is not one of those above, of poses or of a quantity: `velocity(robot, q, qd)` and others.
+    OfRobot {
+        /// The function's name.
+        function: String,
+        /// The robot of the case.
+        robot: RobotFacts,
+        /// Its other arguments, by the names of the parameters.
+        given: Vec<(String, Value)>,
+    },
+    /// A function of the lab's own: `function(given)`, or `function(robot, given)`.
     Free {
         /// The function's name.
         function: String,
-        /// Its input: numbers and lists of numbers.
+        /// The robot of the case, where the task gives it.
+        robot: Option<RobotFacts>,
+        /// Its input: numbers, lists and matrices.
         given: Vec<(String, Value)>,
     },
     /// `init(robot, task)`, once before the first `Control`; without an `init`, a submission returns nothing.
@@ -135,7 +155,7 @@ impl Call {
             Self::ForwardKinematics { .. } => "forward_kinematics",
             Self::InverseKinematics { .. } => "inverse_kinematics",
             Self::Jacobian { .. } => "jacobian",
-            Self::Free { function, .. } => function,
+            Self::OfRobot { function, .. } | Self::Free { function, .. } => function,
             Self::Init => "init",
             Self::Control(_) => "control",
         }
@@ -146,8 +166,10 @@ impl Call {
         match self {
             Self::ForwardKinematics { robot, .. }
             | Self::InverseKinematics { robot, .. }
-            | Self::Jacobian { robot, .. } => Some(robot),
-            Self::Free { .. } | Self::Init | Self::Control(_) => None,
+            | Self::Jacobian { robot, .. }
+            | Self::OfRobot { robot, .. } => Some(robot),
+            Self::Free { robot, .. } => robot.as_ref(),
+            Self::Init | Self::Control(_) => None,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use kinemark_sim::control::ServoSettings;
+use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::model::joint_friction::JointFriction;
 use kinemark_sim::model::push::Push;
 use kinemark_sim::model::robot::Robot;
@@ -14,39 +15,46 @@ use kinemark_sim::ticks::Periods;
 use kinemark_sim::trajectory::JointLaw;
 use nalgebra::{Rotation3, Vector3};
 
+use super::entry::Entry;
 use super::grant::Grant;
+use super::pose::PoseForm;
+use super::quantity::Quantity;
 use super::scene::LabScene;
 use super::value::Value;
 use super::watched::PathToFollow;
 
 /// The function of a function task.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Function {
-    /// `forward_kinematics(robot, q)`.
-    ForwardKinematics,
-    /// `inverse_kinematics(robot, position)`.
-    InverseKinematics,
-    /// `jacobian(robot, q)`, a matrix of these rows and one column per joint that moves.
+    /// `forward_kinematics(robot, q)`: the pose in this form.
+    ForwardKinematics(PoseForm),
+    /// `inverse_kinematics(robot, position)`: the branches that reach a pose of this form.
+    InverseKinematics(PoseForm),
+    /// `jacobian(robot, q)`, a matrix of these rows and one column per joint of the task.
     Jacobian(Rows),
-    /// A function of the lab's own, of this name: `name(given)`.
+    /// A quantity of the robot: `velocity(robot, q, qd)` and others.
+    Quantity(Quantity),
+    /// A function of the lab's own, of this name: `name(given)`, or `name(robot, given)`.
     Free(String),
 }
 
 impl Function {
-    /// Its name in submissions.
+    /// What it is called in labs, and in submissions where the lab gives it no other name.
     pub fn name(&self) -> &str {
         match self {
-            Self::ForwardKinematics => "forward_kinematics",
-            Self::InverseKinematics => "inverse_kinematics",
+            Self::ForwardKinematics(_) => "forward_kinematics",
+            Self::InverseKinematics(_) => "inverse_kinematics",
             Self::Jacobian(_) => "jacobian",
+            Self::Quantity(quantity) => quantity.name(),
             Self::Free(name) => name,
         }
     }
 
-    /// Its name where it is not one of the lab's own.
+    /// Its name where kinds of checks of its own judge it; nothing for quantities and functions of the lab's own, whose answers are
+    /// judged as numbers.
     pub fn known_name(&self) -> Option<&str> {
         match self {
-            Self::Free(_) => None,
+            Self::Quantity(_) | Self::Free(_) => None,
             known => Some(known.name()),
         }
     }
@@ -94,6 +102,81 @@ pub struct FunctionTask {
     pub cases: Vec<Case>,
     /// Functions of `robot` that it grants.
     pub grants: Vec<Grant>,
+    /// What of the robot it is about.
+    pub about: About,
+}
+
+impl FunctionTask {
+    /// The name of its function in submissions: the one that the lab gives it, or that of the function.
+    pub fn name(&self) -> &str {
+        self.about.name.as_deref().unwrap_or(self.function.name())
+    }
+
+    /// The parameters of its function in submissions.
+    pub fn parameters(&self) -> Vec<&'static str> {
+        match &self.function {
+            Function::ForwardKinematics(_) | Function::Jacobian(_) => vec!["robot", "q"],
+            Function::InverseKinematics(form) if form.is_turned() => vec!["robot", "pose"],
+            Function::InverseKinematics(_) => vec!["robot", "position"],
+            Function::Quantity(quantity) => quantity.parameters(),
+            Function::Free(_) if self.about.gives_robot => vec!["robot", "given"],
+            Function::Free(_) => vec!["given"],
+        }
+    }
+
+    /// Whether it is one of the three functions that every submission can have: of positions, under its own name.
+    pub fn is_usual(&self) -> bool {
+        let of_positions = match &self.function {
+            Function::ForwardKinematics(form) | Function::InverseKinematics(form) => {
+                !form.is_turned()
+            }
+            Function::Jacobian(_) => true,
+            Function::Quantity(_) | Function::Free(_) => false,
+        };
+        of_positions && self.about.name.is_none()
+    }
+}
+
+/// What of the robot a function task is about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct About {
+    /// The name that the lab gives its function in submissions, if that is not the usual one.
+    pub name: Option<String>,
+    /// The frame of the robot that counts as its TCP; its own where there is none.
+    pub frame: Option<String>,
+    /// Names of the joints that it neither gives nor asks.
+    pub ignored: Vec<String>,
+    /// Whether branches beyond the limits of a joint are none.
+    pub within_limits: bool,
+    /// Gravity in the world \[m/s²\].
+    pub gravity_m_s2: Vector3<f64>,
+    /// Whether a function of the lab's own is given the robot.
+    pub gives_robot: bool,
+    /// How the entries of a function of the lab's own are compared.
+    pub compared: Compared,
+}
+
+impl Default for About {
+    fn default() -> Self {
+        Self {
+            name: None,
+            frame: None,
+            ignored: Vec::new(),
+            within_limits: true,
+            gravity_m_s2: GRAVITY_M_S2,
+            gives_robot: false,
+            compared: Compared::default(),
+        }
+    }
+}
+
+/// How expected numbers are compared with answered ones.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Compared {
+    /// Names of the entries that are angles \[rad\]: whole turns make no difference, and what is off is not relative.
+    pub turns: Vec<String>,
+    /// What is expected counts as this great where it is smaller.
+    pub least_size: f64,
 }
 
 /// One call of a function, and what a right answer is like.
@@ -103,9 +186,11 @@ pub struct Case {
     pub name: String,
     /// The class of a hidden case; `None` for a visible one.
     pub hidden_class: Option<String>,
+    /// The row of joints that is the robot of the case, such as `RzTxRy`; `None` where it is the lab's.
+    pub row: Option<String>,
     /// Dimensions that differ from the robot file's.
     pub dimensions: Vec<(String, Dimension)>,
-    /// The robot with those dimensions; `None` where none differ: then it is the lab's.
+    /// The robot of the case, with those dimensions; `None` where it is the lab's.
     pub robot: Option<Arc<Robot>>,
     /// What the function is given.
     pub given: Given,
@@ -114,7 +199,7 @@ pub struct Case {
 /// What a function is given.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Given {
-    /// Joint positions, shape `(n)` \[rad or m\].
+    /// Positions of all joints, shape `(n)`, the robot's loops closed \[rad or m\]: the function is given those of the task's joints.
     Q(Vec<f64>),
     /// A position of the TCP in the lab's frame \[m\].
     Position {
@@ -122,13 +207,18 @@ pub enum Given {
         position_m: [f64; 3],
         /// How many branches reach it; 0 where none does.
         branches: u32,
+        /// The pose in the form that the function takes, its numbers; those of a matrix row by row.
+        pose: Vec<f64>,
     },
-    /// Numbers and lists of numbers by name, and what a right answer holds.
+    /// How the joints of the task move: positions, then velocities and accelerations as far as the quantity depends on them, each of one
+    /// number per joint.
+    Motion(Vec<Vec<f64>>),
+    /// Numbers, lists and matrices by name, and what a right answer holds.
     Values {
         /// The entries of the map `given`.
-        given: Vec<(String, Dimension)>,
-        /// The entries of the answer; a single one without a name where the answer is a number.
-        expected: Vec<(String, Dimension)>,
+        given: Vec<(String, Entry)>,
+        /// The entries of the answer; a single one without a name where the answer has none.
+        expected: Vec<(String, Entry)>,
     },
 }
 

@@ -102,6 +102,19 @@ impl LabRobot {
         }))
     }
 
+    /// The robot of a row of joints such as `RzTxRy`, which needs no file.
+    ///
+    /// # Errors
+    /// A letter that does not fit.
+    pub fn of_row(row: &str) -> Result<Self, LoadError> {
+        Ok(Self {
+            file: RobotDescription::of_row(row)?,
+            meshes: Vec::new(),
+            is_of_ros: false,
+            missing_mesh: None,
+        })
+    }
+
     /// Identifies this robot: the digest of its file, and of its meshes if it has any.
     pub fn digest(file: &RobotDescription, meshes: &[MeshFile]) -> blake3::Hash {
         mesh_file::digest(file.source().text(), meshes)

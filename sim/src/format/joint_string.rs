@@ -14,7 +14,7 @@ use super::robot_problem::{RobotError, RobotProblem};
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Robot, Shape};
 use crate::spatial::{Pose, pose};
-use crate::text::{Dimensions, Source};
+use crate::text::{Dimension, Dimensions, Source};
 
 /// A drawn link is this part of the longest link thick.
 const DRAWN_RADIUS: f64 = 0.03;
@@ -59,6 +59,76 @@ pub fn robot(
     let source = joint_string(text);
     let joints = joints(&source)?;
     let links = links(&Source::new("links", links_m), joints.len())?;
+    made(
+        source,
+        &joints,
+        base_m,
+        &links,
+        (density_kg_m3, Dimensions::default()),
+    )
+}
+
+/// Names of the dimensions of a joint string in a lab, beside `link1`, `link2` and so on: the height of the first joint \[m\], and the
+/// density of the links \[kg/m³\].
+const BASE_HEIGHT: &str = "base_height";
+const DENSITY: &str = "density";
+
+/// The dimensions of a joint string, each link one metre along z, of aluminium, on the ground.
+///
+/// # Errors
+/// A problem at the letter that does not fit.
+pub(super) fn dimensions(source: &Source) -> Result<Dimensions, RobotError> {
+    let links = 1..=joints(source)?.len();
+    let link = |number| (link_name(number), Dimension::List(vec![0.0, 0.0, 1.0]));
+    let base = (BASE_HEIGHT.to_owned(), Dimension::Number(0.0));
+    let density = (DENSITY.to_owned(), Dimension::Number(ALUMINIUM_KG_M3));
+    Ok(Dimensions::from_pairs(
+        std::iter::once(base)
+            .chain(links.map(link))
+            .chain([density]),
+    ))
+}
+
+/// The robot of a joint string with these dimensions, all of those that it has.
+///
+/// # Errors
+/// As [`robot`].
+pub(super) fn robot_of_dimensions(
+    source: &Source,
+    dimensions: Dimensions,
+) -> Result<Robot, RobotError> {
+    let joints = joints(source)?;
+    let number = |name: &str| match dimensions.get(name) {
+        Some(Dimension::Number(number)) => *number,
+        _ => f64::NAN,
+    };
+    let link = |number: usize| match dimensions.get(&link_name(number)) {
+        Some(Dimension::List(list)) if list.len() == 3 => Vector3::from_column_slice(list),
+        _ => Vector3::repeat(f64::NAN),
+    };
+    let links: Vec<Vector3<f64>> = (1..=joints.len()).map(link).collect();
+    let (base_m, density_kg_m3) = (number(BASE_HEIGHT), number(DENSITY));
+    made(
+        source.clone(),
+        &joints,
+        base_m,
+        &links,
+        (density_kg_m3, dimensions),
+    )
+}
+
+fn link_name(number: usize) -> String {
+    format!("link{number}")
+}
+
+fn made(
+    source: Source,
+    joints: &[Token],
+    base_m: f64,
+    links: &[Vector3<f64>],
+    (density_kg_m3, dimensions): (f64, Dimensions),
+) -> Result<Robot, RobotError> {
+    let text = source.text().to_owned();
     if !base_m.is_finite() {
         let message = format!("the base's height must be a finite number of metres, got {base_m}");
         return refuse(&source, 0..text.len(), message, "write --base 2");
@@ -78,9 +148,9 @@ pub fn robot(
     };
     let mut at = Vector3::new(0.0, 0.0, base_m);
     let mut parts = Description {
-        name: text.to_owned(),
+        name: text,
         at: whole.clone(),
-        dimensions: Dimensions::default(),
+        dimensions,
         links: vec![link("base".to_owned(), at)],
         joints: Vec::new(),
         frames: Vec::new(),
@@ -90,7 +160,7 @@ pub fn robot(
         source,
     };
     let mut carrier = "base".to_owned();
-    for (i, (joint, end)) in joints.iter().zip(&links).enumerate() {
+    for (i, (joint, end)) in joints.iter().zip(links).enumerate() {
         let name = format!("link{}", i + 1);
         let mut moved = link(name.clone(), *end);
         moved.inertia = solid(&moved.shapes, density_kg_m3);

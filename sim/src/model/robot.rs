@@ -281,6 +281,8 @@ pub struct Robot {
     pub(crate) joints: Vec<Joint>,
     pub(crate) moving: Vec<usize>,
     pub(crate) frames: Vec<Frame>,
+    /// Index of the frame that commands and checks refer to.
+    pub(crate) tcp: usize,
     pub(crate) bodies: Vec<Body>,
     pub(crate) world_inertia: Inertia,
     pub(crate) loops: Vec<Loop>,
@@ -345,8 +347,13 @@ impl Robot {
 
     /// The frame to which commands and checks refer: the one called `tcp`, else the last link.
     pub fn tcp(&self) -> &Frame {
-        self.frame("tcp")
-            .unwrap_or_else(|| &self.frames[self.links.len() - 1])
+        &self.frames[self.tcp]
+    }
+
+    /// This robot with the frame called `name` in place of its TCP; `None` where it has no such frame.
+    pub fn with_tcp(mut self, name: &str) -> Option<Self> {
+        self.tcp = self.frames.iter().position(|frame| frame.name == name)?;
+        Some(self)
     }
 
     /// The loops that close its chains.

@@ -27,7 +27,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         let grants = match &task.work {
             TaskWork::Function(function, _) => {
                 let what = format!("the function that task \"{title}\" calls");
-                needs(function.function.name(), &what, doubts);
+                needs(function.name(), &what, doubts);
                 &function.grants
             }
             TaskWork::Motion(motion, _) => {

@@ -36,13 +36,12 @@ pub(super) fn double_cases(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
 fn is_same(a: &Case, b: &Case) -> bool {
     let same_given = match (&a.given, &b.given) {
         (Given::Q(a), Given::Q(b)) => a == b,
-        (Given::Position { position_m: a, .. }, Given::Position { position_m: b, .. }) => {
-            a.iter().eq(b)
-        }
+        (Given::Position { pose: a, .. }, Given::Position { pose: b, .. }) => a == b,
+        (Given::Motion(a), Given::Motion(b)) => a == b,
         (Given::Values { given: a, .. }, Given::Values { given: b, .. }) => a == b,
         _ => false,
     };
-    same_given && a.dimensions == b.dimensions
+    same_given && a.dimensions == b.dimensions && a.row == b.row
 }
 
 /// Hidden cases and runs that hide nothing.

@@ -4,7 +4,11 @@ use super::{Doubt, Rubric};
 use crate::lab::{Lab, TaskWork};
 use crate::record::grade::{CheckGrade, Grade, Outcome, TaskGrade};
 use crate::record::quantity::points;
-use crate::task::model::{Function, Given};
+use crate::task::entry::Entry;
+use crate::task::model::{Function, FunctionTask, Given};
+use crate::task::pose::PoseForm;
+use crate::task::quantity::Quantity;
+use crate::task::task_joints::TaskJoints;
 
 /// Less than this share of a check's points is luck: zeros are near the answer of some case.
 const LUCK: f64 = 0.05;
@@ -92,30 +96,10 @@ pub fn zeros(lab: &Lab) -> String {
     let mut defined: Vec<&str> = Vec::new();
     for task in &lab.tasks {
         let (name, arguments, answer) = match &task.work {
-            TaskWork::Motion(..) => ("control", "observation", list(lab.robot.n())),
+            TaskWork::Motion(..) => ("control", "observation".to_owned(), list(lab.robot.n())),
             TaskWork::Function(function, _) => {
-                let name = function.function.name();
-                match &function.function {
-                    Function::ForwardKinematics => (name, "robot, q", list(3)),
-                    Function::InverseKinematics => (
-                        name,
-                        "robot, position",
-                        format!("[{}]", list(lab.robot.n())),
-                    ),
-                    Function::Jacobian(rows) => {
-                        let row = list(lab.robot.n());
-                        let rows = vec![row; rows.indices().count()];
-                        (name, "robot, q", format!("[{}]", rows.join(", ")))
-                    }
-                    Function::Free(_) => {
-                        let first = function.cases.first().map(|case| &case.given);
-                        let answer = match first {
-                            Some(Given::Values { expected, .. }) => of_entries(expected),
-                            _ => "0".to_owned(),
-                        };
-                        (name, "given", answer)
-                    }
-                }
+                let (arguments, answer) = zeros_of(lab, function);
+                (function.name(), arguments, answer)
             }
         };
         if !defined.contains(&name) {
@@ -126,15 +110,44 @@ pub fn zeros(lab: &Lab) -> String {
     text
 }
 
+/// The parameters of a function, and an answer of zeros.
+fn zeros_of(lab: &Lab, task: &FunctionTask) -> (String, String) {
+    let joints = TaskJoints::of(&lab.robot, &task.about.ignored).count();
+    let answer = match &task.function {
+        Function::ForwardKinematics(PoseForm::Full) => {
+            let rows = format!("{row}, {row}, {row}, [0.0, 0.0, 0.0, 1.0]", row = list(4));
+            format!("[{rows}]")
+        }
+        Function::ForwardKinematics(form) => list(form.numbers()),
+        Function::InverseKinematics(_) => format!("[{}]", list(joints)),
+        Function::Jacobian(rows) => {
+            let rows = vec![list(joints); rows.indices().count()];
+            format!("[{}]", rows.join(", "))
+        }
+        Function::Quantity(Quantity::MassMatrix) => {
+            format!("[{}]", vec![list(joints); joints].join(", "))
+        }
+        Function::Quantity(quantity) => list(quantity.count(joints)),
+        Function::Free(_) => match task.cases.first().map(|case| &case.given) {
+            Some(Given::Values { expected, .. }) => of_entries(expected),
+            _ => "0".to_owned(),
+        },
+    };
+    (task.parameters().join(", "), answer)
+}
+
 fn list(count: usize) -> String {
     format!("[{}]", vec!["0.0"; count].join(", "))
 }
 
-fn of_entries(entries: &[(String, kinemark_sim::text::Dimension)]) -> String {
-    use kinemark_sim::text::Dimension;
-    let zero = |value: &Dimension| match value {
-        Dimension::Number(_) => "0.0".to_owned(),
-        Dimension::List(values) => list(values.len()),
+fn of_entries(entries: &[(String, Entry)]) -> String {
+    let zero = |value: &Entry| match value {
+        Entry::Number(_) => "0.0".to_owned(),
+        Entry::List(values) => list(values.len()),
+        Entry::Matrix(rows) => {
+            let rows: Vec<String> = rows.iter().map(|row| list(row.len())).collect();
+            format!("[{}]", rows.join(", "))
+        }
     };
     match entries {
         [(name, value)] if name.is_empty() => zero(value),

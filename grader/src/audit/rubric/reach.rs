@@ -11,7 +11,8 @@ use nalgebra::{Matrix6xX, Vector3};
 use super::{Doubt, Rubric};
 use crate::attempt::branches::{beyond_limit, count_distinct};
 use crate::lab::{Lab, Staff, Task, TaskWork};
-use crate::task::model::{Case, Given, MotionTask};
+use crate::task::model::{Case, Function, Given, MotionTask};
+use crate::task::pose::PoseForm;
 
 /// A singular value below this share of the greatest that the robot has anywhere is nearly zero.
 const NEARLY_SINGULAR: f64 = 0.02;
@@ -198,7 +199,7 @@ pub(super) fn branches(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     });
     for (task, case) in visible.chain(hidden_cases(lab, staff)) {
         let of = case_name(task, case);
-        if let Some(what) = wrong_count(lab, case)
+        if let Some(what) = wrong_count(lab, task, case)
             && !known.contains(&of)
         {
             known.push(of.clone());
@@ -216,10 +217,24 @@ pub(super) fn branches(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
-fn wrong_count(lab: &Lab, case: &Case) -> Option<String> {
+/// Why the number of branches of a case is not what the engine finds. It looks for positions within the limits of joints, so poses that are
+/// turned and tasks without limits are not counted.
+fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
+    let can_be_counted = match &task.work {
+        TaskWork::Function(work, _) => {
+            work.about.within_limits
+                && work.function == Function::InverseKinematics(PoseForm::Position)
+        }
+        TaskWork::Motion(..) => false,
+    };
+    if !can_be_counted {
+        return None;
+    }
+
     let Given::Position {
         position_m,
         branches,
+        ..
     } = &case.given
     else {
         return None;

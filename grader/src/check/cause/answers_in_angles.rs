@@ -25,6 +25,7 @@ fn branches<'a>(facts: &'a CaseFacts<'_>) -> Option<(Vector3<f64>, &'a [Vec<f64>
             Given::Position {
                 position_m,
                 branches: 1..,
+                ..
             },
             Answered::Branches(found),
         ) if !found.is_empty() => Some((Vector3::from(*position_m), found)),

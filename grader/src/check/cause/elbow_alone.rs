@@ -72,6 +72,7 @@ impl<'a> Missed<'a> {
                 Given::Position {
                     position_m,
                     branches: 1..,
+                    ..
                 },
                 Answered::Branches(branches),
             ) if !branches.is_empty() => Some(Self {

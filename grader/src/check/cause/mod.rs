@@ -40,7 +40,7 @@ use super::facts::MotionFacts;
 use super::finding::Finding;
 use crate::attempt::answers::CaseFacts;
 use crate::record::grade::Evidence;
-use crate::task::model::Function;
+use crate::task::model::FunctionTask;
 
 /// What is seen of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -159,11 +159,11 @@ pub(crate) fn of_answers(
 }
 
 impl CauseOfAnswers {
-    /// A finding about answers of `function` that begins with this cause.
-    pub(crate) fn explains(self, function: &Function, finding: &mut Finding) {
+    /// A finding about answers to `task` that begins with this cause.
+    pub(crate) fn explains(self, task: &FunctionTask, finding: &mut Finding) {
         let evidence = Evidence {
             message: self.words,
-            signal: function.name().to_owned(),
+            signal: task.name().to_owned(),
             is_cause: true,
             ..Evidence::default()
         };

@@ -1,5 +1,5 @@
-//! fk-error: the mean distance of the answered positions from the true ones \[m\], over all cases. One answer that is no position
-//! makes it infinite.
+//! fk-error: the mean distance of the answered positions from the true ones \[m\], over all cases. One answer that is no position, or
+//! no pose where the task asks for one, makes it infinite. How a pose is turned is judged by `fk-orientation`.
 
 use crate::check::prelude::*;
 
@@ -30,7 +30,11 @@ pub(crate) struct FkError;
 impl AnswerMeasure for FkError {
     fn judge(&self, cases: &Cases<'_>) -> Finding {
         let error_m = |facts: &CaseFacts<'_>| match facts.error {
-            CaseError::Position(error_m) => error_m,
+            CaseError::Position(error_m)
+            | CaseError::Pose {
+                position_m: error_m,
+                ..
+            } => error_m,
             _ => f64::INFINITY,
         };
         let mistakes = |facts: &CaseFacts<'_>, error_m: f64| {

@@ -1,13 +1,16 @@
-//! function-cases: the relative errors of the entries that a function of the lab's own answers, each scored by the band. The check's
-//! score is the mean over the cases, hidden ones too, of the mean over their entries.
+//! function-cases: the relative errors of the entries that a function answers, each scored by the band: a function of the lab's own, or
+//! a quantity of the robot such as `torque`. The check's score is the mean over the cases, hidden ones too, of the mean over their
+//! entries.
 //!
-//! The relative error of an entry is `|a - e| / |e|`, for a list in the Euclidean norm; where `e` is zero it is `|a|`. An entry that
-//! is missing, of the wrong shape or not finite scores 0.
+//! The relative error of an entry is `|a - e| / |e|`, for a list or a matrix in the Euclidean norm of all its numbers; where `e` is zero
+//! it is `|a|`. With `least_size` in the task, `|e|` counts as that much where it is less. The error of an angle, one of `turns`, is
+//! the turn between the two in radians, and whole turns make no difference. An entry that is missing, of the wrong shape or not finite
+//! scores 0.
 
 use kinemark_sim::text::number::significant;
 
-use crate::attempt::measure::as_slice;
 use crate::check::prelude::*;
+use crate::task::entry::Entry;
 use crate::task::model::Given;
 
 /// The keys.
@@ -75,9 +78,8 @@ impl AnswerMeasure for FunctionCases {
 impl FunctionCases {
     /// The mean of the scores of the entries that count.
     fn score(&self, facts: &CaseFacts<'_>, band: Band) -> CaseScore {
-        let (CaseError::Entries(relative), Given::Values { expected, .. }) =
-            (&facts.error, &facts.case.given)
-        else {
+        let expected = facts.expected();
+        let CaseError::Entries(relative) = &facts.error else {
             return CaseScore {
                 score: 0.0,
                 lost: Vec::new(),
@@ -99,18 +101,16 @@ impl FunctionCases {
             let message = match &facts.answer {
                 Answered::Entries(answer) => {
                     let (is, should) = distinct_texts(|digits| {
-                        let should = written(as_slice(should), digits);
-                        (written(&answer[index], digits), should)
+                        let is = should.with(&answer[index]);
+                        (entry_in_words(&is, digits), entry_in_words(should, digits))
                     });
                     let what = match name.as_str() {
                         "" => "the answer",
                         name => name,
                     };
                     // of 0 there is no part
-                    let off = match as_slice(&expected[index].1)
-                        .iter()
-                        .all(|value| *value == 0.0)
-                    {
+                    let numbers = expected[index].1.numbers();
+                    let off = match numbers.iter().all(|value| *value == 0.0) {
                         true => trimmed(relative, 4),
                         false => with_unit(relative, ""),
                     };
@@ -132,7 +132,19 @@ impl FunctionCases {
     }
 }
 
-/// The numbers of an entry as people read them, a single one without brackets.
+/// An entry as people read it.
+pub(crate) fn entry_in_words(entry: &Entry, digits: usize) -> String {
+    match entry {
+        Entry::Number(number) => significant(*number, digits),
+        Entry::List(numbers) => written(numbers, digits),
+        Entry::Matrix(rows) => {
+            let rows: Vec<String> = rows.iter().map(|row| written(row, digits)).collect();
+            format!("[{}]", rows.join(", "))
+        }
+    }
+}
+
+/// Numbers as people read them, a single one without brackets.
 pub(crate) fn written(numbers: &[f64], digits: usize) -> String {
     let texts: Vec<String> = numbers.iter().map(|x| significant(*x, digits)).collect();
     match texts.as_slice() {

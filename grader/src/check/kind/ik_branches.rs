@@ -3,10 +3,11 @@
 //! Judged where two or more branches exist. A case is scored by its worst branch; a branch that is missing, or equals another but
 //! for whole turns, scores nothing. Two branches are the same if every revolute joint agrees to 0.02 rad, apart from whole turns,
 //! and every prismatic joint to 1 mm; joints that do not move the TCP, such as a wrist that turns about it, do not count. A branch
-//! beyond the limits of a joint is none.
+//! beyond the limits of a joint is none, unless the task has `within_limits = false`. Where the task is about more than positions, branches
+//! are compared in every joint, and `full_rad` and `zero_rad` count as with `ik-reach`.
 
-use super::ik_reach::{any_beyond_limit, of_every_target};
-use crate::attempt::branches::count_distinct;
+use super::ik_reach::{any_beyond_limit, branch_score, of_every_target, turned_band};
+use crate::attempt::branches::{count_different, count_distinct};
 use crate::check::prelude::*;
 
 /// The keys.
@@ -17,6 +18,10 @@ pub(crate) struct Table {
     full_m: f64,
     /// Distance with which a case earns nothing \[m\].
     zero_m: f64,
+    /// Angle of the worst branch with which a case earns everything \[rad\].
+    full_rad: Option<At<f64>>,
+    /// Angle with which a case earns nothing \[rad\].
+    zero_rad: Option<At<f64>>,
 }
 
 impl FunctionTable for Table {
@@ -25,19 +30,23 @@ impl FunctionTable for Table {
     type Check = InBand<IkBranches>;
 
     fn read(&self, reading: &FunctionReading<'_>) -> Result<Self::Check, LabError> {
-        reading.in_band([self.full_m, self.zero_m], "m", IkBranches)
+        let turned = turned_band(reading, self.full_rad.as_ref(), self.zero_rad.as_ref())?;
+        reading.in_band([self.full_m, self.zero_m], "m", IkBranches { turned })
     }
 }
 
 /// The distance of the worst branch from its target, where none is missing.
 #[derive(Debug)]
-pub(crate) struct IkBranches;
+pub(crate) struct IkBranches {
+    /// The band of angles, where the task is about more than positions.
+    turned: Option<Band>,
+}
 
 impl AnswerMeasure for IkBranches {
     fn judge(&self, cases: &Cases<'_>) -> Finding {
         cases
             .mean_score("targets with every branch", |facts| {
-                score(facts, cases.band)
+                score(facts, cases.band, self.turned)
             })
             .advise("The arm can bend either way: return both, `[[q1, q2], [q1, q2]]`.")
     }
@@ -53,9 +62,10 @@ impl AnswerMeasure for IkBranches {
 }
 
 /// The score of a case with two or more branches.
-fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
+fn score(facts: &CaseFacts<'_>, band: Band, turned: Option<Band>) -> Option<CaseScore> {
     let CaseError::Reach {
         branches_m,
+        angles_rad,
         expected,
     } = &facts.error
     else {
@@ -65,7 +75,10 @@ fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
         return None;
     }
     let distinct = match &facts.answer {
-        Answered::Branches(branches) => count_distinct(facts.robot, branches),
+        Answered::Branches(branches) => match turned {
+            Some(_) => count_different(facts.robot, branches),
+            None => count_distinct(facts.robot, branches),
+        },
         _ => 0,
     };
     let complete = distinct >= *expected as usize;
@@ -73,6 +86,22 @@ fn score(facts: &CaseFacts<'_>, band: Band) -> Option<CaseScore> {
         Some(worst_m) if complete => *worst_m,
         _ => f64::INFINITY,
     };
+    if let (true, Some(turned)) = (complete, turned) {
+        let both = (branches_m.as_slice(), angles_rad.as_slice());
+        let of = |index: usize| branch_score(both, index, (band, Some(turned)));
+        let worst = (0..branches_m.len()).min_by(|a, b| of(*a).total_cmp(&of(*b)));
+        if let Some(worst) = worst.filter(|worst| of(*worst) < band.score(branches_m[*worst])) {
+            let off = with_unit(angles_rad[worst], "rad");
+            let message = format!(
+                "{}: one of the branches ends turned {off} away from the target",
+                facts.label()
+            );
+            return Some(CaseScore {
+                score: of(worst),
+                lost: vec![WrongAnswer::whole(facts, branches_m[worst], message)],
+            });
+        }
+    }
     Some(CaseScore::of(facts, worst_m, band, || {
         let name = facts.label();
         if let Some(beyond) = any_beyond_limit(facts).filter(|_| complete) {

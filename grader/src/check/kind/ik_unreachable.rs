@@ -1,6 +1,7 @@
 //! ik-unreachable: the share of the targets out of reach that are answered with an empty list, `[]`.
 
 use crate::check::prelude::*;
+use crate::task::model::FunctionTask;
 
 /// No keys: write `{}`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -26,10 +27,10 @@ impl FunctionCheck for IkUnreachable {
         ["every one".to_owned(), "none".to_owned()]
     }
 
-    fn judge(&self, function: &Function, cases: &[CaseFacts<'_>]) -> Finding {
+    fn judge(&self, task: &FunctionTask, cases: &[CaseFacts<'_>]) -> Finding {
         let (band, unit) = (Band::default(), "");
         let cases = Cases {
-            function,
+            task,
             cases,
             band,
             unit,

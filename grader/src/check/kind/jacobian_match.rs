@@ -39,7 +39,8 @@ impl AnswerMeasure for JacobianMatch {
         };
         let mistakes = |facts: &CaseFacts<'_>, relative: f64| match (&facts.answer, &facts.error) {
             (Answered::Matrix(answer), CaseError::Jacobian { truth, .. }) => {
-                let columns = wrong_columns(facts, cases.function, answer, truth, cases.band.full);
+                let columns =
+                    wrong_columns(facts, &cases.task.function, answer, truth, cases.band.full);
                 columns
                     .into_iter()
                     .map(|(joint, share, entry)| WrongAnswer {
@@ -82,10 +83,10 @@ fn wrong_columns(
     let off = |joint: usize| jacobian::distance(&column(answer, joint), &column(truth, joint));
     let all = jacobian::distance(answer, truth);
     let relative = jacobian::relative_distance(answer, truth);
-    let Some((worst, _)) = greatest((0..facts.robot.n()).map(off)) else {
+    let Some((worst, _)) = greatest((0..facts.joints.count()).map(off)) else {
         return Vec::new();
     };
-    let shares = (0..facts.robot.n()).map(|joint| (joint, off(joint) / all));
+    let shares = (0..facts.joints.count()).map(|joint| (joint, off(joint) / all));
     shares
         .filter(|(joint, share)| *joint == worst || relative * share > full)
         .map(|(joint, share)| {
@@ -106,7 +107,7 @@ fn worst_entry(
     let gap = |row: usize| (answer[row][joint] - truth[row][joint]).abs();
     let (row, _) = greatest((0..truth.len()).map(gap))?;
     let name = rows.names().nth(row)?;
-    let joint_name = facts.robot.moving_joints().nth(joint);
+    let joint_name = facts.joints.joints(facts.robot).nth(joint);
     let joint_name = joint_name.map_or("?", |joint| joint.name.as_str());
     let number = joint + 1;
     // an angle about an axis is no coordinate, so there is no `d rz`

@@ -45,6 +45,7 @@ macro_rules! name {
 kinds! {
     motion joint_reached
     function fk_error
+    function fk_orientation
     function ik_reach
     function ik_branches
     function ik_unreachable

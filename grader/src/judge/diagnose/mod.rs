@@ -80,12 +80,25 @@ pub fn function_task<'m>(
     clear(candidates)
 }
 
+/// A pose that is turned by this is clearly turned \[rad\].
+const TURNED_RAD: f64 = 0.02;
+
 /// Whether an answer is so far off that it earns nothing: a mistake clearly shows there.
 fn is_wrong(facts: &CaseFacts<'_>, band: Band) -> bool {
     match &facts.error {
         CaseError::Position(error_m) => band.score(*error_m) <= 0.0,
-        CaseError::Reach { branches_m, .. } => {
-            branches_m.is_empty() || branches_m.iter().any(|error_m| band.score(*error_m) <= 0.0)
+        CaseError::Pose {
+            position_m,
+            angle_rad,
+        } => band.score(*position_m) <= 0.0 || *angle_rad >= TURNED_RAD,
+        CaseError::Reach {
+            branches_m,
+            angles_rad,
+            ..
+        } => {
+            branches_m.is_empty()
+                || branches_m.iter().any(|error_m| band.score(*error_m) <= 0.0)
+                || angles_rad.iter().any(|angle_rad| *angle_rad >= TURNED_RAD)
         }
         CaseError::Unreachable { said_so } => !said_so,
         CaseError::Jacobian { relative, .. } => band.score(*relative) <= 0.0,
@@ -103,13 +116,14 @@ fn agrees(student: &CaseFacts<'_>, mutant: &CaseFacts<'_>) -> bool {
             let found = |q: &Vec<f64>| b.iter().any(|other| close(student, q, other));
             a.is_empty() == b.is_empty() && a.iter().all(found)
         }
+        (Answered::Pose(a), Answered::Pose(b)) => relative_error(a, b, 1.0) <= SAME_POSITION_M,
         (Answered::Matrix(a), Answered::Matrix(b)) => {
             jacobian::distance(a, b) <= SAME_POSITION_M * (1.0 + jacobian::norm(b))
         }
         (Answered::Entries(a), Answered::Entries(b)) => a
             .iter()
             .zip(b)
-            .all(|(a, b)| relative_error(a, b) <= SAME_POSITION_M),
+            .all(|(a, b)| relative_error(a, b, 0.0) <= SAME_POSITION_M),
         // NaN where the mutant gives NaN too
         (Answered::Invalid(_), Answered::Invalid(_)) => true,
         _ => false,

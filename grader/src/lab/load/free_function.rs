@@ -1,16 +1,17 @@
 //! A task of a function that the lab names itself: what it is called, what its cases give, what they expect.
 
-use kinemark_sim::text::Dimension;
 use kinemark_sim::text::nearest;
 use toml::Spanned;
 
 use super::Reader;
+use super::cases::changed;
 use super::functions::FunctionProblem;
-use super::grants::GrantProblem;
 use crate::lab::file::{CaseTable, ExpectedTable, FunctionTable};
 use crate::submission::rhai::refused_name;
-use crate::task::model::{Case, Function, Given};
+use crate::task::entry::Entry;
+use crate::task::model::{About, Case, Function, Given, Rows};
 use crate::task::problem::LabError;
+use crate::task::quantity::Quantity;
 
 impl Reader<'_> {
     /// The function called `name`.
@@ -29,16 +30,14 @@ impl Reader<'_> {
     }
 
     /// The cases of a free function: all of them give and expect entries of the same names.
-    pub(super) fn free_cases(&self, table: &FunctionTable) -> Result<Vec<Case>, LabError> {
-        if let Some(grant) = table.grants.first() {
-            let function = table.call.get_ref().clone();
-            return self
-                .report
-                .refuse_at(grant, GrantProblem::NoRobot { function });
-        }
+    pub(super) fn free_cases(
+        &self,
+        table: &FunctionTable,
+        about: &About,
+    ) -> Result<Vec<Case>, LabError> {
         let mut cases: Vec<Case> = Vec::new();
         for spanned in &table.cases {
-            let case = self.free_case(&table.call, spanned)?;
+            let case = self.free_case(&table.call, about, spanned)?;
             if let Some(first) = cases.first()
                 && shape(first) != shape(&case)
             {
@@ -55,16 +54,24 @@ impl Reader<'_> {
     fn free_case(
         &self,
         function: &Spanned<String>,
+        about: &About,
         spanned: &Spanned<CaseTable>,
     ) -> Result<Case, LabError> {
         let table = spanned.get_ref();
         let name = table.name.get_ref().clone();
+        let is_of_robot = !table.dimensions.is_empty() || table.robot.is_some();
         let foreign = table.q_rad.is_some()
+            || table.qd_rad_s.is_some()
+            || table.qdd_rad_s2.is_some()
             || table.position_m.is_some()
+            || table.yaw_deg.is_some()
+            || table.axis.is_some()
+            || table.rpy_deg.is_some()
             || table.branches.is_some()
-            || !table.dimensions.is_empty();
+            || (is_of_robot && !about.gives_robot);
         let (Some(given), Some(expected), false) = (&table.given, &table.expected, foreign) else {
-            if let (true, Some(near)) = (foreign, near_built_in(function.get_ref())) {
+            let near = near_built_in(function.get_ref());
+            if let (true, Some(near)) = (foreign, near.filter(|near| near != function.get_ref())) {
                 let problem = FunctionProblem::NearName {
                     name: function.get_ref().clone(),
                     near: near.to_owned(),
@@ -76,8 +83,7 @@ impl Reader<'_> {
             return self.report.refuse_at(spanned, problem);
         };
         let expected = match expected {
-            ExpectedTable::One(number) => vec![(String::new(), Dimension::Number(*number))],
-            ExpectedTable::Whole(list) => vec![(String::new(), Dimension::List(list.clone()))],
+            ExpectedTable::Whole(entry) => vec![(String::new(), entry.clone())],
             ExpectedTable::Entries(entries) => entries
                 .iter()
                 .map(|(k, v)| (k.clone(), v.clone()))
@@ -87,11 +93,19 @@ impl Reader<'_> {
             let problem = FunctionProblem::NothingExpected { case: name };
             return self.report.refuse_at(spanned, problem);
         }
+        let entries = given
+            .values()
+            .chain(expected.iter().map(|(_, entry)| entry));
+        if entries.clone().any(Entry::is_uneven) {
+            let problem = FunctionProblem::UnevenRows { case: name };
+            return self.report.refuse_at(spanned, problem);
+        }
         Ok(Case {
             name,
             hidden_class: None,
-            dimensions: Vec::new(),
-            robot: None,
+            row: table.robot.as_ref().map(|row| row.get_ref().clone()),
+            dimensions: changed(table),
+            robot: self.case_robot(about, spanned)?,
             given: Given::Values {
                 given: given.iter().map(|(k, v)| (k.clone(), v.clone())).collect(),
                 expected,
@@ -102,21 +116,28 @@ impl Reader<'_> {
 
 /// The built-in function that is meant by this name, if it is near to one or another word for it.
 fn near_built_in(name: &str) -> Option<&'static str> {
+    let quantities = Quantity::all(Rows::LINEAR).map(Quantity::name);
     let known = ["forward_kinematics", "inverse_kinematics", "jacobian"];
     match name {
         "fk" | "fkine" | "forward" => Some(known[0]),
         "ik" | "ikine" | "inverse" => Some(known[1]),
         "jac" | "jacob" | "geometric_jacobian" => Some(known[2]),
-        name => nearest(name, known.into_iter()),
+        "inverse_dynamics" | "rnea" | "id" => Some(Quantity::Torque.name()),
+        "inertia" | "crba" => Some(Quantity::MassMatrix.name()),
+        name => nearest(name, known.into_iter().chain(quantities)),
     }
 }
 
 /// Stands for the name of an answer that is a list: no entry can be called so.
 const LIST: &str = "[]";
 
-fn named((name, value): &(String, Dimension)) -> &str {
+/// The same of an answer that is a matrix.
+const MATRIX: &str = "[[]]";
+
+fn named((name, value): &(String, Entry)) -> &str {
     match value {
-        Dimension::List(_) if name.is_empty() => LIST,
+        Entry::List(_) if name.is_empty() => LIST,
+        Entry::Matrix(_) if name.is_empty() => MATRIX,
         _ => name,
     }
 }
@@ -150,6 +171,7 @@ fn difference(verb: &str, of_case: &[&str], of_first: &[&str]) -> Option<String>
             .map(|name| match *name {
                 "" => "one number".to_owned(),
                 LIST => "a list".to_owned(),
+                MATRIX => "a matrix".to_owned(),
                 name => format!("`{name}`"),
             })
             .collect();

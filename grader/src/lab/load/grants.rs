@@ -3,9 +3,11 @@
 use toml::Spanned;
 
 use super::Reader;
+use crate::lab::file::FunctionTable;
 use crate::task::grant::Grant;
-use crate::task::model::Function;
+use crate::task::model::{About, Function};
 use crate::task::problem::{LabError, near, problems};
+use crate::task::quantity::Quantity;
 
 problems! {
     /// What a task cannot grant.
@@ -20,12 +22,42 @@ problems! {
         ClosedLoops { name: String, robot: String }:
             "lab::grants", "`robot.{name}` cannot be granted: robot `{robot}` has closed loops",
             "only `fk` can, for a robot with loops", "remove it";
+        OtherRobot { function: String }:
+            "lab::grants", "`robot` of this task is not that of the lab, so nothing of it can be granted to `{function}`",
+            "a grant of another robot", "remove it, or `frame`, `ignore` and the cases' `robot`";
         NoRobot { function: String }:
             "lab::grants", "`{function}` is given no robot to ask", "a grant of nothing", "remove `grants` here";
     }
 }
 
 impl Reader<'_> {
+    /// The functions granted to a function task.
+    pub(super) fn function_grants(
+        &self,
+        table: &FunctionTable,
+        function: &Function,
+        about: &About,
+    ) -> Result<Vec<Grant>, LabError> {
+        if let Some(first) = table.grants.first() {
+            let has_row = table
+                .cases
+                .iter()
+                .any(|case| case.get_ref().robot.is_some());
+            let name = function.name().to_owned();
+            if matches!(function, Function::Free(_)) && !about.gives_robot {
+                return self
+                    .report
+                    .refuse_at(first, GrantProblem::NoRobot { function: name });
+            }
+            if has_row || about.frame.is_some() || !about.ignored.is_empty() {
+                return self
+                    .report
+                    .refuse_at(first, GrantProblem::OtherRobot { function: name });
+            }
+        }
+        self.grants(&table.grants, Some(function))
+    }
+
     /// The functions granted, in the order of [`Grant::ALL`]; `asked` is what a function task asks for.
     pub(super) fn grants(
         &self,
@@ -44,8 +76,17 @@ impl Reader<'_> {
             }
             let given_away = matches!(
                 (grant, asked),
-                (Grant::Fk, Some(Function::ForwardKinematics))
+                (Grant::Fk, Some(Function::ForwardKinematics(_)))
                     | (Grant::Jacobian, Some(Function::Jacobian(_)))
+                    | (
+                        Grant::Jacobian,
+                        Some(Function::Quantity(Quantity::Velocity(_)))
+                    )
+                    | (Grant::Gravity, Some(Function::Quantity(Quantity::Gravity)))
+                    | (
+                        Grant::MassMatrix,
+                        Some(Function::Quantity(Quantity::MassMatrix))
+                    )
             );
             if given_away {
                 return self.report.refuse_at(at, GrantProblem::Asked { name });

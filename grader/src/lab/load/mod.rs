@@ -1,6 +1,7 @@
 //! From the texts of a lab to a [`Lab`]: names become indices, bands are ordered, periods divide; what cannot hold is an error
 //! with its place.
 
+mod cases;
 mod checks;
 mod free_function;
 mod functions;
@@ -16,6 +17,7 @@ mod target;
 use std::ops::Range;
 use std::sync::Arc;
 
+use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::unphysical::OnUnphysical;
@@ -30,6 +32,7 @@ use super::practice::Practice;
 use super::variant::{self, Variant};
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
+use crate::task::model::FunctionTask;
 use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
 use crate::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
@@ -87,6 +90,9 @@ problems! {
         TaskKind { task: String }:
             "lab::task_kind", "task `{task}` must have either `function` or `motion`", "this task",
             "add one table: [tasks.function] or [tasks.motion]";
+        TwoMeanings { function: String, first: String, second: String }:
+            "lab::call", "tasks `{first}` and `{second}` ask different things of `{function}`, which cannot know for which it is called",
+            "the second of them", "give it a name of its own here: as = \"...\"";
         NoChecks { task: String }:
             "lab::no_checks", "task `{task}` has no checks, so nothing in it earns a point", "this task",
             "add a [[tasks.checks]] table";
@@ -161,6 +167,7 @@ impl Lab {
             robot_at: lab.robot.span(),
             scenes: &scenes,
             robot_file: &robot_file,
+            frame: &frame,
         };
         let tasks = reader.tasks(&lab)?;
         let budgets = reader.budgets(&lab.budgets)?;
@@ -221,7 +228,10 @@ fn lab_robot(
 ) -> Result<LabRobot, LoadError> {
     let name = lab.robot.get_ref();
     let options = robot_options(report, lab)?;
-    let Some(robot) = LabRobot::load(files, name, &options)? else {
+    let named = LabRobot::load(files, name, &options)?;
+    // a file of that name is meant before a row of joints
+    let row = (named.is_none() && looks_like_one(name)).then(|| LabRobot::of_row(name));
+    let Some(robot) = named.or(row.transpose()?) else {
         let problem = LabFileProblem::UnknownRobot {
             path: robot_path(name),
             name: name.clone(),
@@ -376,6 +386,8 @@ struct Reader<'a> {
     robot_at: Range<usize>,
     scenes: &'a [Arc<LabScene>],
     robot_file: &'a RobotDescription,
+    /// Name of the frame in which students work.
+    frame: &'a str,
 }
 
 impl Reader<'_> {
@@ -424,7 +436,39 @@ impl Reader<'_> {
         }
         self.report
             .unique("task", lab.tasks.iter().map(|task| &task.name))?;
-        lab.tasks.iter().map(|task| self.task(task)).collect()
+        let tasks: Vec<Task> = lab
+            .tasks
+            .iter()
+            .map(|task| self.task(task))
+            .collect::<Result<_, _>>()?;
+        self.functions_differ(lab, &tasks)?;
+        Ok(tasks)
+    }
+
+    /// A function of a submission cannot know for which of two tasks it is called: what tasks ask of one name is the same.
+    fn functions_differ(&self, lab: &LabTable, tasks: &[Task]) -> Result<(), LabError> {
+        let mut known: Vec<(&Task, &FunctionTask)> = Vec::new();
+        for (task, table) in tasks.iter().zip(&lab.tasks) {
+            let (TaskWork::Function(work, _), Some(typed)) = (&task.work, &table.function) else {
+                continue;
+            };
+            let same_name = known.iter().find(|(_, other)| other.name() == work.name());
+            let is_other = |other: &FunctionTask| {
+                other.function != work.function
+                    || other.about.frame != work.about.frame
+                    || other.about.ignored != work.about.ignored
+            };
+            if let Some((other, _)) = same_name.filter(|(_, other)| is_other(other)) {
+                let problem = LabFileProblem::TwoMeanings {
+                    function: work.name().to_owned(),
+                    first: other.name.clone(),
+                    second: task.name.clone(),
+                };
+                return self.report.refuse_at(&typed.call, problem);
+            }
+            known.push((task, work));
+        }
+        Ok(())
     }
 
     fn task(&self, table: &TaskTable) -> Result<Task, LabError> {
@@ -434,7 +478,7 @@ impl Reader<'_> {
                 let function = self.function(function)?;
                 self.has_checks(table)?;
                 let checks = self.function_checks(&table.checks, &function)?;
-                TaskWork::Function(function, checks)
+                TaskWork::Function(Box::new(function), checks)
             }
             (None, Some(motion)) => {
                 self.has_inertias(motion)?;

@@ -1,17 +1,22 @@
 //! Hidden cases that are drawn: their table held against the lab.
 
+use std::borrow::Cow;
+
 use kinemark_sim::format::RobotError;
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::Dimension;
 use toml::Spanned;
 
 use super::{Ends, all_rising, known_task, named, rising};
 use crate::lab::Lab;
 use crate::lab::TaskWork;
+use crate::lab::case_robot;
 use crate::lab::draw::{Draw, Drawn};
 use crate::lab::file::{DrawTable, Ranges};
 use crate::task::model::{Case, Function, FunctionTask, Given};
 use crate::task::problem::{LabError, near, problems};
 use crate::task::reporter::Reporter;
+use crate::task::task_joints::TaskJoints;
 
 /// A `[[draws]]` table as a draw that fits its lab.
 pub(super) fn checked(
@@ -29,14 +34,16 @@ pub(super) fn checked(
     };
     let task = reader.task()?;
     reader.ranges_rise()?;
-    let q_ranges = reader.q_ranges()?;
-    let what = reader.what(task, q_ranges)?;
+    reader.rows_fit(task)?;
+    let what = reader.what(task)?;
     Ok(Draw {
         task: table.task.get_ref().clone(),
         class: table.class.get_ref().clone(),
         count: *table.count.get_ref(),
         what,
-        dimensions: reader.dimensions(ends)?,
+        dimensions: reader.dimensions(task, ends)?,
+        rows: reader.rows().map(str::to_owned).collect(),
+        about: task.about.clone(),
     })
 }
 
@@ -52,6 +59,9 @@ pub(super) fn drawn(
     })
 }
 
+/// A range per joint, as typed.
+type JointRanges = Spanned<Vec<[f64; 2]>>;
+
 struct DrawReader<'a> {
     report: Reporter<'a>,
     lab: &'a Lab,
@@ -66,9 +76,20 @@ problems! {
             "staff::draw", "task `{task}` is not a function task", "this task", "hidden cases are drawn for function tasks";
         Count { count: u32 }:
             "staff::draw", "a draw has 1 to 1000 cases, got {count}", "this count", "change `count`";
-        JointCount { found: String, joints: String }:
-            "staff::draw", "`q_rad` has {found} for {joints}", "these ranges",
-            "give one [low, high] per joint that moves";
+        JointCount { what: &'static str, found: String, joints: String }:
+            "staff::draw", "`{what}` has {found} for {joints}", "these ranges",
+            "give one [low, high] per joint of the task";
+        Row { error: String }:
+            "staff::draw", "{error}", "one of the robots of this draw",
+            "write rows of joints such as \"RzTxRy\": R turns about an axis, T slides along it";
+        OtherCount { joints: usize, first: usize }:
+            "staff::draw", "a robot of {joints} joints in a draw whose first has {first}", "this robot",
+            "put robots with another number of joints into a draw of their own";
+        NotByMotion { function: String, wanted: String }:
+            "staff::draw", "a draw for `{function}` is of {wanted}", "this draw", format!("give {wanted} and nothing else");
+        PoseOfPosition:
+            "staff::draw", "positions within reach are drawn by `q_rad`, where the task is about more than positions", "this draw",
+            "write `q_rad`, or `branches = 0` for positions out of reach";
         NotByGiven { function: String }:
             "staff::draw", "a draw for `{function}` is of `given`", "this draw",
             "a function of the lab's own is drawn by `given`, and nothing else is";
@@ -121,18 +142,82 @@ impl<'a> DrawReader<'a> {
         if let Some(at) = &table.position_m {
             rising(report, "position_m", at, at.get_ref())?;
         }
-        if let Some(at) = &table.q_rad {
-            rising(report, "q_rad", at, at.get_ref())?;
+        for (what, typed) in self.state() {
+            if let Some(at) = typed {
+                rising(report, what, at, at.get_ref())?;
+            }
         }
         Ok(())
     }
 
-    /// The ranges of joint positions, one per joint.
-    fn q_ranges(&self) -> Result<Option<Vec<[f64; 2]>>, LabError> {
-        let joints = self.lab.robot.n();
-        let Some(typed) = &self.table.q_rad else {
+    /// The ranges of positions, velocities and accelerations, as far as they are typed.
+    fn state(&self) -> [(&'static str, Option<&'a JointRanges>); 3] {
+        let DrawTable {
+            q_rad,
+            qd_rad_s,
+            qdd_rad_s2,
+            ..
+        } = self.table;
+        [
+            ("q_rad", q_rad.as_ref()),
+            ("qd_rad_s", qd_rad_s.as_ref()),
+            ("qdd_rad_s2", qdd_rad_s2.as_ref()),
+        ]
+    }
+
+    /// The rows of joints that are robots of this draw.
+    fn rows(&self) -> impl Iterator<Item = &'a str> {
+        self.table.robots.iter().map(|row| row.get_ref().as_str())
+    }
+
+    /// The robot of this draw, or the first of them; with the dimensions of the lab.
+    fn first_robot(&self, task: &FunctionTask) -> Result<Cow<'a, Robot>, LabError> {
+        let row = self.rows().next();
+        let robot = case_robot::built(&self.lab.robot_file, row, &[], &task.about);
+        match robot {
+            Ok(Some(robot)) => Ok(Cow::Owned(robot)),
+            Ok(None) => Ok(Cow::Borrowed(&self.lab.robot)),
+            Err(error) => {
+                let error = error.to_string();
+                self.refuse(DrawProblem::Dimensions { error })
+            }
+        }
+    }
+
+    /// Rows of joints that are some, all of the same number of joints.
+    fn rows_fit(&self, task: &FunctionTask) -> Result<(), LabError> {
+        let mut first = None;
+        for typed in &self.table.robots {
+            let row = Some(typed.get_ref().as_str());
+            match case_robot::built(&self.lab.robot_file, row, &[], &task.about) {
+                Ok(robot) => {
+                    let joints = robot.as_ref().map_or(0, Robot::n);
+                    let first = *first.get_or_insert(joints);
+                    if joints != first {
+                        let problem = DrawProblem::OtherCount { joints, first };
+                        return self.report.refuse_at(typed, problem);
+                    }
+                }
+                Err(error) => {
+                    let error = error.to_string();
+                    return self.report.refuse_at(typed, DrawProblem::Row { error });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The ranges that are typed as `what`, one per joint of the task.
+    fn per_joint(
+        &self,
+        task: &FunctionTask,
+        (what, typed): (&'static str, Option<&JointRanges>),
+    ) -> Result<Option<Vec<[f64; 2]>>, LabError> {
+        let Some(typed) = typed else {
             return Ok(None);
         };
+        let robot = self.first_robot(task)?;
+        let joints = TaskJoints::of(&robot, &task.about.ignored).count();
         let ranges = typed.get_ref();
         if ranges.len() != joints {
             let counted = |n: usize, what: &str| match n {
@@ -140,6 +225,7 @@ impl<'a> DrawReader<'a> {
                 _ => format!("{n} {what}s"),
             };
             let problem = DrawProblem::JointCount {
+                what,
                 found: counted(ranges.len(), "range"),
                 joints: counted(joints, "joint"),
             };
@@ -149,14 +235,11 @@ impl<'a> DrawReader<'a> {
     }
 
     /// What is drawn, which fits what the function is given.
-    fn what(
-        &self,
-        task: &FunctionTask,
-        q_ranges: Option<Vec<[f64; 2]>>,
-    ) -> Result<Drawn, LabError> {
+    fn what(&self, task: &FunctionTask) -> Result<Drawn, LabError> {
         let table = self.table;
         let free = matches!(task.function, Function::Free(_));
-        if free != table.given.is_some() || (free && !table.dimensions.is_empty()) {
+        let is_of_robot = !table.dimensions.is_empty() || !table.robots.is_empty();
+        if free != table.given.is_some() || (free && is_of_robot && !task.about.gives_robot) {
             let function = task.function.name().to_owned();
             return self.refuse(match free {
                 true => DrawProblem::NotByGiven { function },
@@ -164,14 +247,39 @@ impl<'a> DrawReader<'a> {
             });
         }
         let position_m = table.position_m.as_ref().map(|at| *at.get_ref());
-        match (&task.function, q_ranges, position_m) {
-            (Function::Free(_), None, None) => self.values(task),
-            (Function::ForwardKinematics | Function::Jacobian(_), Some(q), None) => Ok(Drawn::Q(q)),
-            (Function::InverseKinematics, Some(q), None) => {
-                Ok(Drawn::PositionOf(q, table.branches.unwrap_or(2)))
+        let [q, qd, qdd] = self.state().map(|typed| self.per_joint(task, typed));
+        let (q, qd, qdd) = (q?, qd?, qdd?);
+        if let Function::Quantity(quantity) = &task.function {
+            let state: Vec<Vec<[f64; 2]>> =
+                [q, qd, qdd].into_iter().map_while(|part| part).collect();
+            let typed = self
+                .state()
+                .iter()
+                .filter(|(_, typed)| typed.is_some())
+                .count();
+            if state.len() == quantity.order() && typed == state.len() && position_m.is_none() {
+                return Ok(Drawn::Motion(state));
             }
-            (Function::InverseKinematics, None, Some(position)) => match table.branches {
-                Some(branches) => Ok(Drawn::Position(position, branches)),
+            let names = self.state().map(|(name, _)| format!("`{name}`"));
+            return self.refuse(DrawProblem::NotByMotion {
+                function: task.function.name().to_owned(),
+                wanted: names[..quantity.order()].join(", "),
+            });
+        }
+        if qd.is_some() || qdd.is_some() {
+            return self.refuse(DrawProblem::NotOneQuantity);
+        }
+        match (&task.function, q, position_m) {
+            (Function::Free(_), None, None) => self.values(task),
+            (Function::ForwardKinematics(_) | Function::Jacobian(_), Some(q), None) => {
+                Ok(Drawn::Q(q))
+            }
+            (Function::InverseKinematics(form), Some(q), None) => {
+                Ok(Drawn::PoseOf(q, table.branches.unwrap_or(2), *form))
+            }
+            (Function::InverseKinematics(form), None, Some(position)) => match table.branches {
+                Some(1..) if form.is_turned() => self.refuse(DrawProblem::PoseOfPosition),
+                Some(branches) => Ok(Drawn::Position(position, branches, *form)),
                 None => self.refuse(DrawProblem::NoBranches),
             },
             _ => self.refuse(DrawProblem::NotOneQuantity),
@@ -199,8 +307,16 @@ impl<'a> DrawReader<'a> {
     }
 
     /// The ranges of dimensions, with which a robot can be built.
-    fn dimensions(&self, ends: Ends) -> Result<Vec<(String, Ranges)>, LabError> {
-        let stated = self.lab.robot_file.dimensions();
+    fn dimensions(
+        &self,
+        task: &FunctionTask,
+        ends: Ends,
+    ) -> Result<Vec<(String, Ranges)>, LabError> {
+        let rows: Vec<Option<&str>> = match self.table.robots.is_empty() {
+            true => vec![None],
+            false => self.rows().map(Some).collect(),
+        };
+        let stated = self.first_robot(task)?.dimensions().clone();
         let mut names = self.table.dimensions.keys();
         if let Some(at) = names.find(|name| stated.get(name.get_ref()).is_none()) {
             let problem = DrawProblem::UnknownDimension {
@@ -219,7 +335,10 @@ impl<'a> DrawReader<'a> {
                 .iter()
                 .map(|(name, ranges)| (name.clone(), ranges.end(end)))
                 .collect();
-            if let Err(error) = self.lab.robot_file.build(&changed) {
+            let mut built = rows
+                .iter()
+                .map(|row| case_robot::built(&self.lab.robot_file, *row, &changed, &task.about));
+            if let Some(Err(error)) = built.find(Result::is_err) {
                 let error = error.to_string();
                 // what has another shape is wrong at its own place; which of several numbers is too much, nobody can say
                 let misfit = self.table.dimensions.iter().find(|(name, ranges)| {

@@ -78,7 +78,11 @@ impl PluginController {
             ));
         };
         let limits = Limits::of_submission(opening.budgets.module_bytes);
-        let compiled = Compiled::new(bytes, limits, opening.function.as_deref())?;
+        let compiled = Compiled::new(
+            bytes,
+            limits,
+            opening.function.as_ref().map(|asked| asked.name.as_str()),
+        )?;
         let model = match &opening.granted {
             Some(granted) => Some(Rc::new(Model::new(granted, &opening.robot)?)),
             None => None,
@@ -252,12 +256,13 @@ impl PluginController {
                 let numbers = self.written(instance, call, out, written * n)?;
                 Ok(rows(&numbers, n))
             }
-            Call::Free { given, .. } => {
+            Call::OfRobot { .. } | Call::Free { .. } => {
                 let room = self.budgets.list_size as usize;
+                let given = by_name(call);
                 let place = |base| {
                     let mut block = Block::at(base);
                     let mut fields = Vec::new();
-                    flatten("", &Value::Map(given.clone()), &mut fields);
+                    flatten("", &given, &mut fields);
                     let map = block.map(&fields);
                     let at = block.aligned();
                     block.map_word(map);
@@ -517,6 +522,27 @@ fn read(instance: &Instance, at: u32, count: usize) -> Result<Vec<f64>, Trouble>
     }
 }
 
+/// What a function that is called with one map is given: its own input, and the robot's under `robot`.
+fn by_name(call: &Call) -> Value {
+    let mut given = match call {
+        Call::OfRobot { given, .. } | Call::Free { given, .. } => given.clone(),
+        _ => Vec::new(),
+    };
+    if let Some(robot) = call.robot() {
+        let mut facts = robot.dimensions.clone();
+        let entries = [
+            ("lower", list(&robot.lower)),
+            ("upper", list(&robot.upper)),
+            ("effort_limit", list(&robot.effort)),
+            ("joints", Value::Number(robot.joint_names.len() as f64)),
+            ("name", Value::Text(robot.name.clone())),
+        ];
+        facts.extend(entries.map(|(name, value)| (name.to_owned(), value)));
+        given.push(("robot".to_owned(), Value::Map(facts)));
+    }
+    Value::Map(given)
+}
+
 /// What a function writes to, as `kinemark.h` calls it.
 fn written_to(call: &Call) -> &'static str {
     match call {
@@ -524,7 +550,7 @@ fn written_to(call: &Call) -> &'static str {
         Call::InverseKinematics { .. } => "branches",
         Call::Jacobian { .. } => "matrix",
         Call::Init | Call::Control(_) => "command",
-        Call::Free { .. } => "answer",
+        Call::OfRobot { .. } | Call::Free { .. } => "answer",
     }
 }
 

@@ -399,6 +399,16 @@ fn order(symbol: &str, left: &Dynamic, right: &Dynamic) -> Result<Option<Orderin
     })
 }
 
+/// The one letter of a text: what an index takes out of a string is a letter, and people compare it with a string of one.
+fn letter(value: &Dynamic) -> Option<char> {
+    if let Ok(letter) = value.as_char() {
+        return Some(letter);
+    }
+    let text = value.as_immutable_string_ref().ok()?;
+    let mut letters = text.chars();
+    letters.next().filter(|_| letters.next().is_none())
+}
+
 /// Whether two values are the same; a list of numbers equals the vector of them.
 pub(super) fn equal(meter: &Meter, left: &Dynamic, right: &Dynamic) -> Result<bool, Problem> {
     if let (Ok(a), Ok(b)) = (left.as_int(), right.as_int()) {
@@ -409,6 +419,9 @@ pub(super) fn equal(meter: &Meter, left: &Dynamic, right: &Dynamic) -> Result<bo
     }
     if let (Ok(a), Ok(b)) = (left.as_bool(), right.as_bool()) {
         return Ok(a == b);
+    }
+    if left.is_char() || right.is_char() {
+        return Ok(letter(left).is_some_and(|a| letter(right) == Some(a)));
     }
     if let (Ok(a), Ok(b)) = (
         left.as_immutable_string_ref(),

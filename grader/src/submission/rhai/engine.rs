@@ -22,7 +22,7 @@ pub(super) struct Globals {
     /// Constants, built-in and of the file, filled as its top level runs.
     pub(super) constants: RefCell<BTreeMap<String, Dynamic>>,
     /// Arguments of the next call, each moved out when it is read.
-    pub(super) arguments: [Cell<Dynamic>; 2],
+    pub(super) arguments: [Cell<Dynamic>; ARGUMENTS.len()],
     /// How many functions the file has.
     pub(super) functions: Cell<usize>,
 }
@@ -31,7 +31,12 @@ pub(super) struct Globals {
 const FUNCTION: usize = 8;
 
 /// The variables through which a call reads its arguments; a script that uses one finds nothing in it.
-pub(super) const ARGUMENTS: [&str; 2] = ["argument_0_of_the_call", "argument_1_of_the_call"];
+pub(super) const ARGUMENTS: [&str; 4] = [
+    "argument_0_of_the_call",
+    "argument_1_of_the_call",
+    "argument_2_of_the_call",
+    "argument_3_of_the_call",
+];
 
 /// The variable that is `this` in a call: a map that is kept between calls.
 pub(super) const MEMORY: &str = "memory";

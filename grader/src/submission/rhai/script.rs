@@ -19,8 +19,8 @@ use super::slips;
 use super::unknown::unknown;
 use super::weight;
 use crate::submission::controller::{
-    Answer, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening, RobotFacts, Said,
-    SensorFacts, SourcePosition, Stop, Value,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening,
+    RobotFacts, Said, SensorFacts, SourcePosition, Stop, Value,
 };
 use crate::submission::robot_model::Model;
 
@@ -50,7 +50,7 @@ pub struct ScriptController {
     /// A method call, because the engine gives only methods a `this`.
     statements: BTreeMap<String, AST>,
     /// The lab's own function that is called, if any.
-    free: Option<String>,
+    asked: Option<AskedFunction>,
 }
 
 /// The engine's state, kept from call to call so that it need not look up every operator and built-in again.
@@ -137,7 +137,7 @@ impl ScriptController {
             .compile(source)
             .map_err(|error| context.not_compiled(&engine, &error))?;
         refuse_known_slips(&ast)?;
-        collect_names(&ast, &mut names, opening.function.as_deref());
+        collect_names(&ast, &mut names, opening.function.as_ref());
         globals.functions.set(names.functions.len());
         let ast = rewrite(&mut engine, &meter, &ast, &names)?;
 
@@ -145,7 +145,7 @@ impl ScriptController {
         global.lib.push(ast.shared_lib().clone());
         let mut scope = Scope::new();
         scope.push_dynamic(MEMORY, Dynamic::from_map(Map::new()));
-        let statements = call_statements(&engine, &scope, &names, opening.function.as_deref())?;
+        let statements = call_statements(&engine, &scope, &names, opening.function.as_ref())?;
         let mut caches = Caches::new();
         caches.push_fn_resolution_cache();
         let mut script = Self {
@@ -166,7 +166,7 @@ impl ScriptController {
             observation,
             sensors: opening.sensors.clone(),
             statements,
-            free: opening.function.clone(),
+            asked: opening.function.clone(),
         };
         script.run_top_level()?;
         Ok(script)
@@ -221,10 +221,12 @@ impl ScriptController {
     }
 
     /// The parameters of a function that the grader calls; empty for others.
-    fn parameters_of(&self, name: &str) -> &'static [&'static str] {
-        match &self.free {
-            Some(free) if free == name => &FREE_PARAMETERS,
-            _ => entry_parameters(name),
+    fn parameters_of(&self, name: &str) -> Vec<&str> {
+        match &self.asked {
+            Some(asked) if asked.name == name => {
+                asked.parameters.iter().map(String::as_str).collect()
+            }
+            _ => entry_parameters(name).to_vec(),
         }
     }
 
@@ -290,7 +292,7 @@ impl ScriptController {
         let namesake = functions.find(|(known, _)| known == name);
         (name != "init" || namesake.is_some()).then(|| Stop::Missing {
             function: format!("{name}({})", parameters.join(", ")),
-            help: self.names.missing(name, parameters),
+            help: self.names.missing(name, &parameters),
             namesake: namesake.map(|(_, got)| Namesake {
                 parameters: got.len(),
                 wanted: parameters.len(),
@@ -324,10 +326,16 @@ impl Controller for ScriptController {
                 let robot = self.robot.of(robot);
                 self.call_function(name, [robot, vector(position_m)])
             }
-            Call::Free { given, .. } => {
+            Call::OfRobot { robot, given, .. } => {
+                let robot = self.robot.of(robot);
+                let given = given.iter().map(|(_, value)| convert::to_dynamic(value));
+                self.call_function(name, std::iter::once(robot).chain(given))
+            }
+            Call::Free { robot, given, .. } => {
                 self.names.given = given.iter().map(|(key, _)| key.clone()).collect();
+                let robot = robot.as_ref().map(|robot| self.robot.of(robot));
                 let given = convert::to_dynamic(&Value::Map(given.clone()));
-                self.call_function(name, [given])
+                self.call_function(name, robot.into_iter().chain([given]))
             }
             Call::Init if !defined => Ok(Value::Nothing),
             Call::Init => {
@@ -363,20 +371,20 @@ fn call_statements(
     engine: &Engine,
     scope: &Scope<'_>,
     names: &Names,
-    free: Option<&str>,
+    asked: Option<&AskedFunction>,
 ) -> Result<BTreeMap<String, AST>, Stop> {
     let defined = |name: &str, parameters: usize| {
         let mut functions = names.functions.iter();
         functions.any(|(known, got)| known == name && got.len() == parameters)
     };
-    let free = free.map(|name| (name, &FREE_PARAMETERS[..]));
-    ENTRY_POINTS
-        .iter()
-        .copied()
-        .chain(free)
-        .filter(|(name, parameters)| defined(name, parameters.len()))
+    let entry_points = ENTRY_POINTS.iter();
+    let entry_points = entry_points.map(|(name, parameters)| (*name, parameters.len()));
+    let asked = asked.map(|asked| (asked.name.as_str(), asked.parameters.len()));
+    entry_points
+        .chain(asked)
+        .filter(|(name, parameters)| defined(name, *parameters))
         .map(|(name, parameters)| {
-            let arguments = ARGUMENTS[..parameters.len()].join(", ");
+            let arguments = ARGUMENTS[..parameters].join(", ");
             let text = format!("{MEMORY}.{name}({arguments})");
             let statement = engine
                 .compile_with_scope(scope, text)
@@ -385,9 +393,6 @@ fn call_statements(
         })
         .collect()
 }
-
-/// The parameters of the lab's own function.
-const FREE_PARAMETERS: [&str; 1] = ["given"];
 
 /// Why a lab's own function cannot have the name `name`; `None` if it can.
 pub fn refused_name(name: &str) -> Option<&'static str> {
@@ -517,7 +522,7 @@ fn too_long(name: &str, position: Position) -> (Option<SourcePosition>, String, 
 }
 
 /// Records the declarations of the file.
-fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
+fn collect_names(ast: &AST, names: &mut Names, asked: Option<&AskedFunction>) {
     for function in ast.iter_functions() {
         let parameters: Vec<String> = function.params.iter().map(ToString::to_string).collect();
         names.local.extend(parameters.iter().cloned());
@@ -528,8 +533,15 @@ fn collect_names(ast: &AST, names: &mut Names, free: Option<&str>) {
             ("forward_kinematics" | "inverse_kinematics" | "jacobian" | "init", Some(first)) => {
                 names.robot_parameters.insert(first.clone());
             }
-            (name, Some(first)) if Some(name) == free => {
-                names.given_parameters.insert(first.clone());
+            (name, Some(_)) if asked.is_some_and(|asked| asked.name == name) => {
+                let wanted = asked.iter().flat_map(|asked| &asked.parameters);
+                for (wanted, own) in wanted.zip(&parameters) {
+                    match wanted.as_str() {
+                        "robot" => names.robot_parameters.insert(own.clone()),
+                        "given" => names.given_parameters.insert(own.clone()),
+                        _ => false,
+                    };
+                }
             }
             _ => {}
         }

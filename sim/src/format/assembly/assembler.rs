@@ -140,6 +140,7 @@ impl Assembler<'_> {
         let warnings = warnings.chain(heavy_meshes::warning(&links)).collect();
         let world_inertia = gather_inertia(&links, &mut bodies);
         let frames = self.frames(&links, &link_names)?;
+        let named_tcp = frames.iter().position(|frame| frame.name == "tcp");
         let loops = self.loops(&links, &link_names)?;
         let n = moving.len();
         let home: Vec<f64> = moving.iter().map(|&j| joints[j].guess).collect();
@@ -149,6 +150,7 @@ impl Assembler<'_> {
             links,
             joints,
             moving,
+            tcp: named_tcp.unwrap_or(parts.links.len() - 1),
             frames,
             bodies,
             world_inertia,

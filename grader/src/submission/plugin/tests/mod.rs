@@ -4,8 +4,8 @@ mod words;
 
 use super::PluginController;
 use crate::submission::controller::{
-    Answer, Budget, Budgets, Call, Controller, Observation, Opening, Reads, RobotFacts,
-    SensorFacts, Stop, Value,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, Observation, Opening, Reads,
+    RobotFacts, SensorFacts, Stop, Value,
 };
 use crate::submission::handed_in::Program;
 
@@ -60,6 +60,14 @@ fn opening(bytes: Vec<u8>) -> Opening {
         budgets: Budgets::default(),
         granted: None,
         function: None,
+    }
+}
+
+/// The lab's own function of this name.
+fn asked(name: &str) -> AskedFunction {
+    AskedFunction {
+        name: name.into(),
+        parameters: vec!["given".into()],
     }
 }
 
@@ -270,9 +278,10 @@ fn a_function_of_the_labs_own_answers_with_named_numbers() {
             .replace("COUNT", count)
             .replace("COLUMNS", columns);
         let mut opening = opening(module(&text));
-        opening.function = Some("own".into());
+        opening.function = Some(asked("own"));
         let call = Call::Free {
             function: "own".into(),
+            robot: None,
             given: vec![("x".into(), Value::Number(3.0))],
         };
         PluginController::open(&opening).ok().unwrap().call(&call)
@@ -318,9 +327,10 @@ fn entries_of_an_answer_are_sorted_by_name() {
         entry(20, 10, 24)
     );
     let mut opening = opening(module(&text));
-    opening.function = Some("own".into());
+    opening.function = Some(asked("own"));
     let call = Call::Free {
         function: "own".into(),
+        robot: None,
         given: Vec::new(),
     };
     let answer = PluginController::open(&opening).ok().unwrap().call(&call);

@@ -54,7 +54,7 @@ fn a_function_of_another_type_is_shown_as_c_declares_it() {
         )
     );
     let mut own = opening(module("(func (export \"km_own\") (param i32))"));
-    own.function = Some("own".into());
+    own.function = Some(asked("own"));
     let Err(Stop::DidNotBuild(mistake)) = PluginController::open(&own) else {
         panic!("it opens")
     };

@@ -1,6 +1,6 @@
 //! What goes into a call and comes out of it, and what stays between calls.
 
-use super::{answer, assert_values, numbers, observation, opening, robot, run, stop};
+use super::{answer, asked, assert_values, numbers, observation, opening, robot, run, stop};
 use crate::submission::controller::{
     Call, Controller, Mistake, Namesake, SourcePosition, Stop, Value,
 };
@@ -95,7 +95,7 @@ fn every_case_of_a_function_begins_with_an_empty_this() {
         counting("jacobian(robot, q)"),
         counting("own(given)"),
     ));
-    opening.function = Some("own".into());
+    opening.function = Some(asked("own"));
     let mut script = ScriptController::open(&opening).unwrap();
     let q = vec![0.5, 0.0];
     let calls = [
@@ -110,6 +110,7 @@ fn every_case_of_a_function_begins_with_an_empty_this() {
         Call::Jacobian { robot: robot(), q },
         Call::Free {
             function: "own".into(),
+            robot: None,
             given: vec![("x".into(), Value::Number(1.0))],
         },
     ];

@@ -2,7 +2,7 @@
 
 use super::ScriptController;
 use crate::submission::controller::{
-    Answer, Budgets, Call, Controller, Observation, Opening, RobotFacts, Stop, Value,
+    Answer, AskedFunction, Budgets, Call, Controller, Observation, Opening, RobotFacts, Stop, Value,
 };
 use crate::submission::handed_in::Program;
 
@@ -40,6 +40,14 @@ fn opening(source: &str) -> Opening {
         budgets: Budgets::default(),
         granted: None,
         function: None,
+    }
+}
+
+/// The lab's own function of this name.
+fn asked(name: &str) -> AskedFunction {
+    AskedFunction {
+        name: name.into(),
+        parameters: vec!["given".into()],
     }
 }
 

@@ -38,6 +38,12 @@ fn whole_numbers_are_numbers() {
 #[test]
 fn comparisons_are_exact_and_go_across_kinds() {
     for (body, wanted) in [
+        // a letter of a text is a text of one letter
+        ("\"RzTx\"[0] == \"R\"", true),
+        ("'z' == \"RzTx\"[1]", true),
+        ("\"RzTx\"[0] == \"Rz\"", false),
+        ("\"RzTx\"[0] != \"r\"", true),
+        ("\"RzTx\"[0] == 82", false),
         ("1 < 2.5", true),
         ("1 == 1.0", true),
         ("0.1 + 0.2 == 0.3", false),
