@@ -86,6 +86,7 @@ mod targets;
 mod testbed;
 mod unresolved_runs;
 mod urdf_labs;
+mod variant_choices;
 mod variant_mistakes;
 mod variants;
 mod verify;

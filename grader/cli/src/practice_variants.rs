@@ -442,6 +442,7 @@ fn numbers(parameters: &[(String, Dimension)]) -> String {
     let words = parameters.iter().map(|(name, value)| match value {
         Dimension::Number(number) => format!("{name} = {number}"),
         Dimension::List(numbers) => format!("{name} = {numbers:?}"),
+        Dimension::Text(text) => format!("{name} = {text}"),
     });
     words.collect::<Vec<_>>().join(", ")
 }

@@ -121,6 +121,8 @@ pub(crate) fn numbers<'n>(
         let values = match value {
             Dimension::Number(number) => vec![*number],
             Dimension::List(numbers) => numbers.clone(),
+            // what is no number is the same in no two ways
+            Dimension::Text(_) => Vec::new(),
         };
         (name.to_owned(), values)
     });
@@ -135,6 +137,7 @@ fn practised(grade: Grade) -> Vec<(String, Vec<f64>)> {
         .map(|(name, value)| match value {
             ParameterValue::Number(number) => (name, vec![number]),
             ParameterValue::List(numbers) => (name, numbers),
+            ParameterValue::Text(_) => (name, Vec::new()),
         })
         .collect()
 }

@@ -126,6 +126,7 @@ pub(super) fn given_in_words(case: &Case, robot: &Robot, about: &About) -> Strin
         let value = match dimension {
             Dimension::Number(number) => trimmed(*number, 4),
             Dimension::List(numbers) => list(numbers),
+            Dimension::Text(text) => text.clone(),
         };
         format!(", {name} = {value}")
     });

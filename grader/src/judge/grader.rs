@@ -146,6 +146,7 @@ fn variant_record(lab: &Lab) -> Option<VariantRecord> {
         let value = match value {
             Dimension::Number(number) => ParameterValue::Number(*number),
             Dimension::List(numbers) => ParameterValue::List(numbers.clone()),
+            Dimension::Text(text) => ParameterValue::Text(text.clone()),
         };
         (name.to_owned(), value)
     });

@@ -36,7 +36,7 @@ pub(super) struct LabTable {
     #[serde(default)]
     pub(super) dimensions: NumbersTable,
     #[serde(default)]
-    pub(super) variants: BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
+    pub(super) variants: BTreeMap<Spanned<String>, Spanned<VariesTable>>,
     #[serde(default)]
     pub(super) tasks: Vec<TaskTable>,
 }
@@ -280,6 +280,10 @@ impl<'de> Deserialize<'de> for PerJoint {
         Ok(match Dimension::deserialize(deserializer)? {
             Dimension::Number(value) => Self::All(value),
             Dimension::List(values) => Self::Each(values),
+            Dimension::Text(_) => {
+                let message = "expected a number, or a list of numbers, one per joint";
+                return Err(serde::de::Error::custom(message));
+            }
         })
     }
 }
@@ -376,6 +380,9 @@ impl<'de> Deserialize<'de> for Ranges {
                                 return Err(serde::de::Error::custom("a range is [low, high]"));
                             }
                         },
+                        Dimension::Text(_) => {
+                            return Err(serde::de::Error::custom("a range is of numbers"));
+                        }
                     }
                 }
                 match (<[f64; 2]>::try_from(numbers), pairs.is_empty()) {
@@ -471,41 +478,18 @@ pub(super) struct StepsTable {
     pub(super) step: f64,
 }
 
-/// One such table for a number, or one for each number of a list.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum StepsOrEach {
-    One(StepsTable),
+/// What a parameter varies over: steps of a number, one such table for each number of a list, or choices of anything.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected { from, to, step }, a list of such tables, or { choices = [...] }"
+)]
+pub(super) enum VariesTable {
+    Steps(StepsTable),
     Each(Vec<StepsTable>),
-}
-
-impl<'de> Deserialize<'de> for StepsOrEach {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OneOrEach;
-        impl<'de> serde::de::Visitor<'de> for OneOrEach {
-            type Value = StepsOrEach;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("{ from, to, step }, or a list of such tables")
-            }
-            fn visit_map<A: serde::de::MapAccess<'de>>(
-                self,
-                map: A,
-            ) -> Result<StepsOrEach, A::Error> {
-                let table = serde::de::value::MapAccessDeserializer::new(map);
-                StepsTable::deserialize(table).map(StepsOrEach::One)
-            }
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(
-                self,
-                mut seq: A,
-            ) -> Result<StepsOrEach, A::Error> {
-                let mut each = Vec::new();
-                while let Some(steps) = seq.next_element()? {
-                    each.push(steps);
-                }
-                Ok(StepsOrEach::Each(each))
-            }
-        }
-        deserializer.deserialize_any(OneOrEach)
-    }
+    Choices {
+        choices: Vec<kinemark_sim::text::Dimension>,
+    },
 }
 
 /// A motion task that is run again with other parameters, drawn at random.

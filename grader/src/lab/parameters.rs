@@ -25,6 +25,10 @@ problems! {
         DrawnFromExpression:
             "lab::variants", "[variants] holds numbers, not expressions: parameters are drawn from it", "an expression",
             "write the number";
+        OfExpression:
+            "lab::expression", "a parameter is a value, and expressions are over parameters", "an expression", "write the number";
+        Quoted { text: String }:
+            "lab::expression", "a number in quotes is a text", "in quotes", format!("write {} without quotes", text.replace(',', "."));
         OfReference:
             "lab::bad_name", "`reference` cannot be a parameter: in a band it is what the reference solution reaches", "this name",
             "choose another name";
@@ -78,7 +82,17 @@ pub(super) fn stated(source: &Source) -> Result<Dimensions, LabError> {
     let table: Stated = toml::from_str(source.text()).map_err(|error| refused(source, &error))?;
     let mut parameters = Dimensions::default();
     for (name, value) in table.parameters {
-        named(Reporter { source }, &name)?;
+        let report = Reporter { source };
+        named(report, &name)?;
+        if let Dimension::Text(text) = value.get_ref() {
+            if text.starts_with(MARK) {
+                return report.refuse_at(&value, ParameterProblem::OfExpression);
+            }
+            if text.trim().replace(',', ".").parse::<f64>().is_ok() {
+                let text = text.trim().to_owned();
+                return report.refuse_at(&value, ParameterProblem::Quoted { text });
+            }
+        }
         parameters.set(name.into_inner(), value.into_inner());
     }
     Ok(parameters)

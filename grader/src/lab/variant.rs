@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use unicode_normalization::UnicodeNormalization as _;
 
-use super::file::{StepsOrEach, StepsTable};
+use super::file::{StepsTable, VariesTable};
 use super::load::tables;
 use super::model::Lab;
 use super::parameters::NumbersTable;
@@ -237,6 +237,7 @@ fn toml_of(value: &Dimension) -> String {
     match value {
         Dimension::Number(number) => format!("{number:?}"),
         Dimension::List(numbers) => format!("{numbers:?}"),
+        Dimension::Text(text) => toml::Value::String(text.clone()).to_string(),
     }
 }
 
@@ -287,10 +288,19 @@ pub fn student_id(id: &str) -> Result<(), String> {
 pub struct VariantRule {
     /// The parameter.
     pub name: String,
-    /// The steps of its number, or of each number of its list.
-    pub steps: Vec<Steps>,
-    /// Whether it is a list.
-    pub list: bool,
+    /// What it is drawn from.
+    pub from: DrawnFrom,
+}
+
+/// What the values of a parameter are drawn from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DrawnFrom {
+    /// The steps of a number.
+    Steps(Steps),
+    /// The steps of each number of a list.
+    Each(Vec<Steps>),
+    /// One of these, all of one shape.
+    Choices(Vec<Dimension>),
 }
 
 /// Values at equal distances.
@@ -328,21 +338,30 @@ impl Steps {
 impl VariantRule {
     /// Whether a student's variant can have this value.
     fn gives(&self, value: &Dimension) -> bool {
-        let numbers = match value {
-            Dimension::Number(number) => std::slice::from_ref(number),
-            Dimension::List(numbers) => numbers,
-        };
-        numbers.len() == self.steps.len()
-            && numbers
-                .iter()
-                .zip(&self.steps)
-                .all(|(number, steps)| steps.gives(*number))
+        match (&self.from, value) {
+            (DrawnFrom::Steps(steps), Dimension::Number(number)) => steps.gives(*number),
+            (DrawnFrom::Each(each), Dimension::List(numbers)) => {
+                let mut pairs = numbers.iter().zip(each);
+                numbers.len() == each.len() && pairs.all(|(number, steps)| steps.gives(*number))
+            }
+            (DrawnFrom::Choices(choices), value) => choices.contains(value),
+            (DrawnFrom::Steps(_) | DrawnFrom::Each(_), _) => false,
+        }
     }
 
     /// The values that it gives, in words.
     fn words(&self) -> String {
-        let all: Vec<String> = self.steps.iter().map(Steps::words).collect();
-        all.join("; ")
+        match &self.from {
+            DrawnFrom::Steps(steps) => steps.words(),
+            DrawnFrom::Each(each) => {
+                let all: Vec<String> = each.iter().map(Steps::words).collect();
+                all.join("; ")
+            }
+            DrawnFrom::Choices(choices) => {
+                let all: Vec<String> = choices.iter().map(toml_of).collect();
+                format!("one of {}", all.join(", "))
+            }
+        }
     }
 }
 
@@ -359,21 +378,22 @@ impl Lab {
             .variants
             .iter()
             .map(|rule| {
-                let drawn = |(i, steps): (usize, &Steps)| {
-                    let index = rule.list.then_some(i as u64);
-                    steps.value(chosen(
-                        salt,
-                        &self.name,
-                        student,
-                        &rule.name,
-                        index,
-                        steps.count,
-                    ))
-                };
-                let mut values = rule.steps.iter().enumerate().map(drawn);
-                let value = match (rule.list, values.next()) {
-                    (false, Some(value)) => Dimension::Number(value),
-                    (_, first) => Dimension::List(first.into_iter().chain(values).collect()),
+                let below =
+                    |index, count| chosen(salt, &self.name, student, &rule.name, index, count);
+                let value = match &rule.from {
+                    DrawnFrom::Steps(steps) => {
+                        Dimension::Number(steps.value(below(None, steps.count)))
+                    }
+                    DrawnFrom::Each(each) => {
+                        let numbers = (0..).zip(each);
+                        let drawn =
+                            numbers.map(|(i, steps)| steps.value(below(Some(i), steps.count)));
+                        Dimension::List(drawn.collect())
+                    }
+                    // reading refuses a rule without choices
+                    DrawnFrom::Choices(choices) => {
+                        choices[below(None, choices.len() as u64) as usize].clone()
+                    }
                 };
                 (rule.name.clone(), value)
             })
@@ -408,7 +428,12 @@ problems! {
             "lab::variants", "no parameter is called `{name}`", "not in [parameters]", near(name, "parameters", known);
         Shape { name: String, base: Dimension }:
             "lab::variants", "parameter `{name}` is {base}, and this varies something else", "another shape",
-            "give { from, to, step } for one number, and a list of such tables for a list";
+            "give { from, to, step } for one number, a list of such tables for a list, or { choices = [...] } for anything";
+        NoChoices:
+            "lab::variants", "`choices` has nothing to choose", "an empty list", "write two or more values";
+        Choice { name: String, base: Dimension, choice: String }:
+            "lab::variants", "parameter `{name}` is {base}, and the choice {choice} is something else", "these choices",
+            "let all of them have the shape that the parameter has";
         Steps { what: String, help: String }:
             "lab::variants", "{what}", "these steps", help.clone();
     }
@@ -472,7 +497,7 @@ fn near_step(way: f64, steps: f64) -> f64 {
 /// The rules of a lab's `[variants]`.
 pub(super) fn rules(
     report: Reporter<'_>,
-    table: &std::collections::BTreeMap<Spanned<String>, Spanned<StepsOrEach>>,
+    table: &std::collections::BTreeMap<Spanned<String>, Spanned<VariesTable>>,
     stated: &kinemark_sim::text::Dimensions,
 ) -> Result<Vec<VariantRule>, LabError> {
     let mut rules = Vec::new();
@@ -485,39 +510,56 @@ pub(super) fn rules(
             };
             return report.refuse_at(at, problem);
         };
-        let (tables, list) = match (typed.get_ref(), base) {
-            (StepsOrEach::One(steps), Dimension::Number(_)) => (vec![*steps], false),
-            (StepsOrEach::Each(each), Dimension::List(base)) if each.len() == base.len() => {
-                (each.clone(), true)
+        let steps = |table: &StepsTable| {
+            steps_of(table).or_else(|problem| report.refuse_at(typed, problem))
+        };
+        let from = match (typed.get_ref(), base) {
+            (VariesTable::Steps(table), Dimension::Number(_)) => DrawnFrom::Steps(steps(table)?),
+            (VariesTable::Each(each), Dimension::List(base)) if each.len() == base.len() => {
+                DrawnFrom::Each(each.iter().map(steps).collect::<Result<_, _>>()?)
+            }
+            (VariesTable::Choices { choices }, base) => {
+                if choices.is_empty() {
+                    return report.refuse_at(typed, RuleProblem::NoChoices);
+                }
+                let shape = base.to_string();
+                if let Some(other) = choices.iter().find(|choice| choice.to_string() != shape) {
+                    let problem = RuleProblem::Choice {
+                        name: name.clone(),
+                        base: base.clone(),
+                        choice: toml_of(other),
+                    };
+                    return report.refuse_at(typed, problem);
+                }
+                DrawnFrom::Choices(choices.clone())
             }
             _ => {
                 let (name, base) = (name.clone(), base.clone());
                 return report.refuse_at(typed, RuleProblem::Shape { name, base });
             }
         };
-        let mut steps = Vec::new();
-        for StepsTable { from, to, step } in tables {
-            let whole = ((to - from) / step).round();
-            let fits = step > 0.0
-                && !is_lost(from, to, step)
-                && (0.0..=MOST_STEPS).contains(&whole)
-                && (from + whole * step - to).abs() <= 1e-6 * step;
-            if !fits {
-                return report.refuse_at(typed, not_steps(from, to, step));
-            }
-            steps.push(Steps {
-                from,
-                step,
-                count: whole as u64 + 1,
-            });
-        }
-        rules.push(VariantRule {
-            name: name.clone(),
-            steps,
-            list,
-        });
+        let name = name.clone();
+        rules.push(VariantRule { name, from });
     }
     Ok(rules)
+}
+
+/// The steps of a table.
+fn steps_of(table: &StepsTable) -> Result<Steps, RuleProblem> {
+    let StepsTable { from, to, step } = *table;
+    let whole = ((to - from) / step).round();
+    let fits = step > 0.0
+        && !is_lost(from, to, step)
+        && (0.0..=MOST_STEPS).contains(&whole)
+        && (from + whole * step - to).abs() <= 1e-6 * step;
+    if !fits {
+        return Err(not_steps(from, to, step));
+    }
+    Ok(Steps {
+        from,
+        step,
+        count: whole as u64 + 1,
+    })
 }
 
 #[cfg(test)]

@@ -76,7 +76,7 @@ pub struct VariantRecord {
     pub parameters: BTreeMap<String, ParameterValue>,
 }
 
-/// The value of a parameter: a number, or a list of numbers.
+/// The value of a parameter: a number, a list of numbers, or a text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ParameterValue {
@@ -84,6 +84,8 @@ pub enum ParameterValue {
     Number(f64),
     /// A list.
     List(Vec<f64>),
+    /// A text, such as a row of joints.
+    Text(String),
 }
 
 impl Grade {
@@ -105,6 +107,7 @@ impl VariantRecord {
         let numbers = self.parameters.iter().map(|(name, value)| match value {
             ParameterValue::Number(number) => format!("{name} = {number}"),
             ParameterValue::List(numbers) => format!("{name} = {numbers:?}"),
+            ParameterValue::Text(text) => format!("{name} = {text}"),
         });
         let numbers: Vec<String> = numbers.collect();
         let whose = match &self.student {

@@ -80,6 +80,8 @@ impl From<Dimension> for Entry {
         match dimension {
             Dimension::Number(number) => Self::Number(number),
             Dimension::List(list) => Self::List(list),
+            // no robot has one, and nothing is drawn as one
+            Dimension::Text(_) => Self::List(Vec::new()),
         }
     }
 }

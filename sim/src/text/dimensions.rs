@@ -17,6 +17,8 @@ pub enum Dimension {
     Number(f64),
     /// A list, indexed from zero.
     List(Vec<f64>),
+    /// A word that stands for something else than a size, such as the robot of a lab; no robot or scene has one.
+    Text(String),
 }
 
 impl fmt::Display for Dimension {
@@ -24,6 +26,7 @@ impl fmt::Display for Dimension {
         match self {
             Self::Number(_) => write!(f, "one number"),
             Self::List(values) => write!(f, "a list of {}", values.len()),
+            Self::Text(_) => write!(f, "a text"),
         }
     }
 }
@@ -77,8 +80,12 @@ impl<'de> Deserialize<'de> for Dimensions {
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Dimensions, A::Error> {
                 let mut pairs = Vec::new();
-                while let Some(pair) = map.next_entry()? {
-                    pairs.push(pair);
+                while let Some((name, value)) = map.next_entry()? {
+                    if let Dimension::Text(_) = value {
+                        let message = "a dimension is a number or a list of numbers";
+                        return Err(de::Error::custom(message));
+                    }
+                    pairs.push((name, value));
                 }
                 Ok(Dimensions(pairs))
             }
@@ -107,6 +114,9 @@ impl<'de> Deserialize<'de> for Dimension {
                     )))
                 }
             }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Dimension, E> {
+                Ok(Dimension::Text(text.to_owned()))
+            }
             fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Dimension, A::Error> {
                 let mut values = Vec::new();
                 while let Some(item) = seq.next_element::<Dimension>()? {
@@ -114,6 +124,9 @@ impl<'de> Deserialize<'de> for Dimension {
                         Dimension::Number(value) => values.push(value),
                         Dimension::List(_) => {
                             return Err(de::Error::custom("a list of lists is not a dimension"));
+                        }
+                        Dimension::Text(_) => {
+                            return Err(de::Error::custom("a list of numbers has no texts in it"));
                         }
                     }
                 }

@@ -248,6 +248,11 @@ impl Reader<'_> {
                 }
                 Ok(*value)
             }
+            Dimension::Text(_) => Err(problem(
+                format!("`{name}` is a text, and an expression is over numbers"),
+                Some(format!("write \"= {name}\" alone where a text belongs")),
+                name_at,
+            )),
             Dimension::List(values) => {
                 let last = values.len().saturating_sub(1);
                 let help = Some(match values.len() {

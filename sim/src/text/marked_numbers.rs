@@ -1,5 +1,5 @@
 //! TOML in which a string that begins with `=` is an expression: each is replaced by its number before the tables are read, and the name
-//! of a list alone by the list.
+//! of a list or a text alone by that.
 //!
 //! An expression over a number that is not known yet, such as what a reference run will reach, is replaced by a [`super::Linear`] instead.
 
@@ -43,9 +43,8 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
             let at = value.span();
             numbers.push(if names(text, later) {
                 linear_in(source, &at, text, named, (noun, later))?.as_toml()
-            } else if let Some(list) = whole_list(text, named) {
-                let items: Vec<String> = list.iter().copied().map(as_toml).collect();
-                format!("[{}]", items.join(", "))
+            } else if let Some(whole) = whole(text, named) {
+                whole
             } else {
                 as_toml(evaluate_in(source, &at, text, named, noun)?)
             });
@@ -65,11 +64,15 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
 }
 
-/// The list that an expression names, if it is nothing but the name of one.
-fn whole_list<'n>(text: &str, named: &'n Dimensions) -> Option<&'n [f64]> {
+/// The list or the text that an expression names as TOML, if it is nothing but the name of one.
+fn whole(text: &str, named: &Dimensions) -> Option<String> {
     let name = text.strip_prefix(MARK)?.trim();
     match named.get(name)? {
-        Dimension::List(values) => Some(values),
+        Dimension::List(values) => {
+            let items: Vec<String> = values.iter().copied().map(as_toml).collect();
+            Some(format!("[{}]", items.join(", ")))
+        }
+        Dimension::Text(text) => Some(toml::Value::String(text.clone()).to_string()),
         Dimension::Number(_) => None,
     }
 }

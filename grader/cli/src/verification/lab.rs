@@ -172,6 +172,7 @@ fn is_variant_of_course(
         let parameters = parameters.map(|(name, value)| match value {
             Dimension::Number(number) => format!("{name} = {number}"),
             Dimension::List(numbers) => format!("{name} = {numbers:?}"),
+            Dimension::Text(text) => format!("{name} = {text}"),
         });
         let whose = student.map_or_else(
             || "no student".to_owned(),

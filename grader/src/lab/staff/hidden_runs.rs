@@ -104,7 +104,7 @@ fn fitting_ranges<'t>(
         let fits = match (lab.parameters.get(name.get_ref()), ranges.get_ref()) {
             (Some(Dimension::Number(_)), Ranges::One(_)) => true,
             (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
-            (Some(Dimension::List(_) | Dimension::Number(_)), _) => false,
+            (Some(_), _) => false,
             (None, _) => {
                 let problem = RunsProblem::UnknownParameter {
                     lab: lab.name.clone(),
