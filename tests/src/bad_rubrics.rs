@@ -173,6 +173,7 @@ fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
             starter: None,
             zeros: None,
             reference: None,
+            finer: None,
             mutants: &[],
             margins: &[],
         },

@@ -84,6 +84,7 @@ mod submit;
 mod tampered_reports;
 mod targets;
 mod testbed;
+mod unnamed_mutants;
 mod unresolved_runs;
 mod urdf_labs;
 mod variant_choices;

@@ -3,7 +3,7 @@
 use super::ended::Ended;
 
 /// A submission tried on one task: `T` is the trace of a motion task, or the answers of a function task.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Attempt<T> {
     /// What was recorded, up to the end.
     pub recorded: T,

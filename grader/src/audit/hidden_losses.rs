@@ -3,7 +3,7 @@
 use kinemark_sim::text::Source;
 use serde::Serialize;
 
-use super::place_of;
+use super::reference::place_of;
 use crate::judge::explain;
 use crate::lab::{Lab, Staff};
 use crate::record::explanation::{DrawCheck, ExplainedDraw, HiddenDraw};

@@ -37,30 +37,44 @@ pub fn practice_forms(
     staff: &Staff,
     done: &dyn Fn(),
 ) -> Result<Vec<PracticeForm>, PracticeError> {
+    let mut forms = vec![practice_form(labs, lab, staff, 0)?];
+    done();
+    if lab.variants.is_empty() || forms[0].tasks.is_empty() {
+        return Ok(forms);
+    }
+    for number in 1..=PRACTICE_VARIANTS {
+        forms.push(practice_form(labs, lab, staff, number)?);
+        done();
+    }
+    Ok(forms)
+}
+
+/// One entry of it: practice variant `number`, or the default variant for 0.
+///
+/// # Errors
+/// As [`practice_forms`].
+pub fn practice_form(
+    labs: &dyn Files,
+    lab: &Lab,
+    staff: &Staff,
+    number: u32,
+) -> Result<PracticeForm, PracticeError> {
     let of = |lab: &Lab, name: &str| {
         practice(lab, staff).map_err(|why| PracticeError::Solution {
             of: name.to_owned(),
             why,
         })
     };
-    let mut forms = vec![form(None, of(lab, "default variant")?)];
-    done();
-    if lab.variants.is_empty() || forms[0].tasks.is_empty() {
-        return Ok(forms);
+    if number == 0 {
+        return Ok(form(None, of(lab, "default variant")?));
     }
-    for number in 1..=PRACTICE_VARIANTS {
-        let student = practice_student(number);
-        let load = |error: LoadError| PracticeError::Load(Box::new(error));
-        let variant = lab.variant_of(PRACTICE_SALT, &student);
-        let variant = variant.map_err(|error| load(error.into()))?;
-        let own = Lab::load_variant(labs, &lab.name, Some(&variant)).map_err(load)?;
-        forms.push(form(
-            Some(&variant),
-            of(&own, &format!("variant `{student}`"))?,
-        ));
-        done();
-    }
-    Ok(forms)
+    let student = practice_student(number);
+    let load = |error: LoadError| PracticeError::Load(Box::new(error));
+    let variant = lab.variant_of(PRACTICE_SALT, &student);
+    let variant = variant.map_err(|error| load(error.into()))?;
+    let own = Lab::load_variant(labs, &lab.name, Some(&variant)).map_err(load)?;
+    let tasks = of(&own, &format!("variant `{student}`"))?;
+    Ok(form(Some(&variant), tasks))
 }
 
 impl Audit {

@@ -3,30 +3,26 @@
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
-use super::{Audit, LostDraw, Problem, Tried, graded, reference_problem, staff_code};
+use super::bands::{add_mutant, add_reference, difficulty};
+use super::form::Form;
+use super::lost::{Lost, distinct};
+use super::row::{Problem, Row, Tried};
+use super::{Audit, staff_code};
 use crate::lab::Lab;
 use crate::lab::Variant;
 use crate::lab::staff::Staff;
 use crate::record::grade::{Grade, Measure};
-use crate::record::verdict::Verdict;
 use crate::task::files::Files;
 use crate::task::problem::LoadError;
 
 /// The results of the variants of some students.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Variants {
-    students: u32,
+    /// Students with the numbers of their variants, in words.
+    students: Vec<(String, String)>,
     lost: Vec<Lost>,
     rooms: Vec<VariantMargin>,
-}
-
-/// A student in whose variant the reference solution lost points.
-#[derive(Debug, Clone, PartialEq)]
-struct Lost {
-    student: String,
-    problem: String,
-    help: String,
-    hidden: Vec<LostDraw>,
+    grades: Vec<(String, Grade)>,
 }
 
 /// The margin of the reference solution in a check's band, over the variants that were tried. Similar margins make variants equally hard.
@@ -107,7 +103,7 @@ pub(super) fn is_thin(measure: &Measure) -> bool {
 }
 
 /// The margin of a measure; `None` if it has no value or its band has no width.
-fn margin_of(measure: &Measure) -> Option<f64> {
+pub(super) fn margin_of(measure: &Measure) -> Option<f64> {
     let value = measure.value?;
     let margin = (measure.full - value) / (measure.zero - measure.full);
     // adding zero turns -0 into 0
@@ -118,40 +114,37 @@ impl Variants {
     /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that cannot be loaded is
     /// recorded like one that loses points.
     pub fn student(&mut self, lab: &Lab, reference: &dyn Files, salt: &str, student: &str) {
-        self.students += 1;
         let mut numbers = String::new();
         let loaded = lab.variant_of(salt, student).map_err(Into::into);
         let loaded = loaded.and_then(|variant| {
             numbers = variant.numbers().trim_end().replace('\n', ", ");
             Self::load(lab, reference, salt, &variant)
         });
+        self.students.push((student.to_owned(), numbers.clone()));
+        let lost = |problem| Lost {
+            of: student.to_owned(),
+            numbers: numbers.clone(),
+            problem,
+        };
         let (lab, staff) = match loaded {
             Ok(Some(loaded)) => loaded,
             Ok(None) => return,
             Err(why) => {
-                self.lost.push(Lost {
-                    student: student.to_owned(),
-                    problem: format!("it cannot be loaded ({numbers}): {why}"),
+                self.lost.push(lost(Problem {
+                    what: format!("it cannot be loaded ({numbers}): {why}"),
                     help: "or mend what the error names".to_owned(),
-                    hidden: Vec::new(),
-                });
+                    key: NOT_LOADED.to_owned(),
+                    ..Problem::default()
+                }));
                 return;
             }
         };
-        let Some(run) = graded(&lab, &staff, &staff.solution) else {
-            return;
-        };
-        let tasks = &run.grade.tasks;
-        if let Some(task) = tasks.iter().find(|task| task.verdict != Verdict::Passed) {
-            let problem = reference_problem(&lab, &staff, task);
-            self.lost.push(Lost {
-                student: student.to_owned(),
-                problem: problem.what,
-                help: problem.help,
-                hidden: problem.hidden,
-            });
+        let (grade, problems) = Form::new(&lab, &staff).solved();
+        self.lost.extend(problems.into_iter().map(lost));
+        if let Some(grade) = grade {
+            self.measure(&grade);
+            self.grades.push((student.to_owned(), grade));
         }
-        self.measure(&run.grade);
     }
 
     /// The lab with the numbers of `variant`, and the course staff's part of it.
@@ -208,10 +201,11 @@ impl Variants {
         }
     }
 
-    /// Adds the results of other students.
+    /// Adds the results of other students, who come after these.
     pub fn join(&mut self, other: Self) {
-        self.students += other.students;
+        self.students.extend(other.students);
         self.lost.extend(other.lost);
+        self.grades.extend(other.grades);
         for margin in other.rooms {
             self.widen(margin);
         }
@@ -220,21 +214,42 @@ impl Variants {
 
 impl Audit {
     /// Records the results of the variants.
-    pub fn variants(&mut self, mut tried: Variants) {
-        tried.lost.sort_by(|a, b| a.student.cmp(&b.student));
-        let problem = tried.lost.first().map(|lost| {
-            let (count, student, problem) = (tried.lost.len(), &lost.student, &lost.problem);
-            Problem {
-                what: format!("in {count} of them, such as that of `{student}`: {problem}"),
-                help: format!("narrow [variants], {}", lost.help),
-                hidden: lost.hidden.clone(),
-            }
+    pub fn variants(&mut self, tried: Variants) {
+        let count = tried.students.len();
+        let mut problems = distinct(tried.lost, |first, places| {
+            let (of, what) = (&first.of, &first.problem.what);
+            let numbers = match first.problem.key == NOT_LOADED {
+                true => String::new(),
+                false => format!(" ({})", first.numbers),
+            };
+            format!("in {places} of {count}, such as that of `{of}`{numbers}: {what}")
         });
-        let form = format!("{} variants", tried.students);
-        self.add((Tried::Reference, &form), None, None, problem);
+        for problem in &mut problems {
+            problem.help = format!("narrow [variants], {}", problem.help);
+        }
+        let form = format!("{count} variants");
+        self.rows
+            .extend(Row::all((Tried::Reference, &form), None, problems));
         self.rooms = tried.rooms;
+        for (student, grade) in &tried.grades {
+            add_reference(&mut self.bands, student, grade);
+        }
+        self.difficulty = difficulty(&self.bands, &tried.students);
+    }
+
+    /// Records what the reference solution reaches with the lab's own numbers.
+    pub fn measure_reference(&mut self, grade: &Grade) {
+        add_reference(&mut self.bands, "", grade);
+    }
+
+    /// Records what a mutant reaches with the lab's own numbers.
+    pub fn measure_mutant(&mut self, name: &str, grade: &Grade) {
+        add_mutant(&mut self.bands, name, grade);
     }
 }
+
+/// What a variant that cannot be loaded has in common with the others.
+const NOT_LOADED: &str = "not loaded";
 
 #[cfg(test)]
 mod tests {
@@ -292,18 +307,13 @@ mod tests {
             ),
         };
         let some = |student: &str, rooms| Variants {
-            students: 2,
-            lost: vec![Lost {
-                student: student.to_owned(),
-                problem: "a point".to_owned(),
-                help: String::new(),
-                hidden: Vec::new(),
-            }],
+            students: vec![(student.to_owned(), String::new())],
             rooms,
+            ..Variants::default()
         };
-        let mut all = some("s4", vec![margin(0.2, 0.3)]);
-        all.join(some("s1", vec![margin(0.1, 0.25)]));
-        assert_eq!(all.students, 4);
+        let mut all = some("s1", vec![margin(0.2, 0.3)]);
+        all.join(some("s2", vec![margin(0.1, 0.25)]));
+        assert_eq!(all.students.len(), 2);
         let [room] = &all.rooms[..] else {
             panic!("one check")
         };

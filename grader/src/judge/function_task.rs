@@ -1,9 +1,11 @@
 //! Grading a function task: its visible and hidden cases, its checks, and the mutants that it matches.
 
+use std::sync::Arc;
+
 use super::Interrupted;
 use super::case_grades::{case_grade, hidden_classes, is_good};
 use super::check_grades::check_grades;
-use super::diagnose;
+use super::diagnose::{self, Diagnosed, MutantAnswers};
 use super::expected::with_expected;
 use super::grader::{GradedTask, Grader, MOST_LOG_LINES, TaskScores};
 use super::hidden_attempts::HiddenAttempts;
@@ -48,11 +50,9 @@ impl Grader<'_> {
             verdict = verdict.min(Verdict::Missed);
         }
         let band = check::answer_band(checks);
-        let diagnoses = if verdict == Verdict::Passed || !verdict.is_decided() {
-            Vec::new()
-        } else {
-            self.function_diagnoses(task, (work, band), &cases, &attempt)
-        };
+        let diagnosed = (verdict != Verdict::Passed && verdict.is_decided())
+            .then(|| self.function_diagnoses(task, (work, band), &cases, &attempt));
+        let (diagnoses, rulings) = Diagnosed::parts(diagnosed);
         if diagnoses.is_empty() {
             self.name_cause(work, facts, band, &mut judged);
         }
@@ -70,6 +70,7 @@ impl Grader<'_> {
             } else {
                 Vec::new()
             },
+            rulings,
         };
         let checks = function_checks(checks, &judged, explained);
         let outcome = (verdict, stopped);
@@ -184,18 +185,47 @@ impl Grader<'_> {
         (work, band): (&FunctionTask, Band),
         cases: &[Case],
         student: &Attempt<Answers<'_>>,
-    ) -> Vec<Diagnosis> {
+    ) -> Diagnosed {
         let mutants = self.mutants_of(task).map(|mutant| {
+            let answers = self.mutant_answers(task, (work, band), cases, mutant);
+            (mutant, answers)
+        });
+        diagnose::function_task(&student.recorded.facts, mutants, band)
+    }
+
+    /// The answers of a mutant to all cases of a task.
+    fn mutant_answers(
+        &self,
+        task: &Task,
+        (work, band): (&FunctionTask, Band),
+        cases: &[Case],
+        mutant: &Mutant,
+    ) -> Arc<MutantAnswers> {
+        let make = || {
             let opening = self.opening(task, &Submission::from(&mutant.source));
             let cell = self.lab.workcell();
             let run = function::run(cell, work, cases, &opening, &mut InProcess);
             let whose = StaffSubmission::Mutant(mutant.name.clone());
             self.note_stop(whose, task, &mutant.source, run.ended.as_ref());
-            (mutant, run.recorded.facts)
-        });
-        // mutants outlive the closure's borrow only if collected
-        let answers: Vec<(&Mutant, Vec<CaseFacts<'_>>)> = mutants.collect();
-        diagnose::function_task(&student.recorded.facts, answers.into_iter(), band)
+            MutantAnswers::of(&run.recorded.facts, band)
+        };
+        match self.known {
+            Some(known) => known.mutant_answers((&task.name, &mutant.name), make),
+            None => Arc::new(make()),
+        }
+    }
+
+    /// Makes the answers of a mutant, which are then known.
+    pub(super) fn prepare_answers(
+        &self,
+        task: &Task,
+        work: &FunctionTask,
+        checks: &[Check<dyn FunctionCheck>],
+        mutant: &Mutant,
+    ) {
+        let (cases, _) = self.cases(task, work);
+        let band = check::answer_band(checks);
+        self.mutant_answers(task, (work, band), &cases, mutant);
     }
 }
 

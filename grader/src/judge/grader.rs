@@ -6,8 +6,10 @@ use std::sync::Arc;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
 
+use super::diagnose::Ruling;
 use super::opening::opening;
 use super::single_case::SingleCase;
+use super::staff_attempts::StaffAttempts;
 use super::staff_faults::staff_fault;
 use crate::attempt::Ended;
 use crate::lab::Staff;
@@ -24,7 +26,7 @@ use crate::record::staff_fault::{StaffFault, StaffSubmission};
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
 use crate::submission::handed_in::Submission;
-use crate::submission::host::Host;
+use crate::submission::host::{Host, InProcess};
 use crate::task::robot::LabRobot;
 
 /// Lines of a submission's output that the record keeps.
@@ -47,6 +49,45 @@ pub fn grade(
 ) -> Result<GradedRun, Interrupted> {
     let (graded, _) = Grader::new(lab, staff, submission).graded(host)?;
     Ok(graded)
+}
+
+/// A grade for the course staff.
+pub(crate) struct Examined {
+    /// The grade with its runs.
+    pub(crate) graded: GradedRun,
+    /// For each task what the comparison with each mutant came to; `None` where there was none.
+    pub(crate) rulings: Vec<Option<Vec<Ruling>>>,
+}
+
+/// Grades `submission` as [`grade`] does, in this process; attempts of the course staff's submissions that are `known` are not made again.
+pub(crate) fn examined(
+    lab: &Lab,
+    staff: &Staff,
+    submission: &Submission,
+    known: &StaffAttempts,
+) -> Option<Examined> {
+    let mut grader = Grader::new(lab, Some(staff), submission);
+    grader.known = Some(known);
+    // nobody can interrupt this host
+    let (graded, scores) = grader.graded(&mut InProcess).ok()?;
+    let rulings = scores.into_iter().map(|scores| scores.rulings).collect();
+    Some(Examined { graded, rulings })
+}
+
+/// Makes the attempt of `mutant` at `task` that all other submissions are compared with: it is then among the `known`.
+pub(crate) fn prepare_mutant(
+    lab: &Lab,
+    staff: &Staff,
+    (task, mutant): (&Task, &Mutant),
+    known: &StaffAttempts,
+) {
+    let submission = Submission::from(&mutant.source);
+    let mut grader = Grader::new(lab, Some(staff), &submission);
+    grader.known = Some(known);
+    match &task.work {
+        TaskWork::Function(work, checks) => grader.prepare_answers(task, work, checks, mutant),
+        TaskWork::Motion(work, checks) => grader.prepare_run(task, work, checks, mutant),
+    }
 }
 
 /// The grade of all tasks together, with the digests of lab, robot, submission and reference.
@@ -177,6 +218,8 @@ pub(super) struct Grader<'a> {
     pub(super) broken: Vec<String>,
     /// Whether the cases of function tasks are also judged one by one, which a record has no place for.
     pub(super) judges_each_case: bool,
+    /// Attempts of the course staff's submissions that other grades need, too.
+    pub(super) known: Option<&'a StaffAttempts>,
     /// Submissions of the course staff that failed.
     staff_faults: RefCell<Vec<Arc<StaffFault>>>,
 }
@@ -198,6 +241,8 @@ pub(super) struct TaskScores {
     pub(super) checks: Vec<f64>,
     /// Each case of a function task by itself, if the grader judges each.
     pub(super) cases: Vec<SingleCase>,
+    /// What the comparison with each mutant came to; `None` where there was none, because nothing was lost in what is visible.
+    pub(super) rulings: Option<Vec<Ruling>>,
 }
 
 impl<'a> Grader<'a> {
@@ -209,6 +254,7 @@ impl<'a> Grader<'a> {
             passed: Vec::new(),
             broken: Vec::new(),
             judges_each_case: false,
+            known: None,
             staff_faults: RefCell::new(Vec::new()),
         }
     }
@@ -271,6 +317,12 @@ impl<'a> Grader<'a> {
         if !faults.iter().any(|known| known.source().name() == name) {
             faults.push(Arc::new(fault));
         }
+    }
+
+    /// Whether what is graded is the reference solution, and its runs are kept.
+    pub(super) fn is_kept_solution(&self) -> bool {
+        self.known
+            .is_some_and(|known| known.is_solution(self.submission))
     }
 
     /// The mutants that a task may match: a motion task excludes those that a function task would have shown but did not.

@@ -1,13 +1,16 @@
 //! Hidden runs: a motion task run again with numbers that only the course staff's salt gives, judged by the same checks, and reported
 //! only by class.
 
+use std::sync::Arc;
+
 use kinemark_sim::text::Source;
 use kinemark_sim::watch::event::{Event, EventKind};
 
 use super::Interrupted;
 use super::judged::JudgedCheck;
 use super::motion_judge::MotionJudge;
-use crate::attempt::Disclosure;
+use super::staff_attempts::StaffAttempts;
+use crate::attempt::{Attempt, Disclosure};
 use crate::lab::TaskWork;
 use crate::lab::staff::HiddenRun;
 use crate::record::grade::{Evidence, HiddenClass, Outcome, Stopped};
@@ -57,11 +60,13 @@ impl HiddenAttempts {
         runs: &[&HiddenRun],
         task: &str,
         (submission, solution): (&Submission, &Source),
+        known: Option<&StaffAttempts>,
         host: &mut dyn Host,
     ) -> Result<Self, Interrupted> {
         let mut attempts = Vec::new();
-        for run in runs {
-            attempts.extend(attempt(run, task, (submission, solution), host)?);
+        for (number, run) in runs.iter().enumerate() {
+            let known = known.map(|known| (known, number));
+            attempts.extend(attempt(run, task, (submission, solution), known, host)?);
             // a worker that ran out of time or memory would do so again
             if attempts.last().is_some_and(HiddenAttempt::is_undecided) {
                 break;
@@ -187,6 +192,7 @@ fn attempt(
     run: &HiddenRun,
     name: &str,
     (submission, solution): (&Submission, &Source),
+    known: Option<(&StaffAttempts, usize)>,
     host: &mut dyn Host,
 ) -> Result<Option<HiddenAttempt>, Interrupted> {
     let lab = &run.lab;
@@ -196,8 +202,21 @@ fn attempt(
     let TaskWork::Motion(work, checks) = &task.work else {
         return Ok(None);
     };
-    let judge = MotionJudge::new(lab, task, (work, checks), submission, None).against(solution);
-    let attempt = judge.attempt(host);
+    let mut judge = MotionJudge::new(lab, task, (work, checks), submission, None);
+    let of_solution = |judge: &MotionJudge<'_>| match known {
+        Some((known, number)) => {
+            known.solution_run(name, Some(number), || judge.attempt_of(solution))
+        }
+        None => Arc::new(judge.attempt_of(solution)),
+    };
+    if judge.needs_reference() {
+        let run = of_solution(&judge);
+        judge = judge.against(solution, run);
+    }
+    let attempt = match known.filter(|(known, _)| known.is_solution(submission)) {
+        Some(_) => Attempt::clone(&of_solution(&judge)),
+        None => judge.attempt(host),
+    };
     let disclosure = Disclosure::HiddenRun { class: &run.class };
     let judged = judge.judge(&attempt, disclosure, host)?;
     let was_judged = |check: &JudgedCheck| check.outcome != Outcome::NotJudged;

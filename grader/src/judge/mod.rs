@@ -22,11 +22,14 @@ mod reached;
 pub mod reference_run;
 mod robustness_sweep;
 mod single_case;
+mod staff_attempts;
 pub(crate) mod staff_faults;
 
 pub use expected::with_expected;
 pub use explanation::explain;
 pub use exposed::{ExposedLab, NoAnswer, expose};
+pub(crate) use grader::{Examined, examined, prepare_mutant};
 pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};
 pub(crate) use opening::opening;
 pub use practice_form::{NoPractice, practice};
+pub(crate) use staff_attempts::StaffAttempts;

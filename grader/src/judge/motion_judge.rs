@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use kinemark_sim::text::Source;
 use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
@@ -19,7 +20,7 @@ use crate::record::names::Names;
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
 use crate::submission::handed_in::Submission;
-use crate::submission::host::Host;
+use crate::submission::host::{Host, InProcess};
 use crate::task::model::{Band, MotionTask};
 
 /// A motion task with a submission that is tried on it.
@@ -84,6 +85,12 @@ impl<'a> MotionJudge<'a> {
     /// Runs the task once.
     pub(super) fn attempt(&self, host: &mut dyn Host) -> Attempt<Trace> {
         motion::run(self.lab.workcell(), self.work, &self.opening, host)
+    }
+
+    /// Runs the task once under a submission of the course staff.
+    pub(super) fn attempt_of(&self, source: &Source) -> Attempt<Trace> {
+        let opening = opening(self.lab, self.task, &Submission::from(source));
+        motion::run(self.lab.workcell(), self.work, &opening, &mut InProcess)
     }
 
     /// The facts of a run for the checks.

@@ -1,6 +1,6 @@
 //! Grading a motion task: its visible run is judged and diagnosed, then its hidden runs, and both together make the grade.
 
-use std::borrow::Cow;
+use std::sync::Arc;
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::text::Source;
@@ -8,7 +8,7 @@ use kinemark_sim::trace::Trace;
 
 use super::Interrupted;
 use super::check_grades::check_grades;
-use super::diagnose;
+use super::diagnose::{self, Diagnosed, MutantRun, Settled, Unfolding};
 use super::divergence;
 use super::first_lost::first_lost;
 use super::grader::{GradedTask, Grader, TaskScores};
@@ -21,9 +21,7 @@ use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::{Check, MotionCheck, cause};
 use crate::lab::staff::Mutant;
 use crate::lab::{Task, TaskWork};
-use crate::record::grade::{
-    CheckGrade, Diagnosis, Digests, Divergence, Instant, Outcome, repair_first,
-};
+use crate::record::grade::{CheckGrade, Digests, Divergence, Instant, Outcome, repair_first};
 use crate::record::graded::Curve;
 use crate::record::staff_fault::StaffSubmission;
 use crate::record::verdict::Verdict;
@@ -44,14 +42,15 @@ impl Grader<'_> {
         let judge = MotionJudge::new(self.lab, task, (work, checks), self.submission, path);
         let judge = self.beside_reference(judge);
         let checks = &judge.checks[..];
-        let attempt = judge.attempt(host);
+        let attempt = self.own_attempt(&judge, host);
         let disclosure = Disclosure::Run {
             names: judge.names(),
             task: work,
         };
         let mut visible = judge.judge(&attempt, disclosure, host)?;
-        let (differs, diagnoses) = self.compared(&judge, &attempt, visible.verdict);
+        let (differs, diagnosed) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
+        let (diagnoses, rulings) = Diagnosed::parts(diagnosed);
         if visible.stopped.is_none() && diagnoses.is_empty() {
             let unsolved = self.unsolved_before(task, work);
             name_cause(
@@ -104,6 +103,7 @@ impl Grader<'_> {
         let scores = TaskScores {
             checks: visible.checks.iter().map(|check| check.score).collect(),
             cases: Vec::new(),
+            rulings,
         };
         let grade = result.grade(&judge, &attempt);
         let run = result.run(&judge, attempt, &visible.dwells, curves(visible.checks));
@@ -112,6 +112,15 @@ impl Grader<'_> {
             run: Some(run),
             scores,
         })
+    }
+
+    /// The run of what is graded.
+    fn own_attempt(&self, judge: &MotionJudge<'_>, host: &mut dyn Host) -> Attempt<Trace> {
+        let is_kept = self.is_kept_solution();
+        match is_kept.then(|| self.solution_attempt(judge)).flatten() {
+            Some(run) => Attempt::clone(&run),
+            None => judge.attempt(host),
+        }
     }
 
     /// An earlier task of the function from which such a motion is made, if it lost more than half of its points: the Jacobian for
@@ -140,7 +149,13 @@ impl Grader<'_> {
         let Some(staff) = self.staff else {
             return judge.in_practice();
         };
-        let judge = judge.against(&staff.solution);
+        if !judge.needs_reference() {
+            return judge;
+        }
+        let Some(run) = self.solution_attempt(&judge) else {
+            return judge;
+        };
+        let judge = judge.against(&staff.solution, run);
         if let Some(run) = &judge.of_reference.run {
             let (whose, ended) = (StaffSubmission::Solution, run.ended.as_ref());
             self.note_stop(whose, judge.task, &staff.solution, ended);
@@ -154,30 +169,30 @@ impl Grader<'_> {
         judge: &MotionJudge<'_>,
         attempt: &Attempt<Trace>,
         verdict: Verdict,
-    ) -> (Option<Divergence>, Vec<Diagnosis>) {
+    ) -> (Option<Divergence>, Option<Diagnosed>) {
         let ended = attempt.ended.as_ref();
         if verdict != Verdict::Missed || !ended.is_none_or(Ended::is_diverged) {
-            return (None, Vec::new());
+            return (None, None);
         }
         let solution = self.solution_run(judge);
         let trace = &attempt.recorded;
         let periods = &judge.work.periods;
         let differs = match (&solution, self.staff) {
-            (Some(solution), _) => divergence::from_run(trace, solution, &self.lab.robot, periods),
+            (Some(solution), _) => {
+                divergence::from_run(trace, &solution.recorded, &self.lab.robot, periods)
+            }
             (None, Some(_)) => None,
             (None, None) => {
                 let path = judge.reference;
                 path.and_then(|path| divergence::from_path(trace, path, periods))
             }
         };
-        let diagnoses = if !judge.work.goals.is_empty() {
-            self.settled_mistakes(judge, attempt)
+        let diagnosed = if judge.work.goals.is_empty() {
+            solution.map(|solution| self.whole_run_mistakes(judge, attempt, &solution))
         } else {
-            solution.map_or_else(Vec::new, |solution| {
-                self.whole_run_mistakes(judge, attempt, &solution)
-            })
+            self.settled_mistakes(judge, attempt)
         };
-        (differs, diagnoses)
+        (differs, diagnosed)
     }
 
     /// The mutant that settles at the same positions as a run with goals that reached its end.
@@ -185,19 +200,44 @@ impl Grader<'_> {
         &self,
         judge: &MotionJudge<'_>,
         attempt: &Attempt<Trace>,
-    ) -> Vec<Diagnosis> {
+    ) -> Option<Diagnosed> {
         if attempt.ended.is_some() {
-            return Vec::new();
+            return None;
         }
-        let mutants = self.mutants_of(judge.task).map(|mutant| {
+        let mutants = self
+            .mutants_of(judge.task)
+            .map(|mutant| (mutant, self.mutant_run(judge, mutant)));
+        let student = Settled::of(judge.work, &attempt.recorded);
+        let band = judge.pose_band;
+        Some(diagnose::motion_task(judge.work, band, &student, mutants))
+    }
+
+    /// The run of a mutant to its end, as far as comparisons need it.
+    fn mutant_run(&self, judge: &MotionJudge<'_>, mutant: &Mutant) -> Arc<MutantRun> {
+        let make = || {
             let run = self.staff_run(
                 judge,
                 StaffSubmission::Mutant(mutant.name.clone()),
                 &mutant.source,
             );
-            (mutant, run.recorded)
-        });
-        diagnose::motion_task(judge.work, judge.pose_band, &attempt.recorded, mutants)
+            MutantRun::of(judge.work, &run)
+        };
+        match self.known {
+            Some(known) => known.mutant_run((&judge.task.name, &mutant.name), make),
+            None => Arc::new(make()),
+        }
+    }
+
+    /// Makes the run of a mutant, which is then known.
+    pub(super) fn prepare_run(
+        &self,
+        task: &Task,
+        work: &MotionTask,
+        checks: &[Check<dyn MotionCheck>],
+        mutant: &Mutant,
+    ) {
+        let judge = MotionJudge::new(self.lab, task, (work, checks), self.submission, None);
+        self.mutant_run(&judge, mutant);
     }
 
     /// The mutant whose whole run agrees with that of a submission.
@@ -205,13 +245,13 @@ impl Grader<'_> {
         &self,
         judge: &MotionJudge<'_>,
         attempt: &Attempt<Trace>,
-        solution: &Trace,
-    ) -> Vec<Diagnosis> {
+        solution: &Attempt<Trace>,
+    ) -> Diagnosed {
         let task = judge.task;
         let compared = diagnose::Compared {
             student: &attempt.recorded,
             ended: attempt.ended.as_ref(),
-            reference: solution,
+            reference: &solution.recorded,
             periods: judge.work.periods,
         };
         let note = |mutant: &Mutant, ended: Option<&Ended>| {
@@ -224,13 +264,16 @@ impl Grader<'_> {
             robot: &robot,
             ..cell
         };
-        let mutants = self.mutants_of(task).filter_map(|mutant| {
+        let mutants = self.mutants_of(task).map(|mutant| {
+            if self.known.is_some() {
+                return (mutant, Unfolding::Made(self.mutant_run(judge, mutant)));
+            }
             let opening = self.opening(task, &Submission::from(&mutant.source));
             match Session::open(cell, judge.work, &opening, &mut InProcess) {
-                Ok(session) => Some((mutant, session)),
+                Ok(session) => (mutant, Unfolding::Session(Box::new(session))),
                 Err(attempt) => {
                     note(mutant, attempt.ended.as_ref());
-                    None
+                    (mutant, Unfolding::NotStarted)
                 }
             }
         });
@@ -238,13 +281,22 @@ impl Grader<'_> {
     }
 
     /// The reference solution's run of a task, if the course staff's part is present and the run reaches its end.
-    fn solution_run<'j>(&self, judge: &'j MotionJudge<'_>) -> Option<Cow<'j, Trace>> {
+    fn solution_run(&self, judge: &MotionJudge<'_>) -> Option<Arc<Attempt<Trace>>> {
+        let run = match &judge.of_reference.run {
+            Some(run) => run.clone(),
+            None => self.solution_attempt(judge)?,
+        };
+        run.ended.is_none().then_some(run)
+    }
+
+    /// The reference solution's run of a task, if the course staff's part is present.
+    fn solution_attempt(&self, judge: &MotionJudge<'_>) -> Option<Arc<Attempt<Trace>>> {
         let solution = &self.staff?.solution;
-        if let Some(run) = &judge.of_reference.run {
-            return run.ended.is_none().then_some(Cow::Borrowed(&run.recorded));
-        }
-        let run = self.staff_run(judge, StaffSubmission::Solution, solution);
-        run.ended.is_none().then_some(Cow::Owned(run.recorded))
+        let make = || self.staff_run(judge, StaffSubmission::Solution, solution);
+        Some(match self.known {
+            Some(known) => known.solution_run(&judge.task.name, None, make),
+            None => Arc::new(make()),
+        })
     }
 
     /// The run of a submission of the course staff; an early stop is recorded.
@@ -254,14 +306,7 @@ impl Grader<'_> {
         whose: StaffSubmission,
         source: &Source,
     ) -> Attempt<Trace> {
-        let own = MotionJudge::new(
-            self.lab,
-            judge.task,
-            (judge.work, &judge.checks),
-            &Submission::from(source),
-            None,
-        );
-        let run = own.attempt(&mut InProcess);
+        let run = judge.attempt_of(source);
         self.note_stop(whose, judge.task, source, run.ended.as_ref());
         run
     }
@@ -277,7 +322,7 @@ impl Grader<'_> {
             Some(staff) if judge.is_whole(visible, visible.ended.as_ref()) => {
                 let sources = (self.submission, &staff.solution);
                 let task = &judge.task.name;
-                HiddenAttempts::run(&staff.runs(task), task, sources, host)
+                HiddenAttempts::run(&staff.runs(task), task, sources, self.known, host)
             }
             _ => Ok(HiddenAttempts::default()),
         }

@@ -2,6 +2,7 @@
 //! that the lab ships.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::text::Source;
@@ -12,14 +13,13 @@ use crate::attempt::{Attempt, Ended};
 use crate::check::{Check, Finding, FromReference, MotionCheck, Reached};
 use crate::record::graded::Curve;
 use crate::submission::handed_in::Submission;
-use crate::submission::host::InProcess;
 use crate::task::joint_units::JointUnits;
 
 /// What a judge knows of the reference solution in its variant.
 #[derive(Debug, Default)]
 pub(super) struct OfReference {
     /// Its run, if a check compares with it.
-    pub(super) run: Option<Attempt<Trace>>,
+    pub(super) run: Option<Arc<Attempt<Trace>>>,
     /// What it reaches in checks.
     pub(super) reached: Vec<Reached>,
     /// Checks that cannot be judged without its run, by index: in practice.
@@ -31,23 +31,20 @@ pub(super) struct OfReference {
 impl OfReference {
     /// Its run to the end, if there is one.
     pub(super) fn whole_run(&self) -> Option<&Trace> {
-        let run = self.run.as_ref().filter(|run| run.ended.is_none());
+        let run = self.run.as_deref().filter(|run| run.ended.is_none());
         run.map(|run| &run.recorded)
     }
 }
 
 impl MotionJudge<'_> {
     /// Whether a check needs something of the reference solution.
-    fn needs_reference(&self) -> bool {
+    pub(super) fn needs_reference(&self) -> bool {
         let needs = |check: &Check<_>| needs_of(check) != FromReference::Nothing;
         self.checks.iter().any(needs)
     }
 
-    /// The same judge with what `solution`, the reference solution, reaches in its own run of the task.
-    pub(super) fn against(self, solution: &Source) -> Self {
-        if !self.needs_reference() {
-            return self;
-        }
+    /// The same judge with what `solution`, the reference solution, reaches in `run`, its own run of the task.
+    pub(super) fn against(self, solution: &Source, run: Arc<Attempt<Trace>>) -> Self {
         let own = MotionJudge::new(
             self.lab,
             self.task,
@@ -55,7 +52,6 @@ impl MotionJudge<'_> {
             &Submission::from(solution),
             None,
         );
-        let run = own.attempt(&mut InProcess);
         let mut of_reference = OfReference::default();
         if run.ended.is_some() {
             of_reference.fault = Some("the reference solution does not reach the end".to_owned());

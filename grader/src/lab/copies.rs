@@ -1,8 +1,10 @@
 //! The files of a lab as it was loaded, held in memory: copied into reports, and read again with other numbers.
 
+use kinemark_sim::control::Mode;
 use kinemark_sim::text::{Dimension, Dimensions};
 
-use super::model::Lab;
+use super::load::tables;
+use super::model::{Lab, TaskWork};
 use super::practice::{self, PRACTICE_FILE, Practice};
 use super::variant::{VARIANT_FILE, Variant};
 use crate::task::files::Files;
@@ -127,5 +129,35 @@ impl Lab {
         // other numbers have values of their own
         let copies = self.copies_with(self.source.text(), &Practice::default());
         Self::load_variant(&copies, &self.name, Some(&variant))
+    }
+
+    /// This lab with half the physics step in every simulated motion task; the servo's period and that of `control` stay as they are.
+    ///
+    /// # Errors
+    /// [`LoadError`] where that makes no lab: a task of too many steps.
+    pub fn with_half_step(&self) -> Result<Self, LoadError> {
+        let mut table: toml::Table = tables(&self.source)?;
+        let tasks = table.get_mut("tasks").and_then(toml::Value::as_array_mut);
+        for (typed, task) in tasks.into_iter().flatten().zip(&self.tasks) {
+            let motion = typed.get_mut("motion");
+            let motion = motion.and_then(toml::Value::as_table_mut);
+            let (Some(typed), TaskWork::Motion(work, _)) = (motion, &task.work) else {
+                continue;
+            };
+            if work.servo.mode == Mode::Prescribed {
+                continue;
+            }
+            let periods = &work.periods;
+            let mut set = |key: &str, time_s: f64| {
+                typed.insert(key.to_owned(), toml::Value::Float(1000.0 * time_s));
+            };
+            set("physics_step_ms", 0.5 * periods.step_s);
+            set(
+                "servo_period_ms",
+                periods.step_s * f64::from(periods.ticks_per_servo.get()),
+            );
+        }
+        let copies = self.copies_with(&table.to_string(), &self.practice);
+        Self::load_variant(&copies, &self.name, self.variant.as_ref())
     }
 }

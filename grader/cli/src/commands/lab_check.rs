@@ -1,40 +1,34 @@
 //! `kinemark lab check`: what is wrong with the grader of a lab, before a student meets it.
 
-use std::fmt::Write as _;
-use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::thread::ScopedJoinHandle;
 
-use indicatif::ProgressBar;
 use kinemark_course::language::Language;
-use kinemark_grader::audit::{
-    Accepted, Audit, PracticeError, Row, Rubric, Tried, Variants, depends_on_salt, grade_of_zeros,
-    practice_forms,
-};
+use kinemark_grader::audit::{Accepted, Audit, Form, PracticeError, Rubric};
+use kinemark_grader::judge::engine;
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::lab::practice::{PRACTICE_SALT, practice_student};
+use kinemark_grader::lab::practice::{PRACTICE_SALT, PracticeForm, practice_student};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::Grade;
-use kinemark_grader::record::quantity::{points, with_unit};
-use kinemark_grader::submission::rhai::STACK_BYTES;
 use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::problem::LoadError;
+use kinemark_report::bands_page::BandsPage;
 use kinemark_report::formula::formula_problems;
 use kinemark_sim::text::Source;
-use owo_colors::OwoColorize as _;
 
 use crate::disk::Folder;
 use crate::failure::{self, Failure, LOST};
+use crate::lab_check_text::text;
+use crate::lab_tries::{Extent, Tries, left_out, staff_of};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
-use crate::{interrupt, output};
+use crate::{output, pool};
 
 /// Check a lab: its starter loses points, its reference solution gets full marks, and every mutant loses points and is named
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  \
-    kinemark lab check 02-jacobian-velocity --variants 200\n\n\
+    kinemark lab check 02-jacobian-velocity --variants 200 --page bands.html\n  kinemark lab check 01-kinematics --quick\n\n\
     A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which gives wrong answers in at least 30 % of \
     a function task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
@@ -48,6 +42,15 @@ pub(crate) struct Args {
     /// Number of student variants to test the reference solution with, each with its own hidden cases and runs
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(crate) variants: u32,
+    /// Look at less: 3 variants, 1 other salt, and neither `practice.json` nor the accuracy of the simulation
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Number of things done at once [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) jobs: Option<u16>,
+    /// Write a page with a plot of every band, and what the reference solution and the mutants reach in it
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) page: Option<PathBuf>,
     /// Print what was tried as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -79,15 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "a lab is checked with the course staff's part: give its folder with --reference DIR",
         )
     })?;
-    let staff = |salt: Option<&str>| {
-        staff_folder::staff(&reference, &lab, salt)?.ok_or_else(|| {
-            Failure::usage(
-                staff_folder::no_solution(&reference, &lab),
-                "write it, or give another folder with --reference DIR",
-            )
-        })
-    };
-    let own = staff(None)?;
+    let own = staff_of(&reference, &lab, None)?;
     let starter = labs_folder::text(files.as_ref(), &lab.name, "starter.rhai")?;
     let starter = Source::new("starter.rhai", starter);
     let path = format!("{}/brief.md", lab.name);
@@ -95,27 +90,46 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         .read(&path)
         .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
 
+    let form = Form::new(&lab, &own);
+    let tried = Tries {
+        lab: &lab,
+        form: &form,
+        reference: &reference,
+        salt: Staff::salt(&reference, &lab.name, None)?.unwrap_or_default(),
+        starter: &starter,
+        jobs: args.jobs.map_or_else(pool::default_jobs, usize::from),
+    };
+    let extent = Extent::of(&lab, &own, (args.salts, args.variants), args.quick);
+    let all = tried.all(&extent)?;
+
     let mut audit = Audit::new(&lab);
     let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();
     let formula = formulas.first().map(ToString::to_string);
     audit.brief(&lab, brief.as_deref(), formula.as_deref());
-    let starter_grade = audit.starter(&lab, &own, &starter);
+    let starter_grade = audit.take(all.starter);
     audit_compiled_starters(&mut audit, files.as_ref(), &lab)?;
-    let reference_run = audit.reference(&lab, &own, "own hidden cases");
-    audit_practice(&mut audit, files.as_ref(), &lab, &own)?;
-    let draws = if depends_on_salt(&lab) { args.salts } else { 0 };
-    for draw in 1..=draws {
-        let staff = staff(Some(&format!("lab check {draw}")))?;
-        audit.reference(&lab, &staff, &format!("hidden cases of draw {draw}"));
+    let reference_grade = audit.take(all.reference);
+    if let Some(grade) = &reference_grade {
+        audit.measure_reference(grade);
     }
-    if !lab.variants.is_empty() && args.variants > 0 {
-        let salt = Staff::salt(&reference, &lab.name, None)?.unwrap_or_default();
-        audit.variants(variants(&lab, &reference, &salt, args.variants)?);
+    audit_practice(&mut audit, files.as_ref(), &lab, all.practice)?;
+    audit.draws(all.draws);
+    if let Some(variants) = all.variants {
+        audit.variants(variants);
     }
-    let mutants = audit.mutants(&lab, &own);
+    audit.count_mutants(&own);
+    let mut mutants = Vec::new();
+    for (mutant, found) in own.mutants.iter().zip(all.mutants) {
+        if let Some(grade) = audit.take(found) {
+            audit.measure_mutant(&mutant.name, &grade);
+            mutants.push(grade);
+        }
+    }
     let graded = Graded {
         starter: starter_grade,
-        reference: reference_run.map(|run| run.grade),
+        zeros: all.zeros,
+        reference: reference_grade,
+        finer: all.finer,
         mutants,
     };
     audit_rubric(
@@ -125,7 +139,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         brief.as_deref(),
         &graded,
     )?;
+    if args.quick {
+        audit.left_out = left_out();
+    }
 
+    if let Some(file) = &args.page {
+        let page = BandsPage {
+            engine: &engine(),
+            audit: &audit,
+        };
+        let help = "give another file with --page FILE.html";
+        output::write_file(file, page.html().as_bytes(), help)?;
+    }
     if args.json {
         output::print_json(&audit)?;
     } else {
@@ -152,7 +177,9 @@ fn audit_compiled_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> R
 /// What was graded on the way, as far as it came to a grade.
 struct Graded {
     starter: Option<Grade>,
+    zeros: Option<Grade>,
     reference: Option<Grade>,
+    finer: Option<Grade>,
     mutants: Vec<Grade>,
 }
 
@@ -166,7 +193,7 @@ fn audit_rubric(
 ) -> Result<(), Failure> {
     let salt = Staff::salt(reference, &lab.name, None)?;
     let margins = audit.rooms.clone();
-    let (known_salts, zeros) = (known_salts(reference, lab), grade_of_zeros(lab, staff));
+    let known_salts = known_salts(reference, lab);
     let rubric = Rubric {
         lab,
         staff,
@@ -174,8 +201,9 @@ fn audit_rubric(
         known_salts: &known_salts,
         brief,
         starter: graded.starter.as_ref(),
-        zeros: zeros.as_ref(),
+        zeros: graded.zeros.as_ref(),
         reference: graded.reference.as_ref(),
+        finer: graded.finer.as_ref(),
         mutants: &graded.mutants,
         margins: &margins,
     };
@@ -208,13 +236,21 @@ fn audit_practice(
     audit: &mut Audit,
     files: &dyn Files,
     lab: &Lab,
-    staff: &Staff,
+    found: Vec<Result<PracticeForm, PracticeError>>,
 ) -> Result<(), Failure> {
-    let forms = match practice_forms(files, lab, staff, &|| {}) {
-        Ok(forms) => forms,
+    let mut forms = Vec::new();
+    for form in found {
         // the rows of the reference and of the variants say what is wrong with them
-        Err(PracticeError::Load(_) | PracticeError::Solution { .. }) => return Ok(()),
-    };
+        let Ok(form) = form else { return Ok(()) };
+        let is_nothing = form.tasks.is_empty();
+        forms.push(form);
+        if is_nothing && forms.len() == 1 {
+            break;
+        }
+    }
+    if forms.is_empty() {
+        return Ok(());
+    }
     let mut current = vec![lab.practice.clone()];
     for number in 1..forms.len() as u32 {
         let student = practice_student(number);
@@ -224,159 +260,4 @@ fn audit_practice(
     }
     audit.practice(&forms, &current);
     Ok(())
-}
-
-/// Tries the variants of so many students, on all cores: no variant knows of another.
-fn variants(lab: &Lab, reference: &Folder, salt: &str, students: u32) -> Result<Variants, Failure> {
-    let progress = ProgressBar::new(students.into());
-    let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let of_thread = |first: usize| {
-        let mut tried = Variants::default();
-        for student in (first..students as usize).step_by(threads) {
-            if interrupt::asked() {
-                break;
-            }
-            tried.student(lab, reference, salt, &format!("student {}", student + 1));
-            progress.inc(1);
-        }
-        tried
-    };
-    let all: Vec<Variants> = std::thread::scope(|scope| {
-        let start = |first| {
-            std::thread::Builder::new()
-                .stack_size(STACK_BYTES)
-                .spawn_scoped(scope, move || of_thread(first))
-        };
-        let started: Vec<_> = (0..threads).map(start).collect();
-        // a thread that cannot be had is made up for by this one, whose stack is as large
-        started
-            .into_iter()
-            .enumerate()
-            .map(|(first, thread)| match thread.map(ScopedJoinHandle::join) {
-                Ok(Ok(tried)) => tried,
-                _ => of_thread(first),
-            })
-            .collect()
-    });
-    progress.finish_and_clear();
-    if interrupt::asked() {
-        return Err(Failure::interrupted());
-    }
-    let mut joined = Variants::default();
-    for tried in all {
-        joined.join(tried);
-    }
-    Ok(joined)
-}
-
-/// A line for everything tried, with what is wrong below it.
-fn text(audit: &Audit) -> String {
-    let mut out = format!(
-        "{}  {} points\n\n",
-        audit.lab.bold(),
-        points(audit.max_points)
-    );
-    for (i, row) in audit.rows.iter().enumerate() {
-        let is_same = |known: &&Row| known.tried == row.tried && known.problem == row.problem;
-        let is_known = row.problem.is_some() && audit.rows[..i].iter().any(|known| is_same(&known));
-        push(&mut out, row, is_known);
-    }
-    if !audit.rooms.is_empty() {
-        let _ = writeln!(
-            out,
-            "\nmargins of the reference in its bands over the variants (0 %: at the edge of full marks, \
-             100 %: a band's width inside)"
-        );
-    }
-    for room in &audit.rooms {
-        let name = format!("{}: {}", room.task, room.check);
-        let (least, greatest) = (100.0 * room.least, 100.0 * room.greatest);
-        let _ = writeln!(out, "  {name:<42} {least:>7.1} % to {greatest:.1} %");
-    }
-    push_relative(&mut out, audit);
-    let problems = audit.problems().count();
-    let conclusion = match problems {
-        0 => "nothing is wrong".green().to_string(),
-        1 => "1 problem".red().to_string(),
-        _ => format!("{problems} problems").red().to_string(),
-    };
-    let _ = writeln!(out, "\n{} tried, {conclusion}", audit.rows.len());
-    out
-}
-
-/// The bands that depend on the reference, as the numbers that they are in the variants.
-fn push_relative(out: &mut String, audit: &Audit) {
-    let relative = audit.rooms.iter();
-    let mut relative = relative
-        .filter_map(|room| Some((room, room.relative.as_ref()?)))
-        .peekable();
-    if relative.peek().is_none() {
-        return;
-    }
-    let _ = writeln!(
-        out,
-        "\nbands that depend on the reference, over the variants (what it reaches; all points up to; none from)"
-    );
-    for (room, band) in relative {
-        let name = format!("{}: {}", room.task, room.check);
-        let range = |[low, high]: [f64; 2]| {
-            let [low, high] = [low, high].map(|end| with_unit(end, &band.unit));
-            if low == high {
-                low
-            } else {
-                format!("{low} to {high}")
-            }
-        };
-        let _ = writeln!(
-            out,
-            "  {name:<32} {:<22} {:<22} {}",
-            range(band.reference),
-            range(band.full),
-            range(band.zero)
-        );
-    }
-}
-
-/// `is_known`: a row before has the same problem, which is not said again.
-fn push(out: &mut String, row: &Row, is_known: bool) {
-    let mark = if row.problem.is_some() {
-        "-".red().to_string()
-    } else {
-        "+".green().to_string()
-    };
-    let earned = match (row.points, row.max_points) {
-        (Some(earned), Some(of)) => format!("{}/{}", points(earned), points(of)),
-        _ => String::new(),
-    };
-    let task = row.task.as_deref().unwrap_or_default();
-    let right = match row.tried {
-        Tried::Brief => "can be handed out",
-        Tried::Starter if row.name.is_empty() => "misses",
-        Tried::Starter => "defines what its tasks call",
-        Tried::Reference => "full marks",
-        Tried::Practice => "is what the reference solution gives",
-        Tried::Mutants => "enough of them",
-        Tried::Mutant => "loses and is named",
-        Tried::Rubric => Audit::rule_in_words(&row.name),
-    };
-    let comment = match row.problem {
-        None => right,
-        Some(_) if is_known => "as above",
-        Some(_) => "",
-    };
-    let line = format!(
-        "{mark} {:<14} {:<26} {task:<12} {earned:>9}  {comment}",
-        row.tried.name(),
-        row.name
-    );
-    let _ = writeln!(out, "{}", line.trim_end());
-    if is_known {
-        return;
-    }
-    if let Some(problem) = &row.problem {
-        let _ = writeln!(out, "    {problem}");
-    }
-    if let Some(help) = &row.help {
-        let _ = writeln!(out, "    {} {help}", "next:".cyan());
-    }
 }

@@ -4,15 +4,17 @@
 //! |---|---|
 //! | `band` | bands in which nobody can lose, and margins that are too narrow |
 //! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
-//! | `unused` | parameters, variants and paths that nothing uses |
+//! | `unused` | parameters, variants, paths, sensors and frames that nothing uses |
 //! | `hidden` | hidden cases and runs that are the visible ones, or leave the limits of joints; a salt that is short or known |
 //! | `settings` | a robot without a TCP, gains where they do nothing |
+//! | `accuracy` | bands that are thinner than what the simulation is accurate to |
 //! | `brief` | what is graded and not mentioned |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
 //!
 //! The course staff may accept a doubt, with a reason: [`Accepted`].
 
 mod accepted;
+mod accuracy;
 mod band;
 mod brief;
 mod hidden;
@@ -62,6 +64,8 @@ pub struct Rubric<'a> {
     pub zeros: Option<&'a Grade>,
     /// The grade of the reference solution.
     pub reference: Option<&'a Grade>,
+    /// The grade of the reference solution with half the physics step, in visible cases and runs.
+    pub finer: Option<&'a Grade>,
     /// The grades of the mutants, each in its own tasks.
     pub mutants: &'a [Grade],
     /// The margins of the reference solution over the variants that were tried.
@@ -78,7 +82,15 @@ const RULES: &[Rule] = &[
         "the robot has a TCP, gains do something",
         settings::rule,
     ),
-    ("unused", "every parameter and path is used", unused::rule),
+    (
+        "unused",
+        "every parameter, path, sensor and frame is used",
+        |rubric, doubts| {
+            unused::rule(rubric, doubts);
+            unused::sensors(rubric, doubts);
+            unused::frames(rubric, doubts);
+        },
+    ),
     (
         "reach",
         "cases, goals and paths can be reached",
@@ -102,6 +114,11 @@ const RULES: &[Rule] = &[
         "margin",
         "the reference has room in every band",
         band::margins,
+    ),
+    (
+        "accuracy",
+        "half the physics step changes nothing",
+        accuracy::rule,
     ),
     ("dead", "every check is lost by somebody", lost::dead),
     ("free", "no check is earned for nothing", lost::free),

@@ -1,4 +1,4 @@
-//! What a lab defines and nothing uses: parameters, variants of them, paths, and names of sensors that nobody reads about.
+//! What a lab defines and nothing uses: parameters, variants of them, paths, sensors and frames.
 
 use toml::Value;
 
@@ -59,6 +59,88 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// Sensors that a task adds, which no check names and the solution does not read.
+pub(super) fn sensors(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let lab = rubric.lab;
+    let Ok(table) = lab.source.text().parse::<toml::Table>() else {
+        return;
+    };
+    let tasks = table.get("tasks").and_then(Value::as_array);
+    for (task, typed) in lab.tasks.iter().zip(tasks.into_iter().flatten()) {
+        let motion = typed.get("motion");
+        let sensors = motion.and_then(|motion| motion.get("sensors"));
+        let sensors = sensors.and_then(Value::as_array).into_iter().flatten();
+        let mut named = Vec::new();
+        if let Some(checks) = typed.get("checks") {
+            texts(checks, &mut named);
+        }
+        for sensor in sensors {
+            let Some(name) = sensor.get("name").and_then(Value::as_str) else {
+                continue;
+            };
+            if named.contains(&name) || reads(rubric.staff.solution.text(), name) {
+                continue;
+            }
+            doubts.push(Doubt {
+                rule: "unused",
+                of: format!("{}/{name}", task.name),
+                what: "no check names this sensor, and the solution does not read it".to_owned(),
+                help: "remove the sensor, or let a check such as `sensor-reads` look at it"
+                    .to_owned(),
+            });
+        }
+    }
+}
+
+/// Frames of a robot file that nothing names: neither the lab, nor the robot itself, nor the solution.
+pub(super) fn frames(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let lab = rubric.lab;
+    let robot = lab.robot_file.source();
+    // a URDF has a frame for each link
+    let (Ok(table), Ok(of_robot)) = (
+        lab.source.text().parse::<toml::Table>(),
+        robot.text().parse::<toml::Table>(),
+    ) else {
+        return;
+    };
+    let mut named = vec!["tcp", "lab", &lab.frame];
+    table.values().for_each(|value| texts(value, &mut named));
+    let hidden = rubric.staff.hidden_source.as_ref();
+    let hidden = hidden.and_then(|source| source.text().parse::<toml::Table>().ok());
+    if let Some(hidden) = &hidden {
+        hidden.values().for_each(|value| texts(value, &mut named));
+    }
+    let others = of_robot.iter().filter(|(key, _)| *key != "frames");
+    others.for_each(|(_, value)| texts(value, &mut named));
+    let frames = of_robot.get("frames").and_then(Value::as_array);
+    for frame in frames.into_iter().flatten() {
+        let Some(name) = frame.get("name").and_then(Value::as_str) else {
+            continue;
+        };
+        if named.contains(&name) || reads(rubric.staff.solution.text(), name) {
+            continue;
+        }
+        doubts.push(Doubt {
+            rule: "unused",
+            of: name.to_owned(),
+            what: format!(
+                "neither the lab nor robot `{}` nor the solution names this frame",
+                lab.robot.name()
+            ),
+            help: "remove the frame from the robot file, or accept it where another lab names it"
+                .to_owned(),
+        });
+    }
+}
+
+/// Whether a script names `name` outside of its comments.
+fn reads(script: &str, name: &str) -> bool {
+    script.lines().any(|line| {
+        let code = line.split("//").next().unwrap_or_default();
+        names(code).any(|known| known == name)
+    })
+}
+
 /// All texts in a value.
 fn texts<'v>(value: &'v Value, found: &mut Vec<&'v str>) {
     match value {
@@ -85,4 +167,17 @@ fn paths<'v>(value: &'v Value, found: &mut Vec<&'v str>) {
 fn names(expression: &str) -> impl Iterator<Item = &str> {
     let words = expression.split(|c: char| !(c.is_alphanumeric() || c == '_'));
     words.filter(|word| word.starts_with(|c: char| c.is_alphabetic() || c == '_'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reads;
+
+    #[test]
+    fn a_comment_reads_nothing() {
+        assert!(reads("if observation.sensors.at_end { 1 }", "at_end"));
+        assert!(reads("let s = observation.sensors[\"at_end\"];", "at_end"));
+        assert!(!reads("let x = 1; // at_end is not used", "at_end"));
+        assert!(!reads("let at_end_too = 1;", "at_end"));
+    }
 }

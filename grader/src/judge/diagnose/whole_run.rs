@@ -4,16 +4,18 @@
 //! Distances are root mean squares over the control ticks of the run. The mutant must differ from the reference solution, and the
 //! student must agree with the mutant, each at the time shift that is least favourable to that conclusion.
 
-use std::cmp::Ordering;
+use std::sync::Arc;
 
 use kinemark_sim::run::DivergenceKind;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trace::Trace;
 
+use super::Diagnosed;
+use super::mutant_run::{MutantRun, Positions, is_still};
+use super::ruling::{Agreement, NotNamed, Ruling, only};
 use crate::attempt::motion::Session;
-use crate::attempt::{Attempt, EndReason, Ended};
+use crate::attempt::{EndReason, Ended};
 use crate::lab::staff::Mutant;
-use crate::record::grade::Diagnosis;
 
 /// A mutant whose mean distance from the reference solution is less than this shows too little of its mistake \[rad or m\].
 const LEAST_DISTANCE: f64 = 0.02;
@@ -25,8 +27,6 @@ const FLOOR: f64 = 1e-3;
 const MOST: f64 = 1.0;
 /// How much earlier or later a student may make the same motion \[s\].
 const MOST_SHIFT_S: f64 = 0.1;
-/// An arm that moves less than this, or is commanded nothing, shows no mistake that differs from others \[rad or m\].
-const STILL: f64 = 0.01;
 /// Calls of `control` between two comparisons with a mutant's run.
 const CALLS_PER_COMPARISON: u64 = 5;
 
@@ -43,70 +43,122 @@ pub struct Compared<'t> {
     pub periods: Periods,
 }
 
+/// A mutant's run: still to be made, as far as it is needed, or made before.
+pub enum Unfolding<'l> {
+    /// Before its first tick.
+    Session(Box<Session<'l>>),
+    /// Made before.
+    Made(Arc<MutantRun>),
+    /// It did not start.
+    NotStarted,
+}
+
 /// The mutant whose run agrees with the student's, if exactly one does. `stopped` is called for each mutant that stops early.
 pub fn whole_run<'m, 'l>(
     compared: Compared<'_>,
-    mutants: impl Iterator<Item = (&'m Mutant, Session<'l>)>,
+    mutants: impl Iterator<Item = (&'m Mutant, Unfolding<'l>)>,
     stopped: &dyn Fn(&Mutant, Option<&Ended>),
-) -> Vec<Diagnosis> {
-    let mut found = mutants.filter_map(|(mutant, session)| {
-        let agreement = compared.with(session, &|ended| stopped(mutant, ended))?;
-        Some(Diagnosis {
+) -> Diagnosed {
+    let mut rulings: Vec<Ruling> = Vec::new();
+    let mut agreeing = 0;
+    for (mutant, unfolding) in mutants {
+        let (found, is_made) = match unfolding {
+            Unfolding::Session(session) => {
+                let found = compared.with(*session, &|ended| stopped(mutant, ended));
+                (found, false)
+            }
+            Unfolding::Made(run) => {
+                stopped(mutant, run.ended());
+                (compared.with_whole(&run), true)
+            }
+            Unfolding::NotStarted => (Err(NotNamed::NoRun), false),
+        };
+        agreeing += usize::from(found.is_ok());
+        rulings.push(Ruling {
             mistake: mutant.name.clone(),
             says: mutant.says.clone(),
-            agreeing: agreement.agreeing,
-            telling: agreement.telling,
-        })
-    });
-    // a second match ends the search: then neither is reported
-    match (found.next(), found.next()) {
-        (Some(only), None) => vec![only],
-        _ => Vec::new(),
+            found,
+        });
+        // a second match ends the search, unless it costs nothing: then neither is reported
+        if agreeing == 2 && !is_made {
+            break;
+        }
     }
-}
-
-/// The number of calls of `control` that show the mistake, among those in which it would show.
-struct Agreement {
-    agreeing: u32,
-    telling: u32,
+    Diagnosed {
+        named: only(&rulings),
+        rulings,
+    }
 }
 
 impl Compared<'_> {
     /// Runs a mutant for as long as it can still agree with the student.
-    fn with(&self, mut mutant: Session<'_>, stopped: &dyn Fn(Option<&Ended>)) -> Option<Agreement> {
+    fn with(
+        &self,
+        mut mutant: Session<'_>,
+        stopped: &dyn Fn(Option<&Ended>),
+    ) -> Result<Agreement, NotNamed> {
         let mut sums = Sums::new(self);
         let interval = CALLS_PER_COMPARISON * u64::from(self.periods.ticks_per_control.get());
         let most_ticks = self.student.len() as u64 + self.most_shift_ticks() + 1;
+        let given_up = NotNamed::Far {
+            mean_and_most: None,
+        };
         while !mutant.is_over() && mutant.tick() <= most_ticks {
             mutant.advance_to(mutant.tick() + interval);
             stopped(mutant.ended());
-            sums.add_ticks(self, mutant.so_far(), usize::MAX);
+            sums.add_ticks(self, self.of_trace(mutant.so_far()), usize::MAX);
             if !sums.can_agree() {
-                return None;
+                return Err(given_up);
             }
         }
         if !mutant.is_over() {
-            return None;
+            return Err(NotNamed::EndsOtherwise);
         }
         let mutant = mutant.finish();
-        sums.add_ticks(self, &mutant.recorded, usize::MAX);
-        let shift = sums.agrees()?;
-        let ends_alike = same_end(self.ended, mutant.ended.as_ref(), self.most_shift_ticks());
-        (ends_alike && !is_still(&mutant)).then(|| self.agreement(&mutant.recorded, shift))
+        let positions = self.of_trace(&mutant.recorded);
+        sums.add_ticks(self, positions, usize::MAX);
+        self.decided(&sums, positions, mutant.ended.as_ref(), || {
+            is_still(&mutant)
+        })
     }
 
-    fn agreement(&self, mutant: &Trace, shift: i64) -> Agreement {
+    /// The same with a mutant's run that is whole already.
+    fn with_whole(&self, mutant: &MutantRun) -> Result<Agreement, NotNamed> {
+        let mut sums = Sums::new(self);
+        let positions = mutant.positions();
+        sums.add_ticks(self, positions, usize::MAX);
+        self.decided(&sums, positions, mutant.ended(), || mutant.is_still)
+    }
+
+    fn decided(
+        &self,
+        sums: &Sums,
+        mutant: Positions<'_>,
+        ended: Option<&Ended>,
+        is_still: impl FnOnce() -> bool,
+    ) -> Result<Agreement, NotNamed> {
+        let shift = sums.agrees()?;
+        if !same_end(self.ended, ended, self.most_shift_ticks()) {
+            return Err(NotNamed::EndsOtherwise);
+        }
+        if is_still() {
+            return Err(NotNamed::Still);
+        }
+        Ok(self.agreement(mutant, shift))
+    }
+
+    fn agreement(&self, mutant: Positions<'_>, shift: i64) -> Agreement {
         let (mut agreeing, mut telling) = (0, 0);
-        for row in 0..self.rows(mutant) {
+        for row in 0..mutant.count() {
             let (Some(from_student), Some(from_reference)) = (
-                self.distance(self.student, mutant, row, shift),
-                self.distance(self.reference, mutant, row, 0),
+                self.distance(self.student, mutant.at(row), row, shift),
+                self.distance(self.reference, mutant.at(row), row, 0),
             ) else {
                 continue;
             };
             if from_reference > LEAST_DISTANCE {
                 telling += 1;
-                agreeing += u32::from(from_student < 0.5 * from_reference);
+                agreeing += usize::from(from_student < 0.5 * from_reference);
             }
         }
         Agreement { agreeing, telling }
@@ -114,6 +166,10 @@ impl Compared<'_> {
 
     fn every(&self) -> usize {
         self.periods.ticks_per_control.get() as usize
+    }
+
+    fn of_trace<'t>(&self, trace: &'t Trace) -> Positions<'t> {
+        Positions::Trace(trace, self.every())
     }
 
     /// Control ticks of a run.
@@ -129,14 +185,13 @@ impl Compared<'_> {
         (MOST_SHIFT_S / self.periods.step_s).round() as u64
     }
 
-    /// The distance in the joints between a control tick of the mutant and the one `shift` ticks later in `other`; `None` if `other` has
-    /// no such tick.
-    fn distance(&self, other: &Trace, mutant: &Trace, row: usize, shift: i64) -> Option<f64> {
+    /// The distance in the joints between control tick `row` of the mutant, at which they are `here`, and the one `shift` ticks later in
+    /// `other`; `None` if `other` has no such tick.
+    fn distance(&self, other: &Trace, here: &[f64], row: usize, shift: i64) -> Option<f64> {
         let there = usize::try_from(row as i64 + shift).ok()?;
         if there >= self.rows(other) {
             return None;
         }
-        let here = mutant.q.at(row * self.every());
         let there = other.q.at(there * self.every());
         let squares = here.iter().zip(there).map(|(a, b)| (a - b) * (a - b));
         Some(squares.sum::<f64>().sqrt())
@@ -194,12 +249,13 @@ impl Sums {
     }
 
     /// Adds the new control ticks of the mutant's run, up to the first `most`.
-    fn add_ticks(&mut self, compared: &Compared<'_>, mutant: &Trace, most: usize) {
-        let until = compared.rows(mutant).min(self.rows).min(most);
+    fn add_ticks(&mut self, compared: &Compared<'_>, mutant: Positions<'_>, most: usize) {
+        let until = mutant.count().min(self.rows).min(most);
         for row in self.summed..until {
+            let here = mutant.at(row);
             for (i, shift) in self.shifts().enumerate() {
-                self.from_student[i].add(compared.distance(compared.student, mutant, row, shift));
-                let distance = compared.distance(compared.reference, mutant, row, shift);
+                self.from_student[i].add(compared.distance(compared.student, here, row, shift));
+                let distance = compared.distance(compared.reference, here, row, shift);
                 self.from_reference[i].add(distance.map(|distance| distance.min(MOST)));
             }
         }
@@ -227,7 +283,7 @@ impl Sums {
     }
 
     /// The shift at which the student agrees best, if the mutant shows its mistake and the student agrees.
-    fn agrees(&self) -> Option<i64> {
+    fn agrees(&self) -> Result<i64, NotNamed> {
         let from_reference = self.from_reference.iter().map(Sum::mean);
         let from_reference = from_reference.fold(f64::INFINITY, f64::min);
         let compared = self
@@ -235,13 +291,26 @@ impl Sums {
             .zip(&self.from_student)
             .filter(|(_, sum)| sum.count > 0);
         // the smallest among equal shifts
-        let (shift, from_student) = compared.min_by(|a, b| {
+        let nearest = compared.min_by(|a, b| {
             let by_distance = a.1.mean().total_cmp(&b.1.mean());
             by_distance.then_with(|| a.0.abs().cmp(&b.0.abs()))
-        })?;
+        });
+        let Some((shift, from_student)) = nearest else {
+            return Err(NotNamed::EndsOtherwise);
+        };
         let shows_mistake = from_reference >= LEAST_DISTANCE * LEAST_DISTANCE;
-        let agrees = from_student.mean() <= Self::tolerance(from_reference);
-        (shows_mistake && agrees).then_some(shift)
+        if !shows_mistake {
+            return Err(NotNamed::NearReference {
+                mean: from_reference.sqrt(),
+                needed: LEAST_DISTANCE,
+            });
+        }
+        let most = Self::tolerance(from_reference);
+        let agrees = from_student.mean() <= most;
+        let mean_and_most = Some([from_student.mean().sqrt(), most.sqrt()]);
+        agrees
+            .then_some(shift)
+            .ok_or(NotNamed::Far { mean_and_most })
     }
 }
 
@@ -275,25 +344,6 @@ fn same_divergence(a: &DivergenceKind, b: &DivergenceKind) -> bool {
     }
 }
 
-/// Whether an arm did not move from its start, or was commanded nothing.
-fn is_still(run: &Attempt<Trace>) -> bool {
-    let trace = &run.recorded;
-    if trace.is_empty() {
-        return true;
-    }
-    let start = trace.q.at(0);
-    let moved = (0..trace.len()).any(|tick| {
-        let pairs = trace.q.at(tick).iter().zip(start);
-        pairs.map(|(q, start)| (q - start).abs()).any(|moved| {
-            // NaN counts as moved
-            moved.partial_cmp(&STILL) != Some(Ordering::Less)
-        })
-    });
-    let commanded =
-        (0..trace.len()).any(|tick| trace.command.at(tick).iter().any(|c| c.abs() > 0.0));
-    !(moved && commanded)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -318,12 +368,12 @@ mod tests {
         let mut sums = Sums::new(&compared);
         let mut lost = None;
         for row in 0..compared.rows(mutant) {
-            sums.add_ticks(&compared, mutant, row + 1);
+            sums.add_ticks(&compared, compared.of_trace(mutant), row + 1);
             if lost.is_none() && !sums.can_agree() {
                 lost = Some(row);
             }
         }
-        (sums.agrees(), lost)
+        (sums.agrees().ok(), lost)
     }
 
     /// A step that begins at `from_s` and ends at `to`.
