@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use jiff::Timestamp;
 use kinemark_grader::task::problem::problems;
 use kinemark_sim::text::Source;
+use kinemark_sim::text::Spanned;
 use serde::{Deserialize, Serialize};
-use toml::Spanned;
 
 use crate::course_text::{TextError, format, refuse, tables};
 

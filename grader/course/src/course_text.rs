@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kinemark_grader::task::problem::LabError;
 use kinemark_grader::task::problem::problems;
-use kinemark_sim::text::{Located, Problem, Source, TomlRefusal};
+use kinemark_sim::text::{Located, Problem, Source, Spanned, TomlRefusal};
 use serde::de::DeserializeOwned;
 
 /// A mistake in a file of the course, with its place.
@@ -72,7 +72,7 @@ pub fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, TextError> {
 ///
 /// # Errors
 /// Any other.
-pub fn format(source: &Source, format: &toml::Spanned<i64>) -> Result<(), TextError> {
+pub fn format(source: &Source, format: &Spanned<i64>) -> Result<(), TextError> {
     match *format.get_ref() {
         1 => Ok(()),
         found => refuse(source, format.span(), FormatProblem::Unknown { found }),

@@ -3,8 +3,8 @@
 use jiff::Timestamp;
 use kinemark_grader::task::problem::problems;
 use kinemark_sim::text::Source;
+use kinemark_sim::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use crate::course_text::{TextError, format, refuse, tables};
 use crate::student::StudentId;

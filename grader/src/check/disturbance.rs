@@ -119,9 +119,10 @@ impl Level {
     }
 }
 
-impl At<LevelTable> {
-    pub(super) fn read(&self, reading: &MotionReading<'_>) -> Result<Level, LabError> {
-        let table = self.get_ref();
+impl LevelTable {
+    /// The level that is typed in this table.
+    pub(super) fn read(typed: &At<Self>, reading: &MotionReading<'_>) -> Result<Level, LabError> {
+        let table = typed.get_ref();
         let (delay_periods, delay_s) = table.delay(reading)?;
         let (q_noise, qd_noise) = table.noise(reading)?;
         let amount = |typed: &Option<At<f64>>, what: &'static str| {
@@ -147,7 +148,7 @@ impl At<LevelTable> {
         }
         if level.in_words().is_empty() {
             let rung = level.name;
-            return reading.refuse_at(self, LevelProblem::Nothing { rung });
+            return reading.refuse_at(typed, LevelProblem::Nothing { rung });
         }
         Ok(level)
     }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use kinemark_sim::text::Spanned;
 use serde::de::IgnoredAny;
-use toml::Spanned;
 
 use crate::task::problem::{LabError, problems};
 use crate::task::reporter::Reporter;

@@ -1,6 +1,5 @@
 //! What a kind of check has at hand while its table is read: the robot, the task, the checks before it; names become indices.
 
-use std::borrow::Cow;
 use std::ops::{Deref, Range};
 use std::sync::Arc;
 
@@ -8,10 +7,8 @@ use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::model::sensor::Measured;
 use kinemark_sim::text::Problem;
+use kinemark_sim::text::Spanned;
 use kinemark_sim::ticks::whole_ratio;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
-use toml::Spanned;
 
 use super::contract::{Check, MotionCheck};
 use crate::task::joint_units::JointUnits;
@@ -21,36 +18,8 @@ use crate::task::reporter::Reporter;
 use crate::task::scene::LabScene;
 use crate::task::watched::PathToFollow;
 
-/// A value as typed, with its place; in a schema it is the value alone.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(transparent)]
-pub(crate) struct At<T>(Spanned<T>);
-
-impl<T> Deref for At<T> {
-    type Target = Spanned<T>;
-
-    fn deref(&self) -> &Spanned<T> {
-        &self.0
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for At<T> {
-    fn inline_schema() -> bool {
-        T::inline_schema()
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        T::schema_name()
-    }
-
-    fn schema_id() -> Cow<'static, str> {
-        T::schema_id()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        T::json_schema(generator)
-    }
-}
+/// A short name for what nearly every key of a check is: a value as typed, with its place.
+pub(crate) use kinemark_sim::text::Spanned as At;
 
 /// What the table of a check is read with: `T` is what the kind may look at.
 #[derive(Debug, Clone)]

@@ -6,10 +6,10 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use kinemark_sim::text::Spanned;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
-use toml::Spanned;
 
 use super::contract::{Check, Criterion, FunctionCheck, MotionCheck};
 use super::hints::{EARLIER_KEY, HintsTable};

@@ -1,7 +1,7 @@
 //! Two that a check names because they may touch: the arm, a link, a body of the scene, the ground.
 
 use kinemark_sim::model::scene::BodyKind;
-use toml::Spanned;
+use kinemark_sim::text::Spanned;
 
 use super::reading::{At, MotionReading};
 use crate::task::problem::{LabError, near, problems};

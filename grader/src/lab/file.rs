@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use kinemark_sim::control::{Derivative, Mode};
 use kinemark_sim::sensor::SensorTable;
+use kinemark_sim::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::parameters::NumbersTable;
 use crate::check::registry::CheckTable;

@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use kinemark_sim::text::expression::{ExpressionProblem, MARK};
 use kinemark_sim::text::{
-    Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, TomlRefusal, nearest,
+    Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, Spanned, TomlRefusal, nearest,
     read_with_marked_numbers,
 };
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::load::refuse_not_finite;
@@ -170,10 +169,10 @@ fn misspelt(source: &Source) -> Option<std::ops::Range<usize>> {
 }
 
 /// Refuses expressions in `[variants]`: what parameters are drawn from cannot depend on what was drawn.
-fn refuse_expressions(value: &Spanned<DeValue<'_>>, source: &Source) -> Result<(), LabError> {
+fn refuse_expressions(value: &toml::Spanned<DeValue<'_>>, source: &Source) -> Result<(), LabError> {
     match value.get_ref() {
         DeValue::String(text) if text.starts_with(MARK) => {
-            Reporter { source }.refuse_at(value, ParameterProblem::DrawnFromExpression)
+            Reporter { source }.refuse(value.span(), ParameterProblem::DrawnFromExpression)
         }
         DeValue::Array(items) => items
             .iter()

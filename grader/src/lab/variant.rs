@@ -3,9 +3,9 @@
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::number::{short, trimmed};
 use serde::Deserialize;
-use toml::Spanned;
 use unicode_normalization::UnicodeNormalization as _;
 
 use super::file::{StepsTable, VariesTable};

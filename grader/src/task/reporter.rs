@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::{Problem, Source};
-use toml::Spanned;
 
 use super::model::Band;
 use super::problem::{LabError, problems};

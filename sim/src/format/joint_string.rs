@@ -5,8 +5,8 @@
 //!
 //! `H = Tz(base) J1(q1) Trans(l1) J2(q2) Trans(l2) ...`; turns are right-handed, in radians, slides in metres.
 
+use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
-use toml::Spanned;
 
 use super::assembly::assembler::{MOST_LINKS, axes_with_z_along};
 use super::assembly::description::{Description, FramePart, JointPart, LinkPart, UnphysicalWords};

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{

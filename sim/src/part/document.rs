@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::Spanned;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
 
 use super::mesh_files::Meshes;
 use super::part_problem::PartProblem;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::ShapeTable;

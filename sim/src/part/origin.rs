@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
-use toml::Spanned;
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{OriginTable, TripleAt};

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use crate::text::Spanned;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, Visitor};
-use toml::Spanned;
 
 /// A number as typed: a literal, or an expression over the dimensions.
 #[derive(Debug, Clone, PartialEq)]

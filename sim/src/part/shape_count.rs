@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::part_problem::PartProblem;
 use super::part_tables::ShapeTable;

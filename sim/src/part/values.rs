@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::mesh_files::Meshes;
 use super::part_problem::{PartError, PartProblem};

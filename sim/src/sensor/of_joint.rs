@@ -3,8 +3,8 @@
 use std::fmt;
 use std::marker::PhantomData;
 
+use crate::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::registry::{KindTable, SensorReading};
 use crate::model::robot::{Body, Joint, Robot};

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::text::Spanned;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
 
 use crate::model::robot::{Joint, JointKind, Robot};
 use crate::model::sensor::SensorKind;

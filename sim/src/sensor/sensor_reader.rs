@@ -1,7 +1,7 @@
 //! From the tables of sensors to the sensors: names become indices of a robot, expressions over its dimensions numbers.
 
+use crate::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::kind::KINDS;
 use super::registry::SensorReading;

@@ -1,7 +1,7 @@
 //! Doubts that the course staff accept, with a reason: `accepted.toml` in their part of the lab.
 
+use kinemark_sim::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::{Doubt, RULES};
 use crate::lab::Lab;

@@ -1,7 +1,7 @@
 //! The kinds of checks, one line each: what it judges, and its file. A file has a `Table`, which says how it is read.
 
+use kinemark_sim::text::Spanned;
 use serde::de::MapAccess;
-use toml::Spanned;
 
 use super::registry::{FunctionTable, Kind, KindTable, MotionTable};
 

@@ -65,9 +65,9 @@ impl MotionTable for Table {
         if !(1..=MOST_LEVELS).contains(&count) {
             return reading.refuse(SweepProblem::Levels { count });
         }
-        let names = self.rungs.iter().map(|level| &*level.get_ref().name);
+        let names = self.rungs.iter().map(|level| &level.get_ref().name);
         reading.report.unique("level", names)?;
-        let levels = self.rungs.iter().map(|level| level.read(reading));
+        let levels = self.rungs.iter().map(|level| LevelTable::read(level, reading));
         Ok(Robustness {
             name: reading.check.to_owned(),
             sweep: Sweep {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::spatial::{direction, rotation_from_rpy_deg};
 use kinemark_sim::text::Dimension;
+use kinemark_sim::text::Spanned;
 use nalgebra::{Rotation3, Vector3};
-use toml::Spanned;
 
 use super::{Reader, numbers};
 use crate::lab::case_robot;

@@ -1,6 +1,6 @@
 //! The checks of a task, read by the kinds of [`crate::check::kind`] with what the lab knows.
 
-use toml::Spanned;
+use kinemark_sim::text::Spanned;
 
 use super::Reader;
 use crate::check::reading::InMotion;

@@ -1,7 +1,7 @@
 //! A task of a function that the lab names itself: what it is called, what its cases give, what they expect.
 
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::nearest;
-use toml::Spanned;
 
 use super::Reader;
 use super::cases::changed;

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use kinemark_sim::spatial::direction;
+use kinemark_sim::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{CaseTable, FunctionTable};

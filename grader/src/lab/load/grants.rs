@@ -1,6 +1,6 @@
 //! What a task grants: functions of `robot`, each once, none that is what the task asks for.
 
-use toml::Spanned;
+use kinemark_sim::text::Spanned;
 
 use super::Reader;
 use crate::lab::file::FunctionTable;

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use kinemark_sim::model::robot::Joint;
 use kinemark_sim::run::PrescribedMotion;
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::number::trimmed;
 use kinemark_sim::ticks::Periods;
 use kinemark_sim::trajectory::{JointLaw, TrajectoryError};
-use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::{LawTable, MotionTable};

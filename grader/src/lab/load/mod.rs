@@ -21,8 +21,8 @@ use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::unphysical::OnUnphysical;
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::suggest;
-use toml::Spanned;
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
 use super::hints::with_questions_alone;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use kinemark_sim::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::PathTable;

@@ -2,10 +2,10 @@
 
 use kinemark_sim::model::push::{Push, Pushed};
 use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::suggest;
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::Reader;
 use crate::lab::file::PushTable;

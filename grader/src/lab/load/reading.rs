@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::{Source, suggest};
 use serde::de::DeserializeOwned;
-use toml::Spanned;
 
 use crate::lab::parameters::refused;
 use crate::task::problem::{LabError, problems};
@@ -39,7 +39,7 @@ pub(in crate::lab) fn refuse_not_finite(source: &Source) -> Result<(), LabError>
 /// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
 fn not_finite(text: &str) -> Option<Range<usize>> {
     use toml::de::{DeTable, DeValue};
-    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+    fn within(value: &toml::Spanned<DeValue<'_>>) -> Option<Range<usize>> {
         match value.get_ref() {
             DeValue::Float(number) => {
                 let word = number.as_str().trim_start_matches(['+', '-']);

@@ -7,8 +7,8 @@ use kinemark_sim::model::air::AIR_DENSITY_KG_M3;
 use kinemark_sim::model::gust::Gust;
 use kinemark_sim::model::joint_friction::JointFriction;
 use kinemark_sim::model::scene::{Environment, Scene, Wind};
+use kinemark_sim::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::{Reader, numbers};
 use crate::lab::file::{FrictionAt, FrictionTable, MotionTable, WindTable};

@@ -1,6 +1,6 @@
 //! What `observation.target` holds, from what a lab wrote: any value of TOML that the language of submissions has too.
 
-use toml::Spanned;
+use kinemark_sim::text::Spanned;
 
 use super::Reader;
 use crate::submission::controller::Budgets;

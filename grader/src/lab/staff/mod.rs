@@ -5,8 +5,8 @@ mod hidden_runs;
 
 use std::ops::Range;
 
+use kinemark_sim::text::Spanned;
 use kinemark_sim::text::{Dimension, Source};
-use toml::Spanned;
 
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
 use super::load::tables;

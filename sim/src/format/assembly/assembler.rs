@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
-use toml::Spanned;
 
 use super::description::{Description, JointPart};
 use super::heavy_meshes;

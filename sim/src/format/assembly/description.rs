@@ -2,8 +2,8 @@
 //!
 //! A TOML file, a URDF, a DH table or a joint string becomes a [`Description`]; `assemble` makes the robot of it.
 
+use crate::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use crate::model::air::Drag;
 use crate::model::drive::Drive;

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::drives::Driven;
 use super::robot_reader::{Resolver, kind, undriven};

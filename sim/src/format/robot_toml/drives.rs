@@ -6,7 +6,7 @@ use std::ops::Range;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::robot_reader::Resolver;
 use crate::format::robot_problem::{RobotError, RobotProblem};

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use nalgebra::Vector3;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::drives::Driven;
 use super::robot_tables::{

@@ -2,7 +2,7 @@
 //! check may point at keeps its span.
 
 use serde::Deserialize;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::drives::{DriveTable, FrictionEntry};
 use crate::format::robot_problem::{KIND, RobotProblem};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::Spanned;
 use nalgebra::Vector3;
-use toml::Spanned;
 
 use super::scene_problem::{SceneError, SceneProblem};
 use super::scene_tables::{

@@ -1,7 +1,7 @@
 //! The TOML types of a scene file, as typed by a person; shapes, masses, surfaces and origins are those of a robot file.
 
+use crate::text::Spanned;
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::scene_problem::SceneProblem;
 use crate::part::document::{Document, Tables};

@@ -1,7 +1,7 @@
 //! The document of a URDF: one `<robot>` element that has gone through xacro.
 
 use roxmltree::Document;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::format::xml::document;

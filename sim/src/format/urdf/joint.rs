@@ -1,7 +1,7 @@
 //! Joints of a URDF: each becomes one joint, or for `floating` and `planar` a chain of them.
 
 use nalgebra::Vector3;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::mimic;
 use super::origin::origin;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::joint::Head;
 use crate::format::robot_problem::{RobotError, RobotProblem};

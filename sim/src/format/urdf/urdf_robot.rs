@@ -1,6 +1,6 @@
 //! The robot of a URDF: links and joints in file order, and the parts that they become.
 
-use toml::Spanned;
+use crate::text::Spanned;
 
 use super::inertial::Inertial;
 use super::joint::{Chain, Head};

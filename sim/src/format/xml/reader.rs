@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::Spanned;
 use roxmltree::Attribute;
-use toml::Spanned;
 
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::part::part_problem::PartProblem;

@@ -1,7 +1,7 @@
 //! contact: sum of the normal forces on a link over everything that presses on it, their mean over the last step, N.
 
 use serde::Deserialize;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use crate::model::contact::Party;
 use crate::model::robot::Robot;

@@ -1,7 +1,7 @@
 //! limit-switch: 1 while a joint is at a position or beyond it, else 0; while it is pressed, the motor cannot push on.
 
 use serde::Deserialize;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use crate::model::robot::Robot;
 use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings, moved_by};

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 use serde::Deserialize;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use crate::model::robot::Robot;
 use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings};

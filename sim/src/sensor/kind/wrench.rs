@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
-use toml::Spanned;
+use crate::text::Spanned;
 
 use crate::kinematics::body_motion::{BodyMotions, Motion};
 use crate::model::air::Drag;
