@@ -18,7 +18,7 @@ install() { # PACKAGE...: of Debian
 }
 
 # --- what a machine may lack -------------------------------------------------------------------------------------------------
-# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, slurm, robots, fuzz.
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, slurm, robots, taplo, fuzz.
 
 not_run=()
 skip() { # WHAT, WHY: said at once and in the last line

@@ -1,4 +1,4 @@
-//! Makes the digest of the engine: the sources of simulator and grader, and the versions of what they depend on. Two builds with the
+//! Makes the sentences that schemas say of kinds of checks, and the digest of the engine: the sources of simulator and grader, and the versions of what they depend on. Two builds with the
 //! same digest give the same grades.
 
 use std::collections::BTreeSet;
@@ -31,7 +31,29 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let digest = hasher.finalize().to_hex();
     println!("cargo::rustc-env=KINEMARK_ENGINE_DIGEST={}", &digest[..16]);
-    Ok(())
+    let summaries = kind_summaries(&here.join("src/check/kind"))?;
+    let out = PathBuf::from(std::env::var("OUT_DIR")?).join("kind_summaries.rs");
+    Ok(std::fs::write(out, summaries)?)
+}
+
+/// A list in Rust of the names of kinds of checks, each with the first paragraph of its file's first comment: what it measures.
+fn kind_summaries(folder: &Path) -> Result<String, Box<dyn Error>> {
+    let mut files = Vec::new();
+    sources(folder, "", &mut files)?;
+    files.sort();
+    let mut list = String::from("&[\n");
+    for (_, path) in files {
+        let text = std::fs::read_to_string(path)?;
+        let lines = text.lines().map_while(|line| line.strip_prefix("//! "));
+        let first = lines.collect::<Vec<&str>>().join(" ");
+        // the list of kinds has a comment, too, and names none
+        let Some((name, summary)) = first.split_once(": ") else {
+            continue;
+        };
+        list += &format!("    ({name:?}, {summary:?}),\n");
+    }
+    list.push(']');
+    Ok(list)
 }
 
 fn add(hasher: &mut blake3::Hasher, part: &str) {

@@ -1,5 +1,8 @@
 //! Slips that people made while they wrote labs from the documentation: each is answered with what to write instead.
 
+use kinemark_grader::task::problem::{LabError, LoadError};
+use kinemark_sim::text::Problem as _;
+
 use crate::own_lab::{OwnLab, check};
 use crate::testbed::TestBed;
 
@@ -117,6 +120,106 @@ fn each_slip_is_answered_with_what_to_write() {
             ("given = { a = 2.0, b = 3.0 }, expected = [4.0, 9.0] },", "given = { a = 2.0, b = 3.0 }, expected = [4.0, 9.0] },\n { name = \"other\", given = { a = 2.0, b = 3.0 }, expected = 4.0 },", "lab::case_input", "expects one number, the first case expects a list"),
         ],
     );
+}
+
+/// What is refused in a lab, in the order of the text: each with its code, its line and its message.
+fn refused(lab: &OwnLab) -> Vec<(String, usize, String)> {
+    let Err(LoadError::Lab(first)) = lab.load() else {
+        panic!("a lab with mistakes");
+    };
+    let all = std::iter::once(&first).chain(first.others());
+    let row = |one: &LabError| {
+        let code = one.problem.code().to_owned();
+        (code, one.line_and_column().0, one.to_string())
+    };
+    all.map(row).collect()
+}
+
+/// The text of the lab with every one of the edits, and the lines where they are.
+fn edited(edits: &[(&str, &str)]) -> (String, Vec<usize>) {
+    let mut text = LAB.to_owned();
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let line = |(_, to): &(&str, &str)| {
+        let at = text.find(to).expect("the edit");
+        text[..at].matches('\n').count() + 1
+    };
+    let lines = edits.iter().map(line).collect();
+    (text, lines)
+}
+
+#[test]
+fn slips_in_different_tasks_and_checks_are_refused_together() {
+    let (text, lines) = edited(&[
+        ("frame = \"lab\"", "fraem = \"lab\""),
+        ("fk-error = { full_m", "fk-error = { full"),
+        ("given = { a = 2.0", "givn = { a = 2.0"),
+        ("function-cases = {", "function-case = {"),
+        ("duration_s = 3.0", "duration_s = true"),
+        (
+            "points = 2.0\npose-reached",
+            "points = \"two\"\npose-reached",
+        ),
+    ]);
+    let refused = refused(&OwnLab::new("95-slips", &*text));
+    let found: Vec<usize> = refused.iter().map(|(_, line, _)| *line).collect();
+    assert_eq!(found, lines, "{refused:#?}");
+    assert!(refused.iter().all(|(code, ..)| code == "lab::toml"));
+    // all of them are shown, each at its place
+    let bed = TestBed::new();
+    bed.copy_labs();
+    bed.write("labs/95-slips/lab.toml", &text);
+    bed.write("mine.rhai", SUBMISSION);
+    let ran = bed.run(&["grade", "95-slips", "mine.rhai", "--practice"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    for line in lines {
+        let place = format!("lab.toml:{line}:");
+        assert_eq!(
+            ran.stderr.matches(&place).count(),
+            1,
+            "{place} in {}",
+            ran.stderr
+        );
+    }
+}
+
+#[test]
+fn mistakes_that_are_found_later_are_refused_together() {
+    let more = "pose-reached = { full_m = 0.05, zero_m = 0.01 }
+
+[[tasks.checks]]
+name = \"after\"
+title = \"It may be right\"
+points = 1.0
+needs = [\"pose\"]
+finish-time = { full_s = 1.0, zero_s = 2.0 }
+
+[[tasks.checks]]
+name = \"other\"
+title = \"It names a joint that is not there\"
+points = 1.0
+joint-reached = { joint = \"wrist\", position_rad = 0.5, hold_s = 0.1, full_rad = 0.01, zero_rad = 0.1 }
+";
+    let (text, lines) = edited(&[
+        ("frame = \"lab\"", "frame = \"lab\"\nkept_after_stop = 2"),
+        ("points = 4.0", "points = 0"),
+        ("call = \"two_squares\"", "call = \"two squares\""),
+        ("pose-reached = { full_m = 0.01, zero_m = 0.05 }\n", more),
+    ]);
+    let refused = refused(&OwnLab::new("95-slips", text));
+    let codes: Vec<&str> = refused.iter().map(|(code, ..)| code.as_str()).collect();
+    let expected = [
+        "lab::out_of_range",
+        "lab::points",
+        "lab::call",
+        "lab::band",
+        "lab::unknown_joint",
+    ];
+    assert_eq!(codes, expected, "{refused:#?}");
+    assert_eq!(refused[0].1, lines[0] + 1);
+    assert_eq!(refused[3].1, lines[3]);
 }
 
 #[test]

@@ -73,6 +73,7 @@ mod run_diagnoses;
 mod scene_check;
 mod scene_checks;
 mod scene_labs;
+mod schemas;
 mod sensor_labs;
 mod slips;
 mod slurm;

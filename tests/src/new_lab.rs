@@ -2,6 +2,7 @@
 
 use serde_json::Value as Json;
 
+use crate::schemas;
 use crate::testbed::TestBed;
 
 const TASKS: [&str; 8] = [
@@ -67,6 +68,26 @@ fn a_new_lab_has_no_problem_but_its_todos_and_none_of_those_once_they_are_done()
         bed.path("labs/robots/rrbot.toml").is_file(),
         "the robot is there"
     );
+
+    // each file begins with the path of its schema, as seen from its folder
+    for (folder, file, kind) in [
+        ("labs", "lab.toml", "lab"),
+        ("reference", "hidden.toml", "hidden"),
+        ("reference", "mutants.toml", "mutants"),
+    ] {
+        let text = bed.path(&format!("{folder}/10-first/{file}"));
+        let text = std::fs::read_to_string(text).expect("a file");
+        let schema = text
+            .lines()
+            .next()
+            .expect("a line")
+            .strip_prefix("#:schema ");
+        let schema = bed.path(&format!("{folder}/10-first/{}", schema.expect("a schema")));
+        let schema = std::fs::read_to_string(schema).expect("it is there");
+        let printed = bed.run(&["lab", "schema", kind]).stdout;
+        assert!(schema == printed, "{kind}");
+        schemas::is_valid(kind, file, &text);
+    }
 
     // what students begin with runs, and misses
     let ran = bed.run(&[

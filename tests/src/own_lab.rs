@@ -9,6 +9,7 @@ use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
 use serde_json::Value as Json;
 
+use crate::schemas;
 use crate::testbed::{CommandResult, Folder, TestBed, root};
 
 /// The files of one lab, and of the course staff's part if it has one, next to the checkout's robots and scenes.
@@ -52,7 +53,9 @@ impl OwnLab {
     /// Loads the lab.
     pub(crate) fn load(&self) -> Result<Lab, LoadError> {
         assert_eq!(lab_names(self), [self.name]);
-        Lab::load(self, self.name)
+        let lab = Lab::load(self, self.name)?;
+        self.is_valid_in_an_editor(&["lab"]);
+        Ok(lab)
     }
 
     /// The lab, which nothing is wrong with.
@@ -62,7 +65,21 @@ impl OwnLab {
 
     /// The course staff's part of the lab, which has no errors.
     pub(crate) fn staff(&self, lab: &Lab) -> Option<Staff> {
-        Staff::load(self, lab, None).unwrap_or_else(|error| panic!("{error:?}"))
+        let staff = Staff::load(self, lab, None).unwrap_or_else(|error| panic!("{error:?}"));
+        self.is_valid_in_an_editor(&["hidden", "mutants"]);
+        staff
+    }
+
+    /// What Kinemark reads, the published schemas allow.
+    fn is_valid_in_an_editor(&self, kinds: &[&str]) {
+        for (name, text) in &self.files {
+            if let Some(kind) = kinds
+                .iter()
+                .find(|kind| name.strip_suffix(".toml") == Some(kind))
+            {
+                schemas::is_valid(kind, &format!("{}/{name}", self.name), text);
+            }
+        }
     }
 
     /// The folder of the binary, with this lab in it.

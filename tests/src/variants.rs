@@ -548,7 +548,13 @@ fn a_variant_file_that_does_not_fit_is_refused_at_its_place() {
             "this is a variant of lab `94-touch`, not of `93-touch`",
         ),
         ("0.86", "nan", (4, 7), "a lab's numbers are finite"),
-        ("format = 1", "format = 2", (1, 10), "format 2 is not known"),
+        (
+            "format = 1",
+            "format = 2",
+            (1, 10),
+            "this file is written for a newer Kinemark: format 2; this one reads 1",
+        ),
+        ("format = 1", "format = 0", (1, 10), "format 0 is not known"),
         (
             "format = 1",
             "format = 1\nstudent = \"\"",

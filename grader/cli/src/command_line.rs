@@ -10,8 +10,9 @@ use kinemark_course::staffed_lab::engine_id;
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
     course_page, course_regrade, course_release, course_status, doctor, grade, hint, lab_check,
-    lab_draws, lab_fill, lab_list, lab_new, lab_pack, lab_variant, log_export, new, robot_convert,
-    robot_eval, robot_response, robot_show, scene_check, submit, verify, view, watch,
+    lab_draws, lab_fill, lab_list, lab_new, lab_pack, lab_schema, lab_variant, log_export, new,
+    robot_convert, robot_eval, robot_response, robot_show, scene_check, submit, verify, view,
+    watch,
 };
 use crate::failure::Failure;
 use crate::worker;
@@ -103,6 +104,7 @@ pub(crate) enum LabCommand {
     Draws(lab_draws::Args),
     Fill(lab_fill::Args),
     Variant(lab_variant::Args),
+    Schema(lab_schema::Args),
     Pack(lab_pack::Args),
 }
 
@@ -144,6 +146,7 @@ impl CommandLine {
             Command::Lab(LabCommand::Draws(args)) => lab_draws::run(&args),
             Command::Lab(LabCommand::Fill(args)) => lab_fill::run(&args),
             Command::Lab(LabCommand::Variant(args)) => lab_variant::run(&args),
+            Command::Lab(LabCommand::Schema(args)) => lab_schema::run(&args),
             Command::Lab(LabCommand::Pack(args)) => lab_pack::run(&args),
             Command::Course(CourseCommand::Check(args)) => course_check::run(&args),
             Command::Course(CourseCommand::Grade(args)) => course_grade::run(&args),

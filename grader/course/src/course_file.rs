@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use jiff::Timestamp;
 use kinemark_grader::task::problem::problems;
-use kinemark_sim::text::Source;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::schema::schema_of;
+use kinemark_sim::text::{FileFormat, Source, Spanned};
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
-use crate::course_text::{TextError, format, refuse, tables};
+use crate::course_text::{TextError, refuse, tables};
 
 /// Its name in the course's folder.
 pub const COURSE_FILE: &str = "course.toml";
@@ -36,7 +37,7 @@ problems! {
 }
 
 /// Which of a student's attempts counts.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Attempts {
     /// The latest.
@@ -88,32 +89,49 @@ pub struct CourseFile {
     pub source: Source,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CourseTable {
-    format: Spanned<i64>,
+    /// The version of the format: 1.
+    #[serde(rename = "format")]
+    _format: FileFormat,
+    /// Its title, which heads the page of the class.
     title: Spanned<String>,
+    /// The engine that grades, as `kinemark --version` prints it; whichever runs where it is left out.
     engine: Option<String>,
+    /// The roster, seen from the course's folder; `roster.csv` where it is left out.
     #[serde(default = "default_roster")]
     roster: PathBuf,
+    /// The file that holds the salt, seen from the course's folder; the salts of the labs' `hidden.toml` where it is left out.
     salt_file: Option<PathBuf>,
+    /// The folder of labs, seen from the course's folder.
     labs_folder: Option<PathBuf>,
+    /// The course staff's folder, seen from the course's folder.
     reference: Option<PathBuf>,
+    /// Whether labs whose solutions are public may be graded: those of Kinemark's repository; false where it is left out.
     #[serde(default)]
     public_solutions: bool,
+    /// The labs, in order.
     #[serde(default)]
     labs: Vec<LabTable>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LabTable {
+    /// The name of its folder.
     name: Spanned<String>,
+    /// The digest of its files that students were given, as `course check` prints it.
     digest: Option<String>,
+    /// Which attempt counts; the last where it is left out.
     #[serde(default)]
     attempts: Attempts,
+    /// How much it counts in the course: its share of points is multiplied by this; its points where it is left out.
     weight: Option<Spanned<f64>>,
+    /// Later hand-ins are marked as late: a time with its offset from UTC.
+    #[schemars(with = "Option<String>")]
     due: Option<Spanned<toml::value::Datetime>>,
+    /// Whether each student has a variant of their own, where the lab has variants; true where it is left out.
     variants: Option<bool>,
 }
 
@@ -122,13 +140,17 @@ fn default_roster() -> PathBuf {
 }
 
 impl CourseFile {
+    /// The JSON schema of a `course.toml`.
+    pub fn schema() -> Schema {
+        schema_of::<CourseTable>("A course of Kinemark")
+    }
+
     /// Reads a `course.toml`.
     ///
     /// # Errors
     /// What is wrong in it, with its place.
     pub fn parse(source: Source) -> Result<Self, TextError> {
         let table: CourseTable = tables(&source)?;
-        format(&source, &table.format)?;
         if table.title.get_ref().trim().is_empty() {
             return refuse(&source, table.title.span(), CourseProblem::EmptyTitle);
         }

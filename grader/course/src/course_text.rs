@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kinemark_grader::task::problem::LabError;
 use kinemark_grader::task::problem::problems;
-use kinemark_sim::text::{Located, Problem, Source, Spanned, TomlRefusal};
+use kinemark_sim::text::{FormatProblem, Located, Problem, Source, TomlRefusal, format_of};
 use serde::de::DeserializeOwned;
 
 /// A mistake in a file of the course, with its place.
@@ -38,9 +38,9 @@ impl Problem for Refused {
 
 problems! {
     /// What is wrong with a file before its tables are looked at.
-    enum FormatProblem {
-        Unknown { found: i64 }:
-            "course::unknown_format", "format {found} is not known", "this version reads format 1", "write `format = 1`";
+    enum UnreadProblem {
+        Unread { problem: FormatProblem }:
+            "course::unknown_format", "{problem}", problem.label(), problem.help();
     }
 }
 
@@ -59,24 +59,15 @@ pub fn refuse<T>(
 /// Reads TOML into its tables.
 ///
 /// # Errors
-/// What is no TOML, or no such tables.
+/// What is no TOML, or no such tables, and a format that is not read.
 pub fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, TextError> {
+    format_of(source)
+        .or_else(|(problem, at)| refuse(source, at, UnreadProblem::Unread { problem }))?;
     toml::from_str(source.text()).map_err(|error| {
         let TomlRefusal { message, help, at } = TomlRefusal::from_error(&error, source.text());
         let problem: Box<dyn Problem> = Box::new(Refused { message, help });
         Located::new(problem, source, at)
     })
-}
-
-/// Accepts format 1, the only one so far.
-///
-/// # Errors
-/// Any other.
-pub fn format(source: &Source, format: &Spanned<i64>) -> Result<(), TextError> {
-    match *format.get_ref() {
-        1 => Ok(()),
-        found => refuse(source, format.span(), FormatProblem::Unknown { found }),
-    }
 }
 
 /// A file as people have it from a spreadsheet: UTF-8 with or without a mark, UTF-16 with one, else Windows-1252, which every byte is.

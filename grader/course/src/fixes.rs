@@ -2,11 +2,10 @@
 
 use jiff::Timestamp;
 use kinemark_grader::task::problem::problems;
-use kinemark_sim::text::Source;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::{FileFormat, Source, Spanned};
 use serde::Deserialize;
 
-use crate::course_text::{TextError, format, refuse, tables};
+use crate::course_text::{TextError, refuse, tables};
 use crate::student::StudentId;
 
 /// Its name in the course's folder.
@@ -134,7 +133,8 @@ pub struct Fixes {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FixesTable {
-    format: Spanned<i64>,
+    #[serde(rename = "format")]
+    _format: FileFormat,
     #[serde(default)]
     files: Vec<Spanned<FileTable>>,
     #[serde(default)]
@@ -196,7 +196,6 @@ impl Fixes {
     /// What is wrong in it, with its place.
     pub fn parse(source: &Source) -> Result<Self, TextError> {
         let table: FixesTable = tables(source)?;
-        format(source, &table.format)?;
         let reading = Reading { source };
         let mut fixes = Self::default();
         for at in &table.files {

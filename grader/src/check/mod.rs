@@ -5,6 +5,7 @@ mod alternation;
 mod by_hand;
 mod cases;
 pub(crate) mod cause;
+pub(crate) mod check_schema;
 mod contract;
 mod disturbance;
 #[cfg(test)]

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
 use kinemark_sim::model::sensor::Measured;
-use kinemark_sim::text::Problem;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::{Problem, Spanned};
 use kinemark_sim::ticks::whole_ratio;
 
 use super::contract::{Check, MotionCheck};

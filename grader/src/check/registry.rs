@@ -6,8 +6,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::text::Spanned;
-use schemars::{JsonSchema, Schema, schema_for};
+use kinemark_sim::text::{Mistakes, Problem, Spanned};
+use schemars::{JsonSchema, Schema, SchemaGenerator, schema_for};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 
@@ -29,6 +29,11 @@ pub(crate) trait MotionTable: DeserializeOwned + JsonSchema + fmt::Debug + 'stat
     /// What the kind needs and `task` lacks, in words.
     fn lacks(task: &MotionTask) -> Option<&'static str> {
         let _ = task;
+        None
+    }
+
+    /// The name of an earlier check that it is about, if it is about one.
+    fn about(&self) -> Option<&str> {
         None
     }
 
@@ -65,8 +70,12 @@ pub struct Kind {
     pub module: &'static str,
     /// Whether it judges runs of motion tasks; else answers of function tasks.
     pub of_motion: bool,
+    /// The function whose answers it judges; none for runs, and for a function of the lab's own.
+    pub function: Option<&'static str>,
     /// The JSON schema of its table.
     pub schema: fn() -> Schema,
+    /// The same as a part of a larger one.
+    pub(super) in_schema: fn(&mut SchemaGenerator) -> Schema,
 }
 
 impl Kind {
@@ -75,7 +84,9 @@ impl Kind {
             name: T::NAME,
             module,
             of_motion: true,
+            function: None,
             schema: || schema_for!(T),
+            in_schema: T::json_schema,
         }
     }
 
@@ -84,7 +95,9 @@ impl Kind {
             name: T::NAME,
             module,
             of_motion: false,
+            function: T::FUNCTION,
             schema: || schema_for!(T),
+            in_schema: T::json_schema,
         }
     }
 }
@@ -111,12 +124,20 @@ impl KindTable {
             Self::Function(table) => table.name(),
         }
     }
+
+    fn about(&self) -> Option<&str> {
+        match self {
+            Self::Motion(table) => table.about(),
+            Self::Function(_) => None,
+        }
+    }
 }
 
 /// A [`MotionTable`] whose type is not known.
 pub(crate) trait ReadMotion: fmt::Debug {
     fn name(&self) -> &'static str;
     fn lacks(&self, task: &MotionTask) -> Option<&'static str>;
+    fn about(&self) -> Option<&str>;
     fn read(
         &self,
         report: Reporter<'_>,
@@ -131,6 +152,10 @@ impl<T: MotionTable> ReadMotion for Spanned<T> {
 
     fn lacks(&self, task: &MotionTask) -> Option<&'static str> {
         T::lacks(task)
+    }
+
+    fn about(&self) -> Option<&str> {
+        self.get_ref().about()
     }
 
     fn read(
@@ -284,6 +309,33 @@ problems! {
     }
 }
 
+/// The checks of a task that cannot be read: what rests on one of them is not looked at, since it may be right.
+#[derive(Debug, Default)]
+struct Refused<'t> {
+    names: Vec<&'t str>,
+    mistakes: Mistakes<Box<dyn Problem>>,
+}
+
+impl<'t> Refused<'t> {
+    /// The check, if it can be read and rests on none that cannot.
+    fn keep<T>(
+        &mut self,
+        table: &'t CheckTable,
+        read: impl FnOnce() -> Result<T, LabError>,
+    ) -> Option<T> {
+        let needs = table.needs.iter().map(|need| need.get_ref().as_str());
+        let about = table.kinds.iter().filter_map(KindTable::about);
+        let check = match needs.chain(about).any(|name| self.names.contains(&name)) {
+            true => None,
+            false => self.mistakes.keep(read()),
+        };
+        if check.is_none() {
+            self.names.push(table.name.get_ref());
+        }
+        check
+    }
+}
+
 /// Reads the checks of a motion task, in order; `of` is what they can name, without name and checks before.
 pub(crate) fn motion_checks(
     tables: &[Spanned<CheckTable>],
@@ -291,35 +343,45 @@ pub(crate) fn motion_checks(
     of: InMotion<'_>,
 ) -> Result<Vec<Check<dyn MotionCheck>>, LabError> {
     let mut checks: Vec<Check<dyn MotionCheck>> = Vec::new();
+    let mut refused = Refused::default();
     for table in tables {
         let table = table.get_ref();
-        let example = "pose-reached = { full_m = 0.002, zero_m = 0.02 }";
-        let kind = match table.kind(report, example)? {
-            KindTable::Motion(kind) => match kind.lacks(of.motion) {
-                None => kind,
-                Some(lacks) => return table.misfit(report, kind.name(), lacks.to_owned()),
-            },
-            KindTable::Function(kind) => {
-                return table.misfit(report, kind.name(), task_of(kind.function()));
-            }
-        };
-        let needs = table.needs(report, checks.iter().map(|check| check.name.as_str()))?;
         let of = InMotion {
             check: table.name.get_ref(),
             earlier: &checks,
             ..of
         };
-        let kind = kind.read(report, of)?;
-        let mut criterion = table.criterion(report, needs, kind.bounds())?;
-        // what earned nothing undisturbed is not tried again
-        if let Some(sweep) = kind.sweep()
-            && !criterion.needs.contains(&sweep.check)
-        {
-            criterion.needs.push(sweep.check);
-        }
-        checks.push(Check { criterion, kind });
+        checks.extend(refused.keep(table, || motion_check(table, report, of)));
     }
+    refused.mistakes.finish()?;
     Ok(checks)
+}
+
+fn motion_check(
+    table: &CheckTable,
+    report: Reporter<'_>,
+    of: InMotion<'_>,
+) -> Result<Check<dyn MotionCheck>, LabError> {
+    let example = "pose-reached = { full_m = 0.002, zero_m = 0.02 }";
+    let kind = match table.kind(report, example)? {
+        KindTable::Motion(kind) => match kind.lacks(of.motion) {
+            None => kind,
+            Some(lacks) => return table.misfit(report, kind.name(), lacks.to_owned()),
+        },
+        KindTable::Function(kind) => {
+            return table.misfit(report, kind.name(), task_of(kind.function()));
+        }
+    };
+    let needs = table.needs(report, of.earlier.iter().map(|check| check.name.as_str()))?;
+    let kind = kind.read(report, of)?;
+    let mut criterion = table.criterion(report, needs, kind.bounds())?;
+    // what earned nothing undisturbed is not tried again
+    if let Some(sweep) = kind.sweep()
+        && !criterion.needs.contains(&sweep.check)
+    {
+        criterion.needs.push(sweep.check);
+    }
+    Ok(Check { criterion, kind })
 }
 
 /// Reads the checks of a function task, in order.
@@ -329,29 +391,41 @@ pub(crate) fn function_checks(
     task: &FunctionTask,
 ) -> Result<Vec<Check<dyn FunctionCheck>>, LabError> {
     let mut checks: Vec<Check<dyn FunctionCheck>> = Vec::new();
+    let mut refused = Refused::default();
     for table in tables {
         let table = table.get_ref();
-        let example = match task.function.known_name() {
-            Some("inverse_kinematics") => "ik-reach = { full_m = 1e-3, zero_m = 1e-2 }",
-            Some("jacobian") => "jacobian-match = { full = 0.01, zero = 0.1 }",
-            Some(_) => "fk-error = { full_m = 1e-4, zero_m = 5e-3 }",
-            None => "function-cases = { full = 0.01, zero = 0.1 }",
-        };
-        let kind = match table.kind(report, example)? {
-            KindTable::Function(kind) if kind.function() == task.function.known_name() => kind,
-            KindTable::Function(kind) => {
-                return table.misfit(report, kind.name(), task_of(kind.function()));
-            }
-            KindTable::Motion(kind) => {
-                return table.misfit(report, kind.name(), "a motion task".to_owned());
-            }
-        };
-        let needs = table.needs(report, checks.iter().map(|check| check.name.as_str()))?;
-        let kind = kind.read(report, task)?;
-        let criterion = table.criterion(report, needs, kind.bounds())?;
-        checks.push(Check { criterion, kind });
+        let read = || function_check(table, report, task, &checks);
+        checks.extend(refused.keep(table, read));
     }
+    refused.mistakes.finish()?;
     Ok(checks)
+}
+
+fn function_check(
+    table: &CheckTable,
+    report: Reporter<'_>,
+    task: &FunctionTask,
+    earlier: &[Check<dyn FunctionCheck>],
+) -> Result<Check<dyn FunctionCheck>, LabError> {
+    let example = match task.function.known_name() {
+        Some("inverse_kinematics") => "ik-reach = { full_m = 1e-3, zero_m = 1e-2 }",
+        Some("jacobian") => "jacobian-match = { full = 0.01, zero = 0.1 }",
+        Some(_) => "fk-error = { full_m = 1e-4, zero_m = 5e-3 }",
+        None => "function-cases = { full = 0.01, zero = 0.1 }",
+    };
+    let kind = match table.kind(report, example)? {
+        KindTable::Function(kind) if kind.function() == task.function.known_name() => kind,
+        KindTable::Function(kind) => {
+            return table.misfit(report, kind.name(), task_of(kind.function()));
+        }
+        KindTable::Motion(kind) => {
+            return table.misfit(report, kind.name(), "a motion task".to_owned());
+        }
+    };
+    let needs = table.needs(report, earlier.iter().map(|check| check.name.as_str()))?;
+    let kind = kind.read(report, task)?;
+    let criterion = table.criterion(report, needs, kind.bounds())?;
+    Ok(Check { criterion, kind })
 }
 
 impl CheckTable {

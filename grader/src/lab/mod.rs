@@ -12,6 +12,7 @@ mod model;
 pub mod new_lab;
 mod parameters;
 pub mod practice;
+pub mod schema;
 pub mod staff;
 pub mod variant;
 

@@ -115,6 +115,19 @@ pub struct NewLabFiles {
     pub reference: Vec<(&'static str, String)>,
 }
 
+/// The folder of schemas beside those of the labs, and beside those of the course staff's parts.
+pub const SCHEMA_FOLDER: &str = "schema";
+
+/// The name of the file of a kind's schema.
+pub fn schema_name(kind: &str) -> String {
+    format!("{kind}.schema.json")
+}
+
+/// The first line of a file of this kind in the folder of a lab: an editor completes its keys by the schema that it names.
+fn schema_line(kind: &str) -> String {
+    format!("#:schema ../{SCHEMA_FOLDER}/{}\n", schema_name(kind))
+}
+
 impl NewLab<'_> {
     /// The files.
     ///
@@ -227,7 +240,9 @@ impl NewLab<'_> {
     }
 
     fn lab_toml(&self) -> String {
-        let mut text = format!(
+        let mut text = schema_line("lab");
+        let _ = write!(
+            text,
             "# What each key means: docs/lab-format.md. TODO marks what a person has to decide.\n\
              format = 1\nname = \"{}\"\ntitle = \"TODO: one line that students read\"\n\
              summary = \"TODO: one sentence, which `kinemark` lists\"\nrobot = \"{}\"\nframe = \"{}\"\n",
@@ -451,7 +466,9 @@ impl NewLab<'_> {
     }
 
     fn hidden(&self) -> String {
-        let mut text = format!(
+        let mut text = schema_line("hidden");
+        let _ = write!(
+            text,
             "# Cases and runs that submissions are graded on and students do not see: `kinemark lab draws {}` lists them.\n\
              # Write another salt every year: `kinemark lab check` doubts one that others may know.\n\
              format = 1\nsalt = \"{}\"\n",
@@ -500,12 +517,13 @@ impl NewLab<'_> {
 
     fn mutants(&self) -> String {
         let task = &self.tasks[0].name;
-        format!(
+        let text = format!(
             "# Submissions that make one common mistake each, and what a student who makes it reads. A lab needs at least six.\n\
              # mutants/NAME.rhai is the solution with the mistake:\n\
              #\n# [[mutants]]\n# name = \"degrees\"\n# tasks = [\"{task}\"]\n# says = \"The angles are in degrees. All angles are in radians.\"\n\
              format = 1\n"
-        )
+        );
+        schema_line("mutants") + text.as_str()
     }
 
     fn brief(&self) -> String {

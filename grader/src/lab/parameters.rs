@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use kinemark_sim::text::expression::{ExpressionProblem, MARK};
 use kinemark_sim::text::{
     Dimension, Dimensions, MarkedNumbersProblem, Problem, Source, Spanned, TomlRefusal, nearest,
-    read_with_marked_numbers,
+    read_with_marked_numbers, refused_parts,
 };
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue};
 
-use super::load::refuse_not_finite;
+use super::load::refuse_unreadable;
 use crate::task::problem::{LabError, problems};
 use crate::task::reporter::Reporter;
 
@@ -77,7 +77,7 @@ pub(super) fn stated(source: &Source) -> Result<Dimensions, LabError> {
         #[serde(default)]
         parameters: NumbersTable,
     }
-    refuse_not_finite(source)?;
+    refuse_unreadable(source)?;
     let table: Stated = toml::from_str(source.text()).map_err(|error| refused(source, &error))?;
     let mut parameters = Dimensions::default();
     for (name, value) in table.parameters {
@@ -125,14 +125,7 @@ pub(super) fn tables_with<T: DeserializeOwned>(
     }
     let read = read_with_marked_numbers(source, parameters, "parameter", REFERENCE);
     read.map_err(|problem| match problem {
-        MarkedNumbersProblem::Refused(refusal) if is_of_reference(source, &refusal) => {
-            LabError::new(
-                Box::new(ParameterProblem::NoReferenceHere),
-                source,
-                refusal.at,
-            )
-        }
-        MarkedNumbersProblem::Refused(refusal) => refusal_at(source, refusal),
+        MarkedNumbersProblem::Refused(refusal) => in_tables(source, refusal),
         // what a misspelt table defines is missed first
         MarkedNumbersProblem::Expression(_) if let Some(at) = misspelt(source) => {
             let typed = &source.text()[at.clone()];
@@ -153,6 +146,26 @@ pub(super) fn tables_with<T: DeserializeOwned>(
             LabError::new(Box::new(problem), source, at)
         }
     })
+}
+
+/// What is refused in the tables of a lab file that are read part by part.
+pub(super) fn refused_in_parts(
+    source: &Source,
+    parameters: &Dimensions,
+    parts: impl FnOnce(&toml::Spanned<DeTable<'_>>) -> Vec<toml::de::Error>,
+) -> Vec<LabError> {
+    let refused = refused_parts(source, parameters, ("parameter", REFERENCE), parts);
+    let refused = refused.into_iter();
+    refused.map(|refusal| in_tables(source, refusal)).collect()
+}
+
+/// What the reader refused in tables with expressions.
+fn in_tables(source: &Source, refusal: TomlRefusal) -> LabError {
+    if is_of_reference(source, &refusal) {
+        let problem = Box::new(ParameterProblem::NoReferenceHere);
+        return LabError::new(problem, source, refusal.at);
+    }
+    refusal_at(source, refusal)
 }
 
 /// Where the table of parameters stands, if its name is misspelt.

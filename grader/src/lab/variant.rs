@@ -1,14 +1,14 @@
 //! Variants of a lab: the numbers of one student, read from a `variant.toml` or drawn from the course's salt and the student's id.
 
 use kinemark_sim::random::KeyedStream;
-use kinemark_sim::text::Dimension;
 use kinemark_sim::text::Source;
-use kinemark_sim::text::Spanned;
 use kinemark_sim::text::number::{short, trimmed};
+use kinemark_sim::text::{Dimension, FileFormat, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use unicode_normalization::UnicodeNormalization as _;
 
-use super::file::{StepsTable, VariesTable};
+use super::file::{ChoicesTable, StepsTable, VariesTable};
 use super::load::tables;
 use super::model::Lab;
 use super::parameters::NumbersTable;
@@ -31,12 +31,17 @@ pub struct Variant {
 }
 
 /// `variant.toml`.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct VariantTable {
-    format: Spanned<i64>,
+pub(super) struct VariantTable {
+    /// The version of the format: 1.
+    #[serde(rename = "format")]
+    _format: FileFormat,
+    /// The lab of which it is a variant.
     lab: Spanned<String>,
+    /// Whose it is.
     student: Option<Spanned<String>>,
+    /// Numbers of the lab, or lists of them; those left out are as in lab.toml.
     #[serde(default)]
     parameters: NumbersTable,
 }
@@ -74,7 +79,6 @@ impl Variant {
     pub fn parse(source: Source) -> Result<Self, LabError> {
         let table: VariantTable = tables(&source)?;
         let report = Reporter { source: &source };
-        report.format(&table.format)?;
         if let Some(student) = &table.student
             && let Err(why) = student_id(student.get_ref())
         {
@@ -518,7 +522,7 @@ pub(super) fn rules(
             (VariesTable::Each(each), Dimension::List(base)) if each.len() == base.len() => {
                 DrawnFrom::Each(each.iter().map(steps).collect::<Result<_, _>>()?)
             }
-            (VariesTable::Choices { choices }, base) => {
+            (VariesTable::Choices(ChoicesTable { choices }), base) => {
                 if choices.is_empty() {
                     return report.refuse_at(typed, RuleProblem::NoChoices);
                 }

@@ -1,12 +1,13 @@
 //! What functions of a lab's own are given and answer: numbers, lists and matrices of numbers by name.
 
 use kinemark_sim::text::Dimension;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::value::Value;
 
 /// A number, a list of numbers, or a matrix.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "a number, a list of numbers, or a list of rows of equal length"

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::{Problem, Source};
+use kinemark_sim::text::{Problem, Source, Spanned};
 
 use super::model::Band;
 use super::problem::{LabError, problems};

@@ -6,6 +6,7 @@
 //! the joint velocity. In effort mode the command itself takes the place of the PID.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::dynamics::rnea::Rnea;
@@ -13,7 +14,7 @@ use crate::kinematics::closure::independent_motions;
 use crate::model::robot::Robot;
 
 /// What a command means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
     /// Joint positions \[rad or m\].
@@ -39,7 +40,7 @@ impl Mode {
 }
 
 /// Where the derivative term takes its rate from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Derivative {
     /// Backward difference of the error: kicks when the command jumps.

@@ -5,7 +5,6 @@
 //!
 //! `H = Tz(base) J1(q1) Trans(l1) J2(q2) Trans(l2) ...`; turns are right-handed, in radians, slides in metres.
 
-use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
 
 use super::assembly::assembler::{MOST_LINKS, axes_with_z_along};
@@ -14,7 +13,7 @@ use super::robot_problem::{RobotError, RobotProblem};
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Robot, Shape};
 use crate::spatial::{Pose, pose};
-use crate::text::{Dimension, Dimensions, Source};
+use crate::text::{Dimension, Dimensions, Source, Spanned};
 
 /// A drawn link is this part of the longest link thick.
 const DRAWN_RADIUS: f64 = 0.03;

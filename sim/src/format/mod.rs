@@ -5,7 +5,6 @@
 mod assembly;
 pub mod joint_string;
 mod mesh_location;
-mod mistakes;
 mod robot_description;
 mod robot_format;
 mod robot_problem;

@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::text::Spanned;
 use nalgebra::Vector3;
 
 use super::part_problem::{PartError, PartProblem};
@@ -17,7 +16,7 @@ use crate::model::mesh::mesh_problem::MeshProblem;
 use crate::model::robot::{Contact, Shape};
 use crate::model::unphysical::Unphysical;
 use crate::spatial::Symmetric3;
-use crate::text::Located;
+use crate::text::{Located, Spanned};
 
 impl Values<'_> {
     pub(crate) fn shape(&self, table: &Spanned<ShapeTable>) -> Result<Shape, PartError> {

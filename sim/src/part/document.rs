@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::text::Spanned;
 use serde::de::DeserializeOwned;
 
 use super::mesh_files::Meshes;
@@ -10,7 +9,7 @@ use super::part_problem::PartProblem;
 use super::part_tables::ShapeTable;
 use super::shape_count::too_many_shapes;
 use super::values::{Values, changed_dimensions};
-use crate::text::{Dimension, Dimensions, Located, Problem, Source};
+use crate::text::{Dimension, Dimensions, Located, Problem, Source, Spanned, format_of};
 
 /// The tables of one kind of description.
 pub trait Tables: DeserializeOwned {
@@ -18,8 +17,6 @@ pub trait Tables: DeserializeOwned {
     const KIND: &'static str;
     /// What can be wrong with it.
     type Problem: Problem + From<PartProblem>;
-    /// Which version of the tables it is.
-    fn format(&self) -> &Spanned<i64>;
     /// The named numbers.
     fn dimensions(&mut self) -> &mut Dimensions;
     /// The shapes, wherever they stand.
@@ -42,16 +39,14 @@ impl<T: Tables> Document<T> {
     /// What the TOML reader refuses: syntax, an unknown key, a wrong type, a missing key; a format that is not known; more shapes than
     /// are read.
     pub fn parse(source: Source) -> Result<Self, Located<T::Problem>> {
+        format_of(&source).map_err(|(problem, at)| {
+            let problem = PartProblem::Format { problem };
+            located::<T>(problem, &source, at)
+        })?;
         let mut tables: T = toml::from_str(source.text()).map_err(|error| {
             let (problem, at) = PartProblem::of_toml(&error, source.text());
             located::<T>(problem, &source, at)
         })?;
-        let format = tables.format();
-        if *format.get_ref() != 1 {
-            let (kind, found) = (T::KIND, *format.get_ref());
-            let problem = PartProblem::UnknownFormat { kind, found };
-            return Err(located::<T>(problem, &source, format.span()));
-        }
         if let Some((problem, at)) = too_many_shapes(T::KIND, tables.shapes()) {
             return Err(located::<T>(problem, &source, at));
         }

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::text::Spanned;
-
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::ShapeTable;
 use super::shape_count::ShapeCount;
 use crate::model::mesh::surface::Mesh;
-use crate::text::{Located, Source};
+use crate::text::{Located, Source, Spanned};
 
 /// Meshes by the name the file calls them.
 #[derive(Debug, Clone, Default)]

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
 
 use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{OriginTable, TripleAt};
 use super::values::{Allowed, Values};
 use crate::spatial::{Pose, pose, rotation_about_axis_deg, rotation_from_rpy_deg};
+use crate::text::Spanned;
 
 /// The help for a rotation that is given in none of these ways, or in more than one.
 const WAYS: &str =

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::text::{Located, TomlRefusal, suggest};
+use crate::text::{FormatProblem, Located, TomlRefusal, suggest};
 
 /// A problem in a part, with its place.
 pub(crate) type PartError = Located<PartProblem>;
@@ -16,8 +16,8 @@ pub enum PartProblem {
         message: String,
         help: Option<String>,
     },
-    #[error("{kind} format {found} is not known")]
-    UnknownFormat { kind: &'static str, found: i64 },
+    #[error("{problem}")]
+    Format { problem: FormatProblem },
     #[error("{message}")]
     Expression {
         message: String,
@@ -125,7 +125,7 @@ impl PartProblem {
     pub(crate) fn codes(&self) -> Codes {
         match self {
             Self::Toml { .. } => codes!("toml"),
-            Self::UnknownFormat { .. } => codes!("unknown_format"),
+            Self::Format { .. } => codes!("unknown_format"),
             Self::Expression { .. } => codes!("expression"),
             Self::Unknown { what: "joint", .. } => codes!("unknown_joint"),
             Self::Unknown { what: "link", .. } => codes!("unknown_link"),
@@ -147,7 +147,7 @@ impl PartProblem {
     pub(crate) fn label(&self) -> String {
         match self {
             Self::Toml { .. } => "here".to_owned(),
-            Self::UnknownFormat { .. } => "this version reads format 1".to_owned(),
+            Self::Format { problem } => problem.label().to_owned(),
             Self::Expression { .. } => "in this expression".to_owned(),
             Self::Unknown { what, .. } => format!("not a {what} of this robot"),
             Self::Sensor { .. } => "here".to_owned(),
@@ -171,7 +171,7 @@ impl PartProblem {
             Self::Toml { help, .. } | Self::Expression { help, .. } | Self::Mesh { help, .. } => {
                 help.clone()
             }
-            Self::UnknownFormat { .. } => Some("write `format = 1`".to_owned()),
+            Self::Format { problem } => Some(problem.help()),
             Self::Duplicate { .. } => Some("give each its own name".to_owned()),
             Self::BadName { help, .. } => Some((*help).to_owned()),
             Self::TooLarge { parts, .. } => Some(format!("leave out {parts} that nothing needs")),

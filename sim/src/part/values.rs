@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::text::Spanned;
 use nalgebra::Vector3;
 
 use super::mesh_files::Meshes;
@@ -11,7 +10,7 @@ use super::part_problem::{PartError, PartProblem};
 use super::part_tables::{Number, NumberAt, TripleAt};
 use crate::spatial::direction;
 use crate::text::expression::evaluate_in;
-use crate::text::{Dimension, Dimensions, Located, Source, suggest};
+use crate::text::{Dimension, Dimensions, Located, Source, Spanned, suggest};
 
 /// No number that [`Values::bounded`] or [`Values::within`] reads is beyond this, in SI units: far beyond any lab, and its powers
 /// stay finite.

@@ -7,6 +7,7 @@ mod of_joint;
 mod registry;
 mod sensor_problem;
 mod sensor_reader;
+mod sensor_schema;
 mod sensor_writer;
 
 pub use sensor_problem::SensorProblem;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use crate::text::Spanned;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::registry::{KindTable, SensorReading};
@@ -11,6 +11,7 @@ use crate::model::robot::{Body, Joint, Robot};
 use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings, moved_by};
 use crate::part::part_problem::PartError;
 use crate::part::toml_text::quoted;
+use crate::text::Spanned;
 
 /// One number of a joint that moves.
 pub(super) trait JointNumber: fmt::Debug + Clone + Copy + Send + Sync + 'static {
@@ -30,9 +31,10 @@ pub(super) trait JointNumber: fmt::Debug + Clone + Copy + Send + Sync + 'static 
 }
 
 /// The keys of a sensor of `N`.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, bound = "")]
 pub(super) struct JointTable<N> {
+    /// The joint that it measures.
     joint: Spanned<String>,
     #[serde(skip)]
     number: PhantomData<N>,

@@ -3,17 +3,17 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::text::Spanned;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 use crate::model::robot::{Joint, JointKind, Robot};
 use crate::model::sensor::SensorKind;
 use crate::part::part_problem::{PartError, PartProblem};
 use crate::part::values::Values;
-use crate::text::{TypedTable, suggest};
+use crate::text::{Spanned, TypedTable, suggest};
 
 /// The keys of one kind, beside those that every sensor has.
-pub(super) trait KindTable: DeserializeOwned {
+pub(super) trait KindTable: DeserializeOwned + JsonSchema {
     /// The word of `type`, which is the name of the kind.
     const NAME: &'static str;
     /// Whether it has `noise`, `quantisation` and a `seed`.
@@ -36,6 +36,8 @@ pub(super) struct Kind {
     pub(super) name: &'static str,
     pub(super) is_noisy: bool,
     pub(super) read: ReadKind,
+    /// The schema of its own keys.
+    pub(super) schema: fn(&mut SchemaGenerator) -> Schema,
     #[cfg(test)]
     pub(super) example: &'static str,
     #[cfg(test)]
@@ -48,6 +50,7 @@ impl Kind {
             name: T::NAME,
             is_noisy: T::IS_NOISY,
             read: |reading| Ok(Arc::new(reading.own::<T>()?.read(reading)?)),
+            schema: T::json_schema,
             #[cfg(test)]
             example: T::EXAMPLE,
             #[cfg(test)]

@@ -1,6 +1,6 @@
 //! From the tables of sensors to the sensors: names become indices of a robot, expressions over its dimensions numbers.
 
-use crate::text::Spanned;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::kind::KINDS;
@@ -13,7 +13,7 @@ use crate::part::part_problem::{PartError, PartProblem};
 use crate::part::part_tables::NumberAt;
 use crate::part::values::{Allowed, Values};
 use crate::random::seed_of_name;
-use crate::text::{Located, Source, TypedTable, suggest};
+use crate::text::{Located, Source, Spanned, TypedTable, suggest};
 
 /// A robot or a lab has at most this many sensors: far more than any real one, and few enough to read at every step.
 const MOST_SENSORS: usize = 200;
@@ -24,7 +24,7 @@ const MOST_SENSORS: usize = 200;
 pub struct SensorTable(TypedTable);
 
 /// The keys that sensors of every kind have, but the last three only those that are noisy.
-const COMMON: [&str; 7] = [
+pub(super) const COMMON: [&str; 7] = [
     "name",
     "type",
     "delay_s",
@@ -35,17 +35,24 @@ const COMMON: [&str; 7] = [
 ];
 
 /// How many of [`COMMON`] sensors without noise have.
-const NOISELESS: usize = 4;
+pub(super) const NOISELESS: usize = 4;
 
-#[derive(Debug, Deserialize)]
-struct CommonTable {
+#[derive(Debug, Deserialize, JsonSchema)]
+pub(super) struct CommonTable {
+    /// Its name, by which submissions read it.
     name: Spanned<String>,
+    /// What it measures.
     #[serde(rename = "type")]
     kind: Spanned<String>,
+    /// How much later values arrive \[s\]; 0 where it is left out.
     delay_s: Option<NumberAt>,
+    /// Values taken each second \[Hz\]; one at every step where it is left out.
     rate_hz: Option<NumberAt>,
+    /// Standard deviation of normal noise, in the unit of the value; 0 where it is left out.
     noise: Option<NumberAt>,
+    /// Values are integer multiples of this, in their unit; 0 where it is left out.
     quantisation: Option<NumberAt>,
+    /// Seed of the noise; made from the name where it is left out.
     seed: Option<u64>,
 }
 

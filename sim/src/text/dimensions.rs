@@ -1,7 +1,10 @@
 //! Named numbers and lists of numbers for expressions: the dimensions of a robot or a scene, the parameters of a lab.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
@@ -91,6 +94,30 @@ impl<'de> Deserialize<'de> for Dimensions {
             }
         }
         deserializer.deserialize_map(Pairs)
+    }
+}
+
+impl JsonSchema for Dimensions {
+    fn schema_name() -> Cow<'static, str> {
+        "Dimensions".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        <BTreeMap<String, Dimension>>::json_schema(generator)
+    }
+}
+
+impl JsonSchema for Dimension {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Dimension".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["number", "array"], "items": { "type": "number" } })
     }
 }
 

@@ -35,11 +35,52 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
     let refused = |error: &toml::de::Error| {
         MarkedNumbersProblem::Refused(TomlRefusal::with_expressions(error, source.text()))
     };
-    // the numbers as text, in the order in which they are found: the tables borrow from them
-    let mut numbers = Vec::new();
     let mut table = DeTable::parse(source.text()).map_err(|error| refused(&error))?;
+    let numbers = match numbers_of(&table, source, named, (noun, later)) {
+        Ok(numbers) => numbers,
+        Err(problem) => {
+            return Err(match unknown_key::<T>(source) {
+                Some(error) => refused(&error),
+                None => MarkedNumbersProblem::Expression(problem),
+            });
+        }
+    };
+    replace_all(&mut table, &numbers);
+    T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
+}
+
+/// What is refused in a text whose tables are read part by part: `parts` gets them with every expression as a number. Nothing in a text
+/// that is no TOML, or has an expression without a value: that is said as a whole.
+pub fn refused_parts(
+    source: &Source,
+    named: &Dimensions,
+    (noun, later): (&'static str, &'static str),
+    parts: impl FnOnce(&Spanned<DeTable<'_>>) -> Vec<toml::de::Error>,
+) -> Vec<TomlRefusal> {
+    let Ok(mut table) = DeTable::parse(source.text()) else {
+        return Vec::new();
+    };
+    let Ok(numbers) = numbers_of(&table, source, named, (noun, later)) else {
+        return Vec::new();
+    };
+    replace_all(&mut table, &numbers);
+    let refused = parts(&table);
+    let refused = refused.iter();
+    refused
+        .map(|error| TomlRefusal::with_expressions(error, source.text()))
+        .collect()
+}
+
+/// The numbers of the expressions as text, in the order in which they are found: the tables will borrow from them.
+fn numbers_of(
+    table: &Spanned<DeTable<'_>>,
+    source: &Source,
+    named: &Dimensions,
+    (noun, later): (&'static str, &'static str),
+) -> Result<Vec<String>, ExpressionProblem> {
+    let mut numbers = Vec::new();
     for value in table.get_ref().values() {
-        let evaluated = each_expression(value, &mut |text, value| {
+        each_expression(value, &mut |text, value| {
             let at = value.span();
             numbers.push(if names(text, later) {
                 linear_in(source, &at, text, named, (noun, later))?.as_toml()
@@ -49,19 +90,17 @@ pub fn read_with_marked_numbers<T: DeserializeOwned>(
                 as_toml(evaluate_in(source, &at, text, named, noun)?)
             });
             Ok(())
-        });
-        if let Err(problem) = evaluated {
-            return Err(match unknown_key::<T>(source) {
-                Some(error) => refused(&error),
-                None => MarkedNumbersProblem::Expression(problem),
-            });
-        }
+        })?;
     }
+    Ok(numbers)
+}
+
+/// Puts the numbers where the expressions were.
+fn replace_all<'n>(table: &mut Spanned<DeTable<'n>>, numbers: &'n [String]) {
     let mut next = numbers.iter().map(String::as_str);
     for (_, value) in table.get_mut().iter_mut() {
         replace(value, &mut next);
     }
-    T::deserialize(Deserializer::from(table)).map_err(|error| refused(&error))
 }
 
 /// The list or the text that an expression names as TOML, if it is nothing but the name of one.

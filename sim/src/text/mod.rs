@@ -4,9 +4,12 @@
 mod cut_line;
 mod dimensions;
 pub mod expression;
+mod file_format;
 mod linear;
 mod marked_numbers;
+mod mistakes;
 pub mod number;
+pub mod schema;
 mod source;
 mod spanned;
 mod suggest;
@@ -15,8 +18,10 @@ mod typed_table;
 
 pub use cut_line::CutLine;
 pub use dimensions::{Dimension, Dimensions};
+pub use file_format::{FORMAT, FileFormat, FormatProblem, format_of};
 pub use linear::Linear;
-pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers};
+pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers, refused_parts};
+pub use mistakes::Mistakes;
 pub use source::{Located, Problem, Source};
 pub use spanned::Spanned;
 pub use suggest::{LONGEST_TYPO, nearest, suggest};

@@ -3,12 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use kinemark_grader::lab::new_lab::{NewLab, NewTask, NewTaskKind, Unfit};
+use kinemark_grader::lab::new_lab::{
+    NewLab, NewTask, NewTaskKind, SCHEMA_FOLDER, Unfit, schema_name,
+};
 use kinemark_grader::task::files::Files;
 use kinemark_grader::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
 use kinemark_sim::text::suggest;
 use serde::Serialize;
 
+use crate::commands::lab_schema::SchemaKind;
 use crate::failure::{Failure, note_in_words};
 use crate::fresh_folder::FreshFolder;
 use crate::labs_folder::{self, LabsFolderArgs};
@@ -20,7 +23,7 @@ use crate::output;
     after_help = "Examples:\n  kinemark lab new first-lab --robot rrbot --task fk --task motion:turn\n  \
     kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n\n\
     Kinds of tasks: fk, ik, jacobian, function, motion (joint positions), velocity (joint velocities). A name follows after a colon.\n\
-    Writes labs/NAME for students and reference/NAME for course staff. Without a folder `labs` here or above it makes one, with the \
+    Writes labs/NAME for students and reference/NAME for course staff, and beside them schemas by which an editor completes keys. Without a folder `labs` here or above it makes one, with the \
     robot in it. Then `kinemark watch NAME reference/NAME/solution.rhai` follows what you write, and `kinemark lab check NAME` \
     lists what is missing.\n\
     Exit codes: 0 done, 2 usage, 3 the robot is broken, 4 a file cannot be written."
@@ -111,6 +114,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             )
         })?;
         written.extend(files.iter().map(|(name, _)| folder.join(name)));
+    }
+    for (folder, kinds) in [(&labs, OF_LABS), (&reference, OF_REFERENCE)] {
+        written.extend(write_schemas(&folder.join(SCHEMA_FOLDER), kinds)?);
     }
     if args.json {
         let lab = name;
@@ -203,6 +209,32 @@ fn copy_robot(files: &dyn Files, name: &str) -> Result<Option<PathBuf>, Failure>
     }
     output::write_file(&out, &bytes, "go to a folder that you may write to")?;
     Ok(Some(out))
+}
+
+/// The schemas of what lies in `labs`, by the names of their kinds.
+const OF_LABS: &[SchemaKind] = &[SchemaKind::Lab, SchemaKind::Robot, SchemaKind::Scene];
+/// Those of what lies in `reference`.
+const OF_REFERENCE: &[SchemaKind] = &[
+    SchemaKind::Hidden,
+    SchemaKind::Mutants,
+    SchemaKind::Accepted,
+];
+
+/// Writes schemas for editors, each where it is missing or that of another version; returns which.
+fn write_schemas(folder: &Path, kinds: &[SchemaKind]) -> Result<Vec<PathBuf>, Failure> {
+    let help = "choose another folder with --labs and --reference";
+    std::fs::create_dir_all(folder).map_err(|error| output::unwritten(folder, &error, help))?;
+    let mut written = Vec::new();
+    for kind in kinds {
+        let path = folder.join(schema_name(&kind.name()));
+        let text = kind.text();
+        if std::fs::read(&path).is_ok_and(|there| there == text.as_bytes()) {
+            continue;
+        }
+        output::write_file(&path, text.as_bytes(), help)?;
+        written.push(path);
+    }
+    Ok(written)
 }
 
 /// A salt that nobody can guess.

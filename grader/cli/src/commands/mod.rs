@@ -20,6 +20,7 @@ pub(crate) mod lab_fill;
 pub(crate) mod lab_list;
 pub(crate) mod lab_new;
 pub(crate) mod lab_pack;
+pub(crate) mod lab_schema;
 pub(crate) mod lab_variant;
 pub(crate) mod log_export;
 pub(crate) mod new;

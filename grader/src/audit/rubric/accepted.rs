@@ -1,6 +1,8 @@
 //! Doubts that the course staff accept, with a reason: `accepted.toml` in their part of the lab.
 
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::schema::schema_of;
+use kinemark_sim::text::{FileFormat, Spanned};
+use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 
 use super::{Doubt, RULES};
@@ -21,19 +23,25 @@ problems! {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FileTable {
-    format: Spanned<i64>,
+    /// The version of the format: 1.
+    #[serde(rename = "format")]
+    _format: FileFormat,
+    /// The doubts that are accepted.
     #[serde(default)]
     accepted: Vec<EntryTable>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct EntryTable {
+    /// The rule that doubts, as `lab check` names it.
     rule: Spanned<String>,
+    /// What it doubts, as `lab check` names it.
     of: String,
+    /// Why it is right here.
     because: Spanned<String>,
 }
 
@@ -53,6 +61,11 @@ pub(super) struct Entry {
 pub struct Accepted(Vec<Entry>);
 
 impl Accepted {
+    /// The JSON schema of `accepted.toml`.
+    pub fn schema() -> Schema {
+        schema_of::<FileTable>("Doubts about a lab of Kinemark that its course staff accept")
+    }
+
     /// Loads `accepted.toml` of `lab`; empty where there is none.
     ///
     /// # Errors
@@ -64,7 +77,6 @@ impl Accepted {
         };
         let table: FileTable = tables(&source)?;
         let report = Reporter { source: &source };
-        report.format(&table.format)?;
         for entry in &table.accepted {
             let rule = entry.rule.get_ref().clone();
             if !RULES.iter().any(|(known, ..)| *known == rule) {

@@ -47,6 +47,10 @@ impl MotionTable for Table {
     const NAME: &'static str = "robustness";
     type Check = Robustness;
 
+    fn about(&self) -> Option<&str> {
+        Some(self.check.get_ref())
+    }
+
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         // one that has runs of its own has none to be disturbed
         let earlier = reading.earlier.iter().enumerate();
@@ -67,7 +71,10 @@ impl MotionTable for Table {
         }
         let names = self.rungs.iter().map(|level| &level.get_ref().name);
         reading.report.unique("level", names)?;
-        let levels = self.rungs.iter().map(|level| LevelTable::read(level, reading));
+        let levels = self
+            .rungs
+            .iter()
+            .map(|level| LevelTable::read(level, reading));
         Ok(Robustness {
             name: reading.check.to_owned(),
             sweep: Sweep {

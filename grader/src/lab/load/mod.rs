@@ -8,6 +8,7 @@ mod functions;
 mod grants;
 mod laws;
 mod motion;
+mod parts;
 mod paths;
 mod pushes;
 mod reading;
@@ -21,8 +22,7 @@ use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::unphysical::OnUnphysical;
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::suggest;
+use kinemark_sim::text::{Mistakes, Spanned, suggest};
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
 use super::hints::with_questions_alone;
@@ -38,7 +38,7 @@ use crate::task::reporter::Reporter;
 use crate::task::robot::{LabRobot, RobotOptions, robot_names, robot_path};
 use crate::task::scene::{LabScene, scene_names};
 
-pub(super) use reading::refuse_not_finite;
+pub(super) use reading::refuse_unreadable;
 pub(crate) use reading::tables;
 
 problems! {
@@ -151,9 +151,9 @@ impl Lab {
                 parameters.set(name.to_owned(), value.clone());
             }
         }
-        let lab: LabTable = parameters::tables_with(&source, &parameters)?;
+        let lab: LabTable = parameters::tables_with(&source, &parameters)
+            .map_err(|error| parts::all_refused(&source, &parameters, error))?;
         let report = Reporter { source: &source };
-        report.format(&lab.format)?;
         is_of_folder(report, &lab, name)?;
         let LabRobot { file, meshes, .. } = lab_robot(files, report, &lab)?;
         let robot_file = of_dimensions(report, file, &lab)?;
@@ -169,10 +169,16 @@ impl Lab {
             robot_file: &robot_file,
             frame: &frame,
         };
-        let tasks = reader.tasks(&lab)?;
-        let budgets = reader.budgets(&lab.budgets)?;
-        let kept_after_stop = kept_after_stop(report, lab.kept_after_stop.as_ref())?;
-        let variants = variant::rules(report, &lab.variants, &stated)?;
+        // none of these depends on another
+        let mut mistakes = Mistakes::default();
+        let tasks = mistakes.keep(reader.tasks(&lab)).unwrap_or_default();
+        let budgets = mistakes.keep(reader.budgets(&lab.budgets));
+        let budgets = budgets.unwrap_or_default();
+        let kept = kept_after_stop(report, lab.kept_after_stop.as_ref());
+        let kept_after_stop = mistakes.keep(kept).unwrap_or(KEPT_AFTER_STOP);
+        let variants = variant::rules(report, &lab.variants, &stated);
+        let variants = mistakes.keep(variants).unwrap_or_default();
+        mistakes.finish()?;
         Ok(Self {
             name: name.to_owned(),
             graded_text: with_questions_alone(&source, &lab),
@@ -436,11 +442,11 @@ impl Reader<'_> {
         }
         self.report
             .unique("task", lab.tasks.iter().map(|task| &task.name))?;
-        let tasks: Vec<Task> = lab
-            .tasks
-            .iter()
-            .map(|task| self.task(task))
-            .collect::<Result<_, _>>()?;
+        let mut mistakes = Mistakes::default();
+        let tasks = lab.tasks.iter();
+        let tasks = tasks.filter_map(|task| mistakes.keep(self.task(task)));
+        let tasks: Vec<Task> = tasks.collect();
+        mistakes.finish()?;
         self.functions_differ(lab, &tasks)?;
         Ok(tasks)
     }

@@ -11,9 +11,8 @@ use kinemark_sim::sensing::Sensors;
 use kinemark_sim::sensor::read_all;
 use kinemark_sim::spatial::{direction, rotation_from_rpy_deg};
 use kinemark_sim::step::hybrid::HybridStep;
-use kinemark_sim::text::Problem;
-use kinemark_sim::text::Spanned;
 use kinemark_sim::text::number::trimmed;
+use kinemark_sim::text::{Problem, Spanned};
 use kinemark_sim::ticks::{Periods, whole_ratio};
 use nalgebra::{Rotation3, Vector3};
 

@@ -2,8 +2,7 @@
 
 use kinemark_sim::model::push::{Push, Pushed};
 use kinemark_sim::model::scene::BodyKind;
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::suggest;
+use kinemark_sim::text::{Spanned, suggest};
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::{Source, suggest};
+use kinemark_sim::text::{FormatProblem, Source, format_of, suggest};
 use serde::de::DeserializeOwned;
+use toml::Spanned;
 
 use crate::lab::parameters::refused;
 use crate::task::problem::{LabError, problems};
@@ -17,29 +17,33 @@ problems! {
             "lab::not_finite", "a lab's numbers are finite", "not a finite number", "leave a limit out to have none";
         Json { refusal: String, help: String }:
             "lab::practice", "{refusal}", "here", help;
-        Format { found: i64 }:
-            "lab::unknown_format", "format {found} is not known", "this version reads format 1", "write `format = 1`";
+        Format { problem: FormatProblem }:
+            "lab::unknown_format", "{problem}", problem.label(), problem.help();
     }
 }
 
 /// Reads TOML into its tables.
 pub(crate) fn tables<T: DeserializeOwned>(source: &Source) -> Result<T, LabError> {
-    refuse_not_finite(source)?;
+    refuse_unreadable(source)?;
     toml::from_str(source.text()).map_err(|error| refused(source, &error))
 }
 
-/// Refuses `nan` and `inf`, which no number of a lab may be.
-pub(in crate::lab) fn refuse_not_finite(source: &Source) -> Result<(), LabError> {
+/// Refuses a text in another format, and `nan` and `inf`, which no number of a lab may be.
+pub(in crate::lab) fn refuse_unreadable(source: &Source) -> Result<(), LabError> {
+    let report = Reporter { source };
+    if let Err((problem, at)) = format_of(source) {
+        return report.refuse(at, TextProblem::Format { problem });
+    }
     match not_finite(source.text()) {
         None => Ok(()),
-        Some(at) => Reporter { source }.refuse(at, TextProblem::NotFinite),
+        Some(at) => report.refuse(at, TextProblem::NotFinite),
     }
 }
 
 /// Where the first `nan` or `inf` of a TOML text stands; a text that is no TOML has none, and its reader says why.
 fn not_finite(text: &str) -> Option<Range<usize>> {
     use toml::de::{DeTable, DeValue};
-    fn within(value: &toml::Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+    fn within(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
         match value.get_ref() {
             DeValue::Float(number) => {
                 let word = number.as_str().trim_start_matches(['+', '-']);
@@ -81,12 +85,5 @@ impl Reporter<'_> {
         let refusal = message.replace("unknown field", "unknown key");
         let at = at..(at + 1).min(text.len());
         self.refuse(at, TextProblem::Json { refusal, help })
-    }
-
-    pub(crate) fn format(&self, format: &Spanned<i64>) -> Result<(), LabError> {
-        match *format.get_ref() {
-            1 => Ok(()),
-            found => self.refuse_at(format, TextProblem::Format { found }),
-        }
     }
 }

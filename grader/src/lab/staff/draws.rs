@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use kinemark_sim::format::RobotError;
 use kinemark_sim::model::robot::Robot;
-use kinemark_sim::text::Dimension;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::{Dimension, Spanned};
 
 use super::{Ends, all_rising, known_task, named, rising};
 use crate::lab::Lab;

@@ -1,7 +1,6 @@
 //! Hidden runs of motion tasks: a lab of its own each, with drawn numbers.
 
-use kinemark_sim::text::Dimension;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::{Dimension, Spanned};
 
 use super::{Ends, HiddenRun, all_rising, known_task, named};
 use crate::lab::Lab;

@@ -5,8 +5,7 @@ mod hidden_runs;
 
 use std::ops::Range;
 
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::{Dimension, Source};
+use kinemark_sim::text::{Dimension, Source, Spanned};
 
 use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
 use super::load::tables;
@@ -263,7 +262,6 @@ fn hidden(
     digest.add(&source);
     let table: HiddenTable = tables(&source)?;
     let report = Reporter { source: &source };
-    report.format(&table.format)?;
     let own = own_salt(report, &table)?;
     let salt = salt.unwrap_or(own);
     digest.add(&Source::new("salt", salt));
@@ -297,7 +295,6 @@ fn mutants(files: &dyn Files, lab: &Lab, digest: &mut Digest) -> Result<Vec<Muta
     digest.add(&source);
     let table: MutantsTable = tables(&source)?;
     let report = Reporter { source: &source };
-    report.format(&table.format)?;
     let mut mutants: Vec<Mutant> = Vec::new();
     for table in table.mutants {
         if mutants.iter().any(|m| m.name == *table.name.get_ref()) {

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::text::Spanned;
 use nalgebra::{Matrix3, Vector3};
 
 use super::description::{Description, JointPart};
@@ -15,6 +14,7 @@ use crate::model::inertia::Inertia;
 use crate::model::robot::{Attachment, Body, Frame, Joint, JointKind, Link, Loop, Mimic, Robot};
 use crate::part::part_problem::PartProblem;
 use crate::spatial::{Pose, Symmetric3, pose};
+use crate::text::Spanned;
 
 /// A robot with loops has at most this many of them: each makes a dense system larger.
 const MOST_LOOPS: usize = 50;

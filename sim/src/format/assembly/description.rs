@@ -2,7 +2,6 @@
 //!
 //! A TOML file, a URDF, a DH table or a joint string becomes a [`Description`]; `assemble` makes the robot of it.
 
-use crate::text::Spanned;
 use nalgebra::Vector3;
 
 use crate::model::air::Drag;
@@ -12,7 +11,7 @@ use crate::model::joint_friction::JointFriction;
 use crate::model::robot::{Contact, JointKind, Limits, LoopKind, Shape};
 use crate::model::unphysical::OnUnphysical;
 use crate::spatial::Pose;
-use crate::text::{Dimensions, Source};
+use crate::text::{Dimensions, Source, Spanned};
 
 /// A robot in parts that nobody has fitted together yet.
 #[derive(Debug, Clone)]

@@ -9,7 +9,6 @@
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
-use crate::text::Spanned;
 
 use super::drives::Driven;
 use super::robot_reader::{Resolver, kind, undriven};
@@ -19,6 +18,7 @@ use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::model::robot::{JointKind, Limits};
 use crate::part::values::Allowed;
 use crate::spatial::{Pose, pose, rotation_from_rpy_deg};
+use crate::text::Spanned;
 
 impl Resolver<'_> {
     /// Adds the table's links, joints and tool to `description`, whose links are those of `[[links]]`.

@@ -1,12 +1,14 @@
 //! What a robot file says of the drive of a joint: dry friction, which may have two directions, and the motor with its gear.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
+use crate::text::schema::either;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
-use crate::text::Spanned;
 
 use super::robot_reader::Resolver;
 use crate::format::robot_problem::{RobotError, RobotProblem};
@@ -14,6 +16,7 @@ use crate::model::drive::{Drive, TorqueSpeedLine};
 use crate::model::joint_friction::JointFriction;
 use crate::part::part_tables::{Number, NumberAt};
 use crate::part::values::Allowed;
+use crate::text::Spanned;
 
 /// `dry_friction` as typed: one number, or one for each direction.
 #[derive(Debug, Clone)]
@@ -22,10 +25,12 @@ pub(crate) enum FrictionEntry {
     Each(FrictionTable),
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FrictionTable {
+    /// Effort against motion in the positive direction \[N m or N\].
     positive: NumberAt,
+    /// Effort against motion in the negative direction \[N m or N\].
     negative: NumberAt,
 }
 
@@ -58,14 +63,31 @@ impl<'de> Deserialize<'de> for FrictionEntry {
     }
 }
 
+/// In a schema it is a number, a text that may be any expression, or the table.
+impl JsonSchema for FrictionEntry {
+    fn schema_name() -> Cow<'static, str> {
+        "FrictionEntry".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let number = Number::json_schema(generator);
+        either(number, FrictionTable::json_schema(generator))
+    }
+}
+
 /// `drive` as typed.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriveTable {
+    /// Effort at the joint that holds it still against the motor at full voltage \[N m or N\]; none where it is left out.
     stall: Option<NumberAt>,
+    /// Rate of the joint at full voltage without load \[rad/s or m/s\]; given with `stall`, or neither.
     free_speed: Option<NumberAt>,
+    /// Rotation of the rotor per unit of the joint \[rad/rad or rad/m\]; 1 where it is left out.
     ratio: Option<NumberAt>,
+    /// Inertia of the rotor about its axis \[kg m²\]; needs `ratio`, and excludes `armature`.
     rotor_inertia: Option<NumberAt>,
+    /// Fraction of the power that gets through the gear, more than 0 and at most 1; 1 where it is left out.
     efficiency: Option<NumberAt>,
 }
 

@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use nalgebra::Vector3;
-use crate::text::Spanned;
 
 use super::drives::Driven;
 use super::robot_tables::{
@@ -13,7 +12,6 @@ use crate::format::assembly::assembler::axes_with_z_along;
 use crate::format::assembly::description::{
     Description, FramePart, GivenInertia, JointPart, LinkPart, LoopPart, MimicPart, UnphysicalWords,
 };
-use crate::format::mistakes::Mistakes;
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::model::inertia::{Inertia, Solid};
 use crate::model::robot::{JointKind, Limits, LoopKind, Robot, Shape};
@@ -23,7 +21,7 @@ use crate::part::part_tables::{InertiaTable, NumberAt, ShapeTable};
 use crate::part::values::{Allowed, Values};
 use crate::sensor::sensors_of;
 use crate::spatial::pose;
-use crate::text::Dimension;
+use crate::text::{Dimension, Mistakes, Spanned};
 
 impl RobotFile {
     /// Makes the robot, with the dimensions `changed` instead of the file's (those of a variant or a hidden case).

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::text::Spanned;
 use nalgebra::Vector3;
 
 use super::scene_problem::{SceneError, SceneProblem};
@@ -12,6 +11,7 @@ use crate::model::prescribed_motion::{Motion, Waypoint};
 use crate::part::part_tables::NumberAt;
 use crate::part::values::Allowed;
 use crate::spatial::{Pose, Twist, pose, rotation_from_rpy_deg};
+use crate::text::Spanned;
 
 impl Resolver<'_> {
     pub(crate) fn velocity(&self, table: &BodyTable) -> Result<Twist, SceneError> {

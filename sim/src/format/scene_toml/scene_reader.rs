@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::text::Spanned;
 use nalgebra::Vector3;
 
 use super::scene_problem::{SceneError, SceneProblem};
@@ -19,7 +18,7 @@ use crate::part::part_problem::PartProblem;
 use crate::part::part_tables::{ContactTable, ShapeTable};
 use crate::part::values::{Allowed, Values};
 use crate::spatial::Twist;
-use crate::text::Dimension;
+use crate::text::{Dimension, Spanned};
 
 /// A scene has at most this many bodies: far more than a lab needs, and few enough that their contacts fit a step.
 const MOST_BODIES: usize = 1000;

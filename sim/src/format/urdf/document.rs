@@ -1,12 +1,11 @@
 //! The document of a URDF: one `<robot>` element that has gone through xacro.
 
 use roxmltree::Document;
-use crate::text::Spanned;
 
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::format::xml::document;
 use crate::format::xml::reader::{Dialect, Node, Reader, elements};
-use crate::text::Source;
+use crate::text::{Source, Spanned};
 
 /// What messages say of URDFs.
 pub(super) const DIALECT: Dialect = Dialect {

@@ -1,7 +1,6 @@
 //! Joints of a URDF: each becomes one joint, or for `floating` and `planar` a chain of them.
 
 use nalgebra::Vector3;
-use crate::text::Spanned;
 
 use super::mimic;
 use super::origin::origin;
@@ -15,7 +14,7 @@ use crate::model::robot::JointKind;
 use crate::part::part_problem::PartProblem;
 use crate::part::values::Allowed;
 use crate::spatial::{Pose, direction};
-use crate::text::suggest;
+use crate::text::{Spanned, suggest};
 
 /// The types of a URDF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::text::Spanned;
-
 use super::joint::Head;
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::format::xml::reader::{Node, Reader};
 use crate::part::part_problem::PartProblem;
+use crate::text::Spanned;
 
 /// The index of the root among `links`. Cycles beside the tree are for `assemble` to find.
 pub(super) fn root(

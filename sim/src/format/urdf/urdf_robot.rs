@@ -1,7 +1,5 @@
 //! The robot of a URDF: links and joints in file order, and the parts that they become.
 
-use crate::text::Spanned;
-
 use super::inertial::Inertial;
 use super::joint::{Chain, Head};
 use super::shape::Meshes;
@@ -10,13 +8,12 @@ use crate::format::assembly::assembler::MOST_LINKS;
 use crate::format::assembly::description::{
     Description, GivenInertia, JointPart, LinkPart, UnphysicalWords,
 };
-use crate::format::mistakes::Mistakes;
 use crate::format::robot_format::{ReadFile, ReadOptions};
 use crate::format::robot_problem::{KIND, RobotError, RobotProblem};
 use crate::format::xml::reader::{Node, Reader, elements};
 use crate::model::robot::Robot;
 use crate::part::part_problem::PartProblem;
-use crate::text::{Dimensions, Source, nearest};
+use crate::text::{Dimensions, Mistakes, Source, Spanned, nearest};
 
 /// How to go on with a tensor that no body can have.
 const REMEDY: &str = "--accept-unphysical takes these tensors as they are, --balance makes all three principal moments of each their \
@@ -123,7 +120,7 @@ fn chains(
     options: ReadOptions,
     joints: &[Head<'_>],
     base_name: Option<&str>,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Mistakes<RobotProblem>,
 ) -> Vec<Chain> {
     let is_on_base = |joint: &&Head<'_>| Some(joint.parent.get_ref().as_str()) == base_name;
     let one_joint_on_base = joints.iter().filter(is_on_base).count() == 1;

@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use crate::text::Spanned;
 use roxmltree::Attribute;
 
 use crate::format::robot_problem::{RobotError, RobotProblem};
 use crate::part::part_problem::PartProblem;
 use crate::part::values::Allowed;
-use crate::text::{Source, nearest};
+use crate::text::{Source, Spanned, nearest};
 
 /// An element of the document.
 pub(in crate::format) type Node<'a> = roxmltree::Node<'a, 'a>;

@@ -1,7 +1,7 @@
 //! contact: sum of the normal forces on a link over everything that presses on it, their mean over the last step, N.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
-use crate::text::Spanned;
 
 use crate::model::contact::Party;
 use crate::model::robot::Robot;
@@ -9,10 +9,12 @@ use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings};
 use crate::part::part_problem::PartError;
 use crate::part::toml_text::quoted;
 use crate::sensor::registry::{KindTable, SensorReading};
+use crate::text::Spanned;
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Table {
+    /// The link that is pressed.
     link: Spanned<String>,
 }
 

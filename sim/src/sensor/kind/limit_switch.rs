@@ -1,7 +1,7 @@
 //! limit-switch: 1 while a joint is at a position or beyond it, else 0; while it is pressed, the motor cannot push on.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
-use crate::text::Spanned;
 
 use crate::model::robot::Robot;
 use crate::model::sensor::{Gauge, Measured, Seen, SensorKind, Surroundings, moved_by};
@@ -10,13 +10,14 @@ use crate::part::part_tables::NumberAt;
 use crate::part::toml_text::quoted;
 use crate::part::values::Allowed;
 use crate::sensor::registry::{KindTable, SensorReading};
+use crate::text::Spanned;
 
 /// How far from a joint's limit a switch at that limit is already pressed \[rad or m\]: contact may hold a joint a
 /// tenth of this away from its stop.
 const SWITCH_TRAVEL: f64 = 1e-6;
 
 /// The side to which a switch is pressed.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Side {
     /// Towards lesser positions.
@@ -34,14 +35,20 @@ impl Side {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Table {
+    /// The joint that presses it.
     joint: Spanned<String>,
+    /// Where it starts to be pressed \[rad or m\]; the joint's limit on that side where it is left out.
     at: Option<NumberAt>,
+    /// On which side of `at` it is pressed.
     side: Side,
+    /// Whether the motor gives no effort towards its side while it is pressed; true where it is left out.
     opens_motor: Option<bool>,
+    /// How far the joint goes back before it is released \[rad or m\]; 0 where it is left out.
     hysteresis: Option<NumberAt>,
+    /// Whether it stays pressed until the motor has driven the joint away; false where it is left out.
     latch: Option<bool>,
 }
 

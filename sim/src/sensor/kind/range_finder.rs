@@ -2,8 +2,8 @@
 //! all links but those fixed together with its own.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use crate::text::Spanned;
 
 use crate::model::robot::Robot;
 use crate::model::sensor::{Gauge, Seen, SensorKind, Surroundings};
@@ -12,12 +12,16 @@ use crate::part::part_tables::{NumberAt, TripleAt};
 use crate::part::toml_text::{quoted, triple};
 use crate::part::values::Allowed;
 use crate::sensor::registry::{KindTable, SensorReading};
+use crate::text::Spanned;
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Table {
+    /// The frame of the robot from whose origin it looks.
     frame: Spanned<String>,
+    /// Direction of the ray in the frame, of any length but zero; `[1, 0, 0]` where it is left out.
     axis: Option<TripleAt>,
+    /// The greatest distance that it measures \[m\].
     range_m: NumberAt,
 }
 

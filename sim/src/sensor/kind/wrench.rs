@@ -7,8 +7,8 @@
 //! order, as the motion itself is.
 
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use crate::text::Spanned;
 
 use crate::kinematics::body_motion::{BodyMotions, Motion};
 use crate::model::air::Drag;
@@ -20,10 +20,12 @@ use crate::part::part_problem::PartError;
 use crate::part::toml_text::quoted;
 use crate::sensor::registry::{KindTable, SensorReading};
 use crate::spatial::Symmetric3;
+use crate::text::Spanned;
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Table {
+    /// The joint through which the parent acts on the child.
     joint: Spanned<String>,
 }
 
