@@ -311,6 +311,17 @@ check_labs() { # VARIANTS: starter, reference solution in so many variants, muta
 }
 step_labs() { check_labs 5; }
 
+mutate_labs() { # OPTIONS...: small changes of the reference solution of every lab, each graded
+  local lab name out=$target/ci/mutations
+  mkdir -p "$out"
+  for lab in labs/[0-9]*/; do
+    name=$(basename "$lab")
+    release lab check "$name" --mutate "$@" >"$out/$name.txt" || { cat "$out/$name.txt"; return 1; }
+    echo "$name: $(tail -1 "$out/$name.txt")"
+  done
+}
+step_mutations() { mutate_labs --draw 40; }
+
 # --- how steps are run -----------------------------------------------------------------------------------------------------------
 
 times=()

@@ -54,6 +54,7 @@ mod module_order;
 mod module_reports;
 mod module_sources;
 mod moments;
+mod mutations;
 mod named_submissions;
 mod new_lab;
 mod own_lab;

@@ -26,6 +26,7 @@ mod lab_tries;
 mod labs_folder;
 mod last_report;
 mod listed_folder;
+mod mutation_text;
 mod named_submission;
 mod one_processor;
 mod operator;

@@ -104,6 +104,26 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Fa
     put(Readers::Umask, path, bytes).map_err(|error| unwritten(path, &error, help))
 }
 
+/// Writes a file that is not there yet, whole, in a folder that is made where it is missing; one that is there stays as it is.
+pub(crate) fn write_new_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
+    let put = || {
+        let folder = durable::parent(path);
+        durable::make_folder(folder, Readers::Umask)?;
+        let mut file = unfinished_file(folder, Readers::Umask)?;
+        file.write_all(bytes)?;
+        durable::put_in_free_place(file, path)
+    };
+    match put() {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            let message = format!("`{}` is there already, and stays as it is", path.display());
+            Err(Failure::usage(message, help))
+        }
+        result => result.map_err(|error| {
+            unwritten(path, &error, "free some space, or make the folder writable")
+        }),
+    }
+}
+
 /// Writes a file that its owner alone can read, whole, or says why not and what helps.
 pub(crate) fn write_private_file(path: &Path, bytes: &[u8], help: &str) -> Result<(), Failure> {
     put(Readers::Owner, path, bytes).map_err(|error| unwritten(path, &error, help))

@@ -49,6 +49,16 @@ pub fn put_in_place(file: NamedTempFile, path: &Path) -> io::Result<()> {
     sync_folder(parent(path))
 }
 
+/// Gives a temporary file, written, a place where nothing is.
+///
+/// # Errors
+/// What the system says; [`ErrorKind::AlreadyExists`] where something is, which stays.
+pub fn put_in_free_place(file: NamedTempFile, path: &Path) -> io::Result<()> {
+    reached(file.as_file().sync_all())?;
+    file.persist_noclobber(path).map_err(|error| error.error)?;
+    sync_folder(parent(path))
+}
+
 /// Makes a folder with those above it. One that is there already stays as it is.
 ///
 /// # Errors

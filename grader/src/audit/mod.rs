@@ -9,6 +9,7 @@ mod form;
 mod hidden_losses;
 mod lost;
 mod mutants;
+pub mod mutate;
 mod practice_file;
 mod reference;
 mod row;

@@ -218,7 +218,6 @@ mod tests {
     /// A way.
     #[derive(Deserialize, JsonSchema)]
     #[serde(rename_all = "lowercase")]
-    #[expect(dead_code, reason = "a schema reads no values")]
     enum Way {
         /// To the left.
         Left,

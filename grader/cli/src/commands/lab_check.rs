@@ -16,6 +16,7 @@ use kinemark_report::bands_page::BandsPage;
 use kinemark_report::formula::formula_problems;
 use kinemark_sim::text::Source;
 
+use super::lab_mutate::{self, MutateArgs};
 use crate::disk::Folder;
 use crate::failure::{self, Failure, LOST};
 use crate::lab_check_text::text;
@@ -28,7 +29,8 @@ use crate::{output, pool};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab check 01-kinematics\n  kinemark lab check 01-kinematics --salts 40 --json\n  \
-    kinemark lab check 02-jacobian-velocity --variants 200 --page bands.html\n  kinemark lab check 01-kinematics --quick\n\n\
+    kinemark lab check 02-jacobian-velocity --variants 200 --page bands.html\n  kinemark lab check 01-kinematics --quick\n  \
+     kinemark lab check 01-kinematics --mutate\n  kinemark lab check 01-kinematics --mutate --keep 17 --as sine-for-cosine\n\n\
     A starter may earn a tenth of the points. A lab needs at least 6 mutants, each of which gives wrong answers in at least 30 % of \
     a function task's cases. Everything runs in this process: only check labs of people you trust. See docs/lab-format.md.\n\
     Exit codes: 0 nothing is wrong, 1 something is, 2 usage, 3 the lab is broken."
@@ -45,6 +47,8 @@ pub(crate) struct Args {
     /// Look at less: 3 variants, 1 other salt, and neither `practice.json` nor the accuracy of the simulation
     #[arg(long)]
     pub(crate) quick: bool,
+    #[command(flatten)]
+    pub(crate) mutate: MutateArgs,
     /// Number of things done at once [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) jobs: Option<u16>,
@@ -83,6 +87,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     let own = staff_of(&reference, &lab, None)?;
+    if args.mutate.mutate {
+        let output = (args.json, args.jobs.map(usize::from));
+        return lab_mutate::run(&args.mutate, output, (&lab, &own), &reference);
+    }
     let starter = labs_folder::text(files.as_ref(), &lab.name, "starter.rhai")?;
     let starter = Source::new("starter.rhai", starter);
     let path = format!("{}/brief.md", lab.name);

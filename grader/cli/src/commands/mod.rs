@@ -18,6 +18,7 @@ pub(crate) mod lab_check;
 pub(crate) mod lab_draws;
 pub(crate) mod lab_fill;
 pub(crate) mod lab_list;
+pub(crate) mod lab_mutate;
 pub(crate) mod lab_new;
 pub(crate) mod lab_pack;
 pub(crate) mod lab_schema;

@@ -1,4 +1,5 @@
-//! Doubts that the course staff accept, with a reason: `accepted.toml` in their part of the lab.
+//! Doubts, and changes of the solution that nothing notices, that the course staff accept, with a reason: `accepted.toml` in their part of
+//! the lab.
 
 use kinemark_sim::text::schema::schema_of;
 use kinemark_sim::text::{FileFormat, Spanned};
@@ -23,6 +24,11 @@ problems! {
     }
 }
 
+/// The rule of entries that accept a change of the solution which is a mistake, and which nothing notices.
+pub(in crate::audit) const MUTATION: &str = "mutation";
+/// The rule of entries that accept a change of the solution after which it is as right as before.
+pub(in crate::audit) const CHOICE: &str = "choice";
+
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FileTable {
@@ -45,15 +51,22 @@ struct EntryTable {
     because: Spanned<String>,
 }
 
-/// A doubt that is accepted.
+/// A doubt or a change of the solution that is accepted.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Entry {
+pub(in crate::audit) struct Entry {
     /// The rule.
     pub rule: String,
     /// What it is about.
     pub of: String,
     /// Why it is right here.
     pub because: String,
+}
+
+impl Entry {
+    /// Whether it is about a change of the solution.
+    pub(super) fn is_of_mutation(&self) -> bool {
+        self.rule == MUTATION || self.rule == CHOICE
+    }
 }
 
 /// The doubts that are accepted.
@@ -79,11 +92,12 @@ impl Accepted {
         let report = Reporter { source: &source };
         for entry in &table.accepted {
             let rule = entry.rule.get_ref().clone();
-            if !RULES.iter().any(|(known, ..)| *known == rule) {
-                let known = RULES
-                    .iter()
-                    .map(|(known, ..)| (*known).to_owned())
-                    .collect();
+            let known = RULES
+                .iter()
+                .map(|(known, ..)| *known)
+                .chain([MUTATION, CHOICE]);
+            if !known.clone().any(|known| known == rule) {
+                let known = known.map(str::to_owned).collect();
                 let problem = AcceptedProblem::UnknownRule { rule, known };
                 report.refuse_at::<(), _>(&entry.rule, problem)?;
             }
@@ -106,6 +120,18 @@ impl Accepted {
 
     pub(super) fn entries(&self) -> impl Iterator<Item = &Entry> {
         self.0.iter()
+    }
+
+    /// The changes of the solution that may survive, as [`crate::audit::mutate::Mutation::of`] names them.
+    pub(in crate::audit) fn mutations(&self) -> impl Iterator<Item = &str> {
+        let entries = self.0.iter().filter(|entry| entry.is_of_mutation());
+        entries.map(|entry| entry.of.as_str())
+    }
+
+    /// The entry that says why the change called `of` may survive, if one does.
+    pub(in crate::audit) fn mutation(&self, of: &str) -> Option<&Entry> {
+        let mut entries = self.0.iter();
+        entries.find(|entry| entry.is_of_mutation() && entry.of == of)
     }
 
     /// The entry that accepts `doubt`, if one does.

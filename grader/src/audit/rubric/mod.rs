@@ -11,7 +11,7 @@
 //! | `brief` | what is graded and not mentioned |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
 //!
-//! The course staff may accept a doubt, with a reason: [`Accepted`].
+//! The course staff may accept a doubt, or a change of the solution that nothing notices ([`super::mutate`]), with a reason: [`Accepted`].
 
 mod accepted;
 mod accuracy;
@@ -26,8 +26,10 @@ mod unused;
 use serde::Serialize;
 
 pub use self::accepted::Accepted;
+pub(super) use self::accepted::{CHOICE, MUTATION};
 use self::lost::Losses;
 pub use self::lost::zeros;
+use super::mutate::{Mutation, MutationProblem, mutations, no_mutation};
 use super::{Audit, Problem, Tried, VariantMargin};
 use crate::lab::{Lab, Staff};
 use crate::record::grade::Grade;
@@ -152,14 +154,32 @@ impl Audit {
                 self.add((Tried::Rubric, name), None, None, None::<Problem>);
             }
         }
+        self.survivors(rubric, accepted);
         for (entry, used) in accepted.entries().zip(used) {
-            if !used {
+            if !used && !entry.is_of_mutation() {
                 let what = format!(
                     "accepted.toml accepts `{}` of `{}`, and nobody doubts it",
                     entry.rule, entry.of
                 );
                 let problem = Problem::from((what, "remove the entry"));
                 self.add((Tried::Rubric, &entry.rule), None, None, Some(problem));
+            }
+        }
+    }
+
+    /// Looks for accepted survivors that are no changes of the solution any more; whether the others survive shows when they are tried.
+    fn survivors(&mut self, rubric: &Rubric<'_>, accepted: &Accepted) {
+        let mut accepted = accepted.mutations().peekable();
+        if accepted.peek().is_none() {
+            return;
+        }
+        let known = mutations(&rubric.staff.solution);
+        let known: Vec<String> = known.iter().map(Mutation::of).collect();
+        for of in accepted {
+            if !known.iter().any(|known| known == of) {
+                let MutationProblem { what, help, .. } = no_mutation(of);
+                let problem = Problem::from((what, help));
+                self.add((Tried::Rubric, MUTATION), None, None, Some(problem));
             }
         }
     }

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use rhai::{Engine, Token};
+use rhai::Token;
+
+use super::tokens::{is_name, tokens};
 
 /// What a part of a program is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +34,7 @@ impl CodePart {
     }
 }
 
-/// A longer program has no parts: where a token ends is known from what is left, which is counted after every token.
+/// A longer program has no parts: to find its tokens takes long.
 const MOST_BYTES: usize = 20_000;
 
 /// The parts of a program in its order, each with its bytes. From the first character that the language does not have there are none.
@@ -40,74 +42,19 @@ pub fn code_parts(program: &str) -> Vec<(CodePart, Range<usize>)> {
     if program.len() > MOST_BYTES {
         return Vec::new();
     }
-    let engine = Engine::new_raw();
-    let programs = [program];
-    let (mut tokens, control) = engine.lex(&programs);
-    tokens.state.include_comments = true;
     let mut parts: Vec<(CodePart, Range<usize>)> = Vec::new();
     // a name that is a function's if a parenthesis follows it
     let mut name: Option<Range<usize>> = None;
-    // braces that are open since each `$` of a text that goes on behind them
-    let mut braces: Vec<usize> = Vec::new();
-    let mut end = 0;
-    while let Some((token, _)) = tokens.next() {
-        let begin = end;
-        // characters that were looked at and put back are still to come
-        let buffered = tokens.stream.buf.iter().flatten().map(|c| c.len_utf8());
-        let streamed = tokens.stream.streams.iter().flat_map(Clone::clone);
-        let left: usize = buffered.chain(streamed.map(char::len_utf8)).sum();
-        end = program.len().saturating_sub(left).max(begin);
-        let Some(text) = program.get(begin..end) else {
-            break;
-        };
-        let start = end - text.trim_start().len();
-        let stop = start + text.trim().len();
+    for (token, at) in tokens(program) {
         let called = name.take().filter(|_| token == Token::LeftParen);
         parts.extend(called.map(|at| (CodePart::Function, at)));
-        match &token {
-            Token::EOF | Token::LexError(_) => break,
-            Token::InterpolatedString(_) => braces.push(0),
-            Token::LeftBrace | Token::MapStart => {
-                if let Some(open) = braces.last_mut() {
-                    *open += 1;
-                }
-            }
-            Token::RightBrace => match braces.last_mut() {
-                Some(1) => {
-                    braces.pop();
-                    // the lexer goes on in the text that the expression stands in
-                    control.borrow_mut().is_within_text = true;
-                }
-                Some(open) => *open = open.saturating_sub(1),
-                None => {}
-            },
-            _ => {}
-        }
-        // a comment that never ends comes again and again
-        if end == begin {
-            break;
-        }
         if is_name(&token) {
-            name = Some(start..stop);
+            name = Some(at);
         } else if let Some(part) = part(&token) {
-            parts.push((part, start..stop));
+            parts.push((part, at));
         }
     }
     parts
-}
-
-/// Whether a token may be the name of a function.
-fn is_name(token: &Token) -> bool {
-    match token {
-        Token::Identifier(_) => true,
-        // the language keeps `print` and some others for itself
-        Token::Reserved(word) => word.as_str() != "this" && is_word(word),
-        _ => false,
-    }
-}
-
-fn is_word(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
 fn part(token: &Token) -> Option<CodePart> {

@@ -25,6 +25,7 @@ mod operand;
 mod output;
 mod parsing;
 mod places;
+mod program_tree;
 mod range;
 mod recovery;
 mod script;
@@ -32,6 +33,7 @@ mod signs;
 mod slips;
 #[cfg(test)]
 mod tests;
+mod tokens;
 mod unknown;
 mod vector;
 mod weight;
@@ -41,4 +43,5 @@ mod words;
 pub const DEFINITIONS: &str = include_str!("kinemark.d.rhai");
 
 pub use code_parts::{CodePart, code_parts};
+pub use program_tree::{Bytes, FunctionPart, Part, ProgramTree};
 pub use script::{STACK_BYTES, ScriptController, refused_name};

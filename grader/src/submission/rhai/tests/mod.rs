@@ -12,6 +12,7 @@ mod definitions;
 mod metered;
 mod reference;
 mod slips;
+mod tree;
 mod values;
 mod words;
 
