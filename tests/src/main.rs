@@ -45,6 +45,7 @@ mod handed_in;
 mod hidden_runs;
 mod hints;
 mod hostile;
+mod instructor_guide;
 mod jacobian_task;
 mod lab_audit;
 mod lab_truths;

@@ -53,6 +53,7 @@ impl Grader<'_> {
         let diagnosed = (verdict != Verdict::Passed && verdict.is_decided())
             .then(|| self.function_diagnoses(task, (work, band), &cases, &attempt));
         let (diagnoses, rulings) = Diagnosed::parts(diagnosed);
+        let diagnoses = self.in_words_of(task, diagnoses);
         if diagnoses.is_empty() {
             self.name_cause(work, facts, band, &mut judged);
         }

@@ -18,7 +18,7 @@ use crate::lab::practice;
 use crate::lab::staff::Mutant;
 use crate::lab::{Lab, Task};
 use crate::record::grade::{
-    FORMAT, Grade, GradeMode, ParameterValue, Part, TaskGrade, VariantRecord,
+    Diagnosis, FORMAT, Grade, GradeMode, ParameterValue, Part, TaskGrade, VariantRecord,
 };
 use crate::record::graded::{GradedRun, TaskRun};
 use crate::record::quantity::sum_of_points;
@@ -334,5 +334,23 @@ impl<'a> Grader<'a> {
             let is_refuted = is_run && mutant.tasks.iter().any(|task| self.passed.contains(task));
             mutant.tasks.contains(&name) && !is_refuted
         })
+    }
+
+    /// `diagnoses` in the words that their mutants have for `task`.
+    pub(super) fn in_words_of(&self, task: &Task, diagnoses: Vec<Diagnosis>) -> Vec<Diagnosis> {
+        let mutants = self.staff.map_or(&[][..], |staff| &staff.mutants);
+        let worded = |diagnosis: Diagnosis| {
+            let mutant = mutants
+                .iter()
+                .find(|mutant| mutant.name == diagnosis.mistake);
+            match mutant {
+                Some(mutant) => Diagnosis {
+                    says: mutant.words(&task.name).to_owned(),
+                    ..diagnosis
+                },
+                None => diagnosis,
+            }
+        };
+        diagnoses.into_iter().map(worded).collect()
     }
 }

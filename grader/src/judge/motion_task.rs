@@ -51,6 +51,7 @@ impl Grader<'_> {
         let (differs, diagnosed) = self.compared(&judge, &attempt, visible.verdict);
         let first_lost = first_losses(&judge, &visible.checks);
         let (diagnoses, rulings) = Diagnosed::parts(diagnosed);
+        let diagnoses = self.in_words_of(task, diagnoses);
         if visible.stopped.is_none() && diagnoses.is_empty() {
             let unsolved = self.unsolved_before(task, work);
             name_cause(

@@ -591,8 +591,21 @@ pub(super) struct MutantTable {
     pub(super) name: Spanned<String>,
     /// The tasks in which the misconception shows.
     pub(super) tasks: Spanned<Vec<Spanned<String>>>,
-    /// The misconception in words, as students read it.
-    pub(super) says: Spanned<String>,
+    /// The misconception in words, as students read it; or such words for each of the tasks, by their names.
+    pub(super) says: Spanned<SaysTable>,
+}
+
+/// What a mutant says.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "`says` is a text, or a table with a text for each task: { fk = \"...\", ik = \"...\" }"
+)]
+pub(super) enum SaysTable {
+    /// The same in every task.
+    All(String),
+    /// For each task by its name.
+    Each(BTreeMap<String, String>),
 }
 
 /// The scene of a motion task: its name alone, or with dimensions that differ from its file's.

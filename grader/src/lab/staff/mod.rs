@@ -3,11 +3,12 @@
 mod draws;
 mod hidden_runs;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use kinemark_sim::text::{Dimension, Source, Spanned};
 
-use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable};
+use super::file::{HiddenTable, MutantTable, MutantsTable, RangesTable, SaysTable};
 use super::load::tables;
 use super::model::Lab;
 use crate::lab::TaskWork;
@@ -27,6 +28,11 @@ problems! {
             "lab::duplicate", "mutant `{name}` is defined twice", "the second one", "give each its own name";
         SaysNothing { name: String }:
             "staff::no_mutant", "mutant `{name}` says nothing", "no words", "write what the student reads";
+        NoWordsFor { name: String, task: String }:
+            "staff::no_mutant", "mutant `{name}` says nothing in task `{task}`", "no words for it", format!("add {task} = \"...\", or one text for all");
+        WordsForOther { name: String, task: String, known: Vec<String> }:
+            "staff::no_mutant", "mutant `{name}` has words for task `{task}`, which is none of its tasks", "words for another task",
+            near(task, "tasks", known);
         NoTask { name: String }:
             "staff::unknown_task", "mutant `{name}` names no task", "no task", "such as tasks = [\"move\"]";
         EmptySalt:
@@ -110,10 +116,19 @@ pub struct Mutant {
     pub name: String,
     /// The tasks in which it shows.
     pub tasks: Vec<String>,
-    /// The mistake in words.
+    /// The mistake in words; of one that has words for each task, those for the first.
     pub says: String,
+    /// Words for single tasks, by their names, where they are not the same for all.
+    pub says_in: BTreeMap<String, String>,
     /// The submission.
     pub source: Source,
+}
+
+impl Mutant {
+    /// The mistake in words, for a task.
+    pub fn words(&self, task: &str) -> &str {
+        self.says_in.get(task).unwrap_or(&self.says)
+    }
 }
 
 /// What `hidden.toml` adds.
@@ -320,9 +335,7 @@ fn mutant(
     if table.tasks.get_ref().is_empty() {
         return Ok(report.refuse_at(&table.tasks, HiddenProblem::NoTask { name })?);
     }
-    if table.says.get_ref().trim().is_empty() {
-        return Ok(report.refuse_at(&table.says, HiddenProblem::SaysNothing { name })?);
-    }
+    let (says, says_in) = words(report, &table)?;
     let path = format!("{}/mutants/{name}.rhai", lab.name);
     let Some(source) = own(files, &path)? else {
         let path = format!("{}/{path}", files.name());
@@ -334,9 +347,43 @@ fn mutant(
         tasks: (table.tasks.into_inner().into_iter())
             .map(Spanned::into_inner)
             .collect(),
-        says: table.says.into_inner(),
+        says,
+        says_in,
         source,
     })
+}
+
+/// What a mutant says, in general and in single tasks.
+fn words(
+    report: Reporter<'_>,
+    table: &MutantTable,
+) -> Result<(String, BTreeMap<String, String>), LabError> {
+    let name = || table.name.get_ref().clone();
+    let tasks = table.tasks.get_ref().iter().map(Spanned::get_ref);
+    let (says, each) = match table.says.get_ref() {
+        SaysTable::All(says) => (says.clone(), BTreeMap::new()),
+        SaysTable::Each(each) => {
+            if let Some(task) = tasks.clone().find(|task| !each.contains_key(*task)) {
+                let (name, task) = (name(), task.clone());
+                return report.refuse_at(&table.says, HiddenProblem::NoWordsFor { name, task });
+            }
+            let known: Vec<String> = tasks.clone().cloned().collect();
+            if let Some(task) = each.keys().find(|task| !known.contains(task)) {
+                let (name, task) = (name(), task.clone());
+                let problem = HiddenProblem::WordsForOther { name, task, known };
+                return report.refuse_at(&table.says, problem);
+            }
+            let first = tasks.clone().next().and_then(|task| each.get(task));
+            (first.cloned().unwrap_or_default(), each.clone())
+        }
+    };
+    if std::iter::once(&says)
+        .chain(each.values())
+        .any(|words| words.trim().is_empty())
+    {
+        return report.refuse_at(&table.says, HiddenProblem::SaysNothing { name: name() });
+    }
+    Ok((says, each))
 }
 
 /// Reads a file of the staff's: its name begins with their folder, so that it can be opened from where one stands.
