@@ -16,8 +16,8 @@ use crate::output;
 /// Print the JSON schema of a kind of file, for editors: for course staff
 #[derive(Debug, Clone, clap::Args)]
 #[command(
-    after_help = "Examples:\n  kinemark lab schema lab --out labs/schema/lab.schema.json\n  kinemark lab schema robot\n\n\
-    An editor that reads the schema completes keys and underlines mistakes while you type. Its first line in a file says where it is: \
+    after_help = "Examples:\n  kinemark lab schema lab --out lab.schema.json\n  kinemark lab schema robot\n\n\
+    An editor that reads the schema completes keys and underlines mistakes while you type. The first line of a file says where its schema is: \
     `#:schema ../schema/lab.schema.json`. `kinemark lab new` writes that line and the schemas. docs/lab-format.md, \"In an editor\", \
     says how an editor is set up.\n\
     Exit codes: 0 done, 2 usage, 4 the file cannot be written."
