@@ -22,7 +22,7 @@ use crate::{output, pool};
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct MutateArgs {
     /// Change the reference solution in every small way, one at a time, and show which check notices which change; nothing else is tried
-    #[arg(long, conflicts_with_all = ["salts", "variants"])]
+    #[arg(long, conflicts_with_all = ["salts", "variants", "quick", "page"])]
     pub(crate) mutate: bool,
     /// Of all changes try only so many, drawn by --seed
     #[arg(long, value_name = "N", requires = "mutate", conflicts_with = "keep")]
