@@ -147,9 +147,9 @@ fn push_survivor(out: &mut String, tried: &TriedMutation, (file, solution): (&st
 
 /// The last line.
 fn sums(report: &MutationReport) -> String {
-    let share = report
-        .share
-        .map_or_else(String::new, |share| format!(" ({:.1} %)", 100.0 * share));
+    let share = report.share.map_or_else(String::new, |share| {
+        format!(" ({:.1} % of the mistakes)", 100.0 * share)
+    });
     let accepted = report
         .mutations
         .iter()
@@ -158,13 +158,14 @@ fn sums(report: &MutationReport) -> String {
         format!("{} equivalent", report.equivalent),
         format!("{} caught{share}", report.caught),
         format!(
-            "{} survive, {} of them accepted",
+            "{} survive: {} as right, {} accepted",
             report.survived,
-            accepted.count()
+            report.choices,
+            accepted.count().saturating_sub(report.choices)
         ),
     ];
     if report.unparsed > 0 {
-        parts.insert(0, format!("{} do not compile", report.unparsed));
+        parts.insert(0, format!("{} not compiled", report.unparsed));
     }
     let conclusion = match report.problems.len() {
         0 => "nothing is wrong".green().to_string(),

@@ -14,89 +14,92 @@ fn after(program: &str, operator: &str) -> Vec<String> {
     of_kind.map(|mutation| mutation.after).collect()
 }
 
+/// A program, a kind of change, and the program after each.
+const CHANGES: &[(&str, &str, &[&str])] = &[
+    ("-s1 + 2.5", "sign", &["s1 + 2.5", "-s1 + -2.5"]),
+    (
+        "clamp(c, -1, 1)",
+        "sign",
+        &["clamp(c, 1, 1)", "clamp(c, -1, -1)"],
+    ),
+    ("a -acos(c)", "sign", &["a -(-acos(c))"]),
+    ("sqrt(c)", "sign", &["-sqrt(c)"]),
+    ("a + b * c", "operator", &["a - b * c", "a + b / c"]),
+    ("x ** 2", "operator", &["x * 2"]),
+    ("this.sum += e;", "operator", &["this.sum -= e;"]),
+    (
+        "sin(q) + cos(q)",
+        "function",
+        &["cos(q) + cos(q)", "sin(q) + sin(q)"],
+    ),
+    ("atan2(y, x - h)", "function", &["atan((y) / (x - h))"]),
+    ("l[0] + p[2]", "index", &["l[1] + p[2]", "l[0] + p[1]"]),
+    ("v[0..2]", "index", &["v[1..2]", "v[0..1]"]),
+    (
+        "fn f(q) { let l1 = q; let l2 = 2; l1 }",
+        "index",
+        &["fn f(q) { let l1 = q; let l2 = 2; l2 }"],
+    ),
+    ("[a, b]", "order", &["[b, a]"]),
+    ("atan2(y, x - h)", "order", &["atan2(x - h, y)"]),
+    ("plot(\"a, b\", c)", "order", &[]),
+    ("o.q - o.qd", "signal", &["o.qd - o.qd", "o.q - o.q"]),
+    ("a - b", "term", &["a", "-b"]),
+    ("a * b + c", "term", &["a + c", "b + c", "a * b", "c"]),
+    (
+        "(a + b) * c",
+        "term",
+        &["(a + b)", "c", "(a) * c", "(b) * c"],
+    ),
+    (
+        "sin(q[0])",
+        "degrees",
+        &["sin(deg(q[0]))", "sin(rad(q[0]))"],
+    ),
+    ("acos(c)", "degrees", &["deg(acos(c))"]),
+    (
+        "sin(rad(x))",
+        "degrees",
+        &["sin(deg(rad(x)))", "sin(rad(rad(x)))", "sin((x))"],
+    ),
+    (
+        "const GAIN = 5;",
+        "gain",
+        &["const GAIN = 4.5;", "const GAIN = 5.5;"],
+    ),
+    (
+        "t.kp * e",
+        "gain",
+        &["(0.9 * t.kp) * e", "(1.1 * t.kp) * e"],
+    ),
+    ("0.05 * x", "gain", &["0.045 * x", "0.055 * x"]),
+    (
+        "x * 2 + v[3]",
+        "constant",
+        &["x * 0 + v[3]", "x * 1 + v[3]"],
+    ),
+    (
+        "if a < 1 { b } else { c }",
+        "condition",
+        &["if !(a < 1) { b } else { c }", "if a > 1 { b } else { c }"],
+    ),
+    (
+        "if a == 1 && b { c }",
+        "condition",
+        &[
+            "if !(a == 1 && b) { c }",
+            "if a != 1 && b { c }",
+            "if a == 1 || b { c }",
+        ],
+    ),
+];
+
 #[test]
 fn each_kind_changes_what_it_should() {
-    for (program, operator, expected) in [
-        ("-s1 + 2.5", "sign", &["s1 + 2.5", "-s1 + -2.5"][..]),
-        (
-            "clamp(c, -1, 1)",
-            "sign",
-            &["clamp(c, 1, 1)", "clamp(c, -1, -1)"],
-        ),
-        ("a -acos(c)", "sign", &["a -(-acos(c))"]),
-        ("sqrt(c)", "sign", &["-sqrt(c)"]),
-        ("a + b * c", "operator", &["a - b * c", "a + b / c"]),
-        ("x ** 2", "operator", &["x * 2"]),
-        ("this.sum += e;", "operator", &["this.sum -= e;"]),
-        (
-            "sin(q) + cos(q)",
-            "function",
-            &["cos(q) + cos(q)", "sin(q) + sin(q)"],
-        ),
-        ("atan2(y, x - h)", "function", &["atan((y) / (x - h))"]),
-        ("l[0] + p[2]", "index", &["l[1] + p[2]", "l[0] + p[1]"]),
-        ("v[0..2]", "index", &["v[1..2]", "v[0..1]"]),
-        (
-            "fn f(q) { let l1 = q; let l2 = 2; l1 }",
-            "index",
-            &["fn f(q) { let l1 = q; let l2 = 2; l2 }"],
-        ),
-        ("[a, b]", "order", &["[b, a]"]),
-        ("atan2(y, x - h)", "order", &["atan2(x - h, y)"]),
-        ("plot(\"a, b\", c)", "order", &[]),
-        ("o.q - o.qd", "signal", &["o.qd - o.qd", "o.q - o.q"]),
-        ("a - b", "term", &["a", "-b"]),
-        ("a * b + c", "term", &["a + c", "b + c", "a * b", "c"]),
-        (
-            "(a + b) * c",
-            "term",
-            &["(a + b)", "c", "(a) * c", "(b) * c"],
-        ),
-        (
-            "sin(q[0])",
-            "degrees",
-            &["sin(deg(q[0]))", "sin(rad(q[0]))"],
-        ),
-        ("acos(c)", "degrees", &["deg(acos(c))"]),
-        (
-            "sin(rad(x))",
-            "degrees",
-            &["sin(deg(rad(x)))", "sin(rad(rad(x)))", "sin((x))"],
-        ),
-        (
-            "const GAIN = 5;",
-            "gain",
-            &["const GAIN = 4.5;", "const GAIN = 5.5;"],
-        ),
-        (
-            "t.kp * e",
-            "gain",
-            &["(0.9 * t.kp) * e", "(1.1 * t.kp) * e"],
-        ),
-        ("0.05 * x", "gain", &["0.045 * x", "0.055 * x"]),
-        (
-            "x * 2 + v[3]",
-            "constant",
-            &["x * 0 + v[3]", "x * 1 + v[3]"],
-        ),
-        (
-            "if a < 1 { b } else { c }",
-            "condition",
-            &["if !(a < 1) { b } else { c }", "if a > 1 { b } else { c }"],
-        ),
-        (
-            "if a == 1 && b { c }",
-            "condition",
-            &[
-                "if !(a == 1 && b) { c }",
-                "if a != 1 && b { c }",
-                "if a == 1 || b { c }",
-            ],
-        ),
-    ] {
+    for (program, operator, expected) in CHANGES {
         assert_eq!(
             after(program, operator),
-            expected,
+            *expected,
             "{operator} of {program}"
         );
     }
