@@ -105,7 +105,7 @@ fn each_slip_is_answered_with_what_to_write() {
     own_lab().is_refused(
         SUBMISSION,
         &[
-            ("expected = [4.0, 9.0]", "expected = [[4.0], [9.0]]", "lab::toml", "a number, a list of numbers, or a table of these"),
+            ("expected = [4.0, 9.0]", "expected = [[4.0], [9.0, 1.0]]", "lab::case_input", "write rows of equal length"),
             (kind, two, "lab::check_kind", "has two kinds, `fk-error` and `ik-reach`"),
             (kind, "", "lab::check_kind", "such as `fk-error = {"),
             ("function-cases = { full = 0.01, zero = 0.1 }", "", "lab::check_kind", "such as `function-cases = {"),

@@ -140,9 +140,9 @@ fn what_is_worked_by_hand_is_right() {
 #[test]
 fn a_case_may_have_a_robot_of_its_own() {
     let function = "call = \"torque\"\ncases = [\n\
-        { name = \"pendulum\", robot = \"Ry\", dimensions = { link1 = [0, 0, 1] }, q_rad = [0.3], qd_rad_s = [0.0], qdd_rad_s2 = [2.0] },\n\
-        { name = \"thick\", robot = \"Ry\", dimensions = { link1 = [0, 0, 2], density = 1000 }, q_rad = [-0.7], qd_rad_s = [1.0], qdd_rad_s2 = [0.0] },\n\
-        { name = \"slide\", robot = \"Tz\", dimensions = { link1 = [0, 0, 1] }, q_rad = [0.3], qd_rad_s = [0.0], qdd_rad_s2 = [2.0] }]";
+        { name = \"pendulum\", robot = \"Ry\", dimensions = { base_height = 0, link1 = [0, 0, 1] }, q_rad = [0.3], qd_rad_s = [0.0], qdd_rad_s2 = [2.0] },\n\
+        { name = \"thick\", robot = \"Ry\", dimensions = { base_height = 0, link1 = [0, 0, 2], density = 1000 }, q_rad = [-0.7], qd_rad_s = [1.0], qdd_rad_s2 = [0.0] },\n\
+        { name = \"slide\", robot = \"Tz\", dimensions = { base_height = 0, link1 = [0, 0, 1] }, q_rad = [0.3], qd_rad_s = [0.0], qdd_rad_s2 = [2.0] }]";
     let submission = r#"
         fn torque(robot, q, qd, qdd) {
             let l = robot.link1.z;

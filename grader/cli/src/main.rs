@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 use kinemark_report::visible::visible;
 
+mod bands_page;
 mod beneath;
 mod chosen_variant;
 mod command_line;

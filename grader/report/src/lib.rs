@@ -8,7 +8,6 @@
     )
 )]
 
-pub mod bands_page;
 pub mod brief_page;
 pub mod code_block;
 pub mod compare_text;

@@ -31,6 +31,7 @@ use crate::task::model::{Function, MotionTask};
 use crate::task::workcell::Workcell;
 
 impl Grader<'_> {
+    // long: one record, made once
     pub(super) fn motion(
         &self,
         task: &Task,

@@ -103,7 +103,24 @@ impl JsonSchema for Dimensions {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        <BTreeMap<String, Dimension>>::json_schema(generator)
+        <BTreeMap<String, NumberOrList>>::json_schema(generator)
+    }
+}
+
+/// A dimension of a robot or a scene, which is no text.
+struct NumberOrList;
+
+impl JsonSchema for NumberOrList {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "NumberOrList".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["number", "array"], "items": { "type": "number" } })
     }
 }
 
@@ -117,7 +134,7 @@ impl JsonSchema for Dimension {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": ["number", "array"], "items": { "type": "number" } })
+        json_schema!({ "type": ["number", "array", "string"], "items": { "type": "number" } })
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::bands_page::BandsPage;
 use kinemark_course::language::Language;
 use kinemark_grader::audit::{Accepted, Audit, Form, PracticeError, Rubric};
 use kinemark_grader::judge::engine;
@@ -12,7 +13,6 @@ use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::problem::LoadError;
-use kinemark_report::bands_page::BandsPage;
 use kinemark_report::formula::formula_problems;
 use kinemark_sim::text::Source;
 
@@ -66,6 +66,7 @@ pub(crate) struct Args {
 }
 
 /// Audits the lab and prints what was tried.
+// long: one row after the other
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(

@@ -5,8 +5,8 @@ use kinemark_grader::audit::{Audit, BandValues, Difficulty, Reached};
 use kinemark_grader::record::quantity::{points, with_unit};
 use maud::{Markup, html};
 
-use crate::html::{StaticPage, foreign, prose};
-use crate::visible::visible;
+use kinemark_report::html::{StaticPage, foreign, prose};
+use kinemark_report::visible::visible;
 
 /// What the page shows.
 #[derive(Debug, Clone, Copy)]
