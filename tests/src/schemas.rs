@@ -16,8 +16,11 @@ use serde_json::Value;
 use crate::golden::are_current;
 use crate::testbed::{TestBed, root};
 
+/// Makes the schema of a kind.
+type MakeSchema = fn() -> Value;
+
 /// The kinds of files, by the words of `kinemark lab schema`.
-const KINDS: [(&str, fn() -> Value); 8] = [
+const KINDS: [(&str, MakeSchema); 8] = [
     ("lab", || lab_schema().to_value()),
     ("hidden", || hidden_schema().to_value()),
     ("mutants", || mutants_schema().to_value()),
