@@ -140,7 +140,7 @@ fn the_rule_that_failed_is_named() {
                 vec![("little", "[\"fk\"]", "0.05]", "0.051]")],
                 vec![
                     "is not named: its answer earns nothing in 0 of 8 cases, hidden ones among them, and 3 are needed; in case \"",
-                    "it is off by 1.0 mm, where 5.0 mm would count",
+                    "it is off by 1 mm, where 5.0 mm would count",
                 ],
             ),
         ),
