@@ -131,9 +131,12 @@ const CONTROL: &str = "[shoulder, elbow]";
 const Y: &str = "l[0] * sin(q[0]) + l[1]";
 const TURN: &str = "return [0.15, 0.0];";
 
+/// A mutant that is not named: its words, what is made of the lab, and what is said of it.
+type Fault<'w> = (String, (Vec<Made>, Vec<&'w str>));
+
 #[test]
 fn the_rule_that_failed_is_named() {
-    let faults: Vec<(String, (Vec<Made>, Vec<&str>))> = vec![
+    let faults: Vec<Fault<'_>> = vec![
         (
             "a little off everywhere".to_owned(),
             (

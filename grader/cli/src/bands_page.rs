@@ -10,11 +10,11 @@ use kinemark_report::visible::visible;
 
 /// What the page shows.
 #[derive(Debug, Clone, Copy)]
-pub struct BandsPage<'a> {
+pub(crate) struct BandsPage<'a> {
     /// The engine that made it.
-    pub engine: &'a str,
+    pub(crate) engine: &'a str,
     /// What was tried.
-    pub audit: &'a Audit,
+    pub(crate) audit: &'a Audit,
 }
 
 const CSS: &str = ".band{border-top:1px solid var(--line);padding:1rem 0}.band:first-of-type{border-top:0}.band .title h3{margin:0}\
@@ -37,7 +37,7 @@ const OUTSIDE: f64 = 1.6;
 
 impl BandsPage<'_> {
     /// The page. It asks nothing of the network; the same audit gives the same bytes.
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let audit = self.audit;
         let title = format!("Bands of {}", audit.lab);
         let body = html! {

@@ -373,11 +373,9 @@ fn gain(program: &Program<'_>, found: &mut Vec<Replaced>) {
                 at,
                 value,
                 is_whole,
-            } if *value != 0.0 && !program.is_in_index(at) => {
-                if !is_whole || is_of_constant(at) {
-                    for factor in [0.9, 1.1] {
-                        found.push((at.clone(), number(value * factor)));
-                    }
+            } if *value != 0.0 && !program.is_in_index(at) && (!is_whole || is_of_constant(at)) => {
+                for factor in [0.9, 1.1] {
+                    found.push((at.clone(), number(value * factor)));
                 }
             }
             Part::Property { at, whole } if matches!(program.of(at), "kp" | "ki" | "kd") => {
@@ -415,8 +413,9 @@ fn constant(program: &Program<'_>, found: &mut Vec<Replaced>) {
         if program.is_in_index(at) {
             continue;
         }
-        for other in [0.0, 1.0] {
-            if *value != other {
+        for other in [0.0_f64, 1.0] {
+            // what is typed as 0 or 1 is exactly that
+            if value.to_bits() != other.to_bits() {
                 let text = if *is_whole {
                     other.to_string()
                 } else {
