@@ -514,7 +514,7 @@ const SLIPS: &[Slip] = &[
         "l2 = 0.99",
         "l2 = \"= l1\"",
         "/parameters/l2",
-        "not of types",
+        "does not match",
     ),
     slip(
         "course",

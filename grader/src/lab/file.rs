@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use kinemark_sim::control::{Derivative, Mode};
 use kinemark_sim::sensor::SensorTable;
+use kinemark_sim::text::ParameterSchema;
 use kinemark_sim::text::schema::{either, exactly_one};
 use kinemark_sim::text::{FileFormat, Spanned};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -47,6 +48,7 @@ pub(super) struct LabTable {
     /// Named numbers, or lists of them, for expressions such as `"= line_x"`.
     // read before all else, for the expressions: see `parameters`
     #[serde(default, rename = "parameters")]
+    #[schemars(with = "BTreeMap<String, ParameterSchema>")]
     _parameters: NumbersTable,
     /// Dimensions of the robot that this lab changes.
     #[serde(default)]
@@ -711,6 +713,7 @@ pub(super) enum VariesTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct ChoicesTable {
     /// The values, each as likely as the others.
+    #[schemars(with = "Vec<ParameterSchema>")]
     pub(super) choices: Vec<kinemark_sim::text::Dimension>,
 }
 

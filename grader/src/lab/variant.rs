@@ -3,7 +3,7 @@
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::Source;
 use kinemark_sim::text::number::{short, trimmed};
-use kinemark_sim::text::{Dimension, FileFormat, Spanned};
+use kinemark_sim::text::{Dimension, FileFormat, ParameterSchema, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use unicode_normalization::UnicodeNormalization as _;
@@ -43,6 +43,7 @@ pub(super) struct VariantTable {
     student: Option<Spanned<String>>,
     /// Numbers of the lab, or lists of them; those left out are as in lab.toml.
     #[serde(default)]
+    #[schemars(with = "std::collections::BTreeMap<String, ParameterSchema>")]
     parameters: NumbersTable,
 }
 

@@ -103,24 +103,30 @@ impl JsonSchema for Dimensions {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        <BTreeMap<String, NumberOrList>>::json_schema(generator)
+        <BTreeMap<String, Dimension>>::json_schema(generator)
     }
 }
 
-/// A dimension of a robot or a scene, which is no text.
-struct NumberOrList;
+/// A parameter in schemas: a number, a list of numbers, or a text that is no expression. Dimensions are never texts.
+#[derive(Debug, Clone, Copy)]
+pub struct ParameterSchema;
 
-impl JsonSchema for NumberOrList {
+impl JsonSchema for ParameterSchema {
     fn inline_schema() -> bool {
         true
     }
 
     fn schema_name() -> Cow<'static, str> {
-        "NumberOrList".into()
+        "Parameter".into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": ["number", "array"], "items": { "type": "number" } })
+        json_schema!({
+            "type": ["number", "array", "string"],
+            "items": { "type": "number" },
+            // of texts alone
+            "pattern": "^[^=]",
+        })
     }
 }
 
@@ -134,7 +140,7 @@ impl JsonSchema for Dimension {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": ["number", "array", "string"], "items": { "type": "number" } })
+        json_schema!({ "type": ["number", "array"], "items": { "type": "number" } })
     }
 }
 

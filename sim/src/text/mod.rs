@@ -17,7 +17,7 @@ mod toml_refusal;
 mod typed_table;
 
 pub use cut_line::CutLine;
-pub use dimensions::{Dimension, Dimensions};
+pub use dimensions::{Dimension, Dimensions, ParameterSchema};
 pub use file_format::{FORMAT, FileFormat, FormatProblem, format_of};
 pub use linear::Linear;
 pub use marked_numbers::{MarkedNumbersProblem, read_with_marked_numbers, refused_parts};

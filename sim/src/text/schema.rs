@@ -64,11 +64,24 @@ fn without_null(object: &mut Map<String, Value>) {
     }
     // a description beside it is nearer than that of the type
     if let (Some(Value::Object(only)), true) = (options.pop(), object.remove("anyOf").is_some()) {
+        // what its words mean follows whichever description there is
+        let meanings = only.get("enum").and_then(|_| {
+            let text = only.get("description")?.as_str()?;
+            text.find(MEANING).map(|at| text[at..].to_owned())
+        });
+        if let (Some(Value::String(text)), Some(meanings)) =
+            (object.get_mut("description"), meanings)
+        {
+            *text += &meanings;
+        }
         for (key, value) in only {
             object.entry(key).or_insert(value);
         }
     }
 }
+
+/// How what a word means begins.
+const MEANING: &str = " `";
 
 /// Words that may stand in one place: a list of them, since of alternatives a reader says only that none fits. What each means follows
 /// the description of the key.
@@ -82,7 +95,7 @@ fn listed_words(object: &mut Map<String, Value>) {
         match (&option["const"], &option["enum"]) {
             (Value::String(word), _) => {
                 if let Some(meaning) = option["description"].as_str() {
-                    meanings += &format!(" `{word}`: {meaning}");
+                    meanings += &format!("{MEANING}{word}`: {meaning}");
                 }
                 words.push(json!(word));
             }
