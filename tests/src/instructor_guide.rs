@@ -3,7 +3,7 @@
 
 use crate::testbed::{TestBed, root};
 
-/// What the page tells its reader to do, in order.
+/// What the page asks its reader to do, in order.
 #[derive(Debug)]
 enum Step {
     /// To write a file.
