@@ -184,8 +184,9 @@ impl MutationReport {
 
     /// What is wrong with accepting the change called `of`; nothing where it survived or was not tried.
     fn stale(&self, bench: &Bench<'_>, of: &str) -> Option<MutationProblem> {
-        let mut all = bench.mutations().iter();
-        if !all.any(|mutation| mutation.of() == of) {
+        let all = bench.mutations().iter();
+        let alike = all.filter(|mutation| mutation.of() == of).count();
+        if alike == 0 {
             return Some(no_mutation(of));
         }
         let tried: Vec<&TriedMutation> = self
@@ -193,7 +194,9 @@ impl MutationReport {
             .iter()
             .filter(|tried| tried.mutation.of() == of)
             .collect();
-        if tried.iter().any(|tried| tried.fate == Fate::Survived) {
+        // a line may be there twice: one of them that was not drawn may survive
+        let survives = tried.iter().any(|tried| tried.fate == Fate::Survived);
+        if survives || tried.len() < alike {
             return None;
         }
         let tried = tried.first()?;
