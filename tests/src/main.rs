@@ -55,6 +55,7 @@ mod module_order;
 mod module_reports;
 mod module_sources;
 mod moments;
+mod mutant_words;
 mod mutations;
 mod named_submissions;
 mod new_lab;
