@@ -115,7 +115,7 @@ impl Draw {
         let mut list = |ranges: &[[f64; 2]]| -> Vec<f64> {
             ranges.iter().map(|range| stream.between(*range)).collect()
         };
-        // loops that cannot be closed are refused where the lab is loaded
+        // where loops cannot be closed nothing is right: the reference solution loses the case, and `lab check` shows it
         let whole = |q: Vec<f64>| {
             let nothing = || vec![f64::NAN; of_case.n()];
             joints.positions(of_case, &q).unwrap_or_else(nothing)
