@@ -95,11 +95,19 @@ fn reached(band: &BandValues, reached: &Reached) -> String {
     format!("{value:<14} {:>8.1} %", 100.0 * reached.margin)
 }
 
+/// Below this share of a band nobody calls one variant harder than another.
+const ALIKE: f64 = 0.0005;
+
 /// How much the difficulty differs between variants.
 fn push_difficulty(out: &mut String, audit: &Audit) {
     let Some(difficulty) = &audit.difficulty else {
         return;
     };
+    if difficulty.spread < ALIKE {
+        let count = difficulty.variants.len();
+        let _ = writeln!(out, "\n{count} variants are as hard as each other");
+        return;
+    }
     let _ = writeln!(
         out,
         "\ndifficulty of {} variants, by the margins of the reference solution\n  differs most in {}/{}: {:.1} % of the band's width between \

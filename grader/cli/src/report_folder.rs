@@ -133,12 +133,18 @@ pub(crate) fn files(
         .iter()
         .map(|file| (file.path.clone(), file.bytes.clone()))
         .collect();
+    let own_robots = lab.tasks.iter().filter_map(|task| {
+        let own = task.own.as_ref()?;
+        Some((task.name.as_str(), own.robot_file.source().text()))
+    });
+    let own_robots: Vec<(&str, &str)> = own_robots.collect();
     let sources = Sources {
         submission_file: copy,
         submission: &submission.bytes,
         module_sources: &module_sources,
         lab: &lab.graded_text,
         robot: lab.robot_file.source().text(),
+        own_robots: &own_robots,
         lab_files: &lab_files,
     };
     let material = Material::new(graded, sources, &request, pixels).map_err(fault)?;

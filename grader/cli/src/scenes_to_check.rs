@@ -117,6 +117,7 @@ fn of_lab(lab: Lab) -> Result<ScenesToCheck, Failure> {
         let Some(scene) = &motion.scene else {
             continue;
         };
+        let lab = lab.of_task(task);
         let mut arm = ArmInScene::new(lab.robot.clone(), motion.start_q.clone(), &lab.frame);
         if let Some(arm) = &mut arm {
             arm.via = motion

@@ -183,6 +183,10 @@ pub(super) fn difficulty(
         .map(|band| {
             let mut band = band.clone();
             band.reference.retain(|reached| !reached.of.is_empty());
+            for reached in &mut band.reference {
+                // where a whole band's width is left nothing is hard, however much more there is
+                reached.margin = reached.margin.min(1.0);
+            }
             band
         })
         .filter(|band| !band.reference.is_empty())
@@ -307,5 +311,11 @@ mod tests {
         assert!((hardest.harder - 0.2).abs() < 1e-12, "{hardest:?}");
         assert_eq!(found.easiest().unwrap().student, "a");
         assert_eq!(difficulty(&[narrow], &students[..1]), None);
+        // more than a whole band's width is no difference
+        let far = band(&[("", 5.0), ("a", 40.0), ("b", 3.0)], &[]);
+        assert_eq!(
+            difficulty(&[far], &students[..2]).map(|found| found.spread),
+            Some(0.0)
+        );
     }
 }

@@ -1,17 +1,23 @@
 //! The levels of a robustness sweep: disturbances under which a motion is run again, as a lab file states them and in words.
 
+use kinemark_sim::kinematics::closure::{closed_positions, closed_velocities};
+use kinemark_sim::model::push::Push;
 use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::ticks::whole_ratio;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::reading::{At, MotionReading};
+use crate::task::joint_units::JointUnits;
 use crate::task::problem::{LabError, problems};
+use crate::task::push::{PushReading, PushTable};
 
 /// Control periods by which a command may be late.
 const MOST_DELAY_PERIODS: u64 = 1000;
 /// Above this, only numbers blow up.
 const MOST_AMOUNT: f64 = 1e6;
+/// No start is farther off, in SI units.
+const MOST_OFFSET: f64 = 1e3;
 
 /// A level: at least one disturbance.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -31,6 +37,13 @@ pub(super) struct LevelTable {
     friction_n_m: Option<At<f64>>,
     /// Factor of every joint's viscous damping; refused for a robot without any.
     damping: Option<At<f64>>,
+    /// Pushes on links and bodies, besides those of the task.
+    #[serde(default)]
+    pushes: Vec<At<PushTable>>,
+    /// How far the start is off: one number per joint that moves, or per independent joint of a robot with loops \[rad, or m\].
+    start_offset_rad: Option<At<Vec<f64>>>,
+    /// How far the velocities at the start are off, in the same joints \[rad/s, or m/s\].
+    start_offset_rad_s: Option<At<Vec<f64>>>,
 }
 
 /// Standard deviations.
@@ -61,7 +74,17 @@ problems! {
             "add dry friction instead, such as `friction_n_m = 0.3`";
         Nothing { rung: String }:
             "lab::robustness", "level `{rung}` changes nothing", "this level",
-            "give it `noise`, `delay_ms`, `payload_kg`, `friction_n_m` or `damping`";
+            "give it `noise`, `delay_ms`, `payload_kg`, `friction_n_m`, `damping`, `pushes` or `start_offset_rad`";
+        Offsets { what: &'static str, found: usize, n: usize, joints: Vec<String> }:
+            "lab::joint_count", "`{what}` has a length of {found} for {n} joints", "one number per joint",
+            format!("joints: {}", joints.join(", "));
+        Offset { what: &'static str }:
+            "lab::out_of_range", "a number of `{what}` is beyond 1000", "out of range";
+        Unclosed { error: String }:
+            "lab::start", "with this offset a loop stays open: {error}", "no place where the robot can be",
+            "choose a smaller offset";
+        OfLaws:
+            "lab::start", "in mode `prescribed` the robot starts where its laws say", "of no effect", "leave it out";
     }
 }
 
@@ -86,6 +109,21 @@ pub struct Level {
     pub friction: f64,
     /// Factor of every joint's viscous damping, where it changes.
     pub damping: Option<f64>,
+    /// Pushes besides those of the task.
+    pub pushes: Vec<(String, Push)>,
+    /// Another start, where it changes.
+    pub start: Option<LevelStart>,
+}
+
+/// The start of a run under a level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LevelStart {
+    /// Joint positions, shape `(n)` \[rad or m\].
+    pub q: Vec<f64>,
+    /// Joint velocities, shape `(n)` \[rad/s or m/s\].
+    pub qd: Vec<f64>,
+    /// By what it is off: a joint, a number and its unit each.
+    pub offsets: Vec<(String, f64, &'static str)>,
 }
 
 impl Level {
@@ -115,6 +153,14 @@ impl Level {
             let factor = trimmed(factor, 4);
             parts.push(format!("{factor} times the damping"));
         }
+        let pushes = self.pushes.iter();
+        parts.extend(pushes.map(|(words, _)| words.clone()));
+        let offsets = self.start.iter().flat_map(|start| &start.offsets);
+        let offsets = offsets.map(|(joint, off, unit)| format!("{off:+} {unit} at `{joint}`"));
+        let offsets: Vec<String> = offsets.collect();
+        if !offsets.is_empty() {
+            parts.push(format!("started {}", offsets.join(" and ")));
+        }
         parts.join(", ")
     }
 }
@@ -139,6 +185,8 @@ impl LevelTable {
             payload_kg: amount(&table.payload_kg, "`payload_kg`")?.unwrap_or(0.0),
             friction: amount(&table.friction_n_m, "`friction_n_m`")?.unwrap_or(0.0),
             damping: amount(&table.damping, "`damping`")?,
+            pushes: table.pushes(reading)?,
+            start: table.start(reading)?,
         };
         let mut joints = reading.robot.joints().iter();
         let is_damped = joints.any(|joint| joint.damping > 0.0);
@@ -203,11 +251,92 @@ impl LevelTable {
         let problem = LevelProblem::Noise { q_rad, qd_rad_s };
         reading.refuse_at(noise, problem)
     }
+
+    /// The pushes of the level, in words each.
+    fn pushes(&self, reading: &MotionReading<'_>) -> Result<Vec<(String, Push)>, LabError> {
+        let motion = reading.motion;
+        let pushes = PushReading {
+            report: reading.report,
+            robot: reading.robot,
+            scene: motion.scene.as_deref(),
+            periods: &motion.periods,
+            ticks: motion.ticks,
+        };
+        let words = self.pushes.iter().map(|push| push.get_ref().in_words());
+        Ok(words.zip(pushes.all(&self.pushes)?).collect())
+    }
+
+    /// The start of the level, where it is another one.
+    fn start(&self, reading: &MotionReading<'_>) -> Result<Option<LevelStart>, LabError> {
+        let typed = [&self.start_offset_rad, &self.start_offset_rad_s];
+        let Some(first) = typed.into_iter().flatten().next() else {
+            return Ok(None);
+        };
+        if reading.motion.laws.is_some() {
+            return reading.refuse_at(first, LevelProblem::OfLaws);
+        }
+        let robot = reading.robot;
+        let q_off = offsets(reading, typed[0].as_ref(), "start_offset_rad")?;
+        let qd_off = offsets(reading, typed[1].as_ref(), "start_offset_rad_s")?;
+        let moved = |of: &[f64], by: &[f64]| -> Vec<f64> {
+            let independent = robot.independent().iter().zip(by);
+            independent.map(|(&joint, by)| of[joint] + by).collect()
+        };
+        let unclosed = |error: String| LevelProblem::Unclosed { error };
+        let q = moved(&reading.motion.start_q, &q_off);
+        let q = closed_positions(robot, &q)
+            .or_else(|error| reading.refuse_at(first, unclosed(error.to_string())))?;
+        let qd = moved(&reading.motion.start_qd, &qd_off);
+        let qd = closed_velocities(robot, &q, &qd)
+            .or_else(|error| reading.refuse_at(first, unclosed(error.to_string())))?;
+        let mut said = Vec::new();
+        for (row, &joint) in robot.independent().iter().enumerate() {
+            let units = JointUnits::of(robot, joint);
+            let name = robot.moving_joints().nth(joint).map(|joint| &joint.name);
+            let parts = [(q_off[row], units.position()), (qd_off[row], units.speed())];
+            for (off, unit) in parts.into_iter().filter(|(off, _)| off.abs() > 0.0) {
+                said.push((name.cloned().unwrap_or_default(), off, unit));
+            }
+        }
+        let offsets = said;
+        Ok((!offsets.is_empty()).then_some(LevelStart { q, qd, offsets }))
+    }
+}
+
+/// Offsets of the independent joints, zero where none are typed.
+fn offsets(
+    reading: &MotionReading<'_>,
+    typed: Option<&At<Vec<f64>>>,
+    what: &'static str,
+) -> Result<Vec<f64>, LabError> {
+    let robot = reading.robot;
+    let independent = robot.independent();
+    let Some(typed) = typed else {
+        return Ok(vec![0.0; independent.len()]);
+    };
+    let numbers = typed.get_ref();
+    if numbers.len() != independent.len() {
+        let joints = independent.iter().filter_map(|&joint| {
+            let mut moving = robot.moving_joints();
+            moving.nth(joint).map(|joint| joint.name.clone())
+        });
+        let problem = LevelProblem::Offsets {
+            what,
+            found: numbers.len(),
+            n: independent.len(),
+            joints: joints.collect(),
+        };
+        return reading.refuse_at(typed, problem);
+    }
+    if numbers.iter().any(|number| number.abs() > MOST_OFFSET) {
+        return reading.refuse_at(typed, LevelProblem::Offset { what });
+    }
+    Ok(numbers.clone())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Level;
+    use super::{Level, LevelStart};
 
     #[test]
     fn a_level_says_all_that_is_different() {
@@ -221,11 +350,20 @@ mod tests {
             payload_kg: 0.2,
             friction: 0.3,
             damping: Some(1.3),
+            pushes: Vec::new(),
+            start: Some(LevelStart {
+                q: vec![0.7, -1.0],
+                qd: vec![0.2, 0.0],
+                offsets: vec![
+                    ("shoulder".to_owned(), 0.2, "rad/s"),
+                    ("elbow".to_owned(), -0.05, "rad"),
+                ],
+            }),
         };
         assert_eq!(
             level.in_words(),
             "noise of 0.0001 rad on q and 0.01 rad/s on qd, commands 0.02 s late, 0.2 kg more at the TCP, \
-             0.3 N m more friction in every joint, 1.3 times the damping"
+             0.3 N m more friction in every joint, 1.3 times the damping, started +0.2 rad/s at `shoulder` and -0.05 rad at `elbow`"
         );
     }
 }

@@ -10,6 +10,20 @@ use crate::lab::{Lab, Task};
 use crate::submission::answer::named_entries;
 use crate::submission::handed_in::Submission;
 use crate::task::model::{Case, Function, Given};
+use crate::task::value::Value;
+
+/// What `solution` answers in the visible cases of `task`, where that is a function of the lab's own; else nothing.
+///
+/// # Errors
+/// The reason why the solution has no answer, in words.
+pub fn answers_of(lab: &Lab, task: &Task, solution: &Source) -> Result<Vec<Value>, String> {
+    let TaskWork::Function(work, _) = &task.work else {
+        return Ok(Vec::new());
+    };
+    let opening = opening(lab, task, &Submission::from(solution));
+    function::answers(lab.of_task(task).workcell(), work, &work.cases, &opening)
+        .map_err(|stop| record_of(&stop, solution.text()).message)
+}
 
 /// `cases` of `task` with their expected entries, in the form of the visible cases.
 ///
@@ -35,7 +49,7 @@ pub fn with_expected(
         return Ok(cases);
     };
     let opening = opening(lab, task, &Submission::from(solution));
-    let answers = function::answers(lab.workcell(), work, &cases, &opening)
+    let answers = function::answers(lab.of_task(task).workcell(), work, &cases, &opening)
         .map_err(|stop| record_of(&stop, solution.text()).message)?;
     for (case, answer) in cases.iter_mut().zip(answers) {
         if let Given::Values { expected, .. } = &mut case.given {

@@ -129,12 +129,12 @@ fn cases(
                 number,
                 numbers: numbers_of(
                     &case,
-                    case.robot.as_deref().unwrap_or(&lab.robot),
+                    case.robot.as_deref().unwrap_or(&lab.of_task(task).robot),
                     &work.about,
                 ),
                 words: given_in_words(
                     &case,
-                    case.robot.as_deref().unwrap_or(&lab.robot),
+                    case.robot.as_deref().unwrap_or(&lab.of_task(task).robot),
                     &work.about,
                 ),
                 expected: None,
@@ -163,7 +163,8 @@ fn cases(
 
 /// The right answer to each case of an exposed function task in words; `None` where neither the case nor the reference solution has one.
 fn expected(exposed: &ExposedLab, staff: &Staff) -> Vec<Option<String>> {
-    let (lab, task) = (&exposed.lab, exposed.task());
+    let task = exposed.task();
+    let lab = exposed.lab.of_task(task);
     let TaskWork::Function(work, checks) = &task.work else {
         return Vec::new();
     };

@@ -82,7 +82,7 @@ pub(crate) fn prepare_mutant(
     known: &StaffAttempts,
 ) {
     let submission = Submission::from(&mutant.source);
-    let mut grader = Grader::new(lab, Some(staff), &submission);
+    let mut grader = Grader::new(lab.of_task(task), Some(staff), &submission);
     grader.known = Some(known);
     match &task.work {
         TaskWork::Function(work, checks) => grader.prepare_answers(task, work, checks, mutant),
@@ -141,14 +141,30 @@ pub struct Parts {
 pub fn parts(lab: &Lab, staff: Option<&Staff>, submission: &Submission) -> Parts {
     Parts {
         lab: part(&lab.name, digest_of_lab(lab)),
-        robot: part(
-            lab.robot.name(),
-            LabRobot::digest(&lab.robot_file, &lab.robot_meshes),
-        ),
+        robot: part(lab.robot.name(), digest_of_robots(lab)),
         scenes: scene_parts(lab),
         submission: part(submission.name(), submission.digest()),
         reference: staff.map(|staff| part(&lab.name, staff.digest)),
     }
+}
+
+/// The digest of the lab's robot, and of those that tasks have in its place.
+fn digest_of_robots(lab: &Lab) -> blake3::Hash {
+    let of = |lab: &Lab| LabRobot::digest(&lab.robot_file, &lab.robot_meshes);
+    let mut own = lab
+        .tasks
+        .iter()
+        .filter_map(|task| task.own.as_deref())
+        .peekable();
+    if own.peek().is_none() {
+        return of(lab);
+    }
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(of(lab).as_bytes());
+    for own in own {
+        hasher.update(of(own).as_bytes());
+    }
+    hasher.finalize()
 }
 
 fn part(name: &str, digest: blake3::Hash) -> Part {
@@ -271,6 +287,7 @@ impl<'a> Grader<'a> {
         let (mut tasks, mut runs, mut scores) = (Vec::new(), Vec::new(), Vec::new());
         for task in &lab.tasks {
             host.begins(&task.title);
+            self.lab = lab.of_task(task);
             let graded = match &task.work {
                 TaskWork::Function(function, checks) => {
                     self.function(task, function, checks, host)?

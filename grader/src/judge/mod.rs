@@ -25,7 +25,7 @@ mod single_case;
 mod staff_attempts;
 pub(crate) mod staff_faults;
 
-pub use expected::with_expected;
+pub use expected::{answers_of, with_expected};
 pub use explanation::explain;
 pub use exposed::{ExposedLab, NoAnswer, expose};
 pub(crate) use grader::{Examined, examined, prepare_mutant};

@@ -62,7 +62,7 @@ impl<'a> MotionJudge<'a> {
         reference: Option<&'a TcpPath>,
     ) -> Self {
         Self {
-            lab,
+            lab: lab.of_task(task),
             task,
             work,
             checks: Cow::Borrowed(checks),

@@ -14,6 +14,7 @@ use crate::task::value::Value;
 
 /// The opening of a submission for `task` of `lab`.
 pub(crate) fn opening(lab: &Lab, task: &Task, submission: &Submission) -> Opening {
+    let lab = lab.of_task(task);
     let (robot, target, sensors) = match &task.work {
         TaskWork::Function(task, _) => (
             function::facts_of_task(&lab.robot, task),

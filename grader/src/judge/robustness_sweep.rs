@@ -75,7 +75,14 @@ fn attempt(judge: &MotionJudge<'_>, level: &Level, host: &mut dyn Host) -> Attem
         robot: &robot,
         ..lab.workcell()
     };
-    motion::run_disturbed(cell, judge.work, &judge.opening, host, &disturbance)
+    let mut work = judge.work.clone();
+    let pushes = level.pushes.iter();
+    work.pushes.extend(pushes.map(|(_, push)| *push));
+    if let Some(start) = &level.start {
+        work.start_q.clone_from(&start.q);
+        work.start_qd.clone_from(&start.qd);
+    }
+    motion::run_disturbed(cell, &work, &judge.opening, host, &disturbance)
 }
 
 /// Seed of the noise of a level: the same for every submission, on every platform.

@@ -99,7 +99,13 @@ impl Lab {
             let source = scene.file.source();
             copies.add(source.name(), source.text());
         }
+        let own = || self.tasks.iter().filter_map(|task| task.own.as_deref());
+        for own in own().filter(|own| !own.robot_file.is_row()) {
+            let robot = own.robot_file.source();
+            copies.add(robot.name(), robot.text());
+        }
         let meshes = self.scenes.iter().flat_map(|scene| &scene.meshes);
+        let meshes = meshes.chain(own().flat_map(|own| &own.robot_meshes));
         for mesh in self.robot_meshes.iter().chain(meshes) {
             copies.add(mesh.path.as_str(), mesh.bytes.as_slice());
         }

@@ -63,6 +63,44 @@ impl Lab {
             frame: &self.frame,
         }
     }
+
+    /// The lab as `task` sees it: with the robot of that task, where it has one of its own.
+    pub fn of_task<'l>(&'l self, task: &'l Task) -> &'l Self {
+        task.own.as_deref().unwrap_or(self)
+    }
+
+    /// Gives tasks the lab with the robot that each has of its own; one entry for each task.
+    pub(super) fn give_own_robots(&mut self, own: Vec<Option<OwnRobot>>) {
+        let views: Vec<_> = own
+            .into_iter()
+            .map(|own| own.map(|own| Arc::new(self.with_robot(own))))
+            .collect();
+        for (task, view) in self.tasks.iter_mut().zip(views) {
+            task.own = view;
+        }
+    }
+
+    /// This lab with another robot and no tasks: what a task with a robot of its own sees.
+    fn with_robot(&self, own: OwnRobot) -> Self {
+        Self {
+            robot_file: own.file,
+            robot_meshes: own.meshes,
+            robot: own.robot,
+            frame: own.frame,
+            tasks: Vec::new(),
+            ..self.clone()
+        }
+    }
+}
+
+/// The robot of a task that has one of its own.
+#[derive(Debug, Clone)]
+pub(super) struct OwnRobot {
+    pub(super) file: RobotDescription,
+    pub(super) meshes: Vec<MeshFile>,
+    pub(super) robot: Robot,
+    /// The frame in which students work.
+    pub(super) frame: String,
 }
 
 /// A task.
@@ -74,6 +112,8 @@ pub struct Task {
     pub title: String,
     /// What is done in it, and the checks that judge it.
     pub work: TaskWork,
+    /// The lab with the robot of this task, where it has one of its own: [`Lab::of_task`].
+    pub own: Option<Arc<Lab>>,
 }
 
 /// What a task asks for, with its checks in order.

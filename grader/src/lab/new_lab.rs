@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use kinemark_sim::dynamics::crba::mass_matrix;
-use kinemark_sim::dynamics::immovable_joint;
+use kinemark_sim::dynamics::{GRAVITY_M_S2, immovable_joint};
 use kinemark_sim::kinematics::branches::{BranchFinder, Reach};
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::kinematics::joint_samples::JointSamples;
@@ -13,6 +13,9 @@ use kinemark_sim::text::number::{list, trimmed};
 use nalgebra::Vector3;
 
 use crate::attempt::branches::count_distinct;
+use crate::task::model::Rows;
+use crate::task::quantity::{Quantity, STATE};
+use crate::task::task_joints::TaskJoints;
 use crate::task::tcp::tcp_in;
 
 /// Angular frequency of the closed loops that gains are chosen for \[rad/s\].
@@ -21,6 +24,9 @@ const LOOP_RAD_S: f64 = 20.0;
 const ABOUT: f64 = 0.15;
 /// As many branches may be a continuum.
 const CONTINUUM: usize = 16;
+
+/// The keys of what a quantity depends on, in the order of [`STATE`].
+const STATE_KEYS: [&str; STATE.len()] = ["q_rad", "qd_rad_s", "qdd_rad_s2"];
 
 /// A task of a new lab.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,6 +46,8 @@ pub enum NewTaskKind {
     InverseKinematics,
     /// The Jacobian.
     Jacobian,
+    /// A quantity of the robot, such as its gravity efforts.
+    Quantity(Quantity),
     /// A function of the lab's own, which has the name of the task.
     Function,
     /// A motion by joint positions.
@@ -50,10 +58,23 @@ pub enum NewTaskKind {
 
 impl NewTaskKind {
     /// All of them, by the words that people type.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 12] = [
         ("fk", Self::ForwardKinematics),
         ("ik", Self::InverseKinematics),
         ("jacobian", Self::Jacobian),
+        // `velocity` is a motion by joint velocities
+        (
+            "tcp-velocity",
+            Self::Quantity(Quantity::Velocity(Rows::LINEAR)),
+        ),
+        (
+            "tcp-acceleration",
+            Self::Quantity(Quantity::Acceleration(Rows::LINEAR)),
+        ),
+        ("gravity", Self::Quantity(Quantity::Gravity)),
+        ("coriolis", Self::Quantity(Quantity::Coriolis)),
+        ("torque", Self::Quantity(Quantity::Torque)),
+        ("mass-matrix", Self::Quantity(Quantity::MassMatrix)),
         ("function", Self::Function),
         ("motion", Self::Motion),
         ("velocity", Self::Velocity),
@@ -61,6 +82,13 @@ impl NewTaskKind {
 
     fn moves(self) -> bool {
         matches!(self, Self::Motion | Self::Velocity)
+    }
+
+    fn needs_masses(self) -> bool {
+        match self {
+            Self::Quantity(quantity) => quantity.needs_masses(),
+            kind => kind.moves(),
+        }
     }
 }
 
@@ -124,7 +152,7 @@ pub fn schema_name(kind: &str) -> String {
 }
 
 /// The first line of a file of this kind in the folder of a lab: an editor completes its keys by the schema that it names.
-fn schema_line(kind: &str) -> String {
+pub fn schema_line(kind: &str) -> String {
     format!("#:schema ../{SCHEMA_FOLDER}/{}\n", schema_name(kind))
 }
 
@@ -141,8 +169,8 @@ impl NewLab<'_> {
             let task = task.name.clone();
             return Err(Unfit::Loops { robot, task });
         }
-        let moving = self.tasks.iter().find(|task| task.kind.moves());
-        if let (Some(task), Some(singular)) = (moving, immovable_joint(self.robot)) {
+        let heavy = self.tasks.iter().find(|task| task.kind.needs_masses());
+        if let (Some(task), Some(singular)) = (heavy, immovable_joint(self.robot)) {
             return Err(Unfit::CannotMove {
                 robot,
                 task: task.name.clone(),
@@ -294,6 +322,7 @@ impl NewLab<'_> {
                 check_toml("entries", 4, "jacobian-match = { full = 0.01, zero = 0.1 }"),
             ]
             .concat(),
+            NewTaskKind::Quantity(quantity) => self.quantity_toml(quantity),
             NewTaskKind::Function => [
                 "# TODO: what the function is given, and what a right answer is: a number, a list of numbers, or a table of these\n"
                     .to_owned(),
@@ -316,6 +345,54 @@ impl NewLab<'_> {
             let q = list(&self.q(sample));
             format!("{{ name = \"TODO: case {sample}\", q_rad = {q} }}")
         }))
+    }
+
+    /// Motion of the joints: positions, and the first so many derivatives.
+    fn state(&self, quantity: Quantity, sample: usize) -> Vec<Vec<f64>> {
+        let mut state = vec![self.q(sample)];
+        // any numbers would do: these are of the size of what arms do in a second, and no two joints have the same
+        let derivative = |order: usize| -> Vec<f64> {
+            let joints = 0..self.robot.n();
+            joints
+                .map(|joint| round(0.3 + 0.2 * ((joint + 2 * order + sample) % 5) as f64, 2))
+                .collect()
+        };
+        state.extend((1..quantity.order()).map(derivative));
+        state
+    }
+
+    fn quantity_toml(&self, quantity: Quantity) -> String {
+        let cases = [1, 2].map(|sample| {
+            let state = self.state(quantity, sample);
+            let keys = STATE_KEYS.iter().zip(&state);
+            let keys: Vec<String> = keys
+                .map(|(key, numbers)| format!("{key} = {}", list(numbers)))
+                .collect();
+            format!("{{ name = \"TODO: case {sample}\", {} }}", keys.join(", "))
+        });
+        [
+            format!("[tasks.function]\ncall = \"{}\"\n", quantity.name()),
+            format!(
+                "least_size = {}  # near zero, what is off is a part of this\n",
+                trimmed(self.least_size(quantity), 6)
+            ),
+            cases_toml(cases),
+            check_toml("answer", 4, "function-cases = { full = 1e-6, zero = 0.1 }"),
+        ]
+        .concat()
+    }
+
+    /// A tenth of the greatest number of the quantity in the first case.
+    fn least_size(&self, quantity: Quantity) -> f64 {
+        let joints = TaskJoints::of(self.robot, &[]);
+        let state = self.state(quantity, 1);
+        let value = quantity.at(self.robot, &joints, self.frame(), &GRAVITY_M_S2, &state);
+        let greatest = value
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let tenth = significant(0.1 * greatest);
+        if tenth > 0.0 { tenth } else { 1.0 }
     }
 
     fn inverse_kinematics_toml(&self) -> String {
@@ -386,9 +463,9 @@ impl NewLab<'_> {
     }
 
     /// The functions that the tasks call, each once: name, arguments, and an answer that is none yet.
-    fn functions(&self) -> Vec<(String, &'static str, String)> {
+    fn functions(&self) -> Vec<(String, String, String)> {
         let zeros = |count: usize| format!("[{}]", vec!["0.0"; count].join(", "));
-        let mut all: Vec<(String, &'static str, String)> = Vec::new();
+        let mut all: Vec<(String, String, String)> = Vec::new();
         for task in self.tasks {
             let n = self.robot.n();
             let (name, arguments, answer) = match task.kind {
@@ -404,13 +481,24 @@ impl NewLab<'_> {
                     let rows = vec![zeros(n); 3].join(", ");
                     ("jacobian".to_owned(), "robot, q", format!("[{rows}]"))
                 }
+                NewTaskKind::Quantity(quantity) => {
+                    let rows = vec![zeros(n); n].join(", ");
+                    let answer = match quantity.is_matrix() {
+                        true => format!("[{rows}]"),
+                        false => zeros(quantity.count(n)),
+                    };
+                    let parameters = quantity.parameters().join(", ");
+                    all.retain(|(known, ..)| known != quantity.name());
+                    all.push((quantity.name().to_owned(), parameters, answer));
+                    continue;
+                }
                 NewTaskKind::Function => (task.name.replace('-', "_"), "given", "0.0".to_owned()),
                 NewTaskKind::Motion | NewTaskKind::Velocity => {
                     ("control".to_owned(), "observation", zeros(n))
                 }
             };
             if !all.iter().any(|(known, ..)| *known == name) {
-                all.push((name, arguments, answer));
+                all.push((name, arguments.to_owned(), answer));
             }
         }
         all
@@ -497,6 +585,13 @@ impl NewLab<'_> {
                     let what = format!("q_rad = {}\nbranches = {branches}", self.about(1));
                     draw(name, "places nearby", what)
                 }
+                NewTaskKind::Quantity(quantity) => {
+                    let mut lines = vec![whole()];
+                    let any = vec!["[-1.0, 1.0]"; self.robot.n()].join(", ");
+                    let keys = STATE_KEYS.iter().take(quantity.order()).skip(1);
+                    lines.extend(keys.map(|key| format!("{key} = [{any}]")));
+                    draw(name, "other motions", lines.join("\n"))
+                }
                 NewTaskKind::Function => draw(
                     name,
                     "other numbers",
@@ -541,6 +636,18 @@ impl NewLab<'_> {
                 "jacobian" => {
                     "the derivative of the TCP's position by `q`: rows x, y, z, a column for each joint"
                 }
+                "velocity" => {
+                    "the velocity of the TCP along the axes of the lab's frame, [x, y, z] in m/s"
+                }
+                "acceleration" => {
+                    "the acceleration of the TCP along the axes of the lab's frame, [x, y, z] in m/s²"
+                }
+                "gravity" => "the efforts that hold the robot still, one for each joint",
+                "coriolis" => "the Coriolis and centrifugal efforts, one for each joint",
+                "torque" => {
+                    "the efforts for this motion, gravity and friction included, one for each joint"
+                }
+                "mass_matrix" => "the joint-space inertia matrix, a list of rows",
                 "control" => "one number for each joint, at every call",
                 _ => "TODO: what, in which unit",
             };

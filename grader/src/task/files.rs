@@ -27,6 +27,33 @@ pub trait Files {
     fn list(&self, folder: &str) -> Vec<String>;
 }
 
+/// Files with the text of one of them replaced.
+pub struct Replaced<'a> {
+    /// The path of that one.
+    pub path: String,
+    /// Its text.
+    pub text: &'a str,
+    /// All others.
+    pub rest: &'a dyn Files,
+}
+
+impl Files for Replaced<'_> {
+    fn name(&self) -> String {
+        self.rest.name()
+    }
+
+    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        if path == self.path {
+            return Ok(Some(self.text.as_bytes().to_vec()));
+        }
+        self.rest.bytes(path)
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        self.rest.list(folder)
+    }
+}
+
 /// What to do about a file that cannot be read as text: it is too large, nobody may read it, or it is no text.
 pub const UNREAD_HELP: &str =
     "check that it is the right file, that it is UTF-8 text, and that you may read it";

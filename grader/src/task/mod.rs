@@ -10,6 +10,7 @@ pub mod mesh_file;
 pub mod model;
 pub mod pose;
 pub mod problem;
+pub(crate) mod push;
 pub mod quantity;
 pub(crate) mod reporter;
 pub mod robot;

@@ -2,10 +2,18 @@
 
 use std::ops::Range;
 
+use kinemark_sim::text::number::trimmed;
 use kinemark_sim::text::{Problem, Source, Spanned};
+use kinemark_sim::ticks::{Periods, whole_ratio};
+use nalgebra::Vector3;
 
 use super::model::Band;
 use super::problem::{LabError, problems};
+
+/// Physics steps of a task: a quarter of an hour at 1 ms. More would not fit in the memory of a grade.
+const MOST_TICKS: u64 = 900_000;
+/// No number of a vector is beyond this, in SI units: far beyond any lab, and its powers stay finite.
+const MOST: f64 = 1e6;
 
 /// Reports problems of one text.
 #[derive(Debug, Clone, Copy)]
@@ -27,6 +35,14 @@ problems! {
             "use lower-case letters, digits and `-`";
         Duplicate { what: &'static str, name: String }:
             "lab::duplicate", "{what} `{name}` is defined twice", "the second one", "give each its own name";
+        NotWholeSteps { what: &'static str, time_s: f64, step_s: f64 }:
+            "lab::periods", "{what} of {time_s} s is not an integer multiple of the physics step of {step_s} s", "does not divide",
+            format!("write a multiple of {step_s} s");
+        TooLong { what: &'static str, time_s: f64, step_s: f64 }:
+            "lab::periods", "{what} of {time_s} s has more than {MOST_TICKS} physics steps of {step_s} s", "too long",
+            format!("write {} s at most: a run is kept whole in memory", trimmed(MOST_TICKS as f64 * step_s, 3));
+        TooLarge { what: &'static str }:
+            "lab::out_of_range", "{what} is beyond 1e6", "out of range";
     }
 }
 
@@ -53,6 +69,44 @@ impl Reporter<'_> {
         }
         let what = what.to_owned();
         self.refuse_at(number, ValueProblem::NotPositive { what, value })
+    }
+
+    /// `time_s`, typed `at`, in physics steps.
+    pub(crate) fn whole_ticks(
+        &self,
+        periods: &Periods,
+        time_s: f64,
+        at: &Spanned<f64>,
+        what: &'static str,
+    ) -> Result<u64, LabError> {
+        let step_s = periods.step_s;
+        let problem = match whole_ratio(time_s, step_s) {
+            Some(ticks) if ticks <= MOST_TICKS => return Ok(ticks),
+            None if time_s / step_s <= MOST_TICKS as f64 => ValueProblem::NotWholeSteps {
+                what,
+                time_s,
+                step_s,
+            },
+            _ => ValueProblem::TooLong {
+                what,
+                time_s,
+                step_s,
+            },
+        };
+        self.refuse_at(at, problem)
+    }
+
+    /// A vector of numbers that are not beyond [`MOST`].
+    pub(crate) fn vector(
+        &self,
+        typed: &Spanned<[f64; 3]>,
+        what: &'static str,
+    ) -> Result<Vector3<f64>, LabError> {
+        let vector = Vector3::from(*typed.get_ref());
+        if vector.amax() > MOST {
+            return self.refuse_at(typed, ValueProblem::TooLarge { what });
+        }
+        Ok(vector)
     }
 
     /// A band of a measured value that is better when it is smaller.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{MeshLocation, ReadOptions, RobotDescription, detect};
 use kinemark_sim::text::Source;
 
@@ -56,6 +57,20 @@ pub fn robot_path(name: &str) -> String {
 }
 
 impl LabRobot {
+    /// The robot that a lab names: that of a file, or, where there is none of that name, a row of joints.
+    ///
+    /// # Errors
+    /// Those of [`Self::load`] and [`Self::of_row`].
+    pub fn named(
+        files: &dyn Files,
+        name: &str,
+        options: &RobotOptions,
+    ) -> Result<Option<Self>, LoadError> {
+        let named = Self::load(files, name, options)?;
+        let row = (named.is_none() && looks_like_one(name)).then(|| Self::of_row(name));
+        Ok(named.or(row.transpose()?))
+    }
+
     /// Loads the robot called `name`: a robot file, or a URDF by its path inside `robots/` with its ending. `None` where there is none.
     ///
     /// # Errors

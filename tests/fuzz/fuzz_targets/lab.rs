@@ -1,8 +1,9 @@
 //! Text of a lab file, put in the place of each lab's own: never a panic, and what loads can be studied and drawn from.
 #![no_main]
 
-use kinemark_fuzz::labs::{Replaced, explain_load, labs, names, study};
+use kinemark_fuzz::labs::{explain_load, labs, names, study};
 use kinemark_grader::lab::Lab;
+use kinemark_grader::task::files::Replaced;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,4 +1,4 @@
-//! The labs of this tree with one file put in the place of theirs, and everything that is done with a lab before somebody is graded.
+//! The labs of this tree, and everything that is done with a lab before somebody is graded.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -11,33 +11,6 @@ use kinemark_grader::task::problem::LoadError;
 use kinemark_report::formula::formula_problems;
 
 use crate::{exercise, explain};
-
-/// Files with one of them replaced.
-pub struct Replaced<'a> {
-    /// The path of that one.
-    pub path: String,
-    /// Its text.
-    pub text: &'a str,
-    /// All others.
-    pub rest: &'a Copies,
-}
-
-impl Files for Replaced<'_> {
-    fn name(&self) -> String {
-        self.rest.name()
-    }
-
-    fn bytes(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
-        if path == self.path {
-            return Ok(Some(self.text.as_bytes().to_vec()));
-        }
-        self.rest.bytes(path)
-    }
-
-    fn list(&self, folder: &str) -> Vec<String> {
-        self.rest.list(folder)
-    }
-}
 
 /// What students get: `labs/`.
 pub fn labs() -> &'static Copies {

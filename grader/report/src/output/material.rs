@@ -18,6 +18,8 @@ pub struct Sources<'a> {
     pub lab: &'a str,
     /// The robot's file.
     pub robot: &'a str,
+    /// The texts of the robots that tasks have in its place, by the names of the tasks.
+    pub own_robots: &'a [(&'a str, &'a str)],
     /// Every file that the lab was read from, by its path in a folder of labs.
     pub lab_files: &'a [(String, Vec<u8>)],
 }

@@ -20,8 +20,11 @@ fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
     let mut files = Vec::new();
     for run in &material.graded.runs {
         let layout = layout(run);
+        let mut own = sources.own_robots.iter();
+        let own = own.find(|(task, _)| *task == run.task);
+        let robot = own.map_or(sources.robot, |(_, robot)| *robot);
         let attachments = [
-            ("robot.toml", "application/toml", sources.robot),
+            ("robot.toml", "application/toml", robot),
             ("lab.toml", "application/toml", sources.lab),
             (RECORD_FILE, "application/json", material.record.as_str()),
             (LAYOUT, "application/json", layout.as_str()),

@@ -153,6 +153,7 @@ mod tests {
             module_sources: &[("src/lib.rs".to_owned(), b"mod arm;".to_vec())],
             lab: "",
             robot: "",
+            own_robots: &[],
             lab_files: &lab_files,
         };
         let material = Material::new(&graded, sources, request, Pixels::Undrawn).unwrap();

@@ -18,8 +18,9 @@ const SAMPLES: usize = 2000;
 
 /// Bands whose end of full points nobody can miss.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    let reach_m = reach_m(rubric.lab);
+    let of_lab = reach_m(rubric.lab);
     for task in &rubric.lab.tasks {
+        let reach_m = task.own.as_deref().map_or(of_lab, reach_m);
         match &task.work {
             TaskWork::Function(_, checks) => {
                 for check in checks {

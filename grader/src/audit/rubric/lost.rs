@@ -95,6 +95,7 @@ pub fn zeros(lab: &Lab) -> String {
     let mut text = String::new();
     let mut defined: Vec<&str> = Vec::new();
     for task in &lab.tasks {
+        let lab = lab.of_task(task);
         let (name, arguments, answer) = match &task.work {
             TaskWork::Motion(..) => ("control", "observation".to_owned(), list(lab.robot.n())),
             TaskWork::Function(function, _) => {

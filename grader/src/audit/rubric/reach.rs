@@ -62,15 +62,15 @@ fn case_name(task: &Task, case: &Case) -> String {
     format!("{}/{name}", task.name)
 }
 
-fn robot_of<'a>(lab: &'a Lab, case: &'a Case) -> &'a Robot {
-    case.robot.as_deref().unwrap_or(&lab.robot)
+fn robot_of<'a>(lab: &'a Lab, task: &'a Task, case: &'a Case) -> &'a Robot {
+    case.robot.as_deref().unwrap_or(&lab.of_task(task).robot)
 }
 
 fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
     let Given::Q(q) = &case.given else {
         return None;
     };
-    let beyond = beyond_limit(robot_of(lab, case), q)?;
+    let beyond = beyond_limit(robot_of(lab, task, case), q)?;
     Some(Doubt {
         rule: "reach",
         of: case_name(task, case),
@@ -84,6 +84,7 @@ fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
 }
 
 fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt>) {
+    let lab = lab.of_task(task);
     let robot = &lab.robot;
     let Ok(mut finder) = BranchFinder::new(robot, &motion.start_q) else {
         return;
@@ -239,7 +240,7 @@ fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
     else {
         return None;
     };
-    let robot = robot_of(lab, case);
+    let robot = robot_of(lab, task, case);
     let home = robot.home().to_vec();
     let position = Vector3::from(*position_m);
     let p_in_world = in_world(lab, robot, &home, &position)?;

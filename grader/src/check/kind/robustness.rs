@@ -226,6 +226,8 @@ mod tests {
             payload_kg: 0.0,
             friction: 0.0,
             damping: None,
+            pushes: Vec::new(),
+            start: None,
         }
     }
 

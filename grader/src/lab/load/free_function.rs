@@ -78,6 +78,10 @@ impl Reader<'_> {
                 };
                 return self.report.refuse_at(function, problem);
             }
+            if table.given.is_some() && !foreign {
+                let problem = FunctionProblem::NoExpected { case: name };
+                return self.report.refuse_at(spanned, problem);
+            }
             let (case, function) = (name, function.get_ref().clone());
             let problem = FunctionProblem::FreeInput { case, function };
             return self.report.refuse_at(spanned, problem);

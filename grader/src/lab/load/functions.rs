@@ -28,6 +28,9 @@ problems! {
         FreeInput { case: String, function: String }:
             "lab::case_input", "case `{case}` of `{function}` is given by `given` and `expected`", "this case",
             "write `given = { kp = 100.0 }, expected = { damping_ratio = 2.2 }`, or one number for `expected`";
+        NoExpected { case: String }:
+            "lab::case_input", "case `{case}` does not say what is `expected`", "this case",
+            "write it, or let `kinemark lab fill` write what the reference solution answers";
         NothingExpected { case: String }:
             "lab::case_input", "case `{case}` expects nothing", "this case",
             "name in `expected` what the function is to return";

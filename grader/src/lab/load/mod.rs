@@ -10,7 +10,6 @@ mod laws;
 mod motion;
 mod parts;
 mod paths;
-mod pushes;
 mod reading;
 mod surroundings;
 mod target;
@@ -18,7 +17,6 @@ mod target;
 use std::ops::Range;
 use std::sync::Arc;
 
-use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::unphysical::OnUnphysical;
@@ -26,7 +24,7 @@ use kinemark_sim::text::{Mistakes, Spanned, suggest};
 
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
 use super::hints::with_questions_alone;
-use super::model::{Lab, Task, TaskWork};
+use super::model::{Lab, OwnRobot, Task, TaskWork};
 use super::parameters;
 use super::practice::Practice;
 use super::variant::{self, Variant};
@@ -159,8 +157,9 @@ impl Lab {
         let robot_file = of_dimensions(report, file, &lab)?;
         let robot = robot_file.build(&[])?;
         let frame = frame(report, &lab, &robot)?;
+        let own = own_robots(files, report, &lab, &frame)?;
         let practice = Practice::load(files, name, (&stated, &parameters))?;
-        let scenes = scenes(files, report, &robot, &lab)?;
+        let scenes = scenes(files, report, &robot, (&lab, &own))?;
         let reader = Reader {
             report,
             robot: &robot,
@@ -171,7 +170,7 @@ impl Lab {
         };
         // none of these depends on another
         let mut mistakes = Mistakes::default();
-        let tasks = mistakes.keep(reader.tasks(&lab)).unwrap_or_default();
+        let tasks = mistakes.keep(reader.tasks(&lab, &own)).unwrap_or_default();
         let budgets = mistakes.keep(reader.budgets(&lab.budgets));
         let budgets = budgets.unwrap_or_default();
         let kept = kept_after_stop(report, lab.kept_after_stop.as_ref());
@@ -179,7 +178,7 @@ impl Lab {
         let variants = variant::rules(report, &lab.variants, &stated);
         let variants = mistakes.keep(variants).unwrap_or_default();
         mistakes.finish()?;
-        Ok(Self {
+        let mut loaded = Self {
             name: name.to_owned(),
             graded_text: with_questions_alone(&source, &lab),
             title: lab.title,
@@ -197,7 +196,9 @@ impl Lab {
             scenes,
             frame,
             practice,
-        })
+        };
+        loaded.give_own_robots(own);
+        Ok(loaded)
     }
 }
 
@@ -234,21 +235,30 @@ fn lab_robot(
 ) -> Result<LabRobot, LoadError> {
     let name = lab.robot.get_ref();
     let options = robot_options(report, lab)?;
-    let named = LabRobot::load(files, name, &options)?;
-    // a file of that name is meant before a row of joints
-    let row = (named.is_none() && looks_like_one(name)).then(|| LabRobot::of_row(name));
-    let Some(robot) = named.or(row.transpose()?) else {
+    let robot = robot_called(files, report, &lab.robot, &options)?;
+    if let (Some(table), false) = (&lab.robot_options, robot.is_of_ros) {
+        let robot = name.clone();
+        return Ok(report.refuse_at(table, LabFileProblem::RobotOptions { robot })?);
+    }
+    Ok(robot)
+}
+
+/// The robot of this name, with all its meshes.
+fn robot_called(
+    files: &dyn Files,
+    report: Reporter<'_>,
+    typed: &Spanned<String>,
+    options: &RobotOptions,
+) -> Result<LabRobot, LoadError> {
+    let name = typed.get_ref();
+    let Some(robot) = LabRobot::named(files, name, options)? else {
         let problem = LabFileProblem::UnknownRobot {
             path: robot_path(name),
             name: name.clone(),
             known: robot_names(files),
         };
-        return Ok(report.refuse_at(&lab.robot, problem)?);
+        return Ok(report.refuse_at(typed, problem)?);
     };
-    if let (Some(table), false) = (&lab.robot_options, robot.is_of_ros) {
-        let robot = name.clone();
-        return Ok(report.refuse_at(table, LabFileProblem::RobotOptions { robot })?);
-    }
     if let Some(mesh) = &robot.missing_mesh {
         let built = robot.file.build(&[])?;
         let mut warnings = built.warnings().iter();
@@ -258,9 +268,40 @@ fn lab_robot(
             mesh: mesh.clone(),
             warning: warning.cloned().unwrap_or_default(),
         };
-        return Ok(report.refuse_at(&lab.robot, problem)?);
+        return Ok(report.refuse_at(typed, problem)?);
     }
     Ok(robot)
+}
+
+/// The robots that tasks name in place of the lab's, one entry for each task. Students work in the frame of the lab's name, where such a
+/// robot has one, else in its first link.
+fn own_robots(
+    files: &dyn Files,
+    report: Reporter<'_>,
+    lab: &LabTable,
+    frame: &str,
+) -> Result<Vec<Option<OwnRobot>>, LoadError> {
+    let mut own = Vec::new();
+    for task in &lab.tasks {
+        let Some(typed) = &task.robot else {
+            own.push(None);
+            continue;
+        };
+        let LabRobot { file, meshes, .. } =
+            robot_called(files, report, typed, &RobotOptions::default())?;
+        let robot = file.build(&[])?;
+        let frame = match robot.frame(frame) {
+            Some(_) => frame.to_owned(),
+            None => robot.links()[0].name.clone(),
+        };
+        own.push(Some(OwnRobot {
+            file,
+            meshes,
+            robot,
+            frame,
+        }));
+    }
+    Ok(own)
 }
 
 /// How the lab reads its robot, if that is a URDF.
@@ -337,11 +378,15 @@ fn scenes(
     files: &dyn Files,
     report: Reporter<'_>,
     robot: &Robot,
-    lab: &LabTable,
+    (lab, own): (&LabTable, &[Option<OwnRobot>]),
 ) -> Result<Vec<Arc<LabScene>>, LoadError> {
     let mut scenes: Vec<Arc<LabScene>> = Vec::new();
-    let motions = lab.tasks.iter().filter_map(|task| task.motion.as_ref());
-    for at in motions.filter_map(|motion| motion.get_ref().scene.as_ref()) {
+    for (task, own) in lab.tasks.iter().zip(own) {
+        let motion = task.motion.as_ref();
+        let Some(at) = motion.and_then(|motion| motion.get_ref().scene.as_ref()) else {
+            continue;
+        };
+        let robot = own.as_ref().map_or(robot, |own| &own.robot);
         let table = at.get_ref();
         let name = table.name.as_str();
         let dimensions: Vec<_> = table.dimensions.clone().into_iter().collect();
@@ -436,19 +481,37 @@ impl Reader<'_> {
         Ok(budgets)
     }
 
-    fn tasks(&self, lab: &LabTable) -> Result<Vec<Task>, LabError> {
+    fn tasks(&self, lab: &LabTable, own: &[Option<OwnRobot>]) -> Result<Vec<Task>, LabError> {
         if lab.tasks.is_empty() {
             return self.report.refuse_at(&lab.name, LabFileProblem::NoTasks);
         }
         self.report
             .unique("task", lab.tasks.iter().map(|task| &task.name))?;
         let mut mistakes = Mistakes::default();
-        let tasks = lab.tasks.iter();
-        let tasks = tasks.filter_map(|task| mistakes.keep(self.task(task)));
+        let tasks = lab.tasks.iter().zip(own);
+        let tasks = tasks.filter_map(|(task, own)| {
+            mistakes.keep(match own {
+                None => self.task(task),
+                Some(own) => self.of_robot(own, task).task(task),
+            })
+        });
         let tasks: Vec<Task> = tasks.collect();
         mistakes.finish()?;
         self.functions_differ(lab, &tasks)?;
         Ok(tasks)
+    }
+
+    /// The reader of a task with a robot of its own.
+    fn of_robot<'r>(&'r self, own: &'r OwnRobot, task: &TaskTable) -> Reader<'r> {
+        let typed = task.robot.as_ref();
+        Reader {
+            report: self.report,
+            robot: &own.robot,
+            robot_at: typed.map_or(self.robot_at.clone(), Spanned::span),
+            scenes: self.scenes,
+            robot_file: &own.file,
+            frame: &own.frame,
+        }
     }
 
     /// A function of a submission cannot know for which of two tasks it is called: what tasks ask of one name is the same.
@@ -503,6 +566,7 @@ impl Reader<'_> {
             name: name.clone(),
             title: table.title.clone(),
             work,
+            own: None,
         })
     }
 

@@ -13,13 +13,14 @@ use kinemark_sim::spatial::{direction, rotation_from_rpy_deg};
 use kinemark_sim::step::hybrid::HybridStep;
 use kinemark_sim::text::number::trimmed;
 use kinemark_sim::text::{Problem, Spanned};
-use kinemark_sim::ticks::{Periods, whole_ratio};
+use kinemark_sim::ticks::Periods;
 use nalgebra::{Rotation3, Vector3};
 
 use super::{Reader, numbers};
 use crate::lab::file::{GoalTable, MotionTable, NumberAt, PerJoint, ServoTable};
 use crate::task::model::{GoalOrientation, MotionGoal, MotionTask};
 use crate::task::problem::{LabError, problems};
+use crate::task::push::PushReading;
 use crate::task::scene::LabScene;
 use crate::task::value::Value;
 
@@ -27,20 +28,12 @@ use crate::task::value::Value;
 const MOST_GAP_M: f64 = 1e-3;
 /// Velocities of dependent joints may be off by this \[rad/s or m/s\].
 const MOST_RATE_OFF: f64 = 1e-3;
-/// Physics steps of a task: a quarter of an hour at 1 ms. More would not fit in the memory of a grade.
-const MOST_TICKS: u64 = 900_000;
 
 problems! {
     /// What is wrong with a motion task.
     enum MotionProblem {
         Periods { error: String }:
             "lab::periods", "{error}", "does not divide", "each period must be an integer multiple of the one before";
-        NotWholeSteps { what: &'static str, time_s: f64, step_s: f64 }:
-            "lab::periods", "{what} of {time_s} s is not an integer multiple of the physics step of {step_s} s", "does not divide",
-            format!("write a multiple of {step_s} s");
-        TooLong { what: &'static str, time_s: f64, step_s: f64 }:
-            "lab::periods", "{what} of {time_s} s has more than {MOST_TICKS} physics steps of {step_s} s", "too long",
-            format!("write {} s at most: a run is kept whole in memory", trimmed(MOST_TICKS as f64 * step_s, 3));
         TwoOrientations:
             "lab::goal", "a goal has one orientation", "the second one", "leave out `rpy_deg` or `axis`";
         NoDirection { what: &'static str }:
@@ -75,7 +68,9 @@ impl Reader<'_> {
         let motion = table.get_ref();
         let periods = self.periods(table)?;
         let duration_s = self.positive(&motion.duration_s, "the duration")?;
-        let ticks = self.whole_ticks(&periods, duration_s, &motion.duration_s, "the duration")?;
+        let ticks =
+            self.report
+                .whole_ticks(&periods, duration_s, &motion.duration_s, "the duration")?;
         let is_prescribed = motion.mode == Mode::Prescribed;
         let (laws, start_q, start_qd) = match self.laws(table, is_prescribed, (&periods, ticks))? {
             Some(start) => (Some(start.laws), start.q, start.qd),
@@ -88,7 +83,14 @@ impl Reader<'_> {
         self.can_move(&start_q)?;
         let servo = self.motion_servo(table)?;
         let scene = self.scene(motion, &periods)?;
-        let pushes = self.pushes(&motion.pushes, scene.as_deref(), (&periods, ticks))?;
+        let pushes = PushReading {
+            report: self.report,
+            robot: self.robot,
+            scene: scene.as_deref(),
+            periods: &periods,
+            ticks,
+        };
+        let pushes = pushes.all(&motion.pushes)?;
         let around = self.surroundings(motion, scene)?;
         Ok(MotionTask {
             periods,
@@ -154,31 +156,6 @@ impl Reader<'_> {
         })
     }
 
-    /// `time_s`, typed `at`, in physics steps.
-    pub(super) fn whole_ticks(
-        &self,
-        periods: &Periods,
-        time_s: f64,
-        at: &NumberAt,
-        what: &'static str,
-    ) -> Result<u64, LabError> {
-        let step_s = periods.step_s;
-        let problem = match whole_ratio(time_s, step_s) {
-            Some(ticks) if ticks <= MOST_TICKS => return Ok(ticks),
-            None if time_s / step_s <= MOST_TICKS as f64 => MotionProblem::NotWholeSteps {
-                what,
-                time_s,
-                step_s,
-            },
-            _ => MotionProblem::TooLong {
-                what,
-                time_s,
-                step_s,
-            },
-        };
-        self.report.refuse_at(at, problem)
-    }
-
     /// The goals, whose dwells fit into the run.
     fn goals(
         &self,
@@ -192,7 +169,12 @@ impl Reader<'_> {
             let dwell_s = self.positive(&goal.dwell_s, "the dwell")?;
             goals.push(MotionGoal {
                 position_m: Vector3::from(goal.position_m),
-                dwell_ticks: self.whole_ticks(periods, dwell_s, &goal.dwell_s, "the dwell")?,
+                dwell_ticks: self.report.whole_ticks(
+                    periods,
+                    dwell_s,
+                    &goal.dwell_s,
+                    "the dwell",
+                )?,
                 orientation: self.goal_orientation(goal)?,
             });
         }

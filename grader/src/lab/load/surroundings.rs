@@ -55,7 +55,7 @@ impl Reader<'_> {
         };
         let gravity_m_s2 = match &motion.gravity_m_s2 {
             None => None,
-            Some(typed) => Some(self.vector(typed, "gravity")?),
+            Some(typed) => Some(self.report.vector(typed, "gravity")?),
         };
         let wind = match &motion.wind {
             None => None,
@@ -90,23 +90,9 @@ impl Reader<'_> {
         })
     }
 
-    /// A vector of numbers that are not beyond [`MOST`].
-    pub(super) fn vector(
-        &self,
-        typed: &Spanned<[f64; 3]>,
-        what: &'static str,
-    ) -> Result<Vector3<f64>, LabError> {
-        let vector = Vector3::from(*typed.get_ref());
-        if vector.amax() > MOST {
-            let problem = SurroundingsProblem::TooLarge { what };
-            return self.report.refuse_at(typed, problem);
-        }
-        Ok(vector)
-    }
-
     fn wind(&self, typed: &Spanned<WindTable>) -> Result<Wind, LabError> {
         let table = typed.get_ref();
-        let velocity_m_s = self.vector(&table.velocity_m_s, "the wind")?;
+        let velocity_m_s = self.report.vector(&table.velocity_m_s, "the wind")?;
         let air_density_kg_m3 = match &table.air_density_kg_m3 {
             None => AIR_DENSITY_KG_M3,
             Some(density) => self.positive(density, "the density of air")?,

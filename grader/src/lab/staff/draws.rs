@@ -25,9 +25,12 @@ pub(super) fn checked(
     ends: Ends,
 ) -> Result<Draw, LabError> {
     let table = spanned.get_ref();
+    let mut tasks = lab.tasks.iter();
+    let found = tasks.find(|task| task.name == *table.task.get_ref());
     let reader = DrawReader {
         report,
         lab,
+        seen: found.map_or(lab, |task| lab.of_task(task)),
         spanned,
         table,
     };
@@ -64,6 +67,8 @@ type JointRanges = Spanned<Vec<[f64; 2]>>;
 struct DrawReader<'a> {
     report: Reporter<'a>,
     lab: &'a Lab,
+    /// The lab as its task sees it.
+    seen: &'a Lab,
     spanned: &'a Spanned<DrawTable>,
     table: &'a DrawTable,
 }
@@ -172,10 +177,10 @@ impl<'a> DrawReader<'a> {
     /// The robot of this draw, or the first of them; with the dimensions of the lab.
     fn first_robot(&self, task: &FunctionTask) -> Result<Cow<'a, Robot>, LabError> {
         let row = self.rows().next();
-        let robot = case_robot::built(&self.lab.robot_file, row, &[], &task.about);
+        let robot = case_robot::built(&self.seen.robot_file, row, &[], &task.about);
         match robot {
             Ok(Some(robot)) => Ok(Cow::Owned(robot)),
-            Ok(None) => Ok(Cow::Borrowed(&self.lab.robot)),
+            Ok(None) => Ok(Cow::Borrowed(&self.seen.robot)),
             Err(error) => {
                 let error = error.to_string();
                 self.refuse(DrawProblem::Dimensions { error })
@@ -188,7 +193,7 @@ impl<'a> DrawReader<'a> {
         let mut first = None;
         for typed in &self.table.robots {
             let row = Some(typed.get_ref().as_str());
-            match case_robot::built(&self.lab.robot_file, row, &[], &task.about) {
+            match case_robot::built(&self.seen.robot_file, row, &[], &task.about) {
                 Ok(robot) => {
                     let joints = robot.as_ref().map_or(0, Robot::n);
                     let first = *first.get_or_insert(joints);
@@ -336,7 +341,7 @@ impl<'a> DrawReader<'a> {
                 .collect();
             let mut built = rows
                 .iter()
-                .map(|row| case_robot::built(&self.lab.robot_file, *row, &changed, &task.about));
+                .map(|row| case_robot::built(&self.seen.robot_file, *row, &changed, &task.about));
             if let Some(Err(error)) = built.find(Result::is_err) {
                 let error = error.to_string();
                 // what has another shape is wrong at its own place; which of several numbers is too much, nobody can say

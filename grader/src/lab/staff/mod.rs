@@ -288,9 +288,11 @@ fn hidden(
     let mut draws = Vec::new();
     for typed in &table.draws {
         let draw = checked(report, lab, typed, ends)?;
+        let task = lab.tasks.iter().find(|task| task.name == draw.task);
+        let seen = task.map_or(lab, |task| lab.of_task(task));
         draws.push(HiddenCases {
             at: typed.span(),
-            cases: drawn(report, typed, draw.cases(salt, lab))?,
+            cases: drawn(report, typed, draw.cases(salt, seen))?,
             task: draw.task,
         });
     }

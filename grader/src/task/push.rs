@@ -1,18 +1,57 @@
-//! Pushes of a motion task: on what, when, how hard, and where.
+//! Pushes of a motion task, or of a level of a robustness sweep: on what, when, how hard, and where.
 
 use kinemark_sim::model::push::{Push, Pushed};
+use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::scene::BodyKind;
+use kinemark_sim::text::number::{seconds, trimmed};
 use kinemark_sim::text::{Spanned, suggest};
 use kinemark_sim::ticks::Periods;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-use super::Reader;
-use crate::lab::file::PushTable;
-use crate::task::problem::{LabError, problems};
-use crate::task::scene::LabScene;
+use super::problem::{LabError, problems};
+use super::reporter::Reporter;
+use super::scene::LabScene;
 
 /// Pushes of one task.
 const MOST_PUSHES: usize = 100;
+
+/// A push on a link or a body.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PushTable {
+    /// A link behind a joint that moves, or a dynamic body of the scene.
+    on: Spanned<String>,
+    /// When it begins, a whole multiple of the physics step \[s\].
+    at_s: Spanned<f64>,
+    /// How long it lasts, a whole multiple of the physics step \[s\].
+    for_s: Spanned<f64>,
+    /// Force, `[x, y, z]` in the world \[N\].
+    force_n: Option<Spanned<[f64; 3]>>,
+    /// Moment besides that of the force, `[x, y, z]` in the world \[N m\]; links only.
+    moment_n_m: Option<Spanned<[f64; 3]>>,
+    /// Where the force acts, in the link's frame \[m\]; the centre of mass where it is left out.
+    point_m: Option<Spanned<[f64; 3]>>,
+}
+
+impl PushTable {
+    /// The push in words, as typed: `a push of 5 N on `can` at 1 s`.
+    pub(crate) fn in_words(&self) -> String {
+        let size = |typed: &Option<Spanned<[f64; 3]>>| match typed {
+            Some(typed) => Vector3::from(*typed.get_ref()).norm(),
+            None => 0.0,
+        };
+        let sizes = [(size(&self.force_n), "N"), (size(&self.moment_n_m), "N m")];
+        let sizes = sizes.iter().filter(|(size, _)| *size > 0.0);
+        let sizes: Vec<String> = sizes
+            .map(|(size, unit)| format!("{} {unit}", trimmed(*size, 3)))
+            .collect();
+        let at = seconds(*self.at_s.get_ref());
+        let on = self.on.get_ref();
+        format!("a push of {} on `{on}` at {at}", sizes.join(" and "))
+    }
+}
 
 problems! {
     /// What is wrong with a push.
@@ -37,34 +76,36 @@ problems! {
     }
 }
 
-impl Reader<'_> {
-    /// The pushes of a task of `ticks`.
-    pub(super) fn pushes(
-        &self,
-        tables: &[Spanned<PushTable>],
-        scene: Option<&LabScene>,
-        (periods, ticks): (&Periods, u64),
-    ) -> Result<Vec<Push>, LabError> {
+/// What pushes are read with.
+pub(crate) struct PushReading<'a> {
+    /// Where problems are reported.
+    pub(crate) report: Reporter<'a>,
+    /// The robot, whose links may be pushed.
+    pub(crate) robot: &'a Robot,
+    /// The scene, whose bodies may be pushed.
+    pub(crate) scene: Option<&'a LabScene>,
+    /// Step, servo period, control period.
+    pub(crate) periods: &'a Periods,
+    /// How long the run is, in ticks.
+    pub(crate) ticks: u64,
+}
+
+impl PushReading<'_> {
+    /// The pushes of these tables.
+    pub(crate) fn all(&self, tables: &[Spanned<PushTable>]) -> Result<Vec<Push>, LabError> {
         if let Some(table) = tables.get(MOST_PUSHES) {
             let count = tables.len();
             return self.report.refuse_at(table, PushProblem::TooMany { count });
         }
-        let pushes = tables.iter();
-        pushes
-            .map(|table| self.push(table, scene, (periods, ticks)))
-            .collect()
+        tables.iter().map(|table| self.push(table)).collect()
     }
 
-    fn push(
-        &self,
-        typed: &Spanned<PushTable>,
-        scene: Option<&LabScene>,
-        (periods, ticks): (&Periods, u64),
-    ) -> Result<Push, LabError> {
+    fn push(&self, typed: &Spanned<PushTable>) -> Result<Push, LabError> {
         let table = typed.get_ref();
-        let on = self.pushed(table, scene)?;
+        let (periods, ticks) = (self.periods, self.ticks);
+        let on = self.pushed(table)?;
         let vector = |typed: &Option<Spanned<[f64; 3]>>, what| match typed {
-            Some(typed) => self.vector(typed, what),
+            Some(typed) => self.report.vector(typed, what),
             None => Ok(Vector3::zeros()),
         };
         let force_n = vector(&table.force_n, "the force of a push")?;
@@ -73,7 +114,7 @@ impl Reader<'_> {
             return self.report.refuse_at(typed, PushProblem::NoForce);
         }
         let p_m = match (&table.point_m, on) {
-            (Some(point), _) => self.vector(point, "the point of a push")?,
+            (Some(point), _) => self.report.vector(point, "the point of a push")?,
             (None, Pushed::Link(link)) => self.robot.links()[link].inertia.com_m,
             (None, Pushed::Body(_)) => Vector3::zeros(),
         };
@@ -83,7 +124,8 @@ impl Reader<'_> {
                 return self.report.refuse_at(&table.at_s, problem);
             }
             at_s if at_s > 0.0 => {
-                self.whole_ticks(periods, at_s, &table.at_s, "the time of a push")?
+                self.report
+                    .whole_ticks(periods, at_s, &table.at_s, "the time of a push")?
             }
             _ => 0,
         };
@@ -92,8 +134,10 @@ impl Reader<'_> {
             let problem = PushProblem::Late { at_s, run_s };
             return self.report.refuse_at(&table.at_s, problem);
         }
-        let for_s = self.positive(&table.for_s, "the length of a push")?;
-        let lasts = self.whole_ticks(periods, for_s, &table.for_s, "the length of a push")?;
+        let for_s = self.report.positive(&table.for_s, "the length of a push")?;
+        let lasts =
+            self.report
+                .whole_ticks(periods, for_s, &table.for_s, "the length of a push")?;
         Ok(Push {
             on,
             p_m,
@@ -105,7 +149,7 @@ impl Reader<'_> {
     }
 
     /// What a push is on, which must be able to move.
-    fn pushed(&self, table: &PushTable, scene: Option<&LabScene>) -> Result<Pushed, LabError> {
+    fn pushed(&self, table: &PushTable) -> Result<Pushed, LabError> {
         let name = table.on.get_ref();
         let on = name.clone();
         let links = self.robot.links();
@@ -115,7 +159,7 @@ impl Reader<'_> {
             }
             return Ok(Pushed::Link(link));
         }
-        let bodies = scene.map_or(&[][..], |scene| &scene.scene.bodies);
+        let bodies = self.scene.map_or(&[][..], |scene| &scene.scene.bodies);
         let Some(body) = bodies.iter().position(|body| body.name == *name) else {
             let names = links.iter().map(|link| link.name.as_str());
             let names = names.chain(bodies.iter().map(|body| body.name.as_str()));
