@@ -315,6 +315,13 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         ),
         (
             "lab.toml",
+            "duration_s = 3.0\n",
+            "duration_s = 3.0\nsensors = [{ name = \"spare\", type = \"joint-position\", joint = \"elbow\" }]\n",
+            "unused",
+            "touch/spare: no check names this sensor",
+        ),
+        (
+            "lab.toml",
             "servo = { effort_limit = 50.0 }",
             "servo = { kp = 10.0, effort_limit = 50.0 }",
             "settings",

@@ -1,17 +1,13 @@
 //! The graders of labs are graded: starters must miss, references must pass on any salt, mutants must lose and be recognised.
 
-use std::sync::Mutex;
-
-use kinemark_grader::audit::{Audit, Row, practice_forms};
+use kinemark_grader::audit::{Audit, Row};
 use kinemark_grader::lab::load::lab_names;
-use kinemark_grader::lab::practice::{PRACTICE_FILE, file_text};
 use kinemark_grader::lab::{Lab, Staff, TaskWork};
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::text::text;
 use kinemark_sim::text::Source;
 
 use crate::every_case::every_case;
-use crate::golden;
 use crate::testbed::{Folder, grade, lab, root, staff};
 
 fn labs() -> Vec<Lab> {
@@ -116,23 +112,6 @@ pub(crate) fn passes_variants(labs: &Folder, reference: &Folder, lab: &Lab, stud
     }
 }
 
-#[test]
-fn practice_files_say_what_the_reference_solutions_reach() {
-    let labs = labs().into_iter().map(|lab| (lab.name.clone(), lab));
-    let files = Mutex::new(Vec::new());
-    every_case(&labs.collect::<Vec<_>>(), |lab| {
-        let staff = staff(lab, None);
-        let folder = Folder(root().join("labs"));
-        let forms = practice_forms(&folder, lab, &staff, &|| {}).expect("forms");
-        let text = file_text(&forms).expect("JSON");
-        if !text.is_empty() {
-            let path = folder.0.join(&lab.name).join(PRACTICE_FILE);
-            files.lock().expect("not poisoned").push((path, text));
-        }
-    });
-    golden::are_current(&files.into_inner().expect("not poisoned"));
-}
-
 /// What `kinemark lab check` tries, with other salts as well.
 #[test]
 fn labs_have_no_problem_that_lab_check_finds() {
@@ -205,23 +184,4 @@ fn hidden_targets_lie_inside_the_boundary() {
         }
         assert!(seen > 30);
     }
-}
-
-#[test]
-fn briefs_state_the_numbers_of_their_labs() {
-    use kinemark_grader::lab::brief::{BEGIN, with_grading, with_numbers};
-    let mut briefs = Vec::new();
-    for lab in labs() {
-        let path = root().join("labs").join(&lab.name).join("brief.md");
-        let brief = read(&lab, "brief.md");
-        assert!(
-            brief.contains(BEGIN),
-            "{} has no grading table",
-            path.display()
-        );
-        let current = with_numbers(&with_grading(&brief, &lab), &lab)
-            .unwrap_or_else(|why| panic!("{}: {why}", path.display()));
-        briefs.push((path, current));
-    }
-    golden::are_current(&briefs);
 }

@@ -135,8 +135,23 @@ fn a_lab_can_be_begun_with_every_robot_of_the_course() {
         ("rppr", &["fk", "motion"]),
         ("rppr_gripper", &["fk", "velocity"]),
         ("uarm", &["function:gear-ratio"]),
+        // a row of joints needs no file
+        (
+            "RzTxRy",
+            &[
+                "fk",
+                "jacobian",
+                "motion",
+                "tcp-velocity",
+                "tcp-acceleration",
+                "gravity",
+                "coriolis",
+                "torque",
+                "mass-matrix",
+            ],
+        ),
     ] {
-        let name = format!("11-{}", robot.replace('_', "-"));
+        let name = format!("11-{}", robot.to_lowercase().replace('_', "-"));
         let mut args = vec!["lab", "new", &name, "--robot", robot];
         args.extend(tasks.iter().flat_map(|task| ["--task", task]));
         let ran = bed.run(&args);
@@ -149,6 +164,61 @@ fn a_lab_can_be_begun_with_every_robot_of_the_course() {
         ]);
         assert_eq!(ran.code, Some(1), "{robot}: {ran:?}");
     }
+}
+
+/// What the course staff would have to decide is left, and what follows from the solution is written; else it is a lab without problems.
+#[test]
+fn a_copy_of_a_lab_has_its_own_numbers_and_no_problem_once_it_is_filled() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let salt = "a long salt of a test";
+    let copy = ["lab", "new", "10-reach", "--from", "01-kin"];
+    let ran = bed.run(&[&copy[..], &["--salt", salt]].concat());
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(ran.stdout.contains("kinemark lab fill 10-reach"), "{ran:?}");
+    let of = |lab: &str| {
+        let table: toml::Table = bed_text(&bed, &format!("labs/{lab}/lab.toml"));
+        table["parameters"].clone()
+    };
+    assert_ne!(of("10-reach"), of("01-kinematics"));
+    let hidden = bed_text(&bed, "reference/10-reach/hidden.toml");
+    assert_eq!(hidden["salt"].as_str(), Some(salt));
+    let ran = bed.run(&["lab", "fill", "10-reach"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    // but for a mutant that was made for the numbers of before: it types angles in, and shows other checks no more
+    for (tried, name, problem) in problems(&bed, "10-reach") {
+        assert_eq!(
+            (tried.as_str(), name.as_str()),
+            ("rubric", "dead"),
+            "{problem}"
+        );
+        assert!(problem.starts_with("move/"), "{problem}");
+    }
+
+    // a copy under the same numbers has the same places
+    let ran = bed.run(&[
+        "lab",
+        "new",
+        "11-reach",
+        "--from",
+        "01-kin",
+        "--same-numbers",
+    ]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert_eq!(of("11-reach"), of("01-kinematics"));
+    // with a robot that lacks what the lab needs, the file says so at its place
+    let ran = bed.run(&[
+        "lab", "new", "12-puma", "--from", "01-kin", "--robot", "puma560",
+    ]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = bed.run(&["lab", "check", "12-puma"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    assert!(ran.stderr.contains("12-puma/lab.toml:"), "{ran:?}");
+}
+
+fn bed_text(bed: &TestBed, path: &str) -> toml::Table {
+    let text = std::fs::read_to_string(bed.path(path)).expect("a file");
+    text.parse().expect("TOML")
 }
 
 #[test]
@@ -181,6 +251,46 @@ fn what_cannot_be_begun_is_refused_and_nothing_is_written() {
             "closed loops",
         ),
         (&["lab", "new", "12-x"], "--task"),
+        (
+            &[
+                "lab",
+                "new",
+                "12-x",
+                "--from",
+                "01-kinematic",
+                "--task",
+                "fk",
+            ],
+            "--task",
+        ),
+        (
+            &[
+                "lab",
+                "new",
+                "12-x",
+                "--from",
+                "01-kinematics",
+                "--robot",
+                "rrbott",
+            ],
+            "did you mean `rrbot`?",
+        ),
+        (
+            &["lab", "new", "12-x", "--task", "fk", "--same-numbers"],
+            "--from",
+        ),
+        (
+            &[
+                "lab",
+                "new",
+                "12-x",
+                "--from",
+                "01-kinematics",
+                "--reference",
+                "labs",
+            ],
+            "course staff's part of `01-kinematics`",
+        ),
     ] {
         let ran = bed.run(args);
         assert_eq!(ran.code, Some(2), "{args:?}: {ran:?}");

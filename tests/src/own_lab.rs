@@ -83,7 +83,7 @@ impl OwnLab {
     }
 
     /// The folder of the binary, with this lab in it.
-    fn bed(&self) -> &TestBed {
+    pub(crate) fn bed(&self) -> &TestBed {
         self.bed.get_or_init(|| {
             let bed = TestBed::new();
             bed.copy_labs();

@@ -230,6 +230,50 @@ fn each_student_gets_a_folder_with_a_variant() {
 }
 
 #[test]
+fn after_the_due_date_students_get_the_solution_and_nothing_else() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let lab = "01-kinematics";
+    let pack = |out: &str, more: &[&str]| {
+        let args = ["lab", "pack", lab, "--for", "students", "--out", out];
+        let ran = bed.run(&[&args[..], more].concat());
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        unpack(&bed, out, &format!("{out}-unpacked"));
+        let files = files_below(&bed.path(&format!("{out}-unpacked")));
+        (ran, files)
+    };
+    let (_, before) = pack("before.zip", &[]);
+    let (ran, after) = pack("after.zip", &["--with-solution"]);
+    assert!(ran.stderr.contains("after the due date"), "{ran:?}");
+    let more = after.iter().filter(|file| !before.contains(file));
+    let more: Vec<&str> = more.map(|(path, _)| path.as_str()).collect();
+    let [readme, solutions @ ..] = &more[..] else {
+        panic!("{more:?}");
+    };
+    assert_eq!(*readme, "01-kinematics/README.md");
+    let folder = "01-kinematics/solution/";
+    let names: Vec<_> = solutions
+        .iter()
+        .map(|path| path.strip_prefix(folder))
+        .collect();
+    assert_eq!(names, [Some("solution.c"), Some("solution.rhai")]);
+    let home = "after.zip-unpacked/01-kinematics";
+    let ran = run_in(&bed, home, &["grade", lab, "solution/solution.rhai"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+
+    // the salt stays out, and it is for students alone
+    bed.edit(
+        "reference/01-kinematics/solution.rhai",
+        "fn ",
+        "// kinemark-01-kinematics\nfn ",
+    );
+    let ran = bed.run(&["lab", "pack", lab, "--for", "students", "--with-solution"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    let ran = bed.run(&["lab", "pack", lab, "--for", "staff", "--with-solution"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+}
+
+#[test]
 fn course_staff_get_a_folder_in_which_hidden_cases_are_graded() {
     let bed = TestBed::new();
     bed.copy_labs();

@@ -1,5 +1,5 @@
-//! `kinemark lab fill`: what a lab's files take from its reference solution, written anew: `practice.json`, and the table of points and
-//! the numbers in the brief.
+//! `kinemark lab fill`: what a lab's files take from its reference solution, written anew: what visible cases expect, `practice.json`, the
+//! table of points and the numbers in the brief, and the plots that it shows.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,22 +12,32 @@ use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use serde::Serialize;
 
+use crate::brief_plots::brief_plots;
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::output;
 use crate::staff_folder::{self, StaffPart};
+use crate::visible_expected::Waiting;
 
-/// Write what a lab's files take from its reference solution: practice.json, and the table and numbers of the brief
+/// Write what a lab's files take from its reference solution: expected answers, practice.json, the brief's table, numbers and plots
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Example:\n  kinemark lab fill 01-kinematics\n\n\
+    A visible case of a function of the lab's own that does not say what is `expected` gets what the solution answers; --expected writes \
+    all of them anew.\n\n\
     practice.json is what students get of the reference solution: the values that it reaches in checks that compare with it, and \
     the path of its TCP where the lab says where the TCP should go; in the default variant and in 20 practice variants. It holds no \
-    code and no command. Run this after every change of the lab or of the solution; `kinemark lab check` says when it is needed. \
+    code and no command.\n\n\
+    In the brief it writes the table of points and the numbers, and it draws the plots that the brief shows: plot-PLOT.svg of the \
+    solution's run, plot-PLOT-by-MUTANT.svg of a mutant's, where PLOT is the name of a file in plots/ of a report.\n\n\
+    Run this after every change of the lab or of the solution; `kinemark lab check` says when it is needed. \
     The solution runs in this process: only fill labs of people you trust.\n\
     Exit codes: 0 done, 2 usage, 3 the lab or its solution is broken, 4 a file cannot be written.")]
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
     pub(crate) lab: String,
+    /// Write what is expected in all visible cases of functions of the lab's own anew, not only where it is missing
+    #[arg(long)]
+    pub(crate) expected: bool,
     /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -52,39 +62,39 @@ struct Filled<'a> {
 /// Runs the solution and writes.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
-    let lab = Lab::load(
-        files.as_ref(),
-        &labs_folder::full_name(files.as_ref(), &args.lab)?,
-    )?;
+    let name = labs_folder::full_name(files.as_ref(), &args.lab)?;
     let Some(labs_folder) = labs_folder else {
         return Err(Failure::usage(
             "the labs that are built into kinemark cannot be written to".to_owned(),
             "run this where the folder `labs` is, or name it with --labs DIR",
         ));
     };
-    let staff = staff(args, &lab, &labs_folder)?;
-    let practice = practice_text(files.as_ref(), &lab, &staff)?;
-    let folder = labs_folder.join(&lab.name);
+    let folder = labs_folder.join(&name);
     let mut filled = Filled {
-        lab: &lab.name,
+        lab: &name,
         written: Vec::new(),
         removed: Vec::new(),
         current: Vec::new(),
     };
+    if let Some(text) = expected(args, files.as_ref(), &name, &labs_folder)? {
+        put(&mut filled, &folder.join("lab.toml"), &text)?;
+    }
+    let lab = Lab::load(files.as_ref(), &name)?;
+    let staff = staff(args, &lab, &labs_folder)?;
+    let practice = practice_text(files.as_ref(), &lab, &staff)?;
     put(&mut filled, &folder.join(PRACTICE_FILE), &practice)?;
     // the table names what the reference reaches, so it follows what was just written
-    let lab = Lab::load(
-        files.as_ref(),
-        &labs_folder::full_name(files.as_ref(), &args.lab)?,
-    )?;
-    let path = format!("{}/brief.md", lab.name);
-    let brief = files
-        .read(&path)
-        .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
-    if let Some(brief) = brief {
+    let lab = Lab::load(files.as_ref(), &name)?;
+    let path = format!("{name}/brief.md");
+    if let Some(brief) = text_at(files.as_ref(), &path)? {
         let brief = with_numbers(&with_grading(&brief, &lab), &lab)
             .map_err(|why| Failure::broken(format!("{path}: {why}"), "correct the brief"))?;
         put(&mut filled, &folder.join("brief.md"), &brief)?;
+        let plots = brief_plots(&brief, &lab, &staff)
+            .map_err(|none| Failure::broken(format!("{path}: {none}"), &none.help))?;
+        for (picture, svg) in plots {
+            put(&mut filled, &folder.join(picture), &svg)?;
+        }
     }
     if args.json {
         output::print_json(&filled)?;
@@ -102,6 +112,33 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::print(&lines.collect::<String>())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The text at a path of the labs folder.
+fn text_at(files: &dyn Files, path: &str) -> Result<Option<String>, Failure> {
+    files
+        .read(path)
+        .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))
+}
+
+/// The text of lab.toml with what the solution answers in visible cases, where it says so for none of them yet.
+fn expected(
+    args: &Args,
+    files: &dyn Files,
+    name: &str,
+    labs_folder: &Path,
+) -> Result<Option<String>, Failure> {
+    let path = format!("{name}/lab.toml");
+    let text = text_at(files, &path)?.unwrap_or_default();
+    let Some(waiting) = Waiting::find(&path, &text, args.expected) else {
+        return Ok(None);
+    };
+    let lab = waiting.lab(files, name)?;
+    let solution = staff(args, &lab, labs_folder)?.solution;
+    let text = waiting.filled(&lab, &solution);
+    let help = "correct `solution.rhai`, or write `expected` yourself";
+    text.map(Some)
+        .map_err(|unfilled| Failure::broken(unfilled.to_string(), help))
 }
 
 /// The course staff's part of the lab.

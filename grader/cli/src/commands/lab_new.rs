@@ -12,8 +12,10 @@ use kinemark_sim::text::suggest;
 use serde::Serialize;
 
 use crate::commands::lab_schema::SchemaKind;
+use crate::disk::Folder;
 use crate::failure::{Failure, note_in_words};
 use crate::fresh_folder::FreshFolder;
+use crate::lab_from::{Changes, FilesOfFolder, Origin, copied};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::output;
 
@@ -21,8 +23,13 @@ use crate::output;
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark lab new first-lab --robot rrbot --task fk --task motion:turn\n  \
-    kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n\n\
-    Kinds of tasks: fk, ik, jacobian, function, motion (joint positions), velocity (joint velocities). A name follows after a colon.\n\
+    kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n  \
+    kinemark lab new reach-lab --from 01-kinematics\n\n\
+    Kinds of tasks: fk, ik, jacobian, tcp-velocity, tcp-acceleration, gravity, coriolis, torque, mass-matrix, function (of the lab's own), \
+    motion (by joint positions), velocity (by joint velocities). A name follows after a colon.\n\
+    --from copies a lab with the course staff's part: the copy has a name and a salt of its own, other numbers wherever the lab's \
+    variants leave a choice, and the robot of --robot. Solutions of the labs that come with kinemark are public: change what is asked \
+    for, too.\n\n\
     Writes labs/NAME for students and reference/NAME for course staff, and beside them schemas by which an editor completes keys. Without a folder `labs` here or above it makes one, with the \
     robot in it. Then `kinemark watch NAME reference/NAME/solution.rhai` follows what you write, and `kinemark lab check NAME` \
     lists what is missing.\n\
@@ -31,12 +38,25 @@ use crate::output;
 pub(crate) struct Args {
     /// Name of the lab, which is that of its folder: lower-case letters, digits and `-`, such as 10-first
     pub(crate) name: String,
-    /// The robot: a name in labs/robots, or a URDF there with its ending
-    #[arg(long, default_value = "rrbot")]
-    pub(crate) robot: String,
+    /// The robot: a name in labs/robots, a URDF there with its ending, or a row of joints such as RzTxRy [default: rrbot, or that of the lab that is copied]
+    #[arg(long)]
+    pub(crate) robot: Option<String>,
     /// A task, in the order in which they are graded: KIND or KIND:NAME
-    #[arg(long = "task", value_name = "KIND[:NAME]", required = true)]
+    #[arg(
+        long = "task",
+        value_name = "KIND[:NAME]",
+        required_unless_present = "from"
+    )]
     pub(crate) tasks: Vec<String>,
+    /// Begin with a copy of this lab
+    #[arg(long, value_name = "LAB", conflicts_with = "tasks")]
+    pub(crate) from: Option<String>,
+    /// With --from: keep the numbers of the lab
+    #[arg(long)]
+    pub(crate) same_numbers: bool,
+    /// The salt of hidden numbers, and of the copy's numbers [default: a random one]
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) salt: Option<String>,
     /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -56,35 +76,24 @@ struct Written<'a> {
 /// Writes the folders.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let name = plain_name("lab", &args.name)?;
-    let tasks = tasks(&args.tasks)?;
     let (files, found) = labs_folder::open(&args.labs_folder)?;
     let labs = found.clone().unwrap_or_else(|| PathBuf::from("labs"));
     let beside = labs.parent().unwrap_or(Path::new("")).join("reference");
     let reference = args.reference.clone().unwrap_or(beside);
-    let robot = robot(files.as_ref(), &args.robot)?;
-    let salt = salt()?;
-    let new = NewLab {
-        name,
-        robot_name: &args.robot,
-        robot: &robot,
-        tasks: &tasks,
-        salt: &salt,
+    let Content {
+        halves: [public, staff],
+        needs,
+    } = match &args.from {
+        Some(origin) => copied_lab(args, files.as_ref(), &reference, origin)?,
+        None if args.same_numbers => {
+            return Err(Failure::usage(
+                "--same-numbers keeps the numbers of a lab that is copied".to_owned(),
+                "leave it out, or name the lab with --from",
+            ));
+        }
+        None => new_lab(args, files.as_ref())?,
     };
-    let content = new.files().map_err(|error| {
-        let help = match error {
-            Unfit::CannotMove { .. } => {
-                "give its links an `inertia`, or choose another robot, such as --robot rrbot"
-            }
-            Unfit::Loops { .. } => {
-                "choose another robot, or begin with --task function and add the rest by docs/lab-format.md"
-            }
-        };
-        Failure::usage(error.to_string(), help)
-    })?;
-    let folders = [
-        (labs.join(name), content.lab),
-        (reference.join(name), content.reference),
-    ];
+    let folders = [(labs.join(name), public), (reference.join(name), staff)];
     for (folder, _) in &folders {
         if folder.symlink_metadata().is_ok() {
             return Err(Failure::usage(
@@ -95,14 +104,18 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let mut written = Vec::new();
     if found.is_none() {
-        written.extend(copy_robot(files.as_ref(), &args.robot)?);
-        note_in_words("there is no folder `labs` here or above: it is made, with this robot in it");
+        for path in &needs {
+            written.extend(copy_built_in(files.as_ref(), path)?);
+        }
+        note_in_words(
+            "there is no folder `labs` here or above: it is made, with all that this lab needs in it",
+        );
     }
     for (folder, files) in &folders {
         let whole = || -> std::io::Result<()> {
             let fresh = FreshFolder::beside(folder)?;
             for (name, text) in files {
-                fresh.write(name, text.as_bytes())?;
+                fresh.write(name, text)?;
             }
             fresh.put_in_place(&[])
         };
@@ -127,12 +140,101 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             .map(|path| format!("wrote {}\n", output::path(path)))
             .collect();
         let solution = reference.join(name).join("solution.rhai");
+        let watch = format!("kinemark watch {name} {}", output::path(&solution));
+        let next = match args.from {
+            None => format!("write the solution, and follow it with\n  {watch}"),
+            Some(_) => format!(
+                "change what is asked for, follow it with\n  {watch}\nand write what follows from the solution with\n  kinemark lab fill {name}"
+            ),
+        };
         output::print(&format!(
-            "{lines}\nnext: write the solution, and follow it with\n  kinemark watch {name} {}\nthen see what is missing with\n  kinemark lab check {name}\n",
-            output::path(&solution)
+            "{lines}\nnext: {next}\nthen see what is missing with\n  kinemark lab check {name}\n",
         ))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// What is written.
+struct Content {
+    /// What students get, and what course staff keep.
+    halves: [FilesOfFolder; 2],
+    /// Files of the labs folder that the lab needs beside its own: its robot, scenes and meshes.
+    needs: Vec<String>,
+}
+
+/// A lab of these tasks.
+fn new_lab(args: &Args, files: &dyn Files) -> Result<Content, Failure> {
+    let tasks = tasks(&args.tasks)?;
+    let robot_name = args.robot.as_deref().unwrap_or("rrbot");
+    let robot = robot(files, robot_name)?;
+    let new = NewLab {
+        name: &args.name,
+        robot_name,
+        robot: &robot,
+        tasks: &tasks,
+        salt: &salt(args)?,
+    };
+    let content = new.files().map_err(|error| {
+        let help = match error {
+            Unfit::CannotMove { .. } => {
+                "give its links an `inertia`, or choose another robot, such as --robot rrbot"
+            }
+            Unfit::Loops { .. } => {
+                "choose another robot, or begin with --task function and add the rest by docs/lab-format.md"
+            }
+        };
+        Failure::usage(error.to_string(), help)
+    })?;
+    let bytes = |texts: Vec<(&'static str, String)>| {
+        let texts = texts.into_iter();
+        texts
+            .map(|(path, text)| (path.to_owned(), text.into_bytes()))
+            .collect()
+    };
+    Ok(Content {
+        halves: [bytes(content.lab), bytes(content.reference)],
+        needs: vec![robot_path(robot_name)],
+    })
+}
+
+/// A copy of the lab called `origin`.
+fn copied_lab(
+    args: &Args,
+    files: &dyn Files,
+    reference: &Path,
+    origin: &str,
+) -> Result<Content, Failure> {
+    let origin = labs_folder::full_name(files, origin)?;
+    let staff = Folder::new(reference.to_owned());
+    let has_solution = !matches!(staff.read(&format!("{origin}/solution.rhai")), Ok(None));
+    if !has_solution {
+        return Err(Failure::usage(
+            format!(
+                "the course staff's part of `{origin}` is not in `{}`",
+                reference.display()
+            ),
+            "a copy begins with the solution: run this where `labs` and `reference` are, such as a checkout of Kinemark, or give --labs and --reference",
+        ));
+    }
+    if let Some(robot) = &args.robot {
+        self::robot(files, robot)?;
+    }
+    let changes = Changes {
+        name: &args.name,
+        robot: args.robot.as_deref(),
+        new_numbers: !args.same_numbers,
+        salt: &salt(args)?,
+    };
+    let origin = Origin {
+        labs: files,
+        reference: &staff,
+        lab: &origin,
+    };
+    Ok(Content {
+        halves: copied(&origin, &changes)?,
+        // it is copied inside one folder of labs
+        needs: Vec::new(),
+    })
 }
 
 /// A name that files and links can have.
@@ -182,7 +284,7 @@ fn tasks(typed: &[String]) -> Result<Vec<NewTask>, Failure> {
 }
 
 fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Robot, Failure> {
-    let Some(found) = LabRobot::load(files, name, &RobotOptions::default())? else {
+    let Some(found) = LabRobot::named(files, name, &RobotOptions::default())? else {
         let known = robot_names(files);
         return Err(Failure::usage(
             format!("there is no robot file `{}`", robot_path(name)),
@@ -195,13 +297,12 @@ fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Ro
         .map_err(|error| Failure::broken(error.to_string(), "correct the robot"))
 }
 
-/// Copies a robot that is built in, so that the new lab has it.
-fn copy_robot(files: &dyn Files, name: &str) -> Result<Option<PathBuf>, Failure> {
-    let path = robot_path(name);
-    let Ok(Some(bytes)) = files.bytes(&path) else {
+/// Copies a file of the labs that are built in, so that the new lab has it; nothing where there is none, as for a row of joints.
+fn copy_built_in(files: &dyn Files, path: &str) -> Result<Option<PathBuf>, Failure> {
+    let Ok(Some(bytes)) = files.bytes(path) else {
         return Ok(None);
     };
-    let out = Path::new("labs").join(&path);
+    let out = Path::new("labs").join(path);
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).map_err(|error| {
             output::unwritten(folder, &error, "go to a folder that you may write to")
@@ -237,8 +338,11 @@ fn write_schemas(folder: &Path, kinds: &[SchemaKind]) -> Result<Vec<PathBuf>, Fa
     Ok(written)
 }
 
-/// A salt that nobody can guess.
-fn salt() -> Result<String, Failure> {
+/// The salt that was given, or one that nobody can guess.
+fn salt(args: &Args) -> Result<String, Failure> {
+    if let Some(given) = &args.salt {
+        return Ok(given.clone());
+    }
     let mut bytes = [0_u8; 16];
     getrandom::fill(&mut bytes)
         .map_err(|error| Failure::fault(format!("no random numbers: {error}"), "try again"))?;

@@ -28,6 +28,7 @@ use crate::{chosen_variant, enclosing_course, output};
 #[command(
     after_help = "Examples:\n  kinemark lab pack 01-kinematics --for students\n  \
     kinemark lab pack 01-kinematics --for students --roster roster.csv\n  \
+    kinemark lab pack 01-kinematics --for students --with-solution\n  \
     kinemark lab pack 01-kinematics --for staff --out colleagues.zip\n  \
     kinemark lab pack 01-kinematics --for gradescope --binary kinemark-linux\n\n\
     For students: a folder in which `kinemark grade` works at once, without anything of the course staff's part; it is searched for \
@@ -54,6 +55,9 @@ pub(crate) struct Args {
     /// For students: a folder for everybody on the roster. For gradescope: grade each student with their own variant
     #[arg(long, value_name = "FILE", conflicts_with = "student")]
     pub(crate) roster: Option<PathBuf>,
+    /// For students, after the due date: with the reference solution
+    #[arg(long)]
+    pub(crate) with_solution: bool,
     /// For students: pack although lines of the solution are in what they get
     #[arg(long)]
     pub(crate) allow_shared_lines: bool,
@@ -166,9 +170,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 /// Refuses options that mean nothing for whoever gets the pack.
 fn refuse_others_options(args: &Args) -> Result<(), Failure> {
     use Audience::{Gradescope, Students};
-    let given: [(bool, &str, &[Audience]); 5] = [
+    let given: [(bool, &str, &[Audience]); 6] = [
         (!args.student.is_empty(), "--student", &[Students]),
         (args.roster.is_some(), "--roster", &[Students, Gradescope]),
+        (args.with_solution, "--with-solution", &[Students]),
         (args.allow_shared_lines, "--allow-shared-lines", &[Students]),
         (args.hidden_at_upload, "--hidden-at-upload", &[Gradescope]),
         (args.binary.is_some(), "--binary", &[Gradescope]),
@@ -210,7 +215,11 @@ fn for_students(
         }
         variants.push(variant);
     }
-    let content = pack::for_students(packed, &variants).map_err(failed)?;
+    let solution = match args.with_solution {
+        true => pack::solution(required(reference)?, &lab.name).map_err(failed)?,
+        false => Vec::new(),
+    };
+    let content = pack::for_students(packed, &variants, &solution).map_err(failed)?;
     let mut salts: Vec<String> = args.staff.salt.clone().into_iter().collect();
     let secrets = match reference {
         Some(reference) => {
@@ -236,6 +245,12 @@ fn for_students(
         );
     }
     secrets.refuse_salts(&content).map_err(failed)?;
+    if args.with_solution {
+        failure::note_in_words(
+            "students get the reference solution: hand this out after the due date",
+        );
+        return Ok(content);
+    }
     let lines = secrets.shared_lines(&content);
     match (lines.is_empty(), args.allow_shared_lines) {
         (true, _) => {}

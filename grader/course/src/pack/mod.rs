@@ -26,6 +26,8 @@ pub use gradescope::{Autograder, METADATA_IDS, ROSTER_FILE, SALT_FILE, autograde
 const LABS: &str = "labs";
 /// The folder of the course staff's part, which is found beside it.
 const REFERENCE: &str = "reference";
+/// The folder of the solution in a pack for students.
+const SOLUTION: &str = "solution";
 /// More bytes than this are too many for a pack.
 const MOST_BYTES: u64 = 1 << 30;
 /// Folders inside each other below a lab's or a reference's.
@@ -199,13 +201,14 @@ impl PackedLab<'_> {
 }
 
 /// The pack for students: a folder in which `kinemark grade` works at once. With `variants`, labs with a student's numbers, a folder for
-/// each, called by their id.
+/// each, called by their id. `solution` is in each folder, too: nothing before the due date ([`solution`]).
 ///
 /// # Errors
 /// [`PackError`] where the lab is not complete.
 pub fn for_students(
     packed: PackedLab<'_>,
     variants: &[Lab],
+    solution: &[ArchiveFile],
 ) -> Result<Vec<ArchiveFile>, PackError> {
     let shared = packed.for_students()?;
     let mut files = Vec::new();
@@ -213,8 +216,11 @@ pub fn for_students(
         let inside = |path: &str| format!("{folder}/{path}");
         files.push(ArchiveFile::new(
             inside(readme::NAME),
-            readme::for_students(lab),
+            readme::for_students(lab, !solution.is_empty()),
         ));
+        for file in solution {
+            files.push(ArchiveFile::new(inside(&file.path), file.bytes.clone()));
+        }
         for (name, text) in working_folder(packed.files, lab, Language::Rhai)? {
             files.push(ArchiveFile::new(inside(&name), text));
         }
@@ -275,6 +281,29 @@ pub fn for_staff(
     }
     refuse_too_large(&inside)?;
     Ok(inside)
+}
+
+/// The solution in each language, in the folder that students find it in after the due date.
+///
+/// # Errors
+/// [`PackError`] where there is none, or it cannot be read.
+pub fn solution(reference: &dyn Files, lab: &str) -> Result<Vec<ArchiveFile>, PackError> {
+    let mut files = Vec::new();
+    for name in reference.list(lab) {
+        if !name.starts_with("solution.") {
+            continue;
+        }
+        if let Some(bytes) = read(reference, &format!("{lab}/{name}"))? {
+            files.push(ArchiveFile::new(format!("{SOLUTION}/{name}"), bytes));
+        }
+    }
+    if files.is_empty() {
+        return Err(PackError::NoReference {
+            lab: lab.to_owned(),
+            reference: format!("`{}`", reference.name()),
+        });
+    }
+    Ok(files)
 }
 
 /// Everything of the course staff's part of a lab.

@@ -9,7 +9,7 @@ use crate::staffed_lab::engine_id;
 pub(super) const NAME: &str = "README.md";
 
 /// For a student, who has unpacked it and opened a terminal in the folder.
-pub(super) fn for_students(lab: &Lab) -> String {
+pub(super) fn for_students(lab: &Lab, has_solution: bool) -> String {
     let name = &lab.name;
     let variant = match lab.variant.as_ref().and_then(Variant::student) {
         Some(student) => format!(
@@ -17,13 +17,20 @@ pub(super) fn for_students(lab: &Lab) -> String {
         ),
         None => String::new(),
     };
+    let solution = if has_solution {
+        format!(
+            "- `solution` holds the reference solution. `kinemark grade {name} solution/solution.rhai` shows what it does.\n"
+        )
+    } else {
+        String::new()
+    };
     format!(
         "# {}\n\n\
         Open a terminal in this folder and run:\n\n\
         ```\nkinemark grade {name} submission.rhai\n```\n\n\
         Read `brief.html` in a browser, edit `submission.rhai`, and run the command again. The report `out/report.html` says what\n\
         lost points and why.\n\n\
-        {variant}\
+        {variant}{solution}\
         - The folder `labs` is the lab itself. Leave it here: kinemark finds it from this folder.\n\
         - To hand in, run `kinemark submit {name} submission.rhai` and upload the one file that it writes.\n\n\
         The course uses {}. `kinemark --version` prints yours.\n",

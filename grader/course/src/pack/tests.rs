@@ -77,7 +77,7 @@ fn students_get_the_lab_ready_to_work_in_and_nothing_else() {
         files: &files,
         lab: &lab,
     };
-    let pack = for_students(packed, &[]).unwrap();
+    let pack = for_students(packed, &[], &[]).unwrap();
     assert_eq!(
         paths(&pack),
         [
@@ -118,7 +118,7 @@ fn each_student_gets_a_folder_with_their_numbers() {
         files: &files,
         lab: &lab,
     };
-    let pack = for_students(packed, &variants).unwrap();
+    let pack = for_students(packed, &variants, &[]).unwrap();
     let inside = |path: &str| path.starts_with("s1/") || path.starts_with("~2e~.~2f~s2/");
     assert!(
         pack.iter().all(|file| inside(&file.path)),
