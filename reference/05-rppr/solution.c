@@ -116,13 +116,10 @@ void km_control(const km_observation *observation, double *command) {
     double goal[6], off[4];
     if (km_inverse_kinematics(the_robot, km_numbers(observation->target, "target") + 3 * place, goal, 2) == 0) km_fail("a place is out of reach");
     goal[3] = 0.0;
-    for (int i = 0; i < 4; i++) {
-        off[i] = goal[i] - observation->q[i];
-        command[i] = km_clamp(off[i] * gain, -top_speed[i], top_speed[i]);
-    }
-    int arrived = km_norm(off, 4) < 5e-4;
-    /* at the ends of the lift its switches say that it has arrived */
-    if (place == 0 && km_number(observation->sensors, "lift_lower") == 0.0) command[1] = -top_speed[1], arrived = 0;
-    if (place == 2 && km_number(observation->sensors, "lift_upper") == 0.0) command[1] = top_speed[1], arrived = 0;
-    if (arrived && place < 5) place++;
+    for (int i = 0; i < 4; i++) off[i] = goal[i] - observation->q[i];
+    /* at its switch the lift is at its end, wherever the drawing has it */
+    int is_down = km_number(observation->sensors, "lift_lower") != 0.0, is_up = km_number(observation->sensors, "lift_upper") != 0.0;
+    if ((is_down && off[1] < 0.0) || (is_up && off[1] > 0.0)) off[1] = 0.0;
+    if (km_norm(off, 4) < 5e-4 && place < 5) place++;
+    for (int i = 0; i < 4; i++) command[i] = km_clamp(off[i] * gain, -top_speed[i], top_speed[i]);
 }

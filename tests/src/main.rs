@@ -75,6 +75,7 @@ mod robot_files;
 mod robot_functions;
 mod robot_response;
 mod robustness_levels;
+mod rppr_lab;
 mod run_diagnoses;
 mod scene_check;
 mod scene_checks;

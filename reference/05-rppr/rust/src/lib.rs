@@ -168,23 +168,17 @@ impl Submission for Arm {
         let [turn, lift, reach] = self.lengths.branches(place).expect("within reach")[0];
         let goal = [turn, lift, reach, 0.0];
         let q: [f64; 4] = array(observation.q());
-        let off: [f64; 4] = from_fn(|i| goal[i] - q[i]);
+        let mut off: [f64; 4] = from_fn(|i| goal[i] - q[i]);
+        // at its switch the lift is at its end, wherever the drawing has it
+        let is_pressed = |switch| observation.sensors().number(switch) != 0.0;
+        if is_pressed("lift_lower") && off[1] < 0.0 || is_pressed("lift_upper") && off[1] > 0.0 {
+            off[1] = 0.0;
+        }
+        if norm(off) < 5e-4 && self.place < 5 {
+            self.place += 1;
+        }
         for (i, command) in command.iter_mut().enumerate() {
             *command = (off[i] * GAIN).clamp(-TOP_SPEED[i], TOP_SPEED[i]);
-        }
-        let mut arrived = norm(off) < 5e-4;
-        // at the ends of the lift its switches say that it has arrived
-        let pressed = |switch| observation.sensors().number(switch) != 0.0;
-        if self.place == 0 && !pressed("lift_lower") {
-            command[1] = -TOP_SPEED[1];
-            arrived = false;
-        }
-        if self.place == 2 && !pressed("lift_upper") {
-            command[1] = TOP_SPEED[1];
-            arrived = false;
-        }
-        if arrived && self.place < 5 {
-            self.place += 1;
         }
     }
 }
