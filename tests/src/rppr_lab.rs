@@ -148,9 +148,9 @@ fn the_solution_answers_with_the_golden_numbers() {
     let (states, places) = (states(), places());
     assert_eq!((states.len(), places.len()), (51, 43));
     let head = "format = 1\nname = \"92-golden\"\ntitle = \"Golden\"\nrobot = \"rppr\"\nframe = \"base\"\n";
-    let lab = head.to_owned()
-        + &task("state", "[\"turn\", \"other_turn\"]", &states)
-        + &task("place", "[\"turn\"]", &places);
+    let states = task("state", "[\"turn\", \"other_turn\"]", &states);
+    let places = task("place", "[\"turn\"]", &places);
+    let lab = format!("{head}{states}{places}");
     let lab = OwnLab::new("92-golden", lab).lab();
     let points = |submission: &str| {
         let graded = grade(&lab, None, "mine.rhai", &(submission.to_owned() + GOLDEN)).grade;
@@ -214,14 +214,14 @@ time-limit = { until = "path", path = "stroke", full_s = MOST, zero_s = 100.0 }
 #[test]
 fn no_command_is_faster_than_the_drives() {
     let lift = (
-        "[0.0, 0.0, 0.1, 0.0]",
-        "[[0.08, 0.4, 0.39], [0.08, 0.4, 0.7]]",
+        "[0.0, 0.0, 0.0, 0.0]",
+        "[[0.08, 0.5, 0.39], [0.08, 0.5, 0.7]]",
         15.5,
         1,
     );
     let turn = (
-        "[-1.5707963267948966, 0.1, 0.1, 0.0]",
-        "[[0.4, -0.08, 0.49], [-0.4, 0.08, 0.49]]",
+        "[-1.5707963267948966, 0.0, 0.0, 0.0]",
+        "[[0.5, -0.08, 0.39], [-0.5, 0.08, 0.39]]",
         10.0,
         0,
     );
