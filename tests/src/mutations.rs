@@ -215,6 +215,29 @@ fn threads_change_nothing_and_a_draw_is_the_same_each_time() {
     assert_ne!(numbers("1"), numbers("2"));
 }
 
+/// A function that a lab calls by a name of its own is reached by that name.
+#[test]
+fn changes_of_a_function_with_another_name_are_graded() {
+    let bed = bed();
+    let usual = json(&bed, &[]).1;
+    bed.edit(
+        "labs/93-height/lab.toml",
+        "call = \"forward_kinematics\"\n",
+        "call = \"forward_kinematics\"\nas = \"hand_of_arm\"\n",
+    );
+    for file in ["labs/93-height/starter", "reference/93-height/solution"] {
+        bed.edit(
+            &format!("{file}.rhai"),
+            "fn forward_kinematics",
+            "fn hand_of_arm",
+        );
+    }
+    let renamed = json(&bed, &[]).1;
+    for key in ["total", "equivalent", "caught", "survived"] {
+        assert_eq!(usual[key], renamed[key], "{key}");
+    }
+}
+
 #[test]
 fn a_change_is_kept_as_a_new_file_and_never_over_another() {
     let bed = bed();

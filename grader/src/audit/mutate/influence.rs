@@ -48,7 +48,7 @@ impl Influence {
         }
         let reached = lab.tasks.iter().map(|task| {
             let entries: &[&str] = match &task.work {
-                TaskWork::Function(function, _) => &[function.function.name()],
+                TaskWork::Function(function, _) => &[function.name()],
                 TaskWork::Motion(..) => &["init", "control"],
             };
             let entries = entries.iter().map(|name| (*name).to_owned());
