@@ -92,6 +92,7 @@ mod submit;
 mod tampered_reports;
 mod targets;
 mod testbed;
+mod typed_robots_lab;
 mod unnamed_mutants;
 mod unresolved_runs;
 mod urdf_labs;
