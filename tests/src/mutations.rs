@@ -169,6 +169,23 @@ fn what_no_check_notices_is_shown_until_somebody_says_why() {
     assert!(mutate(&bed, &[]).stdout.ends_with("; nothing is wrong\n"));
 }
 
+/// A change of a function that has another name in the lab is tried in the task that calls it.
+#[test]
+fn a_function_may_have_a_name_of_the_labs_own() {
+    let bed = bed();
+    let (_, before) = json(&bed, &[]);
+    let (from, to) = ("forward_kinematics", "hand");
+    let call = format!("call = \"{from}\"");
+    let lab = "labs/93-height/lab.toml";
+    bed.edit(lab, &call, &format!("{call}\nas = \"{to}\""));
+    bed.edit("labs/93-height/starter.rhai", from, to);
+    bed.edit("reference/93-height/solution.rhai", from, to);
+    let (_, named) = json(&bed, &[]);
+    assert!(named["caught"].as_u64() > Some(10), "{named}");
+    assert_eq!(named["caught"], before["caught"]);
+    assert_eq!(named["equivalent"], before["equivalent"]);
+}
+
 #[test]
 fn an_acceptance_of_what_does_not_survive_is_a_problem() {
     let bed = bed();
