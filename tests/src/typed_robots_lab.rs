@@ -155,25 +155,43 @@ fn the_printed_examples_are_right_and_prove_little() {
     }
 }
 
-/// A row that is none is refused as the lab's robot and as a case's, with its place in the file.
+/// A row that is none is refused as the robot of a case, with what is wrong in it; as a lab's robot it may be the name of a file, too.
 #[test]
 fn rows_that_are_none_are_refused() {
+    const EXPECTED: [(&str, &str); 8] = [
+        ("", "an empty string has no joints"),
+        ("R", "`R` at the end has no axis"),
+        ("Rw", "`w` is no axis"),
+        ("RzRy3", "sign 5: `3` is not a joint"),
+        ("zR", "sign 1: `z` is not a joint"),
+        ("rzry", "sign 1: `r` is not a joint"),
+        ("Rz Ry", "sign 3: ` ` is not a joint"),
+        ("RzRyRzX", "sign 7: `X` is not a joint"),
+    ];
     let cases = "{ name = \"a\", given = { q = [0.0] }, expected = { tip = [1.0] } },\n";
     let text = format!("{HEAD}{}", task("a", "poses", cases));
-    let file = golden();
-    let invalid = array(&file["invalid_strings"]);
-    assert_eq!(invalid.len(), 8);
-    for row in invalid.iter().map(|row| row.as_str().expect("a text")) {
-        for (from, to) in [
-            ("robot = \"Rz\"", format!("robot = \"{row}\"")),
-            ("name = \"a\", ", format!("name = \"a\", robot = \"{row}\", ")),
-        ] {
-            let lab = OwnLab::new("96-samples", text.replacen(from, &to, 1));
-            let error = match lab.load() {
-                Ok(_) => panic!("{to} is accepted"),
-                Err(error) => error.to_string(),
-            };
-            assert!(error.contains("96-samples/lab.toml") || error.len() > 10, "{to}: {error}");
+    let refusal = |from: &str, to: &str| {
+        let lab = OwnLab::new("96-samples", text.replacen(from, to, 1));
+        match lab.load() {
+            Ok(_) => panic!("{to} is accepted"),
+            Err(error) => error.to_string(),
         }
+    };
+    let file = golden();
+    let invalid = array(&file["invalid_strings"]).iter();
+    let invalid: Vec<&str> = invalid.map(|row| row.as_str().expect("a text")).collect();
+    assert_eq!(invalid, EXPECTED.map(|(row, _)| row));
+    for (row, expected) in EXPECTED {
+        let of_case = refusal(
+            "name = \"a\", ",
+            &format!("name = \"a\", robot = \"{row}\", "),
+        );
+        assert!(of_case.contains(expected), "{row}: {of_case}");
+        let of_lab = refusal("robot = \"Rz\"", &format!("robot = \"{row}\""));
+        let no_file = format!("no robot file `robots/{row}.toml`");
+        assert!(
+            of_lab.contains(expected) || of_lab.contains(&no_file),
+            "{row}: {of_lab}"
+        );
     }
 }
