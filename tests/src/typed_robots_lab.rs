@@ -130,7 +130,8 @@ fn a_nanometre_is_noticed_in_the_samples() {
     let off = solution.replace("robot.base_height]", "robot.base_height + 1e-9]");
     assert_ne!(off, solution);
     let (points, _, text) = points(&samples(), &off);
-    assert_eq!(points, 0.0, "{text}");
+    // the Jacobian, a third of each of the five tasks, does not depend on the height
+    assert_eq!(points, 1.65, "{text}");
 }
 
 /// The printed position (3, 0, 6) is right, and proves little: frames that every joint turns back to the world have it, too.
