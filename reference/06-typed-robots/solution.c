@@ -102,7 +102,8 @@ km_u32 km_jacobian(const km_robot *robot, const double *q, double *matrix) {
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3, last = (k + 2) % 3;
             int turned = turns(row, i);
-            matrix[n * (km_u32)k + i] = turned ? a[next] * lever[last] - a[last] * lever[next] : a[k];
+            double linear = turned ? a[next] * lever[last] - a[last] * lever[next] : a[k];
+            matrix[n * (km_u32)k + i] = linear + 0.0; /* a zero has no sign in the script, which gives the same bits */
             matrix[n * (km_u32)(k + 3) + i] = turned ? a[k] : 0.0;
         }
     }
