@@ -13,6 +13,8 @@ fn labs_are_listed_from_the_binary_alone() {
         "00-step-response",
         "01-kinematics",
         "04-knock-with-velocity",
+        "05-rppr",
+        "06-typed-robots",
     ] {
         assert!(ran.stdout.contains(lab), "{ran:?}");
     }

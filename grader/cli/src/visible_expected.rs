@@ -129,19 +129,20 @@ fn tasks(document: &DocumentMut) -> impl Iterator<Item = &dyn TableLike> {
 
 /// The tables of a list, whichever way it is typed.
 fn tables(list: &Item) -> Box<dyn Iterator<Item = &dyn TableLike> + '_> {
-    let as_like = |table| table as &dyn TableLike;
     match list {
-        Item::ArrayOfTables(tables) => {
-            Box::new(ArrayOfTables::iter(tables).map(move |table| as_like(table)))
-        }
+        Item::ArrayOfTables(tables) => Box::new(ArrayOfTables::iter(tables).map(as_like)),
         Item::Value(toml_edit::Value::Array(array)) => Box::new(
             array
                 .iter()
                 .filter_map(toml_edit::Value::as_inline_table)
-                .map(|table| table as &dyn TableLike),
+                .map(as_like),
         ),
         _ => Box::new(std::iter::empty()),
     }
+}
+
+fn as_like<T: TableLike>(table: &T) -> &dyn TableLike {
+    table
 }
 
 /// Puts what is expected of a case at its end, or in the place of what is there.

@@ -1,7 +1,7 @@
 //! The TOML types of a lab's files, as typed; spans are kept wherever a later check may point.
 //!
-//! Here is what stands at the top of `lab.toml`; below it function tasks ([`function`]) and motion tasks ([`motion`]), and beside it
-//! what course staff keep ([`staff`]).
+//! Here is what stands at the top of `lab.toml`; below it function tasks (`function.rs`) and motion tasks (`motion.rs`), and beside it
+//! what course staff keep (`staff.rs`).
 
 mod function;
 mod motion;
