@@ -318,7 +318,7 @@ fn a_broken_lab_takes_no_other_off_the_list() {
     let ran = bed.run(&["--json"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
     let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    assert_eq!(labs.as_array().map(Vec::len), Some(4));
+    assert_eq!(labs.as_array().map(Vec::len), Some(6));
 }
 
 #[test]
