@@ -74,7 +74,6 @@ fn a_failure_in_the_first_call_leaves_an_arm_at_rest() {
         "02-jacobian-velocity",
         "03-knock-with-position",
         "04-knock-with-velocity",
-        "05-rppr",
         "06-typed-robots",
     ] {
         let lab = lab(name);
