@@ -84,7 +84,9 @@ pub(crate) fn drawn(event: Event<'_>) -> Event<'_> {
     let shown = match (mathml(latex, display), display) {
         (Ok(mathml), MathDisplay::Inline) => mathml,
         // a wide formula scrolls by itself, the page does not
-        (Ok(mathml), MathDisplay::Block) => format!("<span class=\"formula\">{mathml}</span>"),
+        (Ok(mathml), MathDisplay::Block) => format!(
+            "<span class=\"formula\" tabindex=\"0\" role=\"group\" aria-label=\"Formula\">{mathml}</span>"
+        ),
         (Err(_), _) => html! { code class="unread" { (signs) (latex) (signs) } }.into_string(),
     };
     Event::InlineHtml(CowStr::from(shown))
@@ -150,7 +152,7 @@ mod tests {
             assert_eq!(formula_problems(&brief), [], "{latex}");
             let page = shown(&brief);
             assert_eq!(page.matches("<math").count(), 2, "{page}");
-            assert!(page.contains("<span class=\"formula\"><math display=\"block\">"));
+            assert!(page.contains("aria-label=\"Formula\"><math display=\"block\">"));
             assert!(!page.contains('$') && !page.contains("unread"), "{page}");
         }
     }

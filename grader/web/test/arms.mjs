@@ -90,7 +90,8 @@ export function temporary() {
 export function courseBriefs(folder = temporary()) {
   mkdirSync(join(folder, "begun"), { recursive: true });
   const labs = join(root, "labs");
-  const briefs = courseLabs.map((name) => [name, { brief: begun(folder, name, "--labs", labs), robot: "rrbot" }]);
+  const others = { "05-rppr": { robot: "rppr", frame: "base" }, "06-typed-robots": { robot: typedRow(folder, join(labs, "06-typed-robots/lab.toml")), frame: "base" } };
+  const briefs = courseLabs.map((name) => [name, { brief: begun(folder, name, "--labs", labs), robot: "rrbot", ...others[name] }]);
   // links as the student's variant has them, read from where the numbers are and not from the page
   const brief = begun(folder, "03-knock-with-position", "--labs", labs, "--student", "ann", "--salt", "a line of a test");
   const variant = readFileSync(join(brief, "../variant.toml"), "utf8");
@@ -98,6 +99,18 @@ export function courseBriefs(folder = temporary()) {
   const robot = join(folder, "ann.toml");
   writeFileSync(robot, lengths(upper, forearm));
   return Object.fromEntries([...briefs, ["a student's own", { brief, robot }]]);
+}
+
+/** The robot file of the row of joints and the sizes that a lab has for everybody. */
+function typedRow(folder, path) {
+  const text = readFileSync(path, "utf8");
+  const value = (name) => JSON.parse(text.match(new RegExp(`^${name} = ([^#\\n]*)`, "m"))[1]);
+  const file = join(folder, "row.toml");
+  const links = ["link1", "link2", "link3"].map((name) => value(name).join(",")).join(";");
+  const args = ["robot", "convert", value("row"), "--base", value("base"), "--links", links, "--out", file].map(String);
+  const ran = spawnSync(kinemark, args, { encoding: "utf8", cwd: root });
+  if (ran.error || ran.status !== 0) throw new Error(`${args.join(" ")}: ${ran.stderr || ran.error}`);
+  return file;
 }
 
 /** A brief with a robot of its own, and the robot's file: `{ brief, robot }`. */

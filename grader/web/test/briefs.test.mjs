@@ -29,8 +29,8 @@ async function visit(brief, options, does, from = browser) {
   }
 }
 
-for (const [name, { brief, robot }] of Object.entries(briefs)) {
-  test(`${name}: sliders move the arm, and its numbers are the engine's`, () => visit(brief, {}, (page) => arm.slidersMove(page, robot)));
+for (const [name, { brief, robot, frame }] of Object.entries(briefs)) {
+  test(`${name}: sliders move the arm, and its numbers are the engine's`, () => visit(brief, {}, (page) => arm.slidersMove(page, robot, frame)));
 
   test(`${name}: light, dark and on a phone it fits, and axe finds nothing`, () =>
     visit(brief, { width: 390, height: 844 }, async (page) => {
@@ -46,7 +46,7 @@ const { brief, robot } = briefs["02-jacobian-velocity"];
 const pressed = (page) => page.$$eval("[data-switch]", (list) => list.map((one) => [one.dataset.switch, one.ariaPressed === "true"]));
 
 test("switches are off at first, but for what the lab is about", async () => {
-  const wanted = { "01-kinematics": "branches", "02-jacobian-velocity": "jacobian", "04-knock-with-velocity": "jacobian" };
+  const wanted = { "01-kinematics": "branches", "02-jacobian-velocity": "jacobian", "04-knock-with-velocity": "jacobian", "05-rppr": "branches", "06-typed-robots": "jacobian" };
   for (const [name, { brief }] of Object.entries(briefs)) {
     await visit(brief, {}, async (page) => {
       assert.deepEqual(await pressed(page), ["branches", "jacobian", "ellipse"].map((one) => [one, wanted[name] === one]), name);
