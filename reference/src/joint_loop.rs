@@ -193,9 +193,15 @@ fn roots(descending: &[f64]) -> Vec<Complex<f64>> {
         [a, b, c] => roots_of_quadratic(a, b, c).to_vec(),
         [a, b, c, d] => {
             let real = real_root(&[a, b, c, d], d);
-            // by Horner's rule; Newton's steps correct its rounding
-            let b = b + a * real;
-            let [first, second] = roots_of_quadratic(a, b, c + b * real);
+            // divided from the end at which the terms of the root are larger: from the other, its rounding would swallow two small roots
+            let [b, c] = if (a * real * real * real).abs() > d.abs() {
+                let constant = -d / real;
+                [(constant - c) / real, constant]
+            } else {
+                let linear = b + a * real;
+                [linear, c + linear * real]
+            };
+            let [first, second] = roots_of_quadratic(a, b, c);
             vec![Complex::new(real, 0.0), first, second]
         }
         _ => Vec::new(),
