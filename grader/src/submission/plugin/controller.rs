@@ -233,6 +233,9 @@ impl PluginController {
     /// Calls a function on a case, in a fresh instance.
     fn on_case(&self, call: &Call, instance: &mut Instance) -> Result<Value, Trouble> {
         let name = export_name(call.name());
+        if !matches!(call, Call::OfRobot { .. } | Call::Free { .. }) {
+            self.compiled.is_usual(&name).map_err(Trouble::Stop)?;
+        }
         match call {
             Call::ForwardKinematics { robot, q } => {
                 let (robot, q, out) = given(instance, robot, q, 3)?;

@@ -161,7 +161,7 @@ impl Compiled {
                 "it has no other name in C and Rust; in WebAssembly text write (memory (export \"memory\") 2)",
             ));
         }
-        for (name, [parameters, results]) in REQUIRED {
+        for (name, counts) in REQUIRED {
             if !self.functions.iter().any(|known| known == name) {
                 return Err(refused(
                     format!(
@@ -170,22 +170,39 @@ impl Compiled {
                     "in C include kinemark.h, in Rust use the crate kinemark-plugin: they define it",
                 ));
             }
-            self.has_type(name, *parameters, *results)?;
+            self.has_type(name, *counts)?;
         }
         let own = own.map(export_name);
-        let functions = FUNCTIONS.iter().map(|(name, shape, _)| (*name, *shape));
-        let own = own.as_deref().map(|name| (name, OWN_FUNCTION));
-        for (name, [parameters, results]) in functions.chain(own) {
+        for (name, usual, _) in FUNCTIONS {
+            if own.as_deref() == Some(name) || (self.has_own_type(name) && is_of_cases(name)) {
+                continue;
+            }
             if self.functions.iter().any(|known| known == name) {
-                self.has_type(name, parameters, results)?;
+                self.has_type(name, *usual)?;
             }
         }
-        Ok(())
+        match own {
+            Some(name) if self.functions.contains(&name) => self.has_type(&name, OWN_FUNCTION),
+            _ => Ok(()),
+        }
     }
 
-    fn has_type(&self, name: &str, parameters: usize, results: usize) -> Result<(), Stop> {
-        let words = |count| vec![ValType::I32; count];
-        let wanted = FuncType::new(words(parameters), words(results));
+    /// Whether an export is made for a map and an answer, as a task of poses calls it, which may be another task than this.
+    fn has_own_type(&self, name: &str) -> bool {
+        let own = func_type(OWN_FUNCTION);
+        matches!(self.module.get_export(name), Some(ExternType::Func(there)) if there == own)
+    }
+
+    /// Refuses one of [`FUNCTIONS`] that is made for another task than the one that calls it.
+    pub(super) fn is_usual(&self, name: &str) -> Result<(), Stop> {
+        match FUNCTIONS.iter().find(|(known, ..)| *known == name) {
+            Some((_, usual, _)) => self.has_type(name, *usual),
+            None => Ok(()),
+        }
+    }
+
+    fn has_type(&self, name: &str, counts: [usize; 2]) -> Result<(), Stop> {
+        let wanted = func_type(counts);
         match self.module.get_export(name) {
             Some(ExternType::Func(there)) if there != wanted => Err(refused(
                 format!(
@@ -196,9 +213,8 @@ impl Compiled {
                 &match REQUIRED.iter().any(|(known, _)| *known == name) {
                     true => "leave it to kinemark.h, or to the crate kinemark-plugin".to_owned(),
                     false => {
-                        let result = if results == 0 { "void" } else { "km_u32" };
-                        let parameters = declared_parameters(name);
-                        format!("in C declare it as {result} {name}({parameters})")
+                        let result = if counts[1] == 0 { "void" } else { "km_u32" };
+                        declared_as(result, name, counts)
                     }
                 },
             )),
@@ -238,6 +254,33 @@ pub(super) const FUNCTIONS: &[(&str, [usize; 2], &str)] = &[
 /// The counts of a function of the lab's own, and its parameters in C.
 const OWN_FUNCTION: [usize; 2] = [2, 0];
 const OWN_PARAMETERS: &str = "const km_map *given, km_answer *answer";
+
+/// Whether a function is called on cases, so that a task of poses may call it with a map.
+fn is_of_cases(export: &str) -> bool {
+    !matches!(export, "km_init" | "km_control")
+}
+
+fn func_type([parameters, results]: [usize; 2]) -> FuncType {
+    let words = |count| vec![ValType::I32; count];
+    FuncType::new(words(parameters), words(results))
+}
+
+/// What to write in C for an export that is called with so many parameters and results.
+fn declared_as(result: &str, export: &str, counts: [usize; 2]) -> String {
+    let known = FUNCTIONS.iter().any(|(known, ..)| *known == export);
+    match export.strip_prefix("km_") {
+        // kinemark.h declares the name for tasks of positions
+        Some(name) if known && counts == OWN_FUNCTION && is_of_cases(export) => {
+            format!(
+                "in C write KM_EXPORT({export}) {result} {name}({OWN_PARAMETERS}), in Rust name `{name}` after `own` in `export!`"
+            )
+        }
+        _ => format!(
+            "in C declare it as {result} {export}({})",
+            declared_parameters(export)
+        ),
+    }
+}
 
 /// How C declares the parameters of an export that a task calls.
 fn declared_parameters(export: &str) -> &'static str {

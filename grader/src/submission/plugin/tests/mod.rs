@@ -305,6 +305,57 @@ fn a_function_of_the_labs_own_answers_with_named_numbers() {
     );
 }
 
+/// The first number of what is given, a number of the map, is the whole answer.
+const OF_A_MAP: &str = "(func (export \"km_forward_kinematics\") (param i32 i32) (local $field i32)
+    (f64.store (i32.const 16) (f64.load (i32.load offset=4 (i32.load (local.get 0)))))
+    (local.set $field (i32.load (local.get 1)))
+    (i32.store offset=4 (local.get $field) (i32.const 16))
+    (i32.store offset=12 (local.get $field) (i32.const 1))
+    (i32.store offset=4 (local.get 1) (i32.const 1)))";
+
+#[test]
+fn a_function_of_poses_is_given_a_map_under_the_usual_name() {
+    let of_pose = Call::OfRobot {
+        function: "forward_kinematics".into(),
+        robot: robot(),
+        given: vec![("a".into(), Value::Number(3.0))],
+    };
+    let mut opened = opening(module(OF_A_MAP));
+    opened.function = Some(asked("forward_kinematics"));
+    let answer = PluginController::open(&opened).ok().unwrap().call(&of_pose);
+    assert_eq!(answer.unwrap().value, Value::Number(3.0));
+    // a run of the same module asks for another function
+    let run = format!(
+        "{OF_A_MAP} {}",
+        body("(f64.store (local.get 1) (f64.const 3))")
+    );
+    assert!(control(&run).is_ok());
+
+    let usual = Call::ForwardKinematics {
+        robot: robot(),
+        q: vec![7.0, 8.0],
+    };
+    let refused = |stop: Stop| match stop {
+        Stop::DidNotBuild(refusal) => format!("{refusal:?}"),
+        other => panic!("{other:?}"),
+    };
+    let words = refused(call(module(OF_A_MAP), &usual).err().unwrap());
+    assert!(
+        words.contains("it is called as (i32, i32, i32) -> ()"),
+        "{words}"
+    );
+    let positions = "(func (export \"km_forward_kinematics\") (param i32 i32 i32))";
+    let mut opened = opening(module(positions));
+    opened.function = Some(asked("forward_kinematics"));
+    let words = refused(PluginController::open(&opened).err().unwrap());
+    assert!(
+        words.contains(
+            "KM_EXPORT(km_forward_kinematics) void forward_kinematics(const km_map *given"
+        ),
+        "{words}"
+    );
+}
+
 /// Two entries, written in the order `b`, `a`: the answer is that of a script, whose maps are sorted.
 #[test]
 fn entries_of_an_answer_are_sorted_by_name() {
