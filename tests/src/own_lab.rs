@@ -113,7 +113,7 @@ impl OwnLab {
         self.bed().edit(&self.lab_toml(), from, to);
     }
 
-    fn grade(&self, submission: &str) -> CommandResult {
+    pub(crate) fn grade(&self, submission: &str) -> CommandResult {
         self.bed().write("mine.rhai", submission);
         let mut args = vec!["grade", self.name, "mine.rhai"];
         // without a reference the grade is of the visible cases alone

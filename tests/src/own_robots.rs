@@ -186,3 +186,97 @@ fn a_robot_that_is_not_there_is_refused_at_its_place() {
         ],
     );
 }
+
+/// One more task of [`LAB`], with the lab's robot in another size.
+const LONG_ARM: &str = r#"
+[[tasks]]
+name = "long-arm"
+title = "The arm, longer"
+dimensions = { link_lengths = ["= 0.35 / sin(pi / 6)", 1.2] }
+[tasks.function]
+call = "forward_kinematics"
+cases = [
+    { name = "to the right", q_rad = [1.5707963267948966, 0.0] },
+    { name = "back", q_rad = [0.0, 3.0] },
+]
+[[tasks.checks]]
+name = "place"
+title = "Place"
+points = 1
+fk-error = { full_m = 1e-9, zero_m = 1e-3 }
+"#;
+
+fn longer_arm() -> OwnLab {
+    let hidden = "[[draws]]\ntask = \"long-arm\"\nclass = \"other angles\"\ncount = 3\nq_rad = [[-1, 1], [-1, 1]]\n";
+    let lab = OwnLab::new("97-robots", &format!("{LAB}{LONG_ARM}"))
+        .and("hidden.toml", &format!("{HIDDEN}{hidden}"))
+        .and("solution.rhai", SOLUTION);
+    lab.write("labs/robots/carriage.toml", CARRIAGE);
+    lab
+}
+
+#[test]
+fn a_task_may_differ_in_dimensions_alone() {
+    let lab = longer_arm();
+    let record = lab.record(SOLUTION, 0);
+    assert_eq!(record["points"], 5.0, "{record}");
+    // a constant of the lab's own robot is wrong in this task, whose links are 0.3 m shorter and 0.2 m longer
+    let constant = SOLUTION.replace("robot.link_lengths", "[1.0, 1.0]");
+    let record = lab.record(&constant, 1);
+    let off = |task: usize| {
+        let place = check(&record["tasks"][task], "place");
+        place["measure"]["value"].as_f64().expect("a value")
+    };
+    assert!(off(0) < 1e-12 && off(4) > 0.01, "{record}");
+    lab.is_refused(
+        SOLUTION,
+        &[
+            (
+                "dimensions = { link_lengths",
+                "dimensions = { link_length",
+                "lab::dimensions",
+                "did you mean `link_lengths`?",
+            ),
+            (
+                "1.2] }\n[tasks.function]",
+                "1.2, 3] }\n[tasks.function]",
+                "lab::dimensions",
+                "link_lengths",
+            ),
+            (
+                "sin(pi / 6)",
+                "sine(pi / 6)",
+                "lab::expression",
+                "did you mean `sin`?",
+            ),
+            (
+                "0.35 / sin(pi / 6)",
+                "0.35 / sin(0)",
+                "lab::expression",
+                "inf",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn mistakes_of_several_cases_are_reported_together() {
+    let lab = longer_arm();
+    lab.edit("q_rad = [1.5707963267948966, 0.0]", "q_rad = [1.5]");
+    lab.edit(
+        "{ name = \"back\", q_rad = [0.0, 3.0] }",
+        "{ name = \"back\", position_m = [1, 0, 0] }",
+    );
+    let ran = lab.grade(SOLUTION);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    for words in [
+        "`q_rad` has 1 number for 2 joints",
+        "case `back` of `forward_kinematics` is given by `q_rad`",
+    ] {
+        assert!(
+            ran.stderr.contains(words),
+            "no {words:?} in\n{}",
+            ran.stderr
+        );
+    }
+}

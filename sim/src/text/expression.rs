@@ -1,4 +1,5 @@
-//! Arithmetic over named numbers: `+ - * /`, parentheses, names and indexing, as in `"link_lengths[0] / 2"`.
+//! Arithmetic over named numbers: `+ - * /`, parentheses, names and indexing, as in `"link_lengths[0] / 2"`, and the functions and
+//! the constant of trigonometry, as in `"0.3 * cos(pi / 6)"`.
 
 use std::ops::Range;
 
@@ -82,6 +83,29 @@ pub fn evaluate_in(
         ExpressionProblem { at, ..problem }
     })
 }
+
+/// A function of an expression.
+#[derive(Clone, Copy)]
+enum Function {
+    OfOne(fn(f64) -> f64),
+    OfTwo(fn(f64, f64) -> f64),
+}
+
+/// The functions by their names; angles are in radians. All are of `libm`, so that they have the same bits everywhere.
+const FUNCTIONS: [(&str, Function); 12] = [
+    ("sin", Function::OfOne(libm::sin)),
+    ("cos", Function::OfOne(libm::cos)),
+    ("tan", Function::OfOne(libm::tan)),
+    ("asin", Function::OfOne(libm::asin)),
+    ("acos", Function::OfOne(libm::acos)),
+    ("atan", Function::OfOne(libm::atan)),
+    ("atan2", Function::OfTwo(libm::atan2)),
+    ("hypot", Function::OfTwo(libm::hypot)),
+    ("sqrt", Function::OfOne(libm::sqrt)),
+    ("abs", Function::OfOne(libm::fabs)),
+    ("min", Function::OfTwo(libm::fmin)),
+    ("max", Function::OfTwo(libm::fmax)),
+];
 
 const MAX_DEPTH: usize = 64; // parentheses and signs: enough for any real expression, and far below the limit of the stack
 
@@ -209,6 +233,43 @@ impl Reader<'_> {
             .map_err(|_| problem(format!("`{digits}` is not a number"), None, start..self.at))
     }
 
+    /// The value of a function whose name was read, at its parenthesis.
+    fn call(&mut self, name: &str, name_at: Range<usize>) -> Result<f64, ExpressionProblem> {
+        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+            let known = FUNCTIONS.iter().map(|(known, _)| *known);
+            return Err(problem(
+                format!("no function of expressions is called `{name}`"),
+                Some(crate::text::suggest(name, "functions", known)),
+                name_at,
+            ));
+        };
+        self.take('(');
+        let first = self.sum()?;
+        let value = match function {
+            Function::OfOne(f) => f(first),
+            Function::OfTwo(f) => {
+                if !self.take(',') {
+                    return Err(self.stray(&format!("expected `,`: `{name}` takes two numbers")));
+                }
+                f(first, self.sum()?)
+            }
+        };
+        if !self.take(')') {
+            return Err(self.stray("expected `)`"));
+        }
+        if value.is_nan() {
+            let typed = &self.text[name_at.start..self.at];
+            return Err(problem(
+                format!("`{typed}` has no value"),
+                Some(format!(
+                    "`{name}` is asked for a number that it is not defined for"
+                )),
+                name_at.start..self.at,
+            ));
+        }
+        Ok(value)
+    }
+
     fn dimension(&mut self) -> Result<f64, ExpressionProblem> {
         let start = self.at;
         let rest = &self.text[start..];
@@ -219,13 +280,13 @@ impl Reader<'_> {
         let name = &self.text[start..self.at];
         let name_at = start..self.at;
         let dimensions = self.dimensions;
+        if self.peek() == Some('(') {
+            return self.call(name, name_at);
+        }
         let Some(dimension) = dimensions.get(name) else {
-            if self.text[self.at..].trim_start().starts_with('(') {
-                return Err(problem(
-                    format!("`{name}` cannot be called: an expression has + - * / and parentheses"),
-                    Some(format!("write the number, or a {} that has it", self.noun)),
-                    name_at,
-                ));
+            // a name of the file comes before the constant
+            if name == "pi" {
+                return Ok(std::f64::consts::PI);
             }
             return Err(problem(
                 format!("no {} is called `{name}`", self.noun),
@@ -306,6 +367,24 @@ mod tests {
     }
 
     #[test]
+    fn angles_have_their_functions_in_radians() {
+        let d = dimensions();
+        assert_eq!(evaluate("h * sin(pi / 2)", &d), Ok(2.0));
+        assert_eq!(evaluate("atan2(0, -1) - pi", &d), Ok(0.0));
+        assert_eq!(
+            evaluate("hypot(l[1], 2 * h) + sqrt(4) * abs(-1)", &d),
+            Ok(7.0)
+        );
+        assert_eq!(evaluate("max(h, l[1]) - min (h , l[1])", &d), Ok(1.0));
+        assert_eq!(
+            evaluate("cos(0.3)", &d).map(f64::to_bits),
+            Ok(libm::cos(0.3).to_bits())
+        );
+        let own = Dimensions::from_pairs([("pi".to_owned(), Dimension::Number(3.0))]);
+        assert_eq!(evaluate("2 * pi", &own), Ok(6.0));
+    }
+
+    #[test]
     fn problems_point_at_their_bytes() {
         let d = dimensions();
         for (text, at) in [
@@ -317,6 +396,14 @@ mod tests {
             ("1.2.3", 0..5),
             ("h / (1 - 1)", 0..11),
             ("(h", 0..2),
+            ("1 + sine(h)", 4..8),
+            ("h(2)", 0..1),
+            ("sin h", 0..3),
+            ("sin(h", 0..5),
+            ("sin(h, 1)", 5..6),
+            ("atan2(h)", 7..8),
+            ("1 + sqrt(-h)", 4..12),
+            ("acos(h) + 1", 0..7),
         ] {
             assert_eq!(evaluate(text, &d).unwrap_err().at, at, "{text}");
         }
@@ -367,7 +454,8 @@ mod tests {
 
     #[test]
     fn deep_nesting_is_refused_not_overflowed() {
-        let text = "(".repeat(100_000);
-        assert!(evaluate(&text, &dimensions()).is_err());
+        for text in ["(", "sin(", "-"] {
+            assert!(evaluate(&text.repeat(100_000), &dimensions()).is_err());
+        }
     }
 }

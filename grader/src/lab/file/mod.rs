@@ -117,6 +117,9 @@ pub(in crate::lab) struct TaskTable {
     pub(in crate::lab) title: String,
     /// A robot in place of the lab's: a file or a row of joints, as there.
     pub(in crate::lab) robot: Option<Spanned<String>>,
+    /// Dimensions of the task's robot that differ in this task.
+    #[serde(default)]
+    pub(in crate::lab) dimensions: NumbersTable,
     /// A function of the submission is called on cases.
     pub(in crate::lab) function: Option<FunctionTable>,
     /// The robot moves under the submission's `control`.

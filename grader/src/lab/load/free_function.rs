@@ -1,11 +1,10 @@
 //! A task of a function that the lab names itself: what it is called, what its cases give, what they expect.
 
-use kinemark_sim::text::Spanned;
-use kinemark_sim::text::nearest;
+use kinemark_sim::text::{Mistakes, Spanned, nearest};
 
 use super::Reader;
 use super::cases::changed;
-use super::functions::FunctionProblem;
+use super::functions::{FunctionProblem, all_read};
 use crate::lab::file::{CaseTable, ExpectedTable, FunctionTable};
 use crate::submission::rhai::refused_name;
 use crate::task::entry::Entry;
@@ -35,20 +34,23 @@ impl Reader<'_> {
         table: &FunctionTable,
         about: &About,
     ) -> Result<Vec<Case>, LabError> {
-        let mut cases: Vec<Case> = Vec::new();
-        for spanned in &table.cases {
-            let case = self.free_case(&table.call, about, spanned)?;
-            if let Some(first) = cases.first()
-                && shape(first) != shape(&case)
-            {
-                let differs = differences(&case, first);
-                let case = case.name;
-                let problem = FunctionProblem::OtherNames { case, differs };
-                return self.report.refuse_at(spanned, problem);
+        let cases = table.cases.iter();
+        let read = all_read(cases.map(|case| self.free_case(&table.call, about, case)))?;
+        let Some((first, others)) = read.split_first() else {
+            return Ok(read);
+        };
+        let mut mistakes = Mistakes::default();
+        for (case, typed) in others.iter().zip(&table.cases[1..]) {
+            if shape(first) != shape(case) {
+                let problem = FunctionProblem::OtherNames {
+                    case: case.name.clone(),
+                    differs: differences(case, first),
+                };
+                mistakes.keep::<()>(self.report.refuse_at(typed, problem));
             }
-            cases.push(case);
         }
-        Ok(cases)
+        mistakes.finish()?;
+        Ok(read)
     }
 
     fn free_case(

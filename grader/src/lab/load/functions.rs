@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use kinemark_sim::spatial::direction;
-use kinemark_sim::text::Spanned;
+use kinemark_sim::text::{Mistakes, Spanned};
 use nalgebra::Vector3;
 
 use super::Reader;
@@ -79,6 +79,16 @@ problems! {
     }
 }
 
+/// All cases, or all mistakes in them: none depends on another.
+pub(super) fn all_read(
+    cases: impl Iterator<Item = Result<Case, LabError>>,
+) -> Result<Vec<Case>, LabError> {
+    let mut mistakes = Mistakes::default();
+    let read = cases.filter_map(|case| mistakes.keep(case)).collect();
+    mistakes.finish()?;
+    Ok(read)
+}
+
 impl Reader<'_> {
     pub(super) fn function(&self, table: &FunctionTable) -> Result<FunctionTask, LabError> {
         let function = self.called(table)?;
@@ -94,9 +104,7 @@ impl Reader<'_> {
             Function::Free(_) => self.free_cases(table, &about)?,
             function => {
                 let cases = table.cases.iter();
-                cases
-                    .map(|case| self.case(function, &about, case))
-                    .collect::<Result<_, _>>()?
+                all_read(cases.map(|case| self.case(function, &about, case)))?
             }
         };
         self.turns_fit(table, &cases)?;

@@ -25,11 +25,12 @@ use kinemark_sim::text::{Mistakes, Spanned, suggest};
 use super::file::{BudgetTable, LabTable, NumberAt, TaskTable};
 use super::hints::with_questions_alone;
 use super::model::{Lab, OwnRobot, Task, TaskWork};
-use super::parameters;
+use super::parameters::{self, NumbersTable};
 use super::practice::Practice;
 use super::variant::{self, Variant};
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
+use crate::task::mesh_file::MeshFile;
 use crate::task::model::FunctionTask;
 use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
@@ -154,10 +155,10 @@ impl Lab {
         let report = Reporter { source: &source };
         is_of_folder(report, &lab, name)?;
         let LabRobot { file, meshes, .. } = lab_robot(files, report, &lab)?;
-        let robot_file = of_dimensions(report, file, &lab)?;
+        let robot_file = of_dimensions(report, file, &lab.dimensions)?;
         let robot = robot_file.build(&[])?;
         let frame = frame(report, &lab, &robot)?;
-        let own = own_robots(files, report, &lab, &frame)?;
+        let own = own_robots(files, report, &lab, (&robot_file, &meshes, &frame))?;
         let practice = Practice::load(files, name, (&stated, &parameters))?;
         let scenes = scenes(files, report, &robot, (&lab, &own))?;
         let reader = Reader {
@@ -273,22 +274,28 @@ fn robot_called(
     Ok(robot)
 }
 
-/// The robots that tasks name in place of the lab's, one entry for each task. Students work in the frame of the lab's name, where such a
-/// robot has one, else in its first link.
+/// The robots of tasks that differ from the lab's, which has these meshes and this frame, by their name or their dimensions; one entry
+/// for each task. Students work in the frame of the lab's name, where such a robot has one, else in its first link.
 fn own_robots(
     files: &dyn Files,
     report: Reporter<'_>,
     lab: &LabTable,
-    frame: &str,
+    (of_lab, meshes_of_lab, frame): (&RobotDescription, &[MeshFile], &str),
 ) -> Result<Vec<Option<OwnRobot>>, LoadError> {
     let mut own = Vec::new();
     for task in &lab.tasks {
-        let Some(typed) = &task.robot else {
+        if task.robot.is_none() && task.dimensions.is_empty() {
             own.push(None);
             continue;
+        }
+        let (file, meshes) = match &task.robot {
+            Some(typed) => {
+                let named = robot_called(files, report, typed, &RobotOptions::default())?;
+                (named.file, named.meshes)
+            }
+            None => (of_lab.clone(), meshes_of_lab.to_vec()),
         };
-        let LabRobot { file, meshes, .. } =
-            robot_called(files, report, typed, &RobotOptions::default())?;
+        let file = of_dimensions(report, file, &task.dimensions)?;
         let robot = file.build(&[])?;
         let frame = match robot.frame(frame) {
             Some(_) => frame.to_owned(),
@@ -343,14 +350,14 @@ fn frame(report: Reporter<'_>, lab: &LabTable, robot: &Robot) -> Result<String, 
     report.refuse_at(typed, problem)
 }
 
-/// The robot file with the dimensions that the lab changes.
+/// The robot file with the dimensions that the lab or a task changes.
 fn of_dimensions(
     report: Reporter<'_>,
     robot_file: RobotDescription,
-    lab: &LabTable,
+    typed: &NumbersTable,
 ) -> Result<RobotDescription, LabError> {
     let mut robot_file = robot_file;
-    for (name, value) in &lab.dimensions {
+    for (name, value) in typed {
         let changed = [(name.get_ref().clone(), value.get_ref().clone())];
         let known = robot_file.dimensions().names().map(str::to_owned).collect();
         // one by one, so that the place is that of the one that is wrong
@@ -366,7 +373,7 @@ fn of_dimensions(
             }
         };
     }
-    if let (Some(name), Err(error)) = (lab.dimensions.keys().next(), robot_file.build(&[])) {
+    if let (Some(name), Err(error)) = (typed.keys().next(), robot_file.build(&[])) {
         let error = error.to_string();
         return report.refuse_at(name, LabFileProblem::Dimensions { error });
     }
