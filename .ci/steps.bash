@@ -283,6 +283,10 @@ reports() {
 # The viewer on pages made for it, the pages of a class, and the briefs of all labs with their kinematics against the engine's; .ci/full has the reports of all labs beside these.
 step_browser_sample() {
   need browser || return 0
+  # the program of this tree, not one that was left there
+  release --version >/dev/null
+  export KINEMARK
+  KINEMARK=$(realpath "$target/release/kinemark")
   (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
 }
 
