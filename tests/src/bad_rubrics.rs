@@ -141,7 +141,7 @@ parameters = { out = [1.05, 1.25] }
 const BRIEF: &str = "Write `forward_kinematics`, `inverse_kinematics` and `control`. `observation.target.effort_n_m` is in N m; \
                      `robot.gravity(q)` is there in the last task.\n";
 
-const SOLUTION: &str = "fn control(observation) { [0.0, 0.0] }\n";
+const SOLUTION: &str = "fn control(observation) {\n    if observation.task == \"push\" { return [observation.target.effort_n_m, 0.0]; }\n    [0.0, 0.0]\n}\n";
 
 fn own_lab() -> OwnLab {
     OwnLab::new("94-rubric", LAB)
@@ -390,6 +390,69 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "salt",
             "others know it",
         ),
+        (
+            "lab.toml",
+            "out = { from = 1.1, to = 1.3, step = 0.01 }",
+            "out = { from = 1.25, to = 1.3, step = 0.01 }",
+            "variants",
+            "out: lab.toml has 1.2, and students get 1.25 to 1.3",
+        ),
+        (
+            "hidden.toml",
+            "class = \"other angles\"",
+            "class = \"other angles\"\ndimensions = { link_lengths = [[1.0, 1.0], [1.0, 1.0]] }",
+            "hidden",
+            "fk/other angles: the dimensions that it draws are the robot's own",
+        ),
+        (
+            "lab.toml",
+            "\"= out\"",
+            "1.2",
+            "hidden",
+            "touch/another place: a hidden run has the numbers of the visible one",
+        ),
+        (
+            "lab.toml",
+            "target = { effort_n_m = 2.0 }",
+            "target = { effort_n_m = 2.0, effort_limit = 40.0 }",
+            "settings",
+            "push/effort_limit: the target gives students another `effort_limit` than the servo has, [50, 50]",
+        ),
+        (
+            "lab.toml",
+            "target = { effort_n_m = 2.0 }",
+            "target = { effort_n_m = 2.0, place_m = [1.0, 2.0] }",
+            "unused",
+            "target.place_m: neither the solution nor a mutant reads this key",
+        ),
+        (
+            "lab.toml",
+            "full_m = 1e-4, zero_m = 5e-3",
+            "full_m = 1e-4, zero_m = 50.0",
+            "band",
+            "fk/position: no points from 50.000 m on",
+        ),
+        (
+            "lab.toml",
+            "effort-peak = { full_n_m = 10.0, zero_n_m = 20.0 }",
+            "effort-peak = { full_n_m = 50.0, zero_n_m = 60.0 }",
+            "band",
+            "push/peak: all points up to 50 N m",
+        ),
+        (
+            "lab.toml",
+            "title = \"Gently\"\npoints = 1.0\neffort-peak = { full_n_m",
+            "title = \"The shoulder is gentle\"\npoints = 1.0\neffort-peak = { joint = \"elbow\", full_n_m",
+            "words",
+            "push/peak: \"The shoulder is gentle\" is about `shoulder`, and reads the joint `elbow`",
+        ),
+        (
+            "lab.toml",
+            "servo = { kp = 1000.0",
+            "start_rad = [0.0, 7.0]\nservo = { kp = 1000.0",
+            "reach",
+            "touch/start: the run starts at [0, 7]: joint `elbow` would be at 7 rad",
+        ),
     ];
     let faults: Vec<_> = faults
         .iter()
@@ -404,6 +467,83 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         let hit = |(name, problem): &(String, String)| name == rule && problem.contains(words);
         assert!(found.iter().any(hit), "{rule}, {words}: {found:#?}");
     });
+}
+
+#[test]
+fn words_of_the_brief_are_held_to_what_is_graded() {
+    for (said, words) in [
+        (
+            "# 1. fk: forward kinematics (5 points, 30 minutes)",
+            Some("fk: the brief's heading says 5 points, the checks of the task have 4"),
+        ),
+        ("# 1. fk: forward kinematics (4 points, 30 minutes)", None),
+        (
+            "`target.effort_n_m` = 3.0 is the effort.",
+            Some("target.effort_n_m: the brief says 3, lab.toml 2"),
+        ),
+        ("`target.effort_n_m` = 2 is the effort.", None),
+        (
+            "A call may use 1000 operations.",
+            Some("budgets: the brief says 1000 operations, a call has 25000"),
+        ),
+        (
+            "A call may use 1000 operations on average, at most 25,000 operations.",
+            None,
+        ),
+        (
+            "The other place is at 1.25 m.",
+            Some("out: the brief says 1.25, which differs from student to student, without a mark"),
+        ),
+        ("The other place is at 1.25<!-- = out --> m.", None),
+    ] {
+        let own = own_lab().with(
+            "lab.toml",
+            "[parameters]\nout = 1.2",
+            "[parameters]\nout = 1.25",
+        );
+        let found = problems(&rows(
+            &own,
+            &format!("{BRIEF}{said}\n"),
+            &Accepted::default(),
+        ));
+        let of_words: Vec<&str> = found
+            .iter()
+            .filter(|(rule, _)| rule == "words")
+            .map(|(_, problem)| problem.as_str())
+            .collect();
+        match words {
+            None => assert_eq!(of_words, [""; 0], "{said}"),
+            Some(words) => assert!(
+                of_words.len() == 1 && of_words[0].starts_with(words),
+                "{said}: {of_words:?}"
+            ),
+        }
+    }
+}
+
+#[test]
+fn hints_of_another_check_are_doubted() {
+    let hints = "hints = [\"When does it arrive?\"]\n";
+    let own = own_lab()
+        .with(
+            "lab.toml",
+            "finish-time =",
+            &format!("{hints}finish-time ="),
+        )
+        .with(
+            "lab.toml",
+            "effort-saturation =",
+            &format!("{hints}effort-saturation ="),
+        );
+    let found = problems(&rows(&own, BRIEF, &Accepted::default()));
+    let words =
+        "touch/saturation: its hints are those of touch/time, which measures something else";
+    assert!(
+        found
+            .iter()
+            .any(|(rule, problem)| rule == "words" && problem.starts_with(words)),
+        "{found:#?}"
+    );
 }
 
 #[test]
@@ -447,4 +587,118 @@ fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
         let error = load(own_lab().and("accepted.toml", entry(rule, because))).expect_err(words);
         assert!(format!("{error:?}").contains(words), "{error:?}");
     }
+}
+
+/// Two turning joints with links of 0.4 m and 0.3 m, a wrist that turns, and a lift: what many pick and place with.
+const POSES: &str = r#"
+format = 1
+name = "94-poses"
+title = "Poses"
+robot = "RzRzRzTz"
+
+[dimensions]
+link1 = [0.4, 0.0, 0.0]
+link2 = [0.3, 0.0, 0.0]
+link3 = [0.0, 0.0, -0.1]
+link4 = [0.0, 0.0, -0.1]
+
+[[tasks]]
+name = "ik"
+title = "Inverse kinematics"
+
+[tasks.function]
+call = "inverse_kinematics"
+FORM
+
+[[tasks.checks]]
+name = "reach"
+title = "One branch reaches"
+points = 2.0
+ik-reach = { full_m = 1e-3, zero_m = 1e-2, full_rad = 1e-3, zero_rad = 1e-2 }
+"#;
+
+#[test]
+fn branches_of_poses_are_counted_and_what_cannot_be_counted_is_not_doubted() {
+    let yaw = |place: &str, rest: &str| {
+        format!(
+            "pose = \"yaw\"\ncases = [{{ name = \"a\", position_m = {place}, yaw_deg = 90{rest} }}]"
+        )
+    };
+    let full = |rpy: &str| {
+        format!(
+            "pose = \"full\"\ncases = [{{ name = \"a\", position_m = [0.5, 0.2, -0.1], rpy_deg = {rpy} }}]"
+        )
+    };
+    let axis = |direction: &str| {
+        format!(
+            "pose = \"axis\"\ncases = [{{ name = \"a\", position_m = [0.5, 0.2, -0.1], axis = {direction} }}]"
+        )
+    };
+    let cases = [
+        ("a heading", yaw("[0.5, 0.2, -0.1]", ""), None),
+        (
+            "one too few",
+            yaw("[0.5, 0.2, -0.1]", ", branches = 1"),
+            Some("2 branches reach [0.5, 0.2, -0.1, 1.5708] within the limits"),
+        ),
+        (
+            "too far",
+            yaw("[0.6, 0.5, -0.1]", ""),
+            Some("is out of reach by 8"),
+        ),
+        (
+            "nothing there",
+            yaw("[0.6, 0.5, -0.1]", ", branches = 0"),
+            None,
+        ),
+        ("a whole pose", full("[0, 0, 90]"), None),
+        // the lift is vertical
+        (
+            "tilted",
+            full("[0, 30, 90]"),
+            Some("the pose at [0.5, 0.2, -0.1] is out of reach by"),
+        ),
+        // the wrist is free: as many branches as one likes
+        ("upright", axis("[0, 0, 1]"), None),
+        (
+            "lying",
+            axis("[1, 0, 0]"),
+            Some("within the limits of the joints, and 2 branches are stated"),
+        ),
+        (
+            "the wrist left out",
+            format!("ignore = [\"joint3\"]\n{}", yaw("[0.5, 0.2, -0.1]", "")),
+            Some("is out of reach by"),
+        ),
+    ]
+    .map(|(name, form, words)| (name.to_owned(), (form, words)));
+    every_case(&cases, |(form, words)| {
+        let own = OwnLab::new("94-poses", &POSES.replace("FORM", form))
+            .and(
+                "hidden.toml",
+                "format = 1\nsalt = \"a long one that nobody can guess\"\n",
+            )
+            .and(
+                "solution.rhai",
+                "fn inverse_kinematics(robot, pose) { [] }\n",
+            );
+        let found = problems(&rows(
+            &own,
+            "Write `inverse_kinematics`.",
+            &Accepted::default(),
+        ));
+        let of_branches: Vec<_> = found
+            .iter()
+            .filter(|(rule, _)| rule == "branches")
+            .collect();
+        match words {
+            None => assert!(of_branches.is_empty(), "{found:#?}"),
+            Some(words) => assert!(
+                of_branches
+                    .iter()
+                    .any(|(_, problem)| problem.contains(words)),
+                "{words}: {found:#?}"
+            ),
+        }
+    });
 }

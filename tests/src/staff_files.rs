@@ -43,7 +43,7 @@ fn what_stops_in_a_run_is_a_warning_and_the_points_stand() {
             "full_s = 6.0, zero_s = 8.0",
         ),
         (
-            "full = \"= reference + 0.5\", zero = \"= reference + 1\"",
+            "full = \"= reference + 0.3\", zero = \"= reference + 0.6\"",
             "full = 0.5, zero = 1.0",
         ),
     ] {

@@ -188,7 +188,7 @@ fn push(out: &mut String, row: &Row, is_known: bool) {
         Tried::Reference => "full marks",
         Tried::Practice => "is what the reference solution gives",
         Tried::Mutants => "enough of them",
-        Tried::Mutant => "loses and is named",
+        Tried::Mutant => "is caught",
         Tried::Rubric => Audit::rule_in_words(&row.name),
     };
     let comment = match row.problem {

@@ -66,7 +66,7 @@ impl Extent {
         let most = |count: u32, quick: u32| if is_quick { count.min(quick) } else { count };
         Self {
             mutants: staff.mutants.len(),
-            draws: match depends_on_salt(lab) {
+            draws: match depends_on_salt(lab, staff) {
                 true => most(draws, QUICK_DRAWS),
                 false => 0,
             },

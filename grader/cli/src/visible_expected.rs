@@ -204,7 +204,10 @@ fn append(table: &mut InlineTable, expected: toml_edit::Value) {
 /// An answer as a lab file has it; what it is where none can.
 fn typed(answer: &Value) -> Result<toml_edit::Value, String> {
     Ok(match answer {
-        Value::Number(number) if number.is_finite() => (*number).into(),
+        // with an exponent where it is tiny, not with sixteen zeros
+        Value::Number(number) if number.is_finite() => format!("{number:?}")
+            .parse()
+            .unwrap_or_else(|_| (*number).into()),
         Value::Number(number) => return Err(number.to_string()),
         Value::List(values) => {
             let values: Result<Array, String> = values.iter().map(typed).collect();

@@ -128,11 +128,21 @@ fn joints_that_move_the_tcp(robot: &Robot) -> Vec<bool> {
 /// The first joint that a branch puts beyond its limits, in words. A revolute joint that can make a full turn gets to every angle, so
 /// whole turns more or less make no difference to it.
 pub fn beyond_limit(robot: &Robot, q: &[f64]) -> Option<String> {
+    first_beyond(robot, q, true)
+}
+
+/// The first joint that stands beyond its limits, in words: where a run starts, whole turns count.
+pub fn stands_beyond_limit(robot: &Robot, q: &[f64]) -> Option<String> {
+    first_beyond(robot, q, false)
+}
+
+/// The first joint beyond its limits; with `whole_turns` angles of joints that turn fully count up to whole turns.
+fn first_beyond(robot: &Robot, q: &[f64], whole_turns: bool) -> Option<String> {
     let joints = robot.moving_joints().zip(q).enumerate();
     let mut beyond = joints.filter(|(_, (joint, value))| {
         let (lower, upper) = (joint.limits.lower, joint.limits.upper);
         let range = upper.unwrap_or(f64::INFINITY) - lower.unwrap_or(f64::NEG_INFINITY);
-        let turns_fully = joint.kind.turns() && range >= 2.0 * std::f64::consts::PI;
+        let turns_fully = whole_turns && joint.kind.turns() && range >= 2.0 * std::f64::consts::PI;
         let below = lower.is_some_and(|lower| **value < lower - LIMIT_SLACK);
         let above = upper.is_some_and(|upper| **value > upper + LIMIT_SLACK);
         !turns_fully && (below || above)

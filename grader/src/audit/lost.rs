@@ -74,7 +74,7 @@ impl Audit {
             let (of, what) = (&first.of, &first.problem.what);
             format!("in {places} of {count}, first in {of}: {what}")
         });
-        let form = format!("hidden cases of {count} draws");
+        let form = format!("hidden numbers of {count} draws");
         self.rows
             .extend(Row::all((Tried::Reference, &form), None, problems));
     }

@@ -22,10 +22,9 @@ mod variants;
 use kinemark_sim::text::Source;
 use serde::Serialize;
 
-use crate::lab::Lab;
-use crate::lab::TaskWork;
 use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
 use crate::lab::staff::Staff;
+use crate::lab::{Lab, Task, TaskWork};
 use crate::record::grade::Grade;
 
 pub use self::bands::{BandValues, Difficulty, Reached, VariantDifficulty};
@@ -176,7 +175,8 @@ impl Audit {
 }
 
 /// Whether a lab has tasks whose hidden cases depend on the salt.
-pub fn depends_on_salt(lab: &Lab) -> bool {
+pub fn depends_on_salt(lab: &Lab, staff: &Staff) -> bool {
     let is_function = |work: &TaskWork| matches!(work, TaskWork::Function(..));
-    lab.tasks.iter().any(|task| is_function(&task.work))
+    let has_hidden = |task: &Task| is_function(&task.work) || !staff.runs(&task.name).is_empty();
+    lab.tasks.iter().any(has_hidden)
 }

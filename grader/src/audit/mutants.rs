@@ -74,6 +74,9 @@ impl OfMutant<'_> {
             let source = &self.mutant.source;
             return Some(stop_problem(self.lab, self.staff, task, source, help));
         }
+        if !self.mutant.is_named {
+            return None;
+        }
         self.shows_in_few_cases().or_else(|| self.not_named())
     }
 
@@ -102,9 +105,19 @@ impl OfMutant<'_> {
             false => format!(": {}", places.join(", ")),
         };
         let needed = (LEAST_SHARE * total as f64).ceil();
+        // a motion task has hidden runs beside its visible one
+        let (cases, help) = match task.cases.is_empty() {
+            true => (
+                "hidden runs",
+                "add runs in which it shows, or say `named = false`: then it only has to lose points",
+            ),
+            false => (
+                "cases",
+                "add cases in which it shows, or leave the task out of it",
+            ),
+        };
         let what =
-            format!("shows in {wrong} of {total} cases only, and {needed} are needed{places}");
-        let help = "add cases in which it shows, or leave the task out of it";
+            format!("shows in {wrong} of {total} {cases} only, and {needed} are needed{places}");
         Some((what, help).into())
     }
 

@@ -8,11 +8,11 @@ use super::form::Form;
 use super::lost::{Lost, distinct};
 use super::row::{Problem, Row, Tried};
 use super::{Audit, staff_code};
-use crate::lab::Lab;
-use crate::lab::Variant;
 use crate::lab::staff::Staff;
+use crate::lab::{Lab, TaskWork, Variant};
 use crate::record::grade::{Grade, Measure};
 use crate::task::files::Files;
+use crate::task::model::Function;
 use crate::task::problem::LoadError;
 
 /// The results of the variants of some students.
@@ -113,7 +113,8 @@ pub(super) fn margin_of(measure: &Measure) -> Option<f64> {
 impl Variants {
     /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that cannot be loaded is
     /// recorded like one that loses points.
-    pub fn student(&mut self, lab: &Lab, reference: &dyn Files, salt: &str, student: &str) {
+    pub fn student(&mut self, base: &Lab, reference: &dyn Files, salt: &str, student: &str) {
+        let lab = base;
         let mut numbers = String::new();
         let loaded = lab.variant_of(salt, student).map_err(Into::into);
         let loaded = loaded.and_then(|variant| {
@@ -139,7 +140,13 @@ impl Variants {
                 return;
             }
         };
-        let (grade, problems) = Form::new(&lab, &staff).solved();
+        let (grade, mut problems) = Form::new(&lab, &staff).solved();
+        for problem in &mut problems {
+            let task = problem.task.as_ref();
+            if task.is_some_and(|task| expects_the_same_of_another_robot(base, &lab, task)) {
+                problem.help = EXPECTED_STAYS.to_owned();
+            }
+        }
         self.lost.extend(problems.into_iter().map(lost));
         if let Some(grade) = grade {
             self.measure(&grade);
@@ -246,6 +253,26 @@ impl Audit {
     pub fn measure_mutant(&mut self, name: &str, grade: &Grade) {
         add_mutant(&mut self.bands, name, grade);
     }
+}
+
+/// What to do where visible cases expect numbers of a robot that differs from student to student.
+const EXPECTED_STAYS: &str = "or pin the robot of each visible case: `expected` is the same number in every variant, and the robot is not; \
+                              give the case `dimensions` of its own, or write `expected` as an expression over the parameters";
+
+/// Whether a task has visible cases of a function of the lab's own whose robot varies, while what is expected does not.
+fn expects_the_same_of_another_robot(base: &Lab, lab: &Lab, name: &str) -> bool {
+    let Some(task) = lab.tasks.iter().find(|task| task.name == name) else {
+        return false;
+    };
+    let TaskWork::Function(work, _) = &task.work else {
+        return false;
+    };
+    let before = base.tasks.iter().find(|task| task.name == name);
+    let before = before.map_or(base, |task| base.of_task(task));
+    matches!(work.function, Function::Free(_))
+        && work.about.gives_robot
+        && work.cases.iter().any(|case| case.robot.is_none())
+        && lab.of_task(task).robot_file.dimensions() != before.robot_file.dimensions()
 }
 
 /// What a variant that cannot be loaded has in common with the others.

@@ -174,5 +174,8 @@ fn mean_of(alone: f64, of: f64, hidden: usize) -> Evidence {
         points(alone),
         points(of)
     );
-    of_control(message, None)
+    Evidence {
+        is_note: true,
+        ..of_control(message, None)
+    }
 }

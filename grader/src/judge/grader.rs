@@ -349,7 +349,7 @@ impl<'a> Grader<'a> {
         let is_run = matches!(task.work, TaskWork::Motion(..));
         all.iter().filter(move |mutant| {
             let is_refuted = is_run && mutant.tasks.iter().any(|task| self.passed.contains(task));
-            mutant.tasks.contains(&name) && !is_refuted
+            mutant.tasks.contains(&name) && mutant.is_named && !is_refuted
         })
     }
 

@@ -114,7 +114,13 @@ impl HiddenAttempts {
             self.evidence(
                 |run| run.needs_failed(check),
                 |runs| format!("not judged in {runs}, because {needed} earns nothing there"),
-            ),
+            )
+            .into_iter()
+            .map(|note| Evidence {
+                is_note: true,
+                ..note
+            })
+            .collect(),
         ]
     }
 

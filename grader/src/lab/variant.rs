@@ -341,8 +341,13 @@ impl Steps {
 }
 
 impl VariantRule {
+    /// A value of the parameter as it is typed.
+    pub(crate) fn in_toml(&self, value: &Dimension) -> String {
+        toml_of(value)
+    }
+
     /// Whether a student's variant can have this value.
-    fn gives(&self, value: &Dimension) -> bool {
+    pub(crate) fn gives(&self, value: &Dimension) -> bool {
         match (&self.from, value) {
             (DrawnFrom::Steps(steps), Dimension::Number(number)) => steps.gives(*number),
             (DrawnFrom::Each(each), Dimension::List(numbers)) => {
@@ -355,7 +360,7 @@ impl VariantRule {
     }
 
     /// The values that it gives, in words.
-    fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         match &self.from {
             DrawnFrom::Steps(steps) => steps.words(),
             DrawnFrom::Each(each) => {

@@ -442,6 +442,9 @@ pub struct Evidence {
     /// Whether it is the mistake that the whole run, or all answers together, show: to be looked at first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_cause: bool,
+    /// Whether it says only how the points came about: that they are a mean, or that the check was not judged in a hidden run.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_note: bool,
 }
 
 /// A common mistake that the answers agree with.

@@ -1,4 +1,5 @@
-//! The branches in which a robot reaches a point: the distinct solutions of inverse kinematics, from starts spread over the joint ranges.
+//! The branches in which a robot reaches a point or a pose: the distinct solutions of inverse kinematics, from starts spread over the joint
+//! ranges.
 
 use nalgebra::Vector3;
 
@@ -15,7 +16,7 @@ const MOST_BRANCHES: usize = 16;
 /// Closer solutions count as one: where an arm is straight its two branches meet, to the tolerance \[rad\], \[m\].
 const SAME: (f64, f64) = (0.05, 0.01);
 
-/// Whether and how a point is reached.
+/// Whether and how a target is reached.
 #[derive(Debug)]
 pub enum Reach {
     /// In these branches, at least one, each a `q` of shape `(n)`.
@@ -24,6 +25,8 @@ pub enum Reach {
     Not {
         /// The distance left at the nearest configuration found \[m\].
         residual_m: f64,
+        /// The angle left there \[rad\]; zero where only a position is asked for.
+        residual_rad: f64,
     },
 }
 
@@ -37,7 +40,7 @@ pub struct BranchFinder<'r> {
     /// Tries a single start.
     near: IkSolver<'r>,
     ranges: Vec<PositionRange>,
-    /// Entries of `q` that move the TCP.
+    /// Entries of `q` that move the TCP here.
     carries: Vec<bool>,
     /// How often it has looked for a configuration.
     pub(crate) solved: u64,
@@ -49,22 +52,46 @@ impl<'r> BranchFinder<'r> {
     /// # Errors
     /// [`IkError`] for a robot whose loops cannot be closed.
     pub fn new(robot: &'r Robot, start_q: &'r [f64]) -> Result<Self, IkError> {
+        Self::of_kind(robot, start_q, Target::Position(Vector3::zeros()), None)
+    }
+
+    /// As [`BranchFinder::new`], for targets of the kind of `target` in place of points; of the joints only the entries `chain` of `q` move,
+    /// where it is given, and those that loops bind to them.
+    ///
+    /// # Errors
+    /// [`IkError`] for a robot whose loops cannot be closed, a target without finite numbers, or a joint that does not exist.
+    pub fn of_kind(
+        robot: &'r Robot,
+        start_q: &'r [f64],
+        target: Target,
+        chain: Option<&[usize]>,
+    ) -> Result<Self, IkError> {
         let goal = Goal {
             frame: robot.tcp(),
-            target: Target::Position(Vector3::zeros()),
+            target,
             weight: 1.0,
+        };
+        let stubborn = IkSettings {
+            chain: chain.map(<[usize]>::to_vec),
+            ..IkSettings::default()
         };
         let alone = IkSettings {
             restarts: 0,
-            ..IkSettings::default()
+            ..stubborn.clone()
         };
+        let mut carries = carries_tcp(robot);
+        if let Some(chain) = chain {
+            for (entry, carries) in carries.iter_mut().enumerate() {
+                *carries &= chain.contains(&entry);
+            }
+        }
         Ok(Self {
             robot,
             start_q,
-            stubborn: IkSolver::new(robot, &[goal], IkSettings::default())?,
+            stubborn: IkSolver::new(robot, &[goal], stubborn)?,
             near: IkSolver::new(robot, &[goal], alone)?,
             ranges: position_ranges(robot),
-            carries: carries_tcp(robot),
+            carries,
             solved: 0,
         })
     }
@@ -74,13 +101,21 @@ impl<'r> BranchFinder<'r> {
     /// # Errors
     /// [`IkError`] for a point without finite numbers.
     pub fn reach(&mut self, p_in_world: &Vector3<f64>) -> Result<Reach, IkError> {
-        let target = Target::Position(*p_in_world);
+        self.reach_target(Target::Position(*p_in_world))
+    }
+
+    /// The branches that reach `target`, which is of the finder's kind, within the limits of the joints; with 16 of them there may be more.
+    ///
+    /// # Errors
+    /// [`IkError`] for a target of another kind or without finite numbers.
+    pub fn reach_target(&mut self, target: Target) -> Result<Reach, IkError> {
         self.stubborn.set_target(0, target)?;
         self.solved += 1;
         let first = self.stubborn.solve(self.start_q)?;
         if !first.reached {
             return Ok(Reach::Not {
                 residual_m: first.residual_m,
+                residual_rad: first.residual_rad,
             });
         }
         self.near.set_target(0, target)?;

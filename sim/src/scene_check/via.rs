@@ -151,7 +151,7 @@ impl Follower<'_> {
         let mut report = |severity, kind| findings.push(Finding { severity, kind });
         let found = match self.finder.reach(p_in_world)? {
             Reach::In(found) => found,
-            Reach::Not { residual_m } => {
+            Reach::Not { residual_m, .. } => {
                 let kind = Kind::ViaUnreachable { point, residual_m };
                 report(Severity::Error, kind);
                 return Ok(None);

@@ -13,6 +13,7 @@ use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use serde::Serialize;
 
 use crate::brief_plots::brief_plots;
+use crate::disk::Folder;
 use crate::failure::Failure;
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::output;
@@ -69,49 +70,72 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             "run this where the folder `labs` is, or name it with --labs DIR",
         ));
     };
-    let folder = labs_folder.join(&name);
     let mut filled = Filled {
         lab: &name,
         written: Vec::new(),
         removed: Vec::new(),
         current: Vec::new(),
     };
-    if let Some(text) = expected(args, files.as_ref(), &name, &labs_folder)? {
-        put(&mut filled, &folder.join("lab.toml"), &text)?;
+    let done = fill(args, files.as_ref(), &labs_folder, &mut filled);
+    if done.is_err() && !args.json {
+        // what was written before stays
+        output::print(&lines(&[
+            ("wrote", &filled.written),
+            ("removed", &filled.removed),
+        ]))?;
     }
-    let lab = Lab::load(files.as_ref(), &name)?;
-    let staff = staff(args, &lab, &labs_folder)?;
-    let practice = practice_text(files.as_ref(), &lab, &staff)?;
-    put(&mut filled, &folder.join(PRACTICE_FILE), &practice)?;
-    // the table names what the reference reaches, so it follows what was just written
-    let lab = Lab::load(files.as_ref(), &name)?;
-    let path = format!("{name}/brief.md");
-    if let Some(brief) = text_at(files.as_ref(), &path)? {
-        let brief = with_numbers(&with_grading(&brief, &lab), &lab)
-            .map_err(|why| Failure::broken(format!("{path}: {why}"), "correct the brief"))?;
-        put(&mut filled, &folder.join("brief.md"), &brief)?;
-        let plots = brief_plots(&brief, &lab, &staff)
-            .map_err(|none| Failure::broken(format!("{path}: {none}"), &none.help))?;
-        for (picture, svg) in plots {
-            put(&mut filled, &folder.join(picture), &svg)?;
-        }
-    }
+    done?;
     if args.json {
         output::print_json(&filled)?;
     } else {
-        let all = [
+        output::print(&lines(&[
             ("wrote", &filled.written),
             ("removed", &filled.removed),
             ("as it should be:", &filled.current),
-        ];
-        let lines = all.into_iter().flat_map(|(word, paths)| {
-            paths
-                .iter()
-                .map(move |path| format!("{word} {}\n", output::path(path)))
-        });
-        output::print(&lines.collect::<String>())?;
+        ]))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A line for each path, each with the word of its list.
+fn lines(all: &[(&str, &Vec<PathBuf>)]) -> String {
+    let lines = all.iter().flat_map(|(word, paths)| {
+        let line = move |path: &PathBuf| format!("{word} {}\n", output::path(path));
+        paths.iter().map(line)
+    });
+    lines.collect()
+}
+
+/// Writes one file after the other, each from what the ones before say.
+fn fill(
+    args: &Args,
+    files: &dyn Files,
+    labs_folder: &Path,
+    filled: &mut Filled<'_>,
+) -> Result<(), Failure> {
+    let name = filled.lab;
+    let folder = labs_folder.join(name);
+    if let Some(text) = expected(args, files, name, labs_folder)? {
+        put(filled, &folder.join("lab.toml"), &text)?;
+    }
+    let lab = Lab::load(files, name)?;
+    let staff = staff(args, &lab, labs_folder)?;
+    let practice = practice_text(files, &lab, &staff)?;
+    put(filled, &folder.join(PRACTICE_FILE), &practice)?;
+    // the table names what the reference reaches, so it follows what was just written
+    let lab = Lab::load(files, name)?;
+    let path = format!("{name}/brief.md");
+    if let Some(brief) = text_at(files, &path)? {
+        let brief = with_numbers(&with_grading(&brief, &lab), &lab)
+            .map_err(|why| Failure::broken(format!("{path}: {why}"), "correct the brief"))?;
+        put(filled, &folder.join("brief.md"), &brief)?;
+        let plots = brief_plots(&brief, &lab, &staff)
+            .map_err(|none| Failure::broken(format!("{path}: {none}"), &none.help))?;
+        for (picture, svg) in plots {
+            put(filled, &folder.join(picture), &svg)?;
+        }
+    }
+    Ok(())
 }
 
 /// The text at a path of the labs folder.
@@ -134,32 +158,45 @@ fn expected(
         return Ok(None);
     };
     let lab = waiting.lab(files, name)?;
-    let solution = staff(args, &lab, labs_folder)?.solution;
+    // what it answers says in which shape, so that nothing else of the course staff's part can be tried before
+    let solution = untried(args, &lab, labs_folder)?.solution;
     let text = waiting.filled(&lab, &solution);
     let help = "correct `solution.rhai`, or write `expected` yourself";
     text.map(Some)
         .map_err(|unfilled| Failure::broken(unfilled.to_string(), help))
 }
 
+/// The course staff's part of the lab, whose code was not tried yet.
+fn untried(args: &Args, lab: &Lab, labs_folder: &Path) -> Result<Staff, Failure> {
+    let reference = folder_of_staff(args, labs_folder)?;
+    Staff::load(&reference, lab, None)?.ok_or_else(|| no_solution(&reference, lab))
+}
+
 /// The course staff's part of the lab.
 fn staff(args: &Args, lab: &Lab, labs_folder: &Path) -> Result<Staff, Failure> {
+    let reference = folder_of_staff(args, labs_folder)?;
+    staff_folder::staff(&reference, lab, None)?.ok_or_else(|| no_solution(&reference, lab))
+}
+
+fn folder_of_staff(args: &Args, labs_folder: &Path) -> Result<Folder, Failure> {
     let from = StaffPart {
         reference: args.reference.clone(),
         salt: None,
     };
     let help = "give the course staff's folder";
-    let reference = staff_folder::part(&from, Some(labs_folder), help)?.ok_or_else(|| {
+    staff_folder::part(&from, Some(labs_folder), help)?.ok_or_else(|| {
         Failure::usage(
             "there is no folder `reference` beside the labs".to_owned(),
             "a lab is filled from its reference solution: give its folder with --reference DIR",
         )
-    })?;
-    staff_folder::staff(&reference, lab, None)?.ok_or_else(|| {
-        Failure::usage(
-            staff_folder::no_solution(&reference, lab),
-            "write it, or give another folder with --reference DIR",
-        )
     })
+}
+
+fn no_solution(reference: &Folder, lab: &Lab) -> Failure {
+    Failure::usage(
+        staff_folder::no_solution(reference, lab),
+        "write it, or give another folder with --reference DIR",
+    )
 }
 
 /// The text of `practice.json`; nothing where it has nothing to say.

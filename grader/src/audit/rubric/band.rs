@@ -19,25 +19,77 @@ const SAMPLES: usize = 2000;
 /// Bands whose end of full points nobody can miss.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let of_lab = reach_m(rubric.lab);
+    let joints = TypedJoints::of(rubric.lab);
     for task in &rubric.lab.tasks {
         let reach_m = task.own.as_deref().map_or(of_lab, reach_m);
         match &task.work {
             TaskWork::Function(_, checks) => {
                 for check in checks {
                     if let Some(band) = check.kind.band() {
-                        doubts.extend(doubt(task, &check.name, band, None, reach_m));
+                        doubts.extend(doubt(task, &check.name, band, (None, None), reach_m));
                     }
                 }
             }
             TaskWork::Motion(motion, checks) => {
                 for check in checks {
-                    if let Some(band) = check.kind.band() {
-                        doubts.extend(doubt(task, &check.name, band, Some(motion), reach_m));
+                    let joint = joints.joint(task, &check.name);
+                    let band = check.kind.band();
+                    let band = band.or_else(|| of_reference(rubric, &task.name, &check.name));
+                    if let Some(band) = band {
+                        doubts.extend(doubt(
+                            task,
+                            &check.name,
+                            band,
+                            (Some(motion), joint),
+                            reach_m,
+                        ));
                     }
                 }
             }
         }
     }
+}
+
+/// The joints that checks name in lab.toml.
+struct TypedJoints<'a> {
+    lab: &'a Lab,
+    table: Option<toml::Table>,
+}
+
+impl<'a> TypedJoints<'a> {
+    fn of(lab: &'a Lab) -> Self {
+        let table = lab.source.text().parse().ok();
+        Self { lab, table }
+    }
+
+    /// The entry of the joint that a check reads, if it reads one.
+    fn joint(&self, task: &Task, check: &str) -> Option<usize> {
+        let typed = table_named(self.table.as_ref()?.get("tasks")?, &task.name)?;
+        let typed = table_named(typed.get("checks")?, check)?.as_table()?;
+        let mut kinds = typed.values().filter_map(toml::Value::as_table);
+        let name = kinds.find_map(|kind| kind.get("joint")?.as_str())?;
+        let mut joints = self.lab.of_task(task).robot.moving_joints();
+        joints.position(|joint| joint.name == name)
+    }
+}
+
+/// The table with this `name` in a list of tables.
+fn table_named<'v>(list: &'v toml::Value, name: &str) -> Option<&'v toml::Value> {
+    let mut tables = list.as_array()?.iter();
+    tables.find(|table| table.get("name").and_then(toml::Value::as_str) == Some(name))
+}
+
+/// A band that depends on the reference solution, with what that reaches.
+fn of_reference(rubric: &Rubric<'_>, task: &str, check: &str) -> Option<(Band, &'static str)> {
+    let mut tasks = rubric.reference?.tasks.iter();
+    let graded = tasks.find(|known| known.name == task)?;
+    let graded = graded.checks.iter().find(|known| known.name == check)?;
+    let measure = graded.measure.as_ref()?;
+    measure.reference?;
+    let units = ["s", "m", "rad", "N m", "N", "N m or N", ""];
+    let unit = units.into_iter().find(|unit| *unit == measure.unit)?;
+    let (full, zero) = (measure.full, measure.zero);
+    Some((Band { full, zero }, unit))
 }
 
 /// The radius of the workspace about its middle \[m\].
@@ -58,7 +110,7 @@ fn doubt(
     task: &Task,
     check: &str,
     (band, unit): (Band, &'static str),
-    motion: Option<&MotionTask>,
+    (motion, joint): (Option<&MotionTask>, Option<usize>),
     reach_m: f64,
 ) -> Option<Doubt> {
     // where more is better, a band beyond what can be is one that the reference solution does not reach
@@ -66,8 +118,10 @@ fn doubt(
         return None;
     }
     let most_effort = motion.map(|motion| {
-        let gains = motion.servo.gains.iter();
-        gains.map(|gains| gains.effort_limit).fold(0.0, f64::max)
+        let gains = motion.servo.gains.iter().enumerate();
+        let of_check = gains.filter(|(entry, _)| joint.is_none_or(|joint| joint == *entry));
+        let efforts = of_check.map(|(_, gains)| gains.effort_limit);
+        efforts.fold(0.0, f64::max)
     });
     let run_s = motion.map(|motion| motion.periods.time_s(motion.ticks));
     let (limit, words) = match unit {
@@ -81,6 +135,20 @@ fn doubt(
         "" => (1.0, "that is the whole of it:"),
         _ => return None,
     };
+    // nobody's hand is farther off than the workspace is wide
+    let widest = 2.0 * reach_m;
+    if unit == "m" && band.full < limit && band.zero > widest && widest.is_finite() {
+        return Some(Doubt {
+            rule: "band",
+            of: format!("{}/{check}", task.name),
+            what: format!(
+                "no points from {} on, and the robot's workspace is {} wide: everybody earns some",
+                with_unit(band.zero, unit),
+                with_unit(widest, unit)
+            ),
+            help: "are the numbers in metres? `zero` is the least that earns nothing".to_owned(),
+        });
+    }
     (limit.is_finite() && band.full >= limit).then(|| Doubt {
         rule: "band",
         of: format!("{}/{check}", task.name),

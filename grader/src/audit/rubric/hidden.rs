@@ -3,7 +3,7 @@
 use kinemark_sim::text::Dimension;
 
 use super::{Doubt, Rubric};
-use crate::lab::{Lab, TaskWork};
+use crate::lab::{Lab, Task, TaskWork};
 use crate::task::model::{Case, Given};
 
 /// A salt of fewer characters can be tried out.
@@ -71,6 +71,17 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                                     .to_owned(),
                             help: "widen the ranges of the draw, or let `count` be 1".to_owned(),
                         });
+                    } else if draw
+                        .cases
+                        .iter()
+                        .all(|case| has_own_dimensions(lab, task, case))
+                    {
+                        doubts.push(Doubt {
+                            rule: "hidden",
+                            of: of(first),
+                            what: "the dimensions that it draws are the robot's own".to_owned(),
+                            help: "draw others, or leave `dimensions` out".to_owned(),
+                        });
                     } else if let Some(case) = draw.cases.iter().find(visible) {
                         doubts.push(Doubt {
                             rule: "hidden",
@@ -84,17 +95,23 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Motion(..) => {
                 let mut known: Vec<&str> = Vec::new();
                 for run in staff.runs(&task.name) {
+                    // other numbers may change nothing of this task
                     let is_visible = run
                         .drawn
                         .iter()
-                        .all(|(name, value)| is_of_lab(lab, name, value));
+                        .all(|(name, value)| is_of_lab(lab, name, value))
+                        || run
+                            .lab
+                            .tasks
+                            .iter()
+                            .any(|other| other.name == task.name && is_same_task(other, task));
                     if is_visible && !known.contains(&run.class.as_str()) {
                         known.push(&run.class);
                         doubts.push(Doubt {
                             rule: "hidden",
                             of: format!("{}/{}", task.name, run.class),
                             what: "a hidden run has the numbers of the visible one".to_owned(),
-                            help: "draw other numbers: who types in an answer should lose here"
+                            help: "draw other numbers, of parameters that this task uses: who types in an answer should lose here"
                                 .to_owned(),
                         });
                     }
@@ -102,6 +119,26 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             }
         }
     }
+}
+
+/// Whether two tasks with these names are the same in everything that is typed.
+fn is_same_task(a: &Task, b: &Task) -> bool {
+    format!("{:?}", a.work) == format!("{:?}", b.work)
+        && a.own
+            .as_ref()
+            .map(|own| own.robot_file.dimensions().clone())
+            == b.own
+                .as_ref()
+                .map(|own| own.robot_file.dimensions().clone())
+}
+
+/// Whether a hidden case changes dimensions of the robot into those that it has.
+fn has_own_dimensions(lab: &Lab, task: &Task, case: &Case) -> bool {
+    let of_robot = lab.of_task(task).robot_file.dimensions();
+    let mut changed = case.dimensions.iter();
+    !case.dimensions.is_empty()
+        && case.row.is_none()
+        && changed.all(|(name, value)| of_robot.get(name) == Some(value))
 }
 
 /// Whether the visible run has this value of a parameter.

@@ -36,6 +36,12 @@ fn check_of<'g>(grade: &'g Grade, task: &str, check: &str) -> Option<&'g CheckGr
     task.checks.iter().find(|known| known.name == check)
 }
 
+/// Whether points were lost in a value that was judged: what a hidden run did not come to shows nothing of the check.
+fn is_lost(grade: &CheckGrade) -> bool {
+    let is_less = matches!(grade.outcome, Outcome::Partial | Outcome::None);
+    is_less && (grade.evidence.is_empty() || grade.evidence.iter().any(|fact| !fact.is_note))
+}
+
 /// Checks in which neither the starter, nor a submission of zeros, nor any mutant loses a point.
 pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     // then nobody has tried to lose
@@ -46,8 +52,6 @@ pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     for task in &rubric.lab.tasks {
         for check in task.checks() {
             let mut grades = losses.of_check(&task.name, &check.name);
-            let is_lost =
-                |grade: &CheckGrade| matches!(grade.outcome, Outcome::Partial | Outcome::None);
             if grades.any(is_lost) {
                 continue;
             }

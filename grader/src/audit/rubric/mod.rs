@@ -6,9 +6,11 @@
 //! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
 //! | `unused` | parameters, variants, paths, sensors and frames that nothing uses |
 //! | `hidden` | hidden cases and runs that are the visible ones, or leave the limits of joints; a salt that is short or known |
-//! | `settings` | a robot without a TCP, gains where they do nothing |
+//! | `settings` | a robot without a TCP, gains where they do nothing, a target that differs from the servo |
+//! | `variants` | parameters that stand outside of what students draw |
 //! | `accuracy` | bands that are thinner than what the simulation is accurate to |
 //! | `brief` | what is graded and not mentioned |
+//! | `words` | words and numbers of the brief and of checks that differ from what is graded |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
 //!
 //! The course staff may accept a doubt, or a change of the solution that nothing notices ([`super::mutate`]), with a reason: [`Accepted`].
@@ -22,6 +24,8 @@ mod lost;
 mod reach;
 mod settings;
 mod unused;
+mod variants;
+mod words;
 
 use serde::Serialize;
 
@@ -85,12 +89,18 @@ const RULES: &[Rule] = &[
         settings::rule,
     ),
     (
+        "variants",
+        "the lab's own numbers are one student's variant",
+        variants::rule,
+    ),
+    (
         "unused",
         "every parameter, path, sensor and frame is used",
         |rubric, doubts| {
             unused::rule(rubric, doubts);
             unused::sensors(rubric, doubts);
             unused::frames(rubric, doubts);
+            unused::target_keys(rubric, doubts);
         },
     ),
     (
@@ -111,6 +121,7 @@ const RULES: &[Rule] = &[
     ),
     ("salt", "nobody can guess it", hidden::salt),
     ("brief", "mentions what is graded", brief::rule),
+    ("words", "words and numbers say what is graded", words::rule),
     ("band", "points can be lost", band::rule),
     (
         "margin",

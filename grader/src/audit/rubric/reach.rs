@@ -1,18 +1,22 @@
 //! What the robot is asked to reach: cases of inverse kinematics, goals, points of paths; and where on the way it is nearly singular.
 
+use kinemark_sim::kinematics::Target;
 use kinemark_sim::kinematics::branches::{BranchFinder, Reach};
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::kinematics::joint_samples::JointSamples;
 use kinemark_sim::kinematics::manipulability::{LINEAR, Manipulability};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::number::{list, metres, trimmed};
-use nalgebra::{Matrix6xX, Vector3};
+use nalgebra::{Matrix3, Matrix6xX, Rotation3, Unit, Vector3};
 
 use super::{Doubt, Rubric};
-use crate::attempt::branches::{beyond_limit, count_distinct};
+use crate::attempt::branches::{
+    beyond_limit, count_different, count_distinct, stands_beyond_limit,
+};
 use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::task::model::{Case, Function, Given, MotionTask};
-use crate::task::pose::PoseForm;
+use crate::task::pose::{PoseForm, pose_at, pose_in};
+use crate::task::task_joints::TaskJoints;
 
 /// A singular value below this share of the greatest that the robot has anywhere is nearly zero.
 const NEARLY_SINGULAR: f64 = 0.02;
@@ -22,6 +26,8 @@ const SAMPLES: usize = 256;
 const ON_A_SEGMENT: usize = 20;
 /// Hidden cases of a draw that are tried: they are alike.
 const OF_A_DRAW: usize = 10;
+/// Configurations at which it is looked whether a robot tilts its TCP.
+const TILTS: usize = 16;
 /// As many branches may be a continuum: then nobody can count them.
 const CONTINUUM: usize = 16;
 
@@ -86,6 +92,7 @@ fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
 fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt>) {
     let lab = lab.of_task(task);
     let robot = &lab.robot;
+    starts_within_limits(robot, task, motion, doubts);
     let Ok(mut finder) = BranchFinder::new(robot, &motion.start_q) else {
         return;
     };
@@ -109,7 +116,7 @@ fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt
             };
             let place = list(point.as_slice());
             match finder.reach(&p_in_world) {
-                Ok(Reach::Not { residual_m }) => {
+                Ok(Reach::Not { residual_m, .. }) => {
                     doubts.push(Doubt {
                         rule: "reach",
                         of: of.clone(),
@@ -144,6 +151,29 @@ fn of_motion(lab: &Lab, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt
                     trimmed(100.0 * share, 2),
                 ),
                 help: "move it away from the boundary of the workspace, unless that is what the task is about".to_owned(),
+            });
+        }
+    }
+}
+
+/// Where a run starts, and where those of disturbances do.
+fn starts_within_limits(robot: &Robot, task: &Task, motion: &MotionTask, doubts: &mut Vec<Doubt>) {
+    let mut starts = vec![(format!("{}/start", task.name), &motion.start_q)];
+    if let TaskWork::Motion(_, checks) = &task.work {
+        for check in checks {
+            for level in check.kind.sweep().map_or(&[][..], |sweep| &sweep.levels) {
+                let of = format!("{}/{}/{}", task.name, check.name, level.name);
+                starts.extend(level.start.as_ref().map(|start| (of, &start.q)));
+            }
+        }
+    }
+    for (of, q) in starts {
+        if let Some(beyond) = stands_beyond_limit(robot, q) {
+            doubts.push(Doubt {
+                rule: "reach",
+                of,
+                what: format!("the run starts at {}: {beyond}", list(q)),
+                help: "let it start within the limits of the joints".to_owned(),
             });
         }
     }
@@ -218,43 +248,55 @@ pub(super) fn branches(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
-/// Why the number of branches of a case is not what the engine finds. It looks for positions within the limits of joints, so poses that are
-/// turned and tasks without limits are not counted.
+/// Why the number of branches of a case is not what the engine finds. It looks for positions within the limits of joints, so tasks without
+/// limits are not counted.
 fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
-    let can_be_counted = match &task.work {
-        TaskWork::Function(work, _) => {
-            work.about.within_limits
-                && work.function == Function::InverseKinematics(PoseForm::Position)
-        }
-        TaskWork::Motion(..) => false,
-    };
-    if !can_be_counted {
+    let TaskWork::Function(work, _) = &task.work else {
         return None;
-    }
-
-    let Given::Position {
-        position_m,
-        branches,
-        ..
-    } = &case.given
+    };
+    let (
+        Function::InverseKinematics(form),
+        Given::Position {
+            position_m,
+            branches,
+            pose,
+        },
+        true,
+    ) = (&work.function, &case.given, work.about.within_limits)
     else {
         return None;
     };
     let robot = robot_of(lab, task, case);
     let home = robot.home().to_vec();
-    let position = Vector3::from(*position_m);
-    let p_in_world = in_world(lab, robot, &home, &position)?;
-    let mut finder = BranchFinder::new(robot, &home).ok()?;
+    let target = target_of(robot, &lab.of_task(task).frame, *form, pose)?;
+    let joints = TaskJoints::of(robot, &work.about.ignored);
+    let chain = (!work.about.ignored.is_empty()).then_some(joints.entries());
+    let mut finder = BranchFinder::of_kind(robot, &home, target, chain).ok()?;
     let stated = *branches as usize;
-    let place = list(position_m);
-    match finder.reach(&p_in_world).ok()? {
+    let place = match form {
+        PoseForm::Full => format!("the pose at {}", list(position_m)),
+        _ => list(pose),
+    };
+    match finder.reach_target(target).ok()? {
         Reach::Not { .. } if stated == 0 => None,
-        Reach::Not { residual_m } => Some(format!(
-            "{place} is out of reach by {}, within the limits of the joints, and {stated} branches are stated",
-            metres(residual_m)
-        )),
+        Reach::Not {
+            residual_m,
+            residual_rad,
+        } => {
+            let turned = match form.is_turned() {
+                true => format!(" and {}°", trimmed(residual_rad.to_degrees(), 2)),
+                false => String::new(),
+            };
+            let by = metres(residual_m);
+            Some(format!(
+                "{place} is out of reach by {by}{turned}, within the limits of the joints, and {stated} branches are stated"
+            ))
+        }
         Reach::In(found) => {
-            let count = count_distinct(robot, &found);
+            let count = match form.is_turned() {
+                true => count_different(robot, &found),
+                false => count_distinct(robot, &found),
+            };
             // some of a continuum, or more than a search may find
             if count >= CONTINUUM || count == stated || (stated > count && count > 2) {
                 return None;
@@ -268,6 +310,55 @@ fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
             ))
         }
     }
+}
+
+/// Where the TCP is to be in the world, for numbers of this form in the lab's frame. `None` for a heading of a robot that can tilt its TCP:
+/// a heading does not say how.
+fn target_of(robot: &Robot, frame: &str, form: PoseForm, numbers: &[f64]) -> Option<Target> {
+    let home = robot.home();
+    let poses = forward_kinematics(robot, &robot.positions(home).ok()?);
+    let world_from_lab = poses.world_from(robot.frame(frame)?);
+    let p_in_lab = form.position(numbers);
+    let in_world = |rotation: Rotation3<f64>| world_from_lab * pose_at(p_in_lab, rotation);
+    Some(match form {
+        PoseForm::Position => Target::Position(in_world(Rotation3::identity()).translation.vector),
+        PoseForm::Axis { of_tcp } => {
+            let direction = Vector3::new(numbers[3], numbers[4], numbers[5]);
+            Target::Axis {
+                position_m: in_world(Rotation3::identity()).translation.vector,
+                axis_in_frame: Unit::try_new(of_tcp, 0.0)?,
+                direction_in_world: Unit::try_new(world_from_lab.rotation * direction, 0.0)?,
+            }
+        }
+        PoseForm::Full => {
+            let matrix = Matrix3::from_fn(|i, j| numbers[4 * i + j]);
+            Target::Pose(in_world(Rotation3::from_matrix_unchecked(matrix)))
+        }
+        PoseForm::Yaw => {
+            let tilt = the_only_tilt(robot, frame)?;
+            let heading = Rotation3::from_axis_angle(&Vector3::z_axis(), numbers[3]);
+            Target::Pose(in_world(heading * tilt))
+        }
+    })
+}
+
+/// How the TCP is turned but for its heading, if that is the same in every configuration.
+fn the_only_tilt(robot: &Robot, frame: &str) -> Option<Rotation3<f64>> {
+    let tilt = |q: &[f64]| {
+        let pose = pose_in(robot, frame, q)?;
+        let heading = *PoseForm::Yaw.of(&pose).last()?;
+        Some(Rotation3::from_axis_angle(&Vector3::z_axis(), -heading) * pose.rotation)
+    };
+    let at_home = tilt(robot.home())?;
+    let mut samples = JointSamples::new(robot);
+    let mut q = vec![0.0; robot.n()];
+    for _ in 0..TILTS {
+        samples.next_into(&mut q);
+        if (tilt(&q)?.matrix() - at_home.matrix()).amax() > 1e-9 {
+            return None;
+        }
+    }
+    Some(at_home)
 }
 
 /// A place of the lab's frame in the world.

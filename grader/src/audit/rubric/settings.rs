@@ -1,9 +1,23 @@
 //! Settings of the robot and of the servo that do nothing, or not what one may think.
 
 use kinemark_sim::control::Mode;
+use kinemark_sim::text::number::list;
 
 use super::{Doubt, Rubric};
 use crate::lab::TaskWork;
+use crate::task::model::MotionTask;
+use crate::task::value::Value;
+
+/// What `robot` holds in submissions besides the dimensions.
+const OF_ROBOT: [&str; 7] = [
+    "name",
+    "joints",
+    "joint_names",
+    "lower",
+    "upper",
+    "effort",
+    "effort_limit",
+];
 
 /// A robot without a frame `tcp`, and gains of a servo that a task does not have.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
@@ -21,10 +35,24 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             help: "add a frame `tcp` to the robot where the hand is".to_owned(),
         });
     }
+    for name in robot.dimensions().names() {
+        if OF_ROBOT.contains(&name) {
+            doubts.push(Doubt {
+                rule: "settings",
+                of: name.to_owned(),
+                what: format!(
+                    "submissions cannot read the dimension `{name}` of robot `{}`: `robot.{name}` is something else there",
+                    robot.name()
+                ),
+                help: "call the dimension otherwise".to_owned(),
+            });
+        }
+    }
     for task in &lab.tasks {
         let TaskWork::Motion(motion, _) = &task.work else {
             continue;
         };
+        doubts.extend(of_target(&task.name, motion));
         let has_gain = motion.servo.gains.iter().any(|gains| {
             [gains.kp, gains.ki, gains.kd]
                 .iter()
@@ -40,4 +68,41 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             });
         }
     }
+}
+
+/// A key of the target that says what the servo has, and says something else.
+fn of_target(task: &str, motion: &MotionTask) -> Option<Doubt> {
+    let Value::Map(entries) = &motion.target else {
+        return None;
+    };
+    entries.iter().find_map(|(name, stated)| {
+        let gains = motion.servo.gains.iter();
+        let of_servo: Vec<f64> = match name.as_str() {
+            "effort_limit" => gains.map(|gains| gains.effort_limit).collect(),
+            "kp" => gains.map(|gains| gains.kp).collect(),
+            "ki" => gains.map(|gains| gains.ki).collect(),
+            "kd" => gains.map(|gains| gains.kd).collect(),
+            _ => return None,
+        };
+        let is = match stated {
+            // one number may be that of one joint
+            Value::Number(stated) => of_servo.contains(stated),
+            Value::List(stated) if stated.len() == of_servo.len() => {
+                let mut pairs = stated.iter().zip(&of_servo);
+                pairs.all(|(stated, of_servo)| *stated == Value::Number(*of_servo))
+            }
+            _ => true,
+        };
+        (!is && motion.servo.mode != Mode::Effort || !is && name == "effort_limit").then(|| Doubt {
+            rule: "settings",
+            of: format!("{task}/{name}"),
+            what: format!(
+                "the target gives students another `{name}` than the servo has, {}",
+                list(&of_servo)
+            ),
+            help:
+                "write the same in `target` and in `servo`, or call the key of the target otherwise"
+                    .to_owned(),
+        })
+    })
 }

@@ -4,6 +4,7 @@ use toml::Value;
 
 use super::{Doubt, Rubric};
 use crate::lab::TaskWork;
+use crate::task::value::Value as Target;
 
 /// Parameters that no expression of the lab names, and paths that no check does.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
@@ -130,6 +131,41 @@ pub(super) fn frames(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             help: "remove the frame from the robot file, or accept it where another lab names it"
                 .to_owned(),
         });
+    }
+}
+
+/// Keys of targets that no submission of the course staff reads: whether they are right, nobody has tried.
+pub(super) fn target_keys(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let staff = rubric.staff;
+    let scripts: Vec<&str> = std::iter::once(&staff.solution)
+        .chain(staff.mutants.iter().map(|mutant| &mutant.source))
+        .map(|source| source.text())
+        .collect();
+    let mut known: Vec<String> = Vec::new();
+    for task in &rubric.lab.tasks {
+        let TaskWork::Motion(motion, _) = &task.work else {
+            continue;
+        };
+        let Target::Map(entries) = &motion.target else {
+            continue;
+        };
+        for (name, _) in entries {
+            let of = format!("target.{name}");
+            if known.contains(&of) || scripts.iter().any(|script| reads(script, name)) {
+                continue;
+            }
+            known.push(of.clone());
+            doubts.push(Doubt {
+                rule: "unused",
+                of,
+                what: format!(
+                    "neither the solution nor a mutant reads this key of the target of task `{}`: nobody has tried its numbers",
+                    task.name
+                ),
+                help: "let the solution use it, or remove it; where it is there to be ignored, accept it"
+                    .to_owned(),
+            });
+        }
     }
 }
 

@@ -158,6 +158,9 @@ pub(in crate::lab) struct MutantTable {
     pub(in crate::lab) tasks: Spanned<Vec<Spanned<String>>>,
     /// The misconception in words, as students read it; or such words for each of the tasks, by their names.
     pub(in crate::lab) says: Spanned<SaysTable>,
+    /// Whether students who make it read what it `says`; true where it is left out. With `false` it has to lose points and no more: for
+    /// mistakes that show in hidden runs or under disturbances alone.
+    pub(in crate::lab) named: Option<bool>,
 }
 
 /// What a mutant says.

@@ -120,6 +120,8 @@ pub struct Mutant {
     pub says: String,
     /// Words for single tasks, by their names, where they are not the same for all.
     pub says_in: BTreeMap<String, String>,
+    /// Whether students who make it read these words; else it only has to lose points.
+    pub is_named: bool,
     /// The submission.
     pub source: Source,
 }
@@ -351,6 +353,7 @@ fn mutant(
             .collect(),
         says,
         says_in,
+        is_named: table.named.unwrap_or(true),
         source,
     })
 }
