@@ -673,7 +673,7 @@ fn branches_of_poses_are_counted_and_what_cannot_be_counted_is_not_doubted() {
     ]
     .map(|(name, form, words)| (name.to_owned(), (form, words)));
     every_case(&cases, |(form, words)| {
-        let own = OwnLab::new("94-poses", &POSES.replace("FORM", form))
+        let own = OwnLab::new("94-poses", POSES.replace("FORM", form))
             .and(
                 "hidden.toml",
                 "format = 1\nsalt = \"a long one that nobody can guess\"\n",

@@ -208,8 +208,8 @@ fk-error = { full_m = 1e-9, zero_m = 1e-3 }
 
 fn longer_arm() -> OwnLab {
     let hidden = "[[draws]]\ntask = \"long-arm\"\nclass = \"other angles\"\ncount = 3\nq_rad = [[-1, 1], [-1, 1]]\n";
-    let lab = OwnLab::new("97-robots", &format!("{LAB}{LONG_ARM}"))
-        .and("hidden.toml", &format!("{HIDDEN}{hidden}"))
+    let lab = OwnLab::new("97-robots", format!("{LAB}{LONG_ARM}"))
+        .and("hidden.toml", format!("{HIDDEN}{hidden}"))
         .and("solution.rhai", SOLUTION);
     lab.write("labs/robots/carriage.toml", CARRIAGE);
     lab

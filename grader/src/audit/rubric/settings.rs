@@ -93,7 +93,9 @@ fn of_target(task: &str, motion: &MotionTask) -> Option<Doubt> {
             }
             _ => true,
         };
-        (!is && motion.servo.mode != Mode::Effort || !is && name == "effort_limit").then(|| Doubt {
+        // gains do nothing there, and a limit of efforts does
+        let counts = name == "effort_limit" || motion.servo.mode != Mode::Effort;
+        (counts && !is).then(|| Doubt {
             rule: "settings",
             of: format!("{task}/{name}"),
             what: format!(
