@@ -142,7 +142,7 @@ fn doubt(
             rule: "band",
             of: format!("{}/{check}", task.name),
             what: format!(
-                "no points from {} on, and the robot's workspace is {} wide: everybody earns some",
+                "no points from {} on, and the robot's workspace is {} wide: hardly anybody earns nothing",
                 with_unit(band.zero, unit),
                 with_unit(widest, unit)
             ),

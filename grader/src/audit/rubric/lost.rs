@@ -164,3 +164,36 @@ fn of_entries(entries: &[(String, Entry)]) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::grade::Evidence;
+
+    #[test]
+    fn what_a_hidden_run_did_not_judge_is_no_loss_of_the_check() {
+        let graded = |outcome, notes: &[bool]| CheckGrade {
+            name: "time".to_owned(),
+            title: "In time".to_owned(),
+            outcome,
+            points: 0.5,
+            max_points: 1.0,
+            measure: None,
+            first_lost: None,
+            evidence: notes
+                .iter()
+                .map(|is_note| Evidence {
+                    is_note: *is_note,
+                    ..Evidence::default()
+                })
+                .collect(),
+            next_step: None,
+            has_hints: false,
+        };
+        assert!(!is_lost(&graded(Outcome::Partial, &[true, true])));
+        assert!(is_lost(&graded(Outcome::Partial, &[true, false])));
+        assert!(is_lost(&graded(Outcome::None, &[])));
+        assert!(!is_lost(&graded(Outcome::Full, &[false])));
+        assert!(!is_lost(&graded(Outcome::NotJudged, &[false])));
+    }
+}

@@ -4,7 +4,6 @@ use super::{Doubt, Rubric};
 
 /// Parameters that vary, and have a value in lab.toml that no student draws: mostly a slip in a sign or in a range.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    // what was loaded is a variant, or the lab itself: then every number is to be one of those that are drawn
     for rule in &rubric.lab.variants {
         let Some(value) = rubric.lab.parameters.get(&rule.name) else {
             continue;
