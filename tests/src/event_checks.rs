@@ -301,6 +301,72 @@ fn what_cannot_happen_is_refused_at_its_place() {
             "lab::body_reached",
             "above 0",
         ),
+        (
+            "upright_deg = 20.0",
+            "turned_deg = 90.0",
+            "lab::body_reached",
+            "given together",
+        ),
+        (
+            "upright_deg = 20.0",
+            "turned_deg = 90.0, turned_within_deg = 45.0, turned_every_deg = 90.0",
+            "lab::body_reached",
+            "below 45",
+        ),
+        (
+            "upright_deg = 20.0",
+            "turned_deg = 400.0, turned_within_deg = 5.0",
+            "lab::body_reached",
+            "got 400",
+        ),
+        (
+            "upright_deg = 20.0",
+            "turned_deg = 90.0, turned_within_deg = 5.0, turned_every_deg = 0.0",
+            "lab::body_reached",
+            "got 0",
+        ),
+        (
+            "sensor-reads = { sensor = \"stretched\", value = false }",
+            "joint-speed = { from_s = 2.0, to_s = 1.0, full_rad_s = 1.0, zero_rad_s = 2.0 }",
+            "lab::joint_speed",
+            "before it begins",
+        ),
     ];
     own_lab().is_refused(&tip("0.75"), &cases);
+}
+
+/// The can that is pushed along does not turn: a lab that asks for a quarter turn gives nothing for the place.
+#[test]
+fn a_body_may_have_to_be_turned() {
+    let place = |keys: &str| {
+        let lab = own_lab().with("lab.toml", "upright_deg = 20.0, ", keys);
+        check(&lab.graded(&tip(GOOD), 1), "place").clone()
+    };
+    let any_way = place("")["points"].clone();
+    let unturned = place("turned_deg = 0.0, turned_within_deg = 10.0, ");
+    assert_eq!(unturned["points"], any_way, "{unturned}");
+    assert!(any_way.as_f64() > Some(0.0), "{any_way}");
+    let quarter = place("turned_deg = 90.0, turned_within_deg = 10.0, ");
+    assert_eq!(quarter["points"], 0.0, "{quarter}");
+    let words = message(&quarter);
+    assert!(
+        words.starts_with("`can` is turned by ")
+            && words.ends_with(" it was to be turned by 90, to 10 degrees"),
+        "{words}"
+    );
+    // after a quarter turn this can looks as before
+    let same = place("turned_deg = 90.0, turned_within_deg = 10.0, turned_every_deg = 90.0, ");
+    assert_eq!(same["points"], any_way, "{same}");
+}
+
+#[test]
+fn an_order_may_count_only_as_a_whole() {
+    let whole = "order = { whole = true, events = [{ event = \"moved\", body = \"can\" }, ";
+    let lab = own_lab().with("lab.toml", "order = { events = [", whole);
+    let steps = check(&lab.graded(&tip(GOOD), 1), "steps").clone();
+    assert_eq!(
+        (&steps["measure"]["value"], &steps["points"]),
+        (&0.0.into(), &0.0.into()),
+        "{steps}"
+    );
 }

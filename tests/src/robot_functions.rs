@@ -191,6 +191,28 @@ fn branches_of_poses_are_held_to_their_orientation() {
     assert!(text.contains("turned 3.14"), "{text}");
 }
 
+/// Beside the only branch of a target, a wrong one costs; the right one alone, or twice as where an arm is stretched, is what `ik-reach` is about.
+#[test]
+fn a_wrong_branch_beside_the_only_one_costs() {
+    let function = "call = \"inverse_kinematics\"\ncases = [\n\
+        { name = \"two\", position_m = [0.0, 1.5, 2.5], branches = 2 },\n\
+        { name = \"one\", position_m = [0.0, -1.5, 2.5], branches = 1 }]";
+    let check = "ik-branches = { full_m = 1e-6, zero_m = 1e-3 }";
+    let good = "[PI / 2, 0.5], [-PI / 2, -2.5]";
+    for (one, expected) in [
+        ("[-PI / 2, 0.5]", 4.0),
+        ("[-PI / 2, 0.5], [-PI / 2, 0.5]", 4.0),
+        ("[-PI / 2, 0.5], [0.3, 0.4]", 2.0),
+        ("[0.3, 0.4]", 4.0),
+    ] {
+        let submission = format!(
+            "fn inverse_kinematics(robot, target) {{ if target[1] > 0 {{ [{good}] }} else {{ [{one}] }} }}"
+        );
+        let (earned, _, text) = points(function, check, &submission);
+        assert_eq!(earned, expected, "{one}\n{text}");
+    }
+}
+
 /// The puma's first joint alone moves the elbow around: its wrist is neither given nor asked.
 #[test]
 fn joints_that_are_ignored_have_no_number() {

@@ -63,12 +63,26 @@ pub(super) fn judged_sliding(motion: &str, kind: &str, row: impl Fn(f64) -> Hand
     found(&arm, motion, kind, row)
 }
 
-fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
-    let text = format!(
+/// Why a check is refused for an arm whose joints have no limits.
+pub(super) fn refused_without_limits(motion: &str, kind: &str) -> String {
+    let lines = ARM.lines().filter(|line| !line.starts_with("limit = "));
+    let arm: String = lines.flat_map(|line| [line, "\n"]).collect();
+    match Lab::load(&OneLab(lab_text(motion, kind), arm), "by-hand") {
+        Ok(_) => panic!("the check is read"),
+        Err(error) => format!("{:?}", miette::Report::new(error)),
+    }
+}
+
+fn lab_text(motion: &str, kind: &str) -> String {
+    format!(
         "format = 1\nname = \"by-hand\"\ntitle = \"By hand\"\nrobot = \"rrbot\"\nframe = \"lab\"\n\
          [[tasks]]\nname = \"step\"\ntitle = \"Step\"\n[tasks.motion]\n{motion}\n\
          [[tasks.checks]]\nname = \"check\"\ntitle = \"Check\"\npoints = 1.0\n{kind}\n"
-    );
+    )
+}
+
+fn found(arm: &str, motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
+    let text = lab_text(motion, kind);
     let lab = Lab::load(&OneLab(text, arm.to_owned()), "by-hand")
         .unwrap_or_else(|error| panic!("{error:?}"));
     let task = &lab.tasks[0];

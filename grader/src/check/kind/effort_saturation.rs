@@ -2,6 +2,18 @@
 
 use crate::check::prelude::*;
 
+problems! {
+    /// A limit that is not there: every run would earn all points.
+    enum NoLimit {
+        Joint { joint: String }:
+            "lab::effort_saturation", "joint `{joint}` has no limit of its effort: every run would earn these points", "a joint without such a limit",
+            "give the servo an `effort_limit`, or the joint `limit = { effort = .. }` in the robot file, or name another joint";
+        Robot:
+            "lab::effort_saturation", "no joint has a limit of its effort in this task: every run would earn these points", "this check",
+            "give the servo an `effort_limit`, or the joints `limit = { effort = .. }` in the robot file, or leave the check out";
+    }
+}
+
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -20,6 +32,18 @@ impl MotionTable for Table {
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let mut gains = reading.motion.servo.gains.iter().enumerate();
+        let has_limit = gains.any(|(index, gains)| {
+            joint.is_none_or(|joint| joint == index) && gains.effort_limit.is_finite()
+        });
+        match &self.joint {
+            _ if has_limit => (),
+            Some(typed) => {
+                let joint = typed.get_ref().clone();
+                return reading.refuse_at(typed, NoLimit::Joint { joint });
+            }
+            None => return reading.refuse(NoLimit::Robot),
+        }
         reading.in_band([self.full_s, self.zero_s], "s", EffortSaturation(joint))
     }
 }
@@ -79,7 +103,7 @@ impl RunMeasure for EffortSaturation {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::by_hand::{HandRow, judged, value};
+    use crate::check::by_hand::{HandRow, judged, refused_without_limits, value};
 
     #[test]
     fn of_a_joint_that_is_named_only_its_own_effort_counts() {
@@ -101,5 +125,20 @@ mod tests {
                 .contains("by joint `elbow` at -2 N m"),
             "{elbow:?}"
         );
+    }
+    #[test]
+    fn a_limit_that_is_not_there_gives_no_points_away() {
+        let motion = "mode = \"effort\"\nduration_s = 1.0";
+        for (keys, words) in [
+            ("", "no joint has a limit"),
+            ("joint = \"elbow\", ", "joint `elbow` has no limit"),
+        ] {
+            let kind = format!("effort-saturation = {{ {keys}full_s = 0.0, zero_s = 0.1 }}");
+            let refused = refused_without_limits(motion, &kind);
+            assert!(
+                refused.contains("lab::effort_saturation") && refused.contains(words),
+                "{refused}"
+            );
+        }
     }
 }

@@ -1,10 +1,11 @@
 //! ik-branches: whether an answer has every branch that reaches its target, and no wrong one \[m\].
 //!
-//! Judged where two or more branches exist. A case is scored by its worst branch; a branch that is missing, or equals another but
-//! for whole turns, scores nothing. Two branches are the same if every revolute joint agrees to 0.02 rad, apart from whole turns,
-//! and every prismatic joint to 1 mm; joints that do not move the TCP, such as a wrist that turns about it, do not count. A branch
-//! beyond the limits of a joint is none, unless the task has `within_limits = false`. Where the task is about more than positions, branches
-//! are compared in every joint, and `full_rad` and `zero_rad` count as with `ik-reach`.
+//! Judged where two or more branches exist, and where an answer has a wrong branch beside the only one. A case is scored by its
+//! worst branch; a branch that is missing, or equals another but for whole turns, scores nothing. Two branches are the same if
+//! every revolute joint agrees to 0.02 rad, apart from whole turns, and every prismatic joint to 1 mm; joints that do not move the
+//! TCP, such as a wrist that turns about it, do not count. A branch beyond the limits of a joint is none, unless the task has
+//! `within_limits = false`. Where the task is about more than positions, branches are compared in every joint, and `full_rad` and
+//! `zero_rad` count as with `ik-reach`.
 
 use super::ik_reach::{any_beyond_limit, branch_score, of_every_target, turned_band};
 use crate::attempt::branches::{count_different, count_distinct};
@@ -61,8 +62,24 @@ impl AnswerMeasure for IkBranches {
     }
 }
 
-/// The score of a case with two or more branches.
+/// The score of a case with two or more branches, or with an answer of more branches than exist, one of them wrong.
 fn score(facts: &CaseFacts<'_>, band: Band, turned: Option<Band>) -> Option<CaseScore> {
+    let score = of_worst_branch(facts, band, turned)?;
+    let CaseError::Reach {
+        branches_m,
+        expected,
+        ..
+    } = &facts.error
+    else {
+        return None;
+    };
+    // whether the only branch is right is what `ik-reach` asks; where an arm is stretched, it may be given twice
+    let has_other = branches_m.len() > 1 && score.score < 1.0;
+    (*expected > 1 || has_other).then_some(score)
+}
+
+/// The score of the worst branch of a target that can be reached.
+fn of_worst_branch(facts: &CaseFacts<'_>, band: Band, turned: Option<Band>) -> Option<CaseScore> {
     let CaseError::Reach {
         branches_m,
         angles_rad,
@@ -71,7 +88,7 @@ fn score(facts: &CaseFacts<'_>, band: Band, turned: Option<Band>) -> Option<Case
     else {
         return None;
     };
-    if *expected < 2 {
+    if *expected == 0 {
         return None;
     }
     let distinct = match &facts.answer {

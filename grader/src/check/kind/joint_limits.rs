@@ -5,6 +5,18 @@ use kinemark_sim::control::Mode;
 
 use crate::check::prelude::*;
 
+problems! {
+    /// A limit that is not there: every run would earn all points.
+    enum NoLimit {
+        Joint { joint: String }:
+            "lab::joint_limits", "joint `{joint}` has no limits of its position: every run would earn these points", "a joint without limits",
+            "give it `limit = { lower = .., upper = .. }` in the robot file, or name another joint";
+        Robot:
+            "lab::joint_limits", "no joint of this robot has limits of its position: every run would earn these points", "this check",
+            "give joints `limit = { lower = .., upper = .. }` in the robot file, or leave the check out";
+    }
+}
+
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -23,6 +35,19 @@ impl MotionTable for Table {
 
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let joint = reading.maybe_joint(self.joint.as_ref())?;
+        let mut joints = reading.robot.moving_joints().enumerate();
+        let has_limit = joints.any(|(index, of)| {
+            joint.is_none_or(|joint| joint == index)
+                && (of.limits.lower.is_some() || of.limits.upper.is_some())
+        });
+        match &self.joint {
+            _ if has_limit => (),
+            Some(typed) => {
+                let joint = typed.get_ref().clone();
+                return reading.refuse_at(typed, NoLimit::Joint { joint });
+            }
+            None => return reading.refuse(NoLimit::Robot),
+        }
         let unit = reading.units(joint).position();
         reading.in_band([self.full_rad, self.zero_rad], unit, JointLimits(joint))
     }
@@ -92,11 +117,10 @@ impl RunMeasure for JointLimits {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::by_hand::{HandRow, judged_sliding, value};
+    use crate::check::by_hand::{HandRow, judged_sliding, refused_without_limits, value};
 
     #[test]
     fn a_joint_that_is_named_is_judged_alone_and_in_its_unit() {
-        // the arm's joints have no limits of their own: what is below all of them is as far within as can be
         let motion = "mode = \"effort\"\nduration_s = 1.0";
         let kind = "joint-limits = { joint = \"elbow\", full_rad = 0.0, zero_rad = 0.1 }";
         let finding = judged_sliding(motion, kind, |_| HandRow::default());
@@ -104,5 +128,20 @@ mod tests {
         assert_eq!(measure.unit, "m");
         assert!(measure.quantity.contains("joint `elbow`"), "{measure:?}");
         assert!(!value(&finding).is_nan());
+    }
+    #[test]
+    fn a_limit_that_is_not_there_gives_no_points_away() {
+        let motion = "mode = \"effort\"\nduration_s = 1.0";
+        for (keys, words) in [
+            ("", "no joint of this robot"),
+            ("joint = \"elbow\", ", "joint `elbow` has no limits"),
+        ] {
+            let kind = format!("joint-limits = {{ {keys}full_rad = 0.0, zero_rad = 0.1 }}");
+            let refused = refused_without_limits(motion, &kind);
+            assert!(
+                refused.contains("lab::joint_limits") && refused.contains(words),
+                "{refused}"
+            );
+        }
     }
 }

@@ -1,6 +1,17 @@
-//! joint-speed: the greatest speed of a joint over the run \[rad/s or m/s\]. A speed that is no number earns nothing.
+//! joint-speed: the greatest speed of a joint over the run or a part of it \[rad/s or m/s\]. A speed that is no number earns nothing.
+
+use kinemark_sim::text::Problem;
 
 use crate::check::prelude::*;
+
+problems! {
+    /// A part of the run that is none.
+    enum SpeedProblem {
+        Part { from_s: f64, to_s: f64 }:
+            "lab::joint_speed", "the part that counts ends before it begins, got {from_s} s to {to_s} s", "this part",
+            "exchange the two";
+    }
+}
 
 /// The keys.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -11,6 +22,10 @@ pub(crate) struct Table {
     /// Whether more is better: then all points from `full` on, and none up to `zero`; false where it is left out.
     #[serde(default)]
     at_least: bool,
+    /// Where the part of the run begins that counts \[s\]; the start where it is left out.
+    from_s: Option<At<f64>>,
+    /// Where it ends \[s\]; the end of the run where it is left out.
+    to_s: Option<At<f64>>,
     /// Speed that earns all points \[rad/s, or m/s of a prismatic joint\].
     full_rad_s: BandEnd,
     /// Speed that earns none.
@@ -24,27 +39,49 @@ impl MotionTable for Table {
     fn read(&self, reading: &MotionReading<'_>) -> Result<Self::Check, LabError> {
         let joint = reading.maybe_joint(self.joint.as_ref())?;
         let unit = reading.units(joint).speed();
+        let [first, last] = reading.part_of_run(
+            self.from_s.as_ref(),
+            self.to_s.as_ref(),
+            |from_s, to_s| -> Box<dyn Problem> { Box::new(SpeedProblem::Part { from_s, to_s }) },
+        )?;
         reading.in_band_either(
             self.at_least,
             [self.full_rad_s, self.zero_rad_s],
             unit,
-            JointSpeed(joint),
+            JointSpeed { joint, first, last },
         )
     }
 }
 
-/// The speed of the joint of this index in `q`; of the fastest one where there is none.
+/// The greatest speed in a part of the run.
 #[derive(Debug)]
-pub(crate) struct JointSpeed(Option<usize>);
+pub(crate) struct JointSpeed {
+    /// The index of the joint in `q`; the fastest one where there is none.
+    joint: Option<usize>,
+    /// The first tick that counts.
+    first: usize,
+    /// The last tick that counts.
+    last: usize,
+}
 
 impl RunMeasure for JointSpeed {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let fastest = |tick: usize| {
             let qd = facts.trace.qd.at(tick);
-            facts.worst_joint(self.0, |joint| qd[joint].abs())
+            facts.worst_joint(self.joint, |joint| qd[joint].abs())
         };
-        let values: Vec<f64> = (0..facts.trace.len()).map(|tick| fastest(tick).1).collect();
-        let (tick, value) = greatest(values.iter().copied()).unwrap_or_default();
+        let last = self.last.min(facts.last_tick());
+        let first = self.first.min(last);
+        // what does not count is a gap of the curve
+        let speed = |tick: usize| match (first..=last).contains(&tick) {
+            true => fastest(tick).1,
+            false => f64::NAN,
+        };
+        let values: Vec<f64> = (0..facts.trace.len()).map(speed).collect();
+        let counted = &values[first..=last];
+        let value = Statistic::Greatest.of(counted);
+        let (tick, _) = greatest(counted.iter().copied()).unwrap_or_default();
+        let tick = first + tick;
         let first_above = values.iter().position(|speed| *speed > band.full);
         let first_above = first_above.filter(|_| !band.more_is_better());
         let (joint, _) = fastest(tick);
@@ -54,7 +91,7 @@ impl RunMeasure for JointSpeed {
             JointUnits::Turning | JointUnits::Mixed => "turns",
         };
         let name = facts.joint_name(joint);
-        let (title, unit_of_curve, quantity) = match self.0 {
+        let (title, unit_of_curve, quantity) = match self.joint {
             Some(_) => (
                 format!("speed of joint `{name}`"),
                 unit,
@@ -66,8 +103,10 @@ impl RunMeasure for JointSpeed {
                 "greatest speed of a joint".to_owned(),
             ),
         };
-        let curve = facts.curve(title, unit_of_curve, values, band);
-        Finding::of_curve(band, Statistic::Greatest, unit, quantity, curve)
+        let mut finding = Finding::against(band, value, unit, quantity);
+        finding.statistic = Some(Statistic::Greatest);
+        finding
+            .drawn(facts.curve(title, unit_of_curve, values, band))
             .shown_at(facts, || {
                 let mut message = format!(
                     "joint `{name}` {moves} at {} {unit} at {}",
@@ -128,6 +167,25 @@ mod tests {
             "joint `shoulder` turns at 0.5 rad/s at 1 s, its greatest speed"
         );
         assert!(finding.next_step.ends_with("less time."), "{finding:?}");
+    }
+
+    #[test]
+    fn only_the_part_that_is_named_counts() {
+        let kind = "joint-speed = { from_s = 0.5, full_rad_s = 1.0, zero_rad_s = 3.0 }";
+        let of = |early: f64, late: f64| {
+            judged(MOTION, kind, |t_s| HandRow {
+                qd: [if t_s < 0.4999 { early } else { late }, 0.5],
+                ..HandRow::default()
+            })
+        };
+        let early = of(9.0, 0.0);
+        assert_eq!((value(&early), early.score), (0.5, 1.0));
+        let late = of(0.0, -2.0);
+        assert!(
+            (late.score - 0.5).abs() < 1e-12 && late.evidence[0].tick == Some(500),
+            "{late:?}"
+        );
+        assert_eq!(of(0.0, f64::NAN).score, 0.0);
     }
 
     #[test]
